@@ -1,12 +1,12 @@
-/// What a board must do for main.cpp: three functions, which each port in boards/ fills in.
-/// docs/porting.md walks through one.
+/// The interface of a board for main.cpp: three functions, which each port in boards/ implements.
+/// docs/porting.md describes a port step by step.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-// The size of frames that there is memory for: 160 x 120, 188 x 120 or 320 x 240. Change it here,
-// or by options of the compiler.
+// The frame size of the memory: 160 x 120, 188 x 120 or 320 x 240. Change it here, or by options of
+// the compiler.
 #ifndef DOTPOSE_FRAME_WIDTH_PX
 #define DOTPOSE_FRAME_WIDTH_PX 188
 #define DOTPOSE_FRAME_HEIGHT_PX 120
@@ -14,26 +14,26 @@
 
 namespace board {
 
-inline constexpr int kMostWidth_px = DOTPOSE_FRAME_WIDTH_PX;
-inline constexpr int kMostHeight_px = DOTPOSE_FRAME_HEIGHT_PX;
+inline constexpr int kMaxWidth_px = DOTPOSE_FRAME_WIDTH_PX;
+inline constexpr int kMaxHeight_px = DOTPOSE_FRAME_HEIGHT_PX;
 
-/// A frame whose exposure has been started.
+/// A frame with a started exposure.
 struct Frame {
-    int width_px = 0;          ///< at most kMostWidth_px
-    int height_px = 0;         ///< rows that `next_row` will give
+    int width_px = 0;          ///< at most kMaxWidth_px
+    int height_px = 0;         ///< number of rows that `next_row` returns
     std::int64_t time_us = 0;  ///< middle of the exposure, on a clock that never runs backwards
 };
 
-/// Waits until `not_before_us` on that clock (0: at once), and starts a frame: from now on the
-/// camera fills one of two row buffers by DMA while the other one is read. The first call also sets
-/// up camera and serial line.
+/// Waits until `not_before_us` on that clock (0: no wait), and starts a frame: the camera fills one
+/// of two row buffers by DMA while the program reads the other. The first call also initialises
+/// camera and serial line.
 Frame start_frame(std::int64_t not_before_us);
 
-/// Waits for the next row of the frame, from the top, and returns its grey values. They stay valid
-/// until the next call, so a row takes at least as long to come in as the one before to be read.
+/// Waits for the next row of the frame, from the top, and returns its grey values. They are valid
+/// until the next call, and each row must be read before the camera delivers the next.
 const std::uint8_t* next_row();
 
-/// Sends bytes over the serial line or radio. It may return before they are out, with a copy.
+/// Sends bytes over the serial line or radio. May copy them and return before they are sent.
 void send(const std::uint8_t* bytes, std::size_t count);
 
 }  // namespace board

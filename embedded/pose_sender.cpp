@@ -4,8 +4,8 @@
 
 using namespace dotpose;
 
-/// The tracker must know how exact poses are, and those of devices come without a covariance:
-/// docs/firmware.md has the errors that were measured.
+/// The tracker needs the accuracy of poses, and poses of devices have no covariance:
+/// docs/firmware.md has the measured errors.
 TrackOptions PoseSender::device_tracking() {
     TrackOptions options;
     options.least_sigma_mm = 0.0012F;
@@ -13,8 +13,9 @@ TrackOptions PoseSender::device_tracking() {
     return options;
 }
 
-/// Begins a frame where the tracker expects it. Without a frame buffer, rows of a frame that does
-/// not confirm the prediction are gone, so the frame after one without a pose is begun without.
+/// Begins a frame with the tracker's prediction. Without a frame buffer, the rows of a frame that
+/// does not confirm the prediction are lost, so the frame after a frame without a pose begins
+/// without a prediction.
 Status PoseSender::begin(const board::Frame& frame) {
     if (seen_.status != Status::ok) return locator_.begin(frame.width_px, frame.height_px);
     const Prediction expected =
@@ -24,9 +25,9 @@ Status PoseSender::begin(const board::Frame& frame) {
 
 Fix PoseSender::locate(const board::Frame& frame) {
     Status begun = begin(frame);
-    // A prediction that cannot be used, for example as the robot was lifted, costs no frame.
+    // An unusable prediction, for example after the robot was lifted, loses no frame.
     if (begun == Status::not_tracked) begun = locator_.begin(frame.width_px, frame.height_px);
-    // All rows are taken, also of a frame that is refused, so that the camera stays in step.
+    // All rows are read, also of a refused frame, to stay synchronous with the camera.
     for (int row = 0; row < frame.height_px; ++row) {
         const std::uint8_t* pixels = board::next_row();
         if (begun == Status::ok) locator_.push_row(pixels);

@@ -1,11 +1,11 @@
-/// PoseSender: what a device does with every frame, on any board. It takes the rows as the camera
-/// delivers them, looks where the pattern is expected, follows the movement, sends the pose as a
-/// packet, and says when the next frame is wanted.
+/// PoseSender: the work of a device for each frame, on any board. It takes the rows from the
+/// camera, locates the pattern with a prediction, tracks the movement, sends the pose as a packet,
+/// and determines the time of the next frame.
 ///
 ///     static PoseSender sender;
 ///     for (;;) sender.send_next();
 ///
-/// No heap; all of its memory, about 15 KB for frames of 188 x 120 px, is in the object.
+/// No heap: all memory, about 15 KB for frames of 188 x 120 px, is in the object.
 #pragma once
 
 #include <cstdint>
@@ -31,12 +31,12 @@ class PoseSender {
     dotpose::Fix locate(const board::Frame& frame);
     void follow(const dotpose::Fix& fix, std::int64_t time_us);
 
-    dotpose::DeviceMemoryFor<board::kMostWidth_px, board::kMostHeight_px> memory_;
+    dotpose::DeviceMemoryFor<board::kMaxWidth_px, board::kMaxHeight_px> memory_;
     dotpose::DeviceLocator locator_;
     dotpose::Tracker tracker_;
     dotpose::FramePacer pacer_;
-    dotpose::Fix seen_;           ///< of the newest frame, if that has a pose
-    dotpose::Sighting sighting_;  ///< the same, as the tracker took it
+    dotpose::Fix seen_;           ///< newest fix, if the newest frame has a pose
+    dotpose::Sighting sighting_;  ///< sighting of `seen_`
     std::uint16_t sequence_ = 0;  ///< counts frames
-    std::int64_t next_us_ = 0;    ///< when the next frame is wanted
+    std::int64_t next_us_ = 0;    ///< earliest time of the next frame
 };

@@ -37,8 +37,7 @@ Sheet print_sheet(const fs::path& folder) {
     return sheet;
 }
 
-/// A point of the page, in mm from its top left corner, and the direction that the camera faces
-/// there.
+/// A point of the page, in mm from its top left corner, and the direction of the camera there.
 struct Waypoint {
     double x_mm = 0;
     double y_mm = 0;
@@ -76,7 +75,7 @@ struct Drive {
     std::vector<double> errors_deg;
     std::vector<double> times_us;
     int lost = 0;         ///< frames without a fix
-    int wrong_fixes = 0;  ///< more than half a cell off, or in another section
+    int wrong_fixes = 0;  ///< with an error above half a cell, or in another section
 };
 
 void record(const Sheet& sheet, const Waypoint& truth, const Fix& fix, Drive& drive) {

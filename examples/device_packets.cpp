@@ -1,5 +1,5 @@
-// Shows on a desktop how the program of a microcontroller works: it takes the image row by row, as
-// a camera delivers it, and sends each pose as a packet of 32 bytes.
+// Shows the program of a microcontroller on a desktop: it takes the image row by row, as from a
+// camera, and sends each pose as a packet of 32 bytes.
 //
 //     dotpose_device_packets frames/*.pgm > packets.bin
 //     dotpose listen packets.bin
@@ -24,7 +24,7 @@ int main(int argc, char** argv) try {
     dotpose::DeviceLocator locator(memory);
     for (int i = 1; i < argc; ++i) {
         const dotpose::GreyImage image = dotpose::read_image(argv[i]);
-        // Without an error it is ok; otherwise `finish` says so, too.
+        // `finish` returns the same error.
         static_cast<void>(locator.begin(image.width_px, image.height_px));
         for (int row = 0; row < image.height_px; ++row)
             locator.push_row(image.view().row(row));

@@ -1,4 +1,4 @@
-// Locates what OpenCV captures, a cv::Mat at a time: dotpose_opencv_video CAMERA_OR_VIDEO
+// Locates the frames that OpenCV captures, as cv::Mat: dotpose_opencv_video CAMERA_OR_VIDEO
 #include <cctype>
 #include <cstdio>
 #include <exception>
@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Returns a grey cv::Mat as dotpose sees it. Nothing is copied, so the Mat must outlive the view.
+/// Returns a view of a grey cv::Mat. Nothing is copied, so the Mat must outlive the view.
 dotpose::ImageView view_of(const cv::Mat& grey) {
     return {grey.data, grey.cols, grey.rows, static_cast<std::ptrdiff_t>(grey.step)};
 }

@@ -9,7 +9,7 @@
 #include "markers.hpp"
 #include "number.hpp"
 
-// The size of frames that there is memory for.
+// The frame size of the memory.
 #ifndef DOTPOSE_FRAME_WIDTH_PX
 #define DOTPOSE_FRAME_WIDTH_PX 188
 #define DOTPOSE_FRAME_HEIGHT_PX 120
@@ -26,7 +26,7 @@ constexpr int kMaxHeight_px = 9999;
 
 DeviceMemoryFor<DOTPOSE_FRAME_WIDTH_PX, DOTPOSE_FRAME_HEIGHT_PX> memory;
 DeviceLocator locator(memory);
-// Cameras write rows to word boundaries, and rows so aligned are copied by words.
+// Cameras write rows to word boundaries, and aligned rows are copied by words.
 alignas(4) std::array<std::uint8_t, kMaxWidth_px> row;
 
 struct FrameHeader {

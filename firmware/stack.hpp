@@ -7,8 +7,7 @@
 
 namespace stack {
 
-/// The lowest word of the stack and the word after its highest one, as the linker script defines
-/// them.
+/// The lowest word of the stack and the word after its highest, defined by the linker script.
 extern "C" std::uint32_t stack_bottom[], stack_top[];
 
 inline constexpr std::uint32_t kPaint = 0x5AFEC0DE;

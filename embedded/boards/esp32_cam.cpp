@@ -3,8 +3,8 @@
 //
 // The driver delivers whole frames by DMA, into two buffers; of each, the 188 x 120 px in the
 // middle are read (or what board.hpp says). The lens must be turned to about 19 mm
-// (docs/hardware.md). Packets leave on the pin of the programmer, at 115200 baud, so nothing else
-// may be logged there: CONFIG_LOG_DEFAULT_LEVEL_NONE. The stack of the main task:
+// (docs/hardware.md). Packets are sent on the pin of the programmer at 115200 baud, so nothing may
+// be logged there: CONFIG_LOG_DEFAULT_LEVEL_NONE. The stack of the main task:
 // CONFIG_ESP_MAIN_TASK_STACK_SIZE=8192.
 #include <driver/uart.h>
 #include <esp_camera.h>
@@ -17,8 +17,8 @@
 
 namespace {
 
-constexpr int kWidth_px = board::kMostWidth_px;
-constexpr int kHeight_px = board::kMostHeight_px;
+constexpr int kWidth_px = board::kMaxWidth_px;
+constexpr int kHeight_px = board::kMaxHeight_px;
 
 camera_fb_t* frame = nullptr;
 const std::uint8_t* row = nullptr;
@@ -56,7 +56,7 @@ void set_up() {
     config.fb_count = 2;
     // QVGA fits into the inner memory, which is faster than the PSRAM beside the chip.
     config.fb_location = CAMERA_FB_IN_DRAM;
-    // After a rest, the newest frame is wanted, not the one that has been waiting.
+    // After a rest, take the newest frame, not the oldest waiting one.
     config.grab_mode = CAMERA_GRAB_LATEST;
     while (esp_camera_init(&config) != ESP_OK)
         vTaskDelay(pdMS_TO_TICKS(500));
@@ -80,7 +80,7 @@ Frame start_frame(std::int64_t not_before_us) {
         const std::int64_t left_us = not_before_us - esp_timer_get_time();
         if (left_us > 0) vTaskDelay(pdMS_TO_TICKS(left_us / 1000));
         frame = esp_camera_fb_get();
-        // The driver's stamp, of the clock of esp_timer, is that of the frame's beginning.
+        // The driver's time stamp, on the clock of esp_timer, is the beginning of the frame.
         if (frame != nullptr)
             time_us = frame->timestamp.tv_sec * std::int64_t{1'000'000} + frame->timestamp.tv_usec;
     } while (frame == nullptr || time_us < not_before_us);

@@ -29,14 +29,14 @@ constexpr uint kTx = 0;
 
 constexpr int kCameraWidth_px = 320;
 constexpr int kCameraHeight_px = 240;
-constexpr int kWidth_px = board::kMostWidth_px;
-constexpr int kHeight_px = board::kMostHeight_px;
+constexpr int kWidth_px = board::kMaxWidth_px;
+constexpr int kHeight_px = board::kMaxHeight_px;
 constexpr int kLeft = 64;  // a multiple of 4: rows that begin at words are copied by words
 constexpr int kTop = (kCameraHeight_px - kHeight_px) / 2;
 
 alignas(4) std::uint8_t rows[2][kCameraWidth_px];
 int channels[2];
-int newest = 0;  // index of the row that comes next
+int newest = 0;  // index of the next row
 uint machine = 0;
 uint program = 0;
 
@@ -75,7 +75,7 @@ void set_up_camera() {
     sleep_ms(300);
 }
 
-/// The state machine: a grey byte to the FIFO, the colour after it dropped.
+/// The state machine writes each grey byte to the FIFO and drops the colour byte after it.
 void set_up_pio() {
     static std::uint16_t instructions[] = {
         static_cast<std::uint16_t>(pio_encode_wait_gpio(true, kHref)),
@@ -100,7 +100,7 @@ void set_up_pio() {
     pio_sm_init(pio0, machine, program, &config);
 }
 
-/// Channel 0 fills row 0 and then starts channel 1, and the other way round.
+/// Channel 0 fills row 0 and then starts channel 1, and vice versa.
 void set_up_dma() {
     for (int& channel : channels)
         channel = dma_claim_unused_channel(true);
@@ -128,10 +128,10 @@ void set_up() {
     set_up_dma();
 }
 
-/// Stops what is left of the frame before, whose last rows were not wanted.
+/// Stops the rest of the previous frame.
 void stop() {
     pio_sm_set_enabled(pio0, machine, false);
-    // A channel that is aborted could start the other one, so both are aborted at once, and again.
+    // An aborted channel could start the other one, so both are aborted together, and twice.
     const std::uint32_t both = 1U << channels[0] | 1U << channels[1];
     for (int i = 0; i < 2; ++i) {
         dma_hw->abort = both;
@@ -175,7 +175,7 @@ Frame start_frame(std::int64_t not_before_us) {
 const std::uint8_t* next_row() {
     const auto channel = static_cast<uint>(channels[newest]);
     dma_channel_wait_for_finish_blocking(channel);
-    // For its next turn, which comes when the other row is full.
+    // For the next use of this channel, after the other row is full.
     dma_channel_set_write_addr(channel, rows[newest], false);
     const std::uint8_t* row = rows[newest] + kLeft;
     newest = 1 - newest;

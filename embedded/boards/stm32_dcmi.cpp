@@ -20,18 +20,18 @@ namespace {
 
 constexpr std::uint32_t kCameraWidth_px = 376;
 constexpr std::uint32_t kCameraHeight_px = 240;
-constexpr std::uint32_t kWidth_px = board::kMostWidth_px;
-constexpr std::uint32_t kHeight_px = board::kMostHeight_px;
+constexpr std::uint32_t kWidth_px = board::kMaxWidth_px;
+constexpr std::uint32_t kHeight_px = board::kMaxHeight_px;
 /// From the end of VSYNC to the middle of the exposure: negative for global shutters, which are
 /// read after it.
 constexpr std::int64_t kMiddleOfExposure_us = -500;
 
 alignas(4) std::uint8_t rows[2][kWidth_px];
-volatile std::uint32_t rows_filled = 0;  // of this frame, counted by the interrupt
+volatile std::uint32_t rows_filled = 0;  // number of rows of this frame, counted by the interrupt
 volatile bool has_begun = false;
 std::uint32_t rows_read = 0;
 
-/// TIM2 begins again after 71 minutes; this clock does not, if it is read more often.
+/// TIM2 wraps after 71 minutes; this clock does not, if it is read more often than that.
 std::int64_t now_us() {
     static std::uint32_t last = 0;
     static std::int64_t total_us = 0;
@@ -42,7 +42,7 @@ std::int64_t now_us() {
 }
 
 void set_up() {
-    // Sizes as the registers want them: one less than there are.
+    // The registers take sizes minus one.
     HAL_DCMI_ConfigCrop(&hdcmi, (kCameraWidth_px - kWidth_px) / 2,
                         (kCameraHeight_px - kHeight_px) / 2, kWidth_px - 1, kHeight_px - 1);
     HAL_DCMI_EnableCrop(&hdcmi);

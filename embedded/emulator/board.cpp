@@ -1,8 +1,8 @@
 // Run in an emulator: the board of qemu-system-arm -M microbit (nRF51822), whose serial line is
 // emulated, and whose camera is a file of frames that the emulator opens for the program.
 //
-// The file has binary PGM images, one after the other (P5, 8 bits, no comments). The camera
-// delivers one every 20 ms, whether it is taken or not, as cameras do.
+// The file is a sequence of binary PGM images (P5, 8 bits, no comments). The camera delivers one
+// every 20 ms, whether or not the program takes it.
 #include "board.hpp"
 
 #include <array>
@@ -23,7 +23,7 @@ std::int64_t frames_taken = 0;
 int width_px = 0;
 
 // Two rows, as for DMA: one is read while the other comes in.
-alignas(4) std::array<std::array<std::uint8_t, board::kMostWidth_px>, 2> rows;
+alignas(4) std::array<std::array<std::uint8_t, board::kMaxWidth_px>, 2> rows;
 int filled = 0;
 
 void print(const char* text) {
@@ -66,14 +66,14 @@ int read_number() {
     return number;
 }
 
-/// Waits for the camera's next frame. The program ends where the file does.
+/// Waits for the camera's next frame. The program ends at the end of the file.
 board::Frame next_frame() {
     std::array<char, 3> magic;
     if (!read(magic.data(), 1)) end(nullptr);
     if (!read(&magic[1], 2) || magic[0] != 'P' || magic[1] != '5') end("no binary PGM\n");
     width_px = read_number();
     const int height_px = read_number();
-    if (read_number() != 255 || width_px > board::kMostWidth_px)
+    if (read_number() != 255 || width_px > board::kMaxWidth_px)
         end("no frame of 8 bits that there is memory for\n");
     return {width_px, height_px, kFrameTime_us * frames_taken++};
 }

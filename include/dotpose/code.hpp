@@ -1,10 +1,9 @@
-/// Position code: which symbol stands at which grid intersection, and which position a window of
-/// symbols stands at.
+/// Position code: computes the symbol at each grid intersection, and the position of a window of
+/// symbols.
 ///
-/// Paper section II-A. Every column of the pattern carries the cyclic *main* sequence downwards,
-/// started at an offset, its *roll*; the rolls of adjacent columns differ by 5 to 58, and the
-/// differences spell the column's position in four coprime cyclic sequences. Rows spell y in the
-/// same way.
+/// Paper section II-A. Every column of the pattern is the cyclic *main* sequence, read downwards
+/// from an offset, its *roll*. The rolls of adjacent columns differ by 5 to 58, and the differences
+/// encode the column's position in four coprime cyclic sequences. Rows encode y in the same way.
 ///
 /// Frame: x to the right, y DOWN, as the printed page is read. All functions are pure and
 /// thread-safe; none allocates.
@@ -19,18 +18,19 @@
 
 namespace dotpose {
 
-/// Number of positions per axis before the four difference sequences line up again: 236 * 233 * 31
+/// Number of positions per axis, the common period of the four difference sequences: 236 * 233 * 31
 /// * 241.
 inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
-/// Length of the main sequence, and so the number of sections per axis.
+/// Length of the main sequence, which is the number of sections per axis.
 inline constexpr int kSections = 63;
 
-/// The sequence a4 that the sheet was printed with.
+/// The code variant of a sheet, which is its sequence a4.
 enum class Profile : std::uint8_t {
-    anoto,    ///< a4 as restored in the paper: unambiguous on the whole plane; for everything new
-    libdots,  ///< misprinted a4 of the patent, as libdots and other open tools print it; needs 8 x
-              ///< 8 symbols
-    microdots,            ///< another a4, as printed by py-microdots and its ports
+    anoto,    ///< a4 as restored in the paper: unambiguous on the whole plane; the default for
+              ///< printing
+    libdots,  ///< the misprinted a4 of the patent, as in libdots and other open tools; needs 8 x 8
+              ///< symbols
+    microdots,            ///< another a4, as in py-microdots and its ports
     published = libdots,  ///< earlier name of `libdots`
 };
 /// Number of values of Profile.
@@ -55,11 +55,11 @@ struct Section {
 /// bit.
 enum class Symbol : std::uint8_t { up = 0, left = 1, right = 2, down = 3 };
 
-/// Returns the symbol with these bits, each 0 or 1.
+/// Returns the symbol with the given bits, each 0 or 1.
 constexpr Symbol make_symbol(int x_bit, int y_bit) {
     return static_cast<Symbol>(x_bit | (y_bit << 1));
 }
-/// Return the x bit, which belongs to the column, and the y bit, which belongs to the row: 0 or 1.
+/// Return the x bit (of the column) and the y bit (of the row): 0 or 1.
 constexpr int x_bit(Symbol symbol) {
     return static_cast<int>(symbol) & 1;
 }
@@ -84,10 +84,10 @@ constexpr char letter(Symbol symbol) {
 int delta(Profile profile, std::uint32_t p) noexcept;
 
 /// Returns the offset of the main sequence in column (or row) p of section 0, in [0, 63), in O(1).
-/// `p` may exceed kPositionsPerAxis: the pattern continues there, with other rolls than from 0.
+/// `p` may exceed kPositionsPerAxis, where the pattern continues with other rolls than at 0.
 int roll(Profile profile, std::uint32_t p) noexcept;
 
-/// Returns one bit of the cyclic main sequence; any index >= 0.
+/// Returns one bit of the cyclic main sequence, for any index >= 0.
 int main_bit(std::uint32_t index) noexcept;
 
 /// Returns the symbol at one intersection, in O(1). For whole pages, call `roll` once per column
@@ -101,7 +101,7 @@ struct Window {
     int rows = 0;
 };
 
-/// Where the top left symbol of a window stands in the code.
+/// The place in the code of the top left symbol of a window.
 struct Place {
     Cell cell;
     Section section;
@@ -109,21 +109,21 @@ struct Place {
 };
 
 /// Returns the place (dx, dy) intersections away; |dx|, |dy| < kPositionsPerAxis. Past either end
-/// of an axis the pattern continues at the other end in another section, and so does the result.
+/// of an axis, the pattern and the result continue at the other end in another section.
 Place moved(Profile profile, Place place, std::int32_t dx, std::int32_t dy) noexcept;
 
-/// Decodes an error-free, upright window. `place` is set only if the code carries exactly this
-/// window there and nowhere else.
-/// Errors: bad_window (not 6 to 32 columns and rows), not_in_code, ambiguous (profile `libdots`
-/// only: windows under 8 x 8 may stand at several places).
+/// Decodes an error-free, upright window. Sets `place` only if the code contains exactly this
+/// window at `place` and nowhere else. Errors: bad_window (not 6 to 32 columns and rows),
+/// not_in_code, ambiguous (only for `libdots`, where windows below 8 x 8 may occur at several
+/// places).
 Status decode(Profile profile, const Window& window, Place& place) noexcept;
 
-/// Finds the position of the first column (or row) from the rolls of 6 to 32 consecutive ones, each
-/// in [0, 63) and all read from the same row (column). Errors as of `decode`.
+/// Finds the position of the first column (or row) from the rolls of 6 to 32 consecutive columns
+/// (rows), each in [0, 63) and all read from the same row (column). Errors as in `decode`.
 Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 
-/// Returns the section, in [0, 63), in which column (row) `position` shows the roll `roll_seen` at
+/// Returns the section, in [0, 63), in which column (row) `position` has the roll `roll_seen` at
 /// row (column) `cross_position`.
 int section_of(Profile profile, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept;

@@ -1,6 +1,6 @@
-/// FramePacer: when to take the next frame, to spare a battery (paper section IV-A). While the
-/// device moves, frames follow each other at once. When it has not moved for 5 s, one frame a
-/// second is taken until one shows that it has moved.
+/// FramePacer: determines the time of the next frame, to save power (paper section IV-A). While the
+/// device moves, frames are taken without a pause. After 5 s without movement, one frame a second
+/// is taken until a frame shows movement.
 ///
 ///     FramePacer pacer;
 ///     for (;;) {
@@ -19,40 +19,40 @@
 
 namespace dotpose {
 
-/// When a device counts as moving, and how often it takes frames.
+/// Criteria for movement, and the periods of frames.
 struct PacerOptions {
     /// Time without movement after which the device counts as stationary. A longer time costs
-    /// energy; a shorter one delays the start after each short stop.
+    /// energy; a shorter time delays the start after each short stop.
     std::int64_t stationary_after_us = 5'000'000;
-    /// Time from frame to frame while stationary. A longer time saves energy and notices a start
-    /// later.
+    /// Period of frames while stationary. A longer period saves energy and delays the detection of
+    /// movement.
     std::int64_t stationary_period_us = 1'000'000;
-    /// Time from frame to frame while moving. Default 0: as fast as frames come.
+    /// Period of frames while moving. Default 0: as fast as possible.
     std::int64_t moving_period_us = 0;
-    /// Distance per axis, in 2^-16 spacing, from the place where the device came to rest beyond
-    /// which a fix counts as movement. Default: a tenth of a spacing. Must be well above the noise
-    /// of a resting device.
+    /// Minimum distance that counts as movement, per axis, in 2^-16 spacing, from the place where
+    /// the device came to rest. Default: a tenth of a spacing. Must be well above the noise of a
+    /// resting device.
     std::int32_t moved_q16 = 6554;
-    /// Turn beyond which a fix counts as movement; 2^31 is half a turn. Default: one degree.
+    /// Minimum turn that counts as movement; 2^31 is half a turn. Default: one degree.
     std::int32_t turned_bam = 11'930'465;
-    /// Whether a stationary device that no longer sees the pattern counts as moved, for example
-    /// lifted. Default: yes. Set it to false where frames also fail at rest.
+    /// Whether a stationary device counts as moved, for example lifted, if it no longer sees the
+    /// pattern. Default: true. Set it to false if frames also fail at rest.
     bool lost_is_moved = true;
 };
 
-/// Whether the device moves, by the frames so far.
+/// The state of the device, given the frames so far.
 enum class Motion : std::uint8_t { moving, stationary };
 
-/// Decides when the next frame is taken.
+/// Determines the times of frames.
 class FramePacer {
   public:
     explicit FramePacer(const PacerOptions& options = {}) : options_(options) {}
 
-    /// Takes the result of a frame, with or without a fix, and the time, on any clock that does not
-    /// run backwards. Returns the time from which the next frame is wanted.
+    /// Takes the result of a frame, with or without a fix, and the time on any monotonic clock.
+    /// Returns the earliest time of the next frame.
     std::int64_t next_frame_us(const Fix& fix, std::int64_t time_us);
 
-    /// Returns whether the device moves; a new pacer says `moving`.
+    /// Returns the state of the device; initially `moving`.
     Motion motion() const { return motion_; }
 
   private:
@@ -61,7 +61,7 @@ class FramePacer {
     PacerOptions options_;
     Motion motion_ = Motion::moving;
     bool has_begun_ = false;
-    Fix rest_;  ///< where the device came to rest; has no fix if it was not seen since it moved
+    Fix rest_;  ///< fix where the device came to rest; not ok if there was no fix since it moved
     std::int64_t rest_since_us_ = 0;
 };
 

@@ -23,9 +23,9 @@ struct Vec {
 ///
 ///     plane = at_centre + (du x + dv y) / (1 + perspective . (x, y) + lens (x^2 + y^2)),
 ///
-/// which is exact for a tilted camera, for the lens of eq. 2, and for both.
+/// which is exact for a tilted camera, for the lens of eq. 2, and for both together.
 struct PlaneFromImage {
-    Vec centre_q8;              ///< image point that (x, y) is counted from, px
+    Vec centre_q8;              ///< image point of (x, y) = (0, 0), px
     Vec at_centre_q16;          ///< plane point at `centre`, spacings
     Vec du_q24;                 ///< spacings per px to the right
     Vec dv_q24;                 ///< spacings per px down

@@ -10,7 +10,7 @@
 
 namespace dotpose {
 
-/// Least and greatest width and height, in pixels, of an image that can be located.
+/// Minimum and maximum width and height, in pixels, of an image that can be located.
 inline constexpr int kMinFrameSide_px = 64;
 inline constexpr int kMaxFrameSide_px = 4096;
 

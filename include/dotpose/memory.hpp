@@ -1,6 +1,6 @@
-/// Memory of a Locator: of fixed size, given by the caller, for any number of frames one after the
-/// other. It may be static, on the heap or, if there is room, on the stack. Its content is private
-/// to the core.
+/// Memory of a Locator: it has a fixed size, belongs to the caller and serves any number of frames,
+/// one at a time. It may be static, on the heap or, if it fits, on the stack. Its content is
+/// private to the core.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct Workspace;
 struct DesktopWorkspace;
 }  // namespace core
 
-/// Memory of a DeviceLocator, for frames of any size.
+/// Base class of the memories of a DeviceLocator.
 class AnyDeviceMemory {
   public:
     AnyDeviceMemory(const AnyDeviceMemory&) = delete;
@@ -27,7 +27,7 @@ class AnyDeviceMemory {
     AnyDeviceMemory() = default;
     ~AnyDeviceMemory() = default;
 
-    /// Returns the size of a workspace; 0 if there is none for frames of this size.
+    /// Returns the size of a workspace; 0 if frames of this size are not supported.
     static constexpr std::size_t bytes_for(int width_px, int height_px) {
         const bool has_32_bits = sizeof(void*) == 4;
         if (width_px == 160 && height_px == 120) return has_32_bits ? 10'640 : 11'808;
@@ -43,8 +43,8 @@ class AnyDeviceMemory {
 };
 
 /// Memory of a DeviceLocator on a small microcontroller, with a sensor of Width x Height px; the
-/// sizes are those at the end of this header. Frames may be smaller, and those of up to 188 px
-/// width also higher.
+/// sizes are those at the end of this header. Frames may be smaller; frames with a width of up to
+/// 188 px may also be higher.
 template <int Width, int Height>
 class DeviceMemoryFor : public AnyDeviceMemory {
   public:
@@ -56,7 +56,8 @@ class DeviceMemoryFor : public AnyDeviceMemory {
     alignas(8) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory of a Locator for images up to 188 px wide, as those of the paper's sensor: about 290 KB.
+/// Memory of a Locator for images up to 188 px wide, like those of the paper's sensor: about 290
+/// KB.
 class SmallMemory {
   public:
     SmallMemory();

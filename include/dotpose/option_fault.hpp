@@ -1,4 +1,4 @@
-/// OptionFault: which option makes a frame a bad argument.
+/// OptionFault: finds the option that causes Status::bad_argument.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace dotpose {
 
-/// An option outside of its range.
+/// An option outside its range.
 struct OptionFault {
-    const char* name = nullptr;  ///< such as "lattice.min_dots"; null: all options are in range
+    const char* name = nullptr;  ///< such as "lattice.min_dots"; null if all options are in range
     std::int32_t value = 0;
     std::int32_t low = 0;
     std::int32_t high = 0;
 };
 
-/// Returns the first option outside of its range, for which frames get Status::bad_argument.
+/// Returns the first option outside its range, which causes Status::bad_argument.
 OptionFault option_fault(const Options& options) noexcept;
 
 }  // namespace dotpose

@@ -1,5 +1,5 @@
-/// Pose packets: encoding and decoding of what a device sends over a serial line or radio, one
-/// packet for each frame. The format is described in docs/pose-packet.md.
+/// Pose packets: encodes and decodes the results that a device sends over a serial line or radio,
+/// one packet per frame (docs/pose-packet.md).
 ///
 ///     const PacketBytes bytes = encode(make_packet(fix, options.profile, sequence++, time_us));
 ///     send(bytes.data(), bytes.size());
@@ -7,9 +7,9 @@
 ///     PacketReader reader;
 ///     for (std::uint8_t byte : received) if (reader.push(byte)) use(reader.packet());
 ///
-/// A packet with one to four wrong bits is always refused, and of those damaged more, all but about
-/// 1 of 65536; reading goes on with the next packet. No heap, no double, no globals; different
-/// objects may be used at the same time.
+/// Packets with one to four wrong bits are always refused, and packets with more damage except for
+/// about 1 of 65536. Reading continues with the next packet. No heap, no double, no globals;
+/// different objects may be used at the same time.
 #pragma once
 
 #include <array>
@@ -24,13 +24,13 @@
 
 namespace dotpose {
 
-/// Version of the format that is written, and the only one that is read.
+/// Version of the format, for writing and reading.
 inline constexpr int kPacketVersion = 1;
 
-/// The result of one frame, as far as a packet carries it. Unless `status` is ok, only the members
+/// The part of a frame's result that a packet contains. Unless `status` is ok, only the members
 /// above `cell` are valid; the rest is sent as zero.
 struct PosePacket {
-    std::uint16_t sequence = 0;  ///< counts frames; a gap shows lost packets
+    std::uint16_t sequence = 0;  ///< counts frames; a gap means lost packets
     std::uint32_t time_us = 0;   ///< time of the frame on the sender's clock; wraps every 71.6
                                  ///< minutes
     Status status = Status::not_run;
@@ -41,10 +41,10 @@ struct PosePacket {
     std::uint16_t fraction_y_q16 = 0;
     std::int16_t theta_bam16 = 0;  ///< 2^15 is half a turn: steps of 0.0055 degrees
     Section section;
-    /// The position is wrong with probability at most 2^-certainty; 255 stands for 255 and more.
+    /// The position is wrong with probability at most 2^-certainty; 255 means 255 or more.
     std::uint8_t certainty = 0;
-    /// The larger standard deviation of x and y in 2^-12 spacing, rounded up; 255 stands for 255
-    /// and more.
+    /// The larger standard deviation of x and y in 2^-12 spacing, rounded up; 255 means 255 or
+    /// more.
     std::uint8_t deviation_q12 = 0;
 
     // Double precision is used only in these functions, which are not part of the embedded object
@@ -61,23 +61,23 @@ struct PosePacket {
 PosePacket make_packet(const Fix& fix, Profile profile, std::uint16_t sequence,
                        std::uint32_t time_us);
 
-/// One packet as sent, with its end mark: a zero byte, the only one in it.
+/// The bytes of a packet with its end mark, its only zero byte.
 using PacketBytes = std::array<std::uint8_t, 32>;
 
-/// Returns the bytes of a packet, ready to be sent.
+/// Returns the bytes of a packet for sending.
 PacketBytes encode(const PosePacket& packet);
 
-/// Finds packets in a stream of bytes, whatever else is in it.
+/// Finds packets in any stream of bytes.
 class PacketReader {
   public:
     /// Takes the next byte and returns whether it completed a packet.
     bool push(std::uint8_t byte);
 
-    /// Returns the newest packet; its content before the first one is not valid.
+    /// Returns the newest packet; not valid before the first packet.
     const PosePacket& packet() const { return packet_; }
 
-    /// Returns the number of stretches between two end marks that were no packet, because they were
-    /// damaged or of another version.
+    /// Returns the number of invalid byte sequences between two end marks: damaged packets, or
+    /// packets of another version.
     std::uint32_t damaged() const { return damaged_; }
 
   private:

@@ -1,7 +1,7 @@
-/// Prediction: where the pattern is expected in the next frame. With one, a Locator finds the next
-/// fix in a fraction of the time: dots are measured where they are expected, and every bit is
-/// confirmed. A prediction never makes a fix less certain: a frame that does not confirm it is
-/// located without it.
+/// Prediction: the expected place of the pattern in the next frame. With a prediction, a Locator
+/// finds the next fix in a fraction of the time: it measures dots at their expected places and
+/// confirms every bit. A prediction never makes a fix less certain, because a frame that does not
+/// confirm it is located without it.
 ///
 ///     Fix fix = locator.locate(image);
 ///     for (;;) fix = locator.locate(image, Prediction::like(fix));
@@ -20,17 +20,17 @@ namespace dotpose {
 
 /// The expected map from the image to the pattern, with its uncertainty.
 struct Prediction {
-    /// The map from the image to the pattern, counted in spacings from `place`.
+    /// The map from the image to the pattern, in spacings relative to `place`.
     PlaneFromImage pattern_from_image;
     Place place;
-    /// Distance of a typical dot from its intersection, in 2^-16 spacing, as last seen.
+    /// Typical distance of a dot from its intersection in the last frame, in 2^-16 spacing.
     std::int32_t displacement_q16 = 65536 / 6;
-    /// Standard deviations of the predicted pose. The pattern is looked for within three of them,
-    /// but at most 0.6 spacing and 4 degrees off.
-    std::int32_t sigma_q16 = 65536 / 5;      ///< of x and of y, in 2^-16 spacing
+    /// Standard deviations of the predicted pose. The search covers three standard deviations, but
+    /// at most 0.6 spacing and 4 degrees.
+    std::int32_t sigma_q16 = 65536 / 5;      ///< of x and y, in 2^-16 spacing
     std::int32_t sigma_theta_bam = 1 << 24;  ///< 1.4 degrees; 2^31 is half a turn
 
-    /// Returns the prediction that the next frame looks like this one, whose fix must be ok.
+    /// Returns the prediction that the next frame equals the frame of `fix`, which must be ok.
     static Prediction like(const Fix& fix);
 };
 

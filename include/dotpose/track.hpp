@@ -1,7 +1,6 @@
-/// Tracker: the state of a robot from frame to frame. A filter that adapts to how the robot moves
-/// estimates position, angle and velocities with their covariance, and reports the events `fix`,
-/// `lost`, `kidnapped`, `stationary` and `moving`. docs/tracking.md explains both, and how weak
-/// fixes are judged.
+/// Tracker: the state of a robot from frame to frame. An adaptive filter estimates position, angle
+/// and velocities with their covariance; the tracker reports the events `fix`, `lost`, `kidnapped`,
+/// `stationary` and `moving`. docs/tracking.md explains filter, events and weak fixes.
 ///
 ///     Tracker tracker;
 ///     for (;;) {
@@ -11,13 +10,13 @@
 ///         const Track& track = tracker.update(time_us, ok ? &sighting : nullptr);
 ///     }
 ///
-/// `predict` says where the next frame will show the pattern; examples/follow_robot.cpp has a loop
-/// that uses it.
+/// `predict` returns the expected place of the pattern in the next frame; examples/follow_robot.cpp
+/// has a loop that uses it.
 ///
-/// Frames: any plane in mm, as long as the sightings agree on it: the pattern frame, or the world
-/// of a sheet file, where a robot may drive from sheet to sheet. Positions are whole nanometres,
-/// which reach over the whole pattern plane (2.1e14 nm). Angles are binary, 2^31 is half a turn,
-/// from +x towards +y. Velocities: mm/s along x and y, rad/s.
+/// Frames: any plane in mm that all sightings share: the pattern frame, or the world of a sheet
+/// file, where a robot may drive from sheet to sheet. Positions are integers in nanometres, which
+/// cover the whole pattern plane (2.1e14 nm). Angles are binary, 2^31 is half a turn, from +x
+/// towards +y. Velocities: mm/s along x and y, rad/s.
 ///
 /// No heap, no double, no globals; different trackers may be used at the same time.
 #pragma once
@@ -37,21 +36,21 @@ namespace dotpose {
 /// Covariance of (x, y, theta, their velocities), in mm, rad and seconds.
 using Covariance6 = std::array<std::array<float, 6>, 6>;
 
-/// Position and angle of the robot as seen in one frame.
+/// Position and angle of the robot from one frame.
 struct Sighting {
     std::int64_t time_us = 0;  ///< middle of the exposure, on any clock
     std::int64_t x_nm = 0;
     std::int64_t y_nm = 0;
     std::int32_t theta_bam = 0;
-    /// Number of the plane; sightings of different planes are not related to each other.
+    /// Number of the plane; poses in different planes are unrelated.
     std::uint32_t plane = 0;
     std::array<std::array<float, 3>, 3> covariance{};  ///< covariance of x, y and theta, in mm and
                                                        ///< rad
-    /// Bound of the probability of being wrong, as in Fix. Above TrackOptions::max_p_wrong_log2 the
-    /// sighting is *weak*.
+    /// Upper bound of the probability that the position is wrong, as in Fix. Above
+    /// TrackOptions::max_p_wrong_log2 the sighting is *weak*.
     int p_wrong_log2 = 0;
-    std::int32_t spacing_nm = 508'000;  ///< spacing of the pattern that was seen
-    /// Whether the plane's y axis points up the paper, so that angles turn the other way than in
+    std::int32_t spacing_nm = 508'000;  ///< spacing of the pattern in view
+    /// Whether the y axis of the plane points up on the paper; angles are then opposite to those in
     /// the pattern.
     bool is_y_up = false;
 };
@@ -60,28 +59,28 @@ struct Sighting {
 /// and its spacing known, at most 20 mm.
 Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
-/// How the robot moves, and when sightings are believed.
+/// Limits of the robot's motion, and criteria for accepting sightings.
 struct TrackOptions {
-    /// Standard deviation of the robot's acceleration while it manoeuvres; the filter estimates by
-    /// itself how far it is lower at other times. A larger one follows sudden changes faster.
-    /// Default: a table-top robot.
+    /// Standard deviation of the robot's acceleration while it manoeuvres; at other times the
+    /// filter estimates a lower value. Larger values follow sudden changes faster. Default: a
+    /// table-top robot.
     float acceleration_mm_s2 = 600;
     float angular_acceleration_rad_s2 = 6;
 
-    /// Greatest acceleration that is physically possible. A sighting farther from the prediction
-    /// than this explains is not believed before it is confirmed.
+    /// Maximum physically possible acceleration. A sighting farther from the prediction than this
+    /// explains must be confirmed before it is accepted.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
-    /// Greatest speed: it limits how far the robot can have come while it was not seen.
+    /// Maximum speed, which limits the distance that the robot can have moved without sightings.
     float max_speed_mm_s = 1000;
     float max_turn_rad_s = 20;
-    /// Number of standard deviations of the prediction that a sighting may lie beyond these limits.
+    /// Number of standard deviations of the prediction by which a sighting may exceed these limits.
     float gate_sigmas = 5;
-    /// Number of consecutive sightings that must agree with each other before a jump is believed.
-    /// More are slower; fewer let a single wrong fix through.
+    /// Number of consecutive consistent sightings that are needed to accept a jump. More are
+    /// slower; fewer let a single wrong fix through.
     int confirmations = 3;
 
-    /// Time without a believed sighting after which the robot is lost.
+    /// Time without an accepted sighting after which the robot is lost.
     std::int64_t lost_after_us = 70'000;
 
     /// A robot that stays within these limits for `stationary_after_us` is stationary.
@@ -89,21 +88,20 @@ struct TrackOptions {
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
 
-    /// Standard deviations added to those of a sighting: printing errors, which the same place
-    /// shows in every frame.
+    /// Standard deviations added to those of a sighting, for printing errors, which are the same in
+    /// every frame of a place.
     float least_sigma_mm = 0.0002F;
     float least_sigma_rad = 0.00002F;
 
-    /// Bound, as log2, of the probability that a believed sighting is wrong, given the prior.
+    /// Maximum probability, as log2, that an accepted sighting is wrong, given the prior.
     int max_p_wrong_log2 = -30;
-    /// Bound, as log2, above which a weak sighting is never believed, whatever the prior. At most
-    /// -1.
+    /// Maximum `p_wrong_log2` of an accepted weak sighting, whatever the prior. At most -1.
     int max_weak_p_wrong_log2 = -10;
-    /// Spacing of the pattern, by which the places within reach of the prior are counted.
+    /// Spacing of the pattern, for counting the places within the gate.
     float spacing_mm = 0.508F;
 };
 
-/// Where the robot is and how it moves.
+/// Pose and velocities of the robot.
 struct TrackedPose {
     std::int64_t time_us = 0;
     std::int64_t x_nm = 0;
@@ -123,11 +121,11 @@ struct TrackedPose {
     double theta_rad() const { return theta_bam * (std::numbers::pi / 2147483648.0); }
 };
 
-/// How the tracker judged the sighting of a frame.
+/// The tracker's verdict on the sighting of a frame.
 enum class Verdict : std::uint8_t {
     none,        ///< there was no sighting
-    believed,    ///< certain enough alone, and physically possible
-    with_prior,  ///< weak, but certain enough together with the prior
+    believed,    ///< accepted: certain enough alone, and physically possible
+    with_prior,  ///< accepted: weak, but certain enough together with the prior
     gated,       ///< physically impossible, and not confirmed yet
     too_weak,    ///< weak, and the prior does not help
 };
@@ -136,11 +134,12 @@ inline constexpr int kVerdictCount = 5;
 /// Returns the identifier, such as "with_prior".
 const char* name(Verdict verdict) noexcept;
 
-/// The changes that a frame brought. Several may come together.
+/// The events of a frame; several may occur together.
 struct TrackEvents {
-    bool fix = false;         ///< the robot was lost and is found
-    bool lost = false;        ///< the robot was not seen for too long
-    bool kidnapped = false;   ///< the robot is where it cannot have driven to; confirmed
+    bool fix = false;   ///< the robot was lost and is found again
+    bool lost = false;  ///< there was no accepted sighting for too long
+    bool kidnapped =
+        false;  ///< confirmed sightings are at a place to which the robot cannot have driven
     bool stationary = false;  ///< the robot came to rest
     bool moving = false;      ///< the robot was stationary and moves again
 };
@@ -150,16 +149,16 @@ struct Track {
     bool is_lost = true;
     bool is_stationary = false;
     Verdict verdict = Verdict::none;
-    /// Bound of the log2 of the probability that the pose is wrong, given the prior; 0 without a
-    /// believed sighting.
+    /// Upper bound, as log2, of the probability that the pose is wrong, given the prior; 0 without
+    /// an accepted sighting.
     int p_wrong_log2 = 0;
     TrackEvents events;
-    /// Pose at the time of the newest frame, predicted if that had no believed sighting. Not valid
-    /// while lost.
+    /// Pose at the time of the newest frame, predicted if the frame had no accepted sighting. Not
+    /// valid while lost.
     TrackedPose pose;
 };
 
-/// Types of the filter's state, for Tracker alone.
+/// Types of the filter's state, private to Tracker.
 namespace track {
 
 using Vector3 = std::array<float, 3>;
@@ -172,7 +171,7 @@ struct MotionEstimate {
     TrackedPose pose;
     Vector3 acceleration{};    ///< mm/s^2, rad/s^2
     Covariance9 covariance{};  ///< covariance of (x, y, theta), their velocities and accelerations
-    /// Variance of the acceleration along each axis, as a multiple of that in TrackOptions.
+    /// Variance of the acceleration along each axis, relative to that of TrackOptions.
     Vector3 agility{1, 1, 1};
     Vector3 innovation{};  ///< difference of the newest sighting from its prediction
     Matrix3 noise{};       ///< covariance of `innovation`
@@ -185,30 +184,30 @@ struct MotionEstimate {
 /// Follows one robot through its sightings.
 class Tracker {
   public:
-    /// Starts as lost.
+    /// Starts in the state lost.
     explicit Tracker(const TrackOptions& options = {}) : options_(options) {}
 
-    /// Takes the next frame by its time and its sighting, if any (null: no fix). Frames that are
-    /// not newer than the last one are ignored.
+    /// Updates the state with a frame: its time and its sighting (null without a fix). Ignores
+    /// frames that are not newer than the last frame.
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
     /// Returns the state after the newest frame.
     const Track& track() const { return track_; }
 
-    /// Predicts where the frame at `time_us` will show the pattern. The prediction is that of
-    /// `newest`, an ok fix with the sighting `seen`, moved to the pose that the filter expects
-    /// then, with its uncertainty. A sighting that is not believed yet is predicted from those that
-    /// agree with it. If the filter expects nothing (it has not followed `seen`, or will be lost by
-    /// then), the prediction is that of the fix itself. `options` are those of the Locator.
+    /// Predicts the place of the pattern in the frame at `time_us`: the map of `newest`, an ok fix
+    /// with the sighting `seen`, moved to the pose that the filter expects, with its uncertainty. A
+    /// sighting that is not accepted yet is predicted from the sightings that agree with it.
+    /// Without an expected pose (the filter has not followed `seen`, or will be lost by then),
+    /// returns Prediction::like(newest). `options` are those of the Locator.
     Prediction predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
                        const Options& options) const;
 
-    /// Whether a weak sighting of the next frame could be believed. If so, it is worth locating
-    /// with a relaxed IntegrityOptions::max_p_wrong_log2.
+    /// Whether a weak sighting of the next frame could be accepted. If so, locating with a relaxed
+    /// IntegrityOptions::max_p_wrong_log2 is worthwhile.
     bool has_prior() const { return !track_.is_lost; }
 
   private:
-    /// Returns the motion of which `seen` is the newest sighting; null if there is none.
+    /// Returns the motion with the newest sighting `seen`; null if there is none.
     const track::MotionEstimate* following(const Sighting& seen) const;
     Verdict judge(const track::MotionEstimate& prediction, const Sighting& sighting);
     bool is_confirmed(const Sighting& sighting);
@@ -220,11 +219,11 @@ class Tracker {
     bool was_seen_ = false;
     bool has_frame_ = false;
     std::int64_t newest_us_ = 0;
-    track::MotionEstimate last_;  ///< state at the last believed sighting
-    /// State at the newest contradicting sighting, followed like the believed ones: where the robot
-    /// is if it was put somewhere else.
+    track::MotionEstimate last_;  ///< state at the last accepted sighting
+    /// State at the newest contradicting sighting, filtered like accepted sightings, in case the
+    /// robot was put elsewhere.
     track::MotionEstimate candidate_;
-    int agreeing_ = 0;  ///< number of sightings that the candidate was made of
+    int agreeing_ = 0;  ///< number of sightings in the candidate
     TrackedPose rest_;  ///< pose from which movement is measured
 };
 

@@ -1,4 +1,4 @@
-/// Takes the bytes of a file as they are made, on whatever medium.
+/// A destination for the bytes of a file, on any medium.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ class ByteSink {
   public:
     virtual ~ByteSink() = default;
 
-    /// Appends. Never throws, so that C libraries may call it: the first failure is kept for
-    /// `require_good`, and what comes after it is dropped.
+    /// Appends. Never throws, because C libraries call it. The first failure is stored for
+    /// `require_good`, and later bytes are dropped.
     virtual void write(const void* data, std::size_t size_bytes) noexcept = 0;
     void write(std::string_view text) noexcept { write(text.data(), text.size()); }
 

@@ -21,9 +21,9 @@ constexpr int kNameAttempts = 100;
 }  // namespace
 
 fs::path without_links(fs::path path) {
-    constexpr int kMostLinks = 40;  // as many as Linux follows
+    constexpr int kMaxLinks = 40;  // the limit of Linux
     std::error_code error;
-    for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+    for (int i = 0; i < kMaxLinks && fs::is_symlink(path, error); ++i) {
         const fs::path target = fs::read_symlink(path, error);
         if (error) break;
         path = path.parent_path() / target;
@@ -38,8 +38,8 @@ OutputFile::OutputFile(const fs::path& target) : target_(without_links(target)) 
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         throw Error(fmt::format("cannot write {}: it is not a regular file", target_.string()));
     }
-    // Renaming onto a file needs no permission to write it, so it would replace a write-protected
-    // one.
+    // Renaming onto a file needs no write permission for that file, so it would replace a
+    // write-protected file.
     if (fs::exists(status) && access(target_.c_str(), W_OK) != 0) {
         throw_system("write", target_, errno);
     }

@@ -13,15 +13,14 @@
 
 namespace dotpose::base {
 
-/// Follows symbolic links and returns the path of the file that they lead to, which need not exist
-/// yet.
+/// Follows symbolic links and returns the path of their target, which need not exist.
 std::filesystem::path without_links(std::filesystem::path path);
 
 /// Writes to a temporary file beside the target; `commit` renames it, the destructor of an
-/// uncommitted file removes it. Symbolic links are followed, the mode of an old file is kept.
+/// uncommitted file removes it. Symbolic links are followed, and an existing file keeps its mode.
 class OutputFile : public ByteSink {
   public:
-    /// Throws Error if the target is no regular file or nothing can be created beside it.
+    /// Throws Error if the target is not a regular file or the temporary file cannot be created.
     explicit OutputFile(const std::filesystem::path& target);
     ~OutputFile() override;
     OutputFile(const OutputFile&) = delete;

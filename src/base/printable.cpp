@@ -12,11 +12,11 @@ constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
 struct Character {
     std::uint32_t code = 0;
-    std::size_t bytes = 0;  ///< length in UTF-8; 0: the text does not start with valid UTF-8
+    std::size_t bytes = 0;  ///< length in UTF-8; 0 if the text does not start with valid UTF-8
 };
 
-/// Decodes the first character of a text, which must not be empty. Valid are the sequences of
-/// table 3-7 of the Unicode standard: no overlong ones, no surrogates, nothing beyond U+10FFFF.
+/// Decodes the first character of a text, which must not be empty. Accepts the sequences of table
+/// 3-7 of the Unicode standard: no overlong sequences, no surrogates, nothing beyond U+10FFFF.
 Character first_of(std::string_view text) {
     const auto byte = [&text](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
     if (byte(0) < 0x80) return {byte(0), 1};
@@ -27,9 +27,9 @@ Character first_of(std::string_view text) {
         if ((byte(i) & 0xC0) != 0x80) return {};
         code = code << 6 | (byte(i) & 0x3FU);
     }
-    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
+    constexpr std::uint32_t kMinCode[] = {0, 0, 0x80, 0x800, 0x10000};
     const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
-    if (code < kLeast[bytes] || code > 0x10FFFF || is_surrogate) return {};
+    if (code < kMinCode[bytes] || code > 0x10FFFF || is_surrogate) return {};
     return {code, bytes};
 }
 
@@ -45,8 +45,8 @@ bool acts_on_terminals(std::uint32_t code) {
     return code < 0x20 || is_del_or_c1(code) || breaks_line || turns_direction;
 }
 
-/// Replaces every character by what `shown` returns for it. Bytes that are not UTF-8 are passed to
-/// it one at a time.
+/// Replaces every character by what `shown` returns for it. Invalid bytes are passed to `shown` one
+/// at a time.
 template <typename Shown>
 std::string rewritten(std::string_view text, Shown shown) {
     std::string result;

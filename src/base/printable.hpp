@@ -15,7 +15,7 @@ namespace dotpose::base {
 std::string printable(std::string_view text);
 
 /// Returns JSON text with the control characters U+007F to U+009F, which JSON allows unescaped, as
-/// \u escapes. The JSON value stays the same, and a terminal does not obey it.
+/// \u escapes. The JSON value does not change, and a terminal does not interpret it.
 std::string with_escaped_controls(std::string_view json);
 
 }  // namespace dotpose::base

@@ -18,7 +18,7 @@ std::optional<Profile> profile_by_name(std::string_view asked) {
     for (const Profile profile : {Profile::anoto, Profile::libdots, Profile::microdots}) {
         if (asked == name(profile)) return profile;
     }
-    // Earlier versions called the profile by this name in sheet files and scripts.
+    // The name of earlier versions, which sheet files and scripts may contain.
     if (asked == "published") return Profile::libdots;
     return std::nullopt;
 }

@@ -17,13 +17,12 @@ inline constexpr double kTolerance_mm = 1e-7;
 /// Throws BadArgument unless each side of a page is in (0, kMaxPage_mm].
 void validate_paper(double width_mm, double height_mm);
 
-/// Throws BadArgument for a length that is not above 0, dots that touch, or a section that does not
-/// exist.
+/// Throws BadArgument for lengths of 0 or less, dots that touch, or an invalid section.
 void validate_pattern(const Pattern& pattern);
 
-/// Throws BadArgument unless `count` rows or columns, which is what messages call them, can be read
-/// and lie on the code plane. `first` is the first cell on the axis of this name. The count is a
-/// double so that it can be checked before it is made an integer.
+/// Throws BadArgument unless `count` rows or columns (`what`, for messages) are enough to be read
+/// and are inside the code plane. `first` is the first cell on the axis. The count is a double
+/// because it is checked before the conversion to an integer.
 void validate_region(const char* what, char axis, std::uint32_t first, double count);
 
 }  // namespace dotpose::base

@@ -44,7 +44,7 @@ double wrapped(double angle_rad) {
     return angle <= -std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
 }
 
-/// Returns the covariance of coordinates that are each multiplied by a factor.
+/// Returns the covariance after each coordinate is multiplied by its factor.
 PoseCovariance scaled(const auto& covariance, const std::array<double, 3>& factors) {
     PoseCovariance result{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -95,7 +95,7 @@ std::optional<WorldPlace> world_place(const SheetPlace& place) {
     const auto& world = place.entry->world;
     if (!world) return std::nullopt;
     // On a sheet y points down and angles are clockwise; in the world y points up and angles are
-    // counter-clockwise. All other code uses only one of the two.
+    // counter-clockwise. Only this function converts between the two.
     const double right_m = place.x_mm / 1000;
     const double up_m = -place.y_mm / 1000;
     const double yaw_of_image_rad = -place.theta_rad;

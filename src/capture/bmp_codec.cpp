@@ -15,7 +15,7 @@ namespace dotpose::capture {
 namespace {
 
 constexpr std::size_t kFileHeader = 14;
-constexpr std::size_t kOldHeader = 12;  // of OS/2 and Windows 2
+constexpr std::size_t kOldHeader = 12;  // for OS/2 and Windows 2
 
 /// Offsets from the start of the file.
 enum Offset : std::size_t {
@@ -46,7 +46,8 @@ struct BmpHeader {
     std::size_t palette_at;
     std::size_t palette_count;
     std::size_t palette_entry_bytes;
-    std::array<std::uint32_t, 4> masks;  ///< of 16 and 32 bits: red, green, blue, opacity or 0
+    std::array<std::uint32_t, 4>
+        masks;  ///< red, green, blue, opacity, of 16 or 32 bits; 0 if missing
 };
 
 [[noreturn]] void fail_short() {
@@ -111,13 +112,13 @@ BmpHeader read_header(Bytes file) {
     header.palette_at = kFileHeader + size;
     header.palette_entry_bytes = is_old ? 3 : 4;
     const std::size_t stated = is_old || size < 36 ? 0 : number(file, Offset::palette_size, 4);
-    const std::size_t most =
+    const std::size_t max_count =
         header.bits_per_pixel <= 8 ? std::size_t{1} << header.bits_per_pixel : 0;
-    header.palette_count = stated == 0 ? most : std::min(stated, most);
+    header.palette_count = stated == 0 ? max_count : std::min(stated, max_count);
     return header;
 }
 
-/// Returns the bits of a mask as a level of 0 to 255.
+/// Returns the bits selected by a mask, scaled to 0 to 255.
 std::uint8_t level_of(std::uint32_t pixel, std::uint32_t mask) {
     if (mask == 0) return 0;
     const std::uint64_t full = mask >> std::countr_zero(mask);
@@ -156,7 +157,7 @@ class Pixels {
 
   private:
     BmpHeader header_;
-    std::array<Colour, 256> palette_{};  // entries that are missing stay black
+    std::array<Colour, 256> palette_{};  // missing entries are black
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// Reads BMP: the headers of Windows 3 to 5 and of OS/2, palettes of 1, 4 and 8 bits, 16, 24 and 32
-/// bits, not compressed. The layout is that of Microsoft's documentation of BITMAPV5HEADER.
+/// bits, uncompressed. The layout is documented by Microsoft under BITMAPV5HEADER.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace dotpose::capture {
 
-/// Throw Error that has only the reason.
+/// These functions throw Error with only the reason; the caller adds the name of the file.
 GreyImage decode_bmp(Bytes file, int max_pixels);
 std::optional<Resolution> bmp_resolution(Bytes file);
 

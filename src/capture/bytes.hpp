@@ -1,4 +1,4 @@
-/// Numbers in the bytes of files.
+/// Reads numbers from the bytes of files.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace dotpose::capture {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Reads an unsigned integer of `size` bytes; the caller has checked that `bytes` is long enough.
+/// Reads an unsigned integer of `size` bytes; `bytes` must be long enough.
 inline std::uint64_t integer(Bytes bytes, std::size_t offset, std::size_t size, bool big_endian) {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < size; ++i) {

@@ -27,12 +27,12 @@ Bytes exif_of_jpeg(Bytes file) {
     constexpr std::uint8_t kApp1 = 0xE1;
     constexpr std::uint8_t kStartOfScan = 0xDA;
     constexpr std::size_t kMarker = 2;
-    // Each segment has a marker, FF and its type, and a length that counts itself.
+    // Each segment has a marker (FF and its type) and a length that includes the length field.
     std::size_t offset = kMarker;
     while (holds(file, offset, 2 * kMarker) && file[offset] == 0xFF) {
         const std::uint8_t type = file[offset + 1];
         if (type == kStartOfScan) break;
-        if (type == 0xFF) {  // a byte that fills up
+        if (type == 0xFF) {  // a fill byte
             ++offset;
             continue;
         }
@@ -63,7 +63,7 @@ Bytes exif_of_png(Bytes file) {
     return {};
 }
 
-/// Directories of EXIF data, of which those of a TIFF file are a part.
+/// Directories of EXIF data, or of a TIFF file.
 class Directories {
   public:
     explicit Directories(Bytes bytes) : bytes_(bytes) {}
@@ -91,7 +91,7 @@ class Directories {
         return static_cast<std::uint32_t>(integer(bytes_, offset, size, bytes_[0] == 'M'));
     }
 
-    /// Returns the value, or the place of the values, of an entry in the directory at an offset.
+    /// Returns the value, or the offset of the values, of an entry in the directory at an offset.
     std::optional<std::uint32_t> entry(std::uint32_t directory, std::uint32_t tag) const {
         constexpr std::size_t kCount = 2;
         constexpr std::size_t kEntry = 12;  // tag, type, number of values, value

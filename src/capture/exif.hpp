@@ -1,4 +1,4 @@
-/// What the EXIF data of an image file say, read from the file's bytes.
+/// Reads the EXIF data of an image file.
 #pragma once
 
 #include "capture/bytes.hpp"
@@ -7,7 +7,7 @@
 namespace dotpose::capture {
 
 /// Whether a file has EXIF data of a camera: exposure time, f-number, sensitivity or focal length,
-/// which scanners do not have. Data that are cut short or damaged say nothing.
+/// which scanners do not write. Truncated or damaged data count as missing.
 bool is_from_camera(ImageFormat format, Bytes file);
 
 }  // namespace dotpose::capture

@@ -1,5 +1,5 @@
-/// Converts between the contents of image files and grey images. The conversions and limits are
-/// those that image_file.hpp describes.
+/// Converts between the contents of image files and grey images. image_file.hpp describes the
+/// conversions and limits.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,16 @@
 
 namespace dotpose::capture {
 
-/// Decodes an image. `note` is set like that of `read_image`, without the name of the file. Throws
-/// Error that has only the reason; the caller adds the name of the file.
+/// Decodes an image. `note` is set as in `read_image`, without the name of the file. Throws Error
+/// with only the reason; the caller adds the name of the file.
 GreyImage decode_image(ImageFormat format, Bytes file, int max_pixels, std::string& note,
                        int page = 1);
 
-/// Returns the resolution that the file states, without decoding the pixels. Throws Error that has
-/// only the reason.
+/// Returns the resolution in the file, without decoding the pixels. Throws Error with only the
+/// reason.
 std::optional<Resolution> decode_resolution(ImageFormat format, Bytes file, int page = 1);
 
-/// Returns the number of pages: TIFF may have several, all others have one. Throws Error that has
-/// only the reason.
+/// Returns the number of pages, which is 1 except for TIFF. Throws Error with only the reason.
 int pages_of(ImageFormat format, Bytes file);
 
 /// Formats in which frames are saved.

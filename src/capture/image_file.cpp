@@ -22,8 +22,8 @@ namespace {
 using capture::ImageFormat;
 using Bytes = std::vector<std::uint8_t>;
 
-/// Returns a limit for the size of a file that is above that of any image with 16 bits and four
-/// channels; without it, reading an endless file would not end.
+/// Returns the maximum size of a file, which is above the size of any image with 16 bits and four
+/// channels. The limit ends the reading of endless files.
 std::size_t max_file_bytes(int max_pixels) {
     return std::size_t{8} * static_cast<std::size_t>(max_pixels) + (std::size_t{1} << 20);
 }
@@ -61,7 +61,7 @@ struct Content {
     Bytes bytes;
 };
 
-/// Returns what to do with a file that is no image but of another known kind, or an empty string.
+/// Returns advice for a known file type that is not an image, or an empty string.
 std::string advice_for(const Bytes& bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with("%PDF"))
@@ -85,16 +85,16 @@ Content read_file(const std::filesystem::path& path, int max_pixels) {
                     ", which is not read: convert it first, for example with " + other->remedy);
     }
     if (!format) throw Error("not a PNM, PNG, JPEG, BMP or TIFF image" + advice_for(bytes));
-    // The file is read to its end, because pipes have no size that could be asked for.
-    const std::size_t most = max_file_bytes(max_pixels);
+    // The file is read to its end, because pipes have no size.
+    const std::size_t max_bytes = max_file_bytes(max_pixels);
     std::size_t chunk = std::size_t{1} << 16;
     while (std::feof(file.get()) == 0) {
-        if (bytes.size() > most) {
+        if (bytes.size() > max_bytes) {
             throw Error("the file is larger than an image of " +
                         std::to_string(max_pixels / 1'000'000) + " million px takes");
         }
         append(file.get(), chunk, bytes);
-        chunk = std::min(bytes.size(), most);
+        chunk = std::min(bytes.size(), max_bytes);
     }
     return {*format, std::move(bytes)};
 }
@@ -103,7 +103,7 @@ void write_file(const std::filesystem::path& path, const Bytes& bytes) {
     File file(std::fopen(path.c_str(), "wb"));
     const bool written =
         file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    // Closing writes what is buffered, which fails if the disk is full.
+    // Closing flushes the buffer, which fails if the disk is full.
     const bool closed = file && std::fclose(file.release()) == 0;
     if (!written || !closed) throw Error(system_reason());
 }
@@ -113,7 +113,7 @@ void require_pixels(ImageView image) {
         throw Error("the image is empty");
 }
 
-/// Runs `action` and adds the name of the file to its errors, which have only the reason.
+/// Runs `action` and adds the name of the file to its errors.
 template <class Action>
 auto with_name(const char* verb, const std::filesystem::path& path, Action action) {
     const auto sentence = [&](const char* reason) {
@@ -130,7 +130,7 @@ auto with_name(const char* verb, const std::filesystem::path& path, Action actio
     }
 }
 
-/// Throws Error, with the reason only, if there is no page of this number.
+/// Throws Error, with only the reason, if there is no page with this number.
 void require_page(const Content& content, int page) {
     if (page == 1) return;
     const int pages = capture::pages_of(content.format, content.bytes);
@@ -139,9 +139,9 @@ void require_page(const Content& content, int page) {
                 ", and no page " + std::to_string(page));
 }
 
-/// Whether a resolution is one that cameras and programs state without knowing it.
+/// Whether a resolution is a default of cameras and programs, which does not describe the page.
 bool is_of_screen(const Resolution& resolution) {
-    // PNG and BMP count whole pixels per metre.
+    // PNG and BMP store whole pixels per metre, so resolutions are rounded.
     const auto is = [&](double dpi) {
         return std::abs(resolution.x_dpi - dpi) < 0.1 && std::abs(resolution.y_dpi - dpi) < 0.1;
     };

@@ -18,22 +18,22 @@ inline constexpr std::size_t kMagicBytes = 12;
 inline constexpr double kMetresPerInch = 0.0254;
 inline constexpr double kCentimetresPerInch = 2.54;
 
-/// Returns a resolution in dots per inch from one in `units_per_inch`; none if it is not stated, as
-/// 0 or less.
+/// Converts a resolution to dots per inch. Returns none for 0 or less, which means that it is not
+/// stated.
 std::optional<Resolution> resolution_from(double x, double y, double units_per_inch);
 
-/// Throws Error if a side is beyond the limit, ImageTooLarge if there are too many pixels.
+/// Throws Error if a side exceeds the limit, and ImageTooLarge if there are too many pixels.
 void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixels);
 
 /// Returns the format that the first bytes of a file indicate, or none.
 std::optional<ImageFormat> sniff(std::span<const std::uint8_t> bytes);
 
-/// A kind of image that is not read.
+/// An unsupported image format.
 struct OtherFormat {
     const char* name;    ///< such as "a WebP image"
-    const char* remedy;  ///< what makes it one that is read
+    const char* remedy;  ///< how to convert it to a supported format
 };
-/// Returns the format that is not read and that the first bytes of a file indicate, or none.
+/// Returns the unsupported format that the first bytes of a file indicate, or none.
 std::optional<OtherFormat> sniff_other(std::span<const std::uint8_t> bytes);
 
 /// Returns "PNM", "PNG", "JPEG", "BMP" or "TIFF".

@@ -17,13 +17,13 @@ namespace dotpose::capture {
 namespace {
 
 constexpr int kQuality = 95;
-// Progressive images of cameras have about ten scans. Each is work for all pixels, so that a small
-// file could occupy the decoder for hours.
+// Maximum number of scans; progressive images of cameras have about ten. Each scan processes all
+// pixels, so a small file could otherwise occupy the decoder for hours.
 constexpr int kMaxScans = 100;
 
-/// Collects the messages of libjpeg. Its error handler must not return: it jumps to `leave`. So
-/// setjmp(leave) comes before every call that can fail, and the code in between must have no object
-/// with a destructor.
+/// Collects the messages of libjpeg. Its error handler must not return: it jumps to `leave`. Every
+/// call that can fail is therefore preceded by setjmp(leave), and the code in between must not have
+/// objects with destructors.
 struct Report : jpeg_error_mgr {
     std::jmp_buf leave;
     std::array<char, JMSG_LENGTH_MAX> message{};
@@ -45,7 +45,7 @@ struct Report : jpeg_error_mgr {
     }
 };
 
-/// The bytes of a file, followed by an end marker for a file that has none.
+/// The bytes of a file, followed by an end marker in case it is missing.
 struct Source : jpeg_source_mgr {
     bool is_short = false;
 
@@ -128,7 +128,7 @@ class JpegReader {
         // libjpeg makes up pixels that are missing or damaged, and warns.
         if (report_.num_warnings > 0) fail();
         if (source_.is_short) {
-            // Whole scans may be missing, which nothing tells.
+            // Whole scans may be missing without a warning.
             if (jpeg_.progressive_mode != FALSE) fail();
             note = "the JPEG image lacks its end marker; its pixels are complete";
         }
@@ -136,7 +136,7 @@ class JpegReader {
     }
 
   private:
-    /// The luma of YCbCr is grey already, and is not computed from RGB.
+    /// The luma of YCbCr is used directly instead of being computed from RGB.
     J_COLOR_SPACE output_space() const {
         switch (jpeg_.jpeg_color_space) {
             case JCS_GRAYSCALE:
@@ -150,7 +150,7 @@ class JpegReader {
         }
     }
 
-    /// Converts four inks, which files hold inverted: 255 is none.
+    /// Converts CMYK, which files store inverted: 255 is no ink.
     static Samples<std::uint8_t> rgb_of(const Samples<std::uint8_t>& inks) {
         Samples<std::uint8_t> rgb{inks.width_px, inks.height_px, 3, {}};
         rgb.values.reserve(inks.values.size() / 4 * 3);
@@ -198,7 +198,7 @@ void compress(ImageView image, jpeg_compress_struct& jpeg, Freed& encoded) {
     jpeg_set_quality(&jpeg, kQuality, TRUE);
     jpeg_start_compress(&jpeg, TRUE);
     for (int v = 0; v < image.height_px; ++v) {
-        // libjpeg does not change the pixels that it is given.
+        // libjpeg does not change the pixels.
         JSAMPROW row = const_cast<JSAMPROW>(image.row(v));
         jpeg_write_scanlines(&jpeg, &row, 1);
     }

@@ -12,7 +12,8 @@
 
 namespace dotpose::capture {
 
-/// Throw Error that has only the reason. `note` is set for a file that lacks its end marker only.
+/// These functions throw Error with only the reason. `note` is set if only the end marker is
+/// missing.
 GreyImage decode_jpeg(Bytes file, int max_pixels, std::string& note);
 std::optional<Resolution> jpeg_resolution(Bytes file);
 

@@ -1,4 +1,4 @@
-// Reads images with what their users should know of the files.
+// Reads images with notes about their files.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,8 @@
 
 namespace dotpose::capture {
 
-/// Reads an image as `dotpose::read_image` does. Sets `note` to what the user should know of the
-/// file, such as a missing end marker, in a sentence that names the file; otherwise to an empty
-/// text.
+/// Reads an image as `dotpose::read_image` does. Sets `note` to a sentence about a defect of the
+/// file, such as a missing end marker, or to an empty text.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
                      int page = 1);
 

@@ -17,7 +17,7 @@ namespace dotpose::capture {
 namespace {
 
 /// Reads a PNG file. libpng leaves its functions by longjmp on an error, so only `guarded` calls
-/// them, with no object in its scope that has a destructor.
+/// them, and its scope has no objects with destructors.
 class PngReader {
   public:
     explicit PngReader(Bytes file)
@@ -32,7 +32,7 @@ class PngReader {
         if (info_ == nullptr) throw std::bad_alloc();
         png_set_read_fn(png_, this, on_read);
         guarded([&] {
-            // Beyond libpng's own limits, so that the size is known and named.
+            // Raises libpng's own limits: `require_size` then reports the size.
             png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
             png_read_info(png_, info_);
         });
@@ -134,7 +134,7 @@ std::vector<std::uint8_t> encode_png(ImageView image) {
     png.width = static_cast<png_uint_32>(image.width_px);
     png.height = static_cast<png_uint_32>(image.height_px);
     png.format = PNG_FORMAT_GRAY;
-    png.flags = PNG_IMAGE_FLAG_FAST;  // frames with noise hardly get smaller by more
+    png.flags = PNG_IMAGE_FLAG_FAST;  // more effort hardly reduces noisy frames
     png_alloc_size_t size_bytes = PNG_IMAGE_PNG_SIZE_MAX(png);
     std::vector<std::uint8_t> bytes(size_bytes);
     const auto stride_bytes = static_cast<png_int_32>(image.stride_bytes);

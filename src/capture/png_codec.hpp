@@ -11,7 +11,7 @@
 
 namespace dotpose::capture {
 
-/// Throw Error that has only the reason.
+/// These functions throw Error with only the reason.
 GreyImage decode_png(Bytes file, int max_pixels);
 std::optional<Resolution> png_resolution(Bytes file);
 

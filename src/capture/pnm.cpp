@@ -25,7 +25,7 @@ bool is_space(char character) {
     return character == ' ' || (character >= '\t' && character <= '\r');
 }
 
-/// Reads bytes and numbers one after the other.
+/// Reads bytes and numbers in order.
 class Reader {
   public:
     explicit Reader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
@@ -47,8 +47,8 @@ class Reader {
         return character;
     }
 
-    /// Reads a decimal number and the white space after it, which must be there: without it, digits
-    /// of the number may be missing.
+    /// Reads a decimal number and the white space after it. The white space is required: without
+    /// it, digits of the number may be missing.
     std::uint32_t number() {
         std::uint32_t value = 0;
         char character = symbol();
@@ -63,8 +63,8 @@ class Reader {
         return value;
     }
 
-    /// Skips the line feed of a header whose lines end with a carriage return and a line feed:
-    /// after the header, one byte more is left than the pixels take.
+    /// Skips the line feed of a header with lines that end with a carriage return and a line feed.
+    /// Then one byte more than the pixels take is left.
     void finish_line_break(std::size_t pixel_bytes) {
         if (ended_by_return_ && rest_.size() > pixel_bytes && rest_.front() == '\n') byte();
     }
@@ -111,9 +111,9 @@ Header read_header(Reader& reader, int max_pixels) {
     return header;
 }
 
-/// Returns the least number of bytes that the pixels can take. It is compared with the size of the
-/// file before memory is allocated.
-std::size_t least_bytes(const Header& header) {
+/// Returns the minimum number of bytes of the pixels, which is compared with the size of the file
+/// before memory is allocated.
+std::size_t min_bytes(const Header& header) {
     const std::size_t samples = header.width_px * header.height_px * header.channels;
     if (header.is_bitmap) {
         return header.is_text ? samples : (header.width_px + 7) / 8 * header.height_px;
@@ -180,8 +180,8 @@ void read_levels(Reader& reader, const Header& header, GreyImage& image) {
 GreyImage decode_pnm(std::span<const std::uint8_t> bytes, int max_pixels) {
     Reader reader(bytes);
     const Header header = read_header(reader, max_pixels);
-    if (reader.bytes_left() < least_bytes(header)) throw Error("the PNM image is cut short");
-    if (!header.is_text) reader.finish_line_break(least_bytes(header));
+    if (reader.bytes_left() < min_bytes(header)) throw Error("the PNM image is cut short");
+    if (!header.is_text) reader.finish_line_break(min_bytes(header));
     GreyImage image;
     image.width_px = static_cast<int>(header.width_px);
     image.height_px = static_cast<int>(header.height_px);

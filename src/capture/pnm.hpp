@@ -9,8 +9,8 @@
 
 namespace dotpose::capture {
 
-/// Decodes an image. `bytes` must start with the magic number of a PNM format. Throws Error that
-/// has only the reason.
+/// Decodes an image. `bytes` must start with the magic number of a PNM format. Throws Error with
+/// only the reason.
 GreyImage decode_pnm(std::span<const std::uint8_t> bytes, int max_pixels);
 
 /// Encodes an image as binary PGM (P5).

@@ -1,4 +1,4 @@
-// Reads raw 8-bit grey frames from standard input, one after the other with nothing between them.
+// Reads contiguous raw 8-bit grey frames from standard input.
 #include <cerrno>
 #include <chrono>
 #include <cmath>

@@ -70,9 +70,9 @@ GreyImage to_grey(Samples<std::uint16_t> samples) {
 }
 
 std::uint32_t white_level(std::uint32_t largest) {
-    constexpr int kMostBits = 12;
+    constexpr int kMaxBits = 12;
     const int bits = std::max(static_cast<int>(std::bit_width(largest)), 8);
-    return (1U << (bits > kMostBits ? 16 : bits)) - 1;
+    return (1U << (bits > kMaxBits ? 16 : bits)) - 1;
 }
 
 }  // namespace dotpose::capture

@@ -1,4 +1,4 @@
-/// The samples of an image file, and the grey levels that they become.
+/// Converts the samples of an image file to grey levels.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace dotpose::capture {
 
-/// The samples of an image as its file has them, row by row; of 8 or 16 bits.
+/// The samples of an image as stored in its file, row by row, with 8 or 16 bits.
 template <typename Sample>
 struct Samples {
     int width_px = 0;
@@ -21,8 +21,8 @@ struct Samples {
 GreyImage to_grey(Samples<std::uint8_t> samples);
 GreyImage to_grey(Samples<std::uint16_t> samples);
 
-/// Returns the level of white in an image of 16 bits whose largest level is `largest`: of 8 to 12
-/// bits, as sensors deliver them in the lower bits of 16, the largest of these bits.
+/// Returns the level of white in an image of 16 bits with the maximum level `largest`. Sensors
+/// deliver 8 to 12 bits in the lower bits of 16; white is then the maximum of these bits.
 std::uint32_t white_level(std::uint32_t largest);
 
 }  // namespace dotpose::capture

@@ -38,8 +38,8 @@ bool has_ending(const fs::path& path, const Endings& endings) {
     return std::ranges::find(endings, ending_of(path)) != endings.end();
 }
 
-/// Whether a file begins like MP4, Matroska or AVI. Pipes are not looked into, as that would take
-/// the bytes from who reads them.
+/// Whether a file has the signature of MP4, Matroska or AVI. Pipes are not examined, because that
+/// would consume bytes.
 bool begins_like_video(const std::string& name) {
     std::error_code failed;
     if (!fs::is_regular_file(name, failed)) return false;

@@ -43,7 +43,7 @@ bool SourceList::open() {
     return true;
 }
 
-/// Returns the next image, as long as images, folders and globs follow each other.
+/// Returns the next image of adjacent images, folders and globs.
 std::optional<std::string> SourceList::next_image() {
     while (next_image_ == images_.size()) {
         auto name = take_name();
@@ -100,7 +100,7 @@ void SourceList::put_in_order(Frame& frame) {
     constexpr double kUsualRate = 30;
     frame.index += first_index_;
     frame.time_us += offset_us_;
-    if (offset_us_ != 0) frame.is_live = false;  // its times go on from those of another source
+    if (offset_us_ != 0) frame.is_live = false;  // its times continue those of another source
     next_index_ = frame.index + 1;
     next_time_us_ = frame.time_us + time_of(1, rate() > 0 ? rate() : kUsualRate);
 }

@@ -9,7 +9,7 @@
 
 namespace dotpose::capture {
 
-/// Throw Error that has only the reason. `page` counts from 1.
+/// These functions throw Error with only the reason. `page` counts from 1.
 GreyImage decode_tiff(Bytes file, int max_pixels, int page);
 std::optional<Resolution> tiff_resolution(Bytes file, int page);
 

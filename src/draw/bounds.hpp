@@ -1,4 +1,4 @@
-// Bounds: the box around points of a drawing.
+// Bounding box of points of a drawing.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace dotpose::draw {
 
-/// The smallest upright box that holds all points added; `low` is beyond `high` before the first.
+/// The smallest axis-aligned box around all points added; `low` is above `high` while it is empty.
 struct Bounds {
     Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
     Point high{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};

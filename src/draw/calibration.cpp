@@ -1,5 +1,4 @@
-// Draws the residuals before and after a calibration and the parts of the image where dots were
-// seen.
+// Draws the residuals before and after a calibration, and the coverage of the image by dots.
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -17,15 +16,15 @@ using namespace dotpose::draw;
 
 constexpr double kMargin = 30;
 constexpr double kHead = 74;
-constexpr double kLongestSide = 520;
+constexpr double kMaxSide = 520;
 /// Number of parts into which the longer side of the image is divided; each part has one arrow.
 constexpr int kParts = 22;
-/// Arrows are not enlarged beyond the scale at which this residual has the longest arrow, so that
-/// residuals that are only noise look small.
-constexpr double kLeastFullScale_px = 0.05;
+/// Smallest residual that is drawn with the longest arrow; residuals of pure noise therefore look
+/// small.
+constexpr double kMinFullScale_px = 0.05;
 
 struct Part {
-    Point before;  ///< sum of the residuals before the calibration, px
+    Point before;  ///< sum of the residuals before the calibration, in px
     Point after;
     int dots = 0;
 };
@@ -36,7 +35,7 @@ class CalibrationPicture {
         : calibration_(calibration),
           width_px_(calibration.camera.width_px),
           height_px_(calibration.camera.height_px),
-          scale_(kLongestSide / std::max(width_px_, height_px_)),
+          scale_(kMaxSide / std::max(width_px_, height_px_)),
           part_px_(static_cast<double>(std::max(width_px_, height_px_)) / kParts),
           columns_(static_cast<int>(std::ceil(width_px_ / part_px_))),
           rows_(static_cast<int>(std::ceil(height_px_ / part_px_))),
@@ -76,7 +75,8 @@ class CalibrationPicture {
                  at.x, at.y, width(), height(), colour::kFrame);
     }
 
-    /// Calls `use(part, middle)` for all parts with dots; `middle` is its centre on the drawing.
+    /// Calls `use(part, middle)` for all parts with dots; `middle` is the centre of the part on the
+    /// drawing.
     template <typename Use>
     void visit(int panel, Use use) const {
         for (int j = 0; j < rows_; ++j) {
@@ -90,7 +90,7 @@ class CalibrationPicture {
 
     void draw_field(int panel, const std::string& title, double rms_px, Point Part::*residual,
                     const char* ink) {
-        double full_px = kLeastFullScale_px;
+        double full_px = kMinFullScale_px;
         visit(panel, [&](const Part& part, Point) {
             full_px = std::max(full_px, length(1.0 / part.dots * (part.*residual)));
         });
@@ -103,9 +103,9 @@ class CalibrationPicture {
     }
 
     void draw_coverage() {
-        int most = 1;
+        int max_dots = 1;
         for (const Part& part : parts_)
-            most = std::max(most, part.dots);
+            max_dots = std::max(max_dots, part.dots);
         draw_frame(2, "Coverage",
                    fmt::format("{} dots of {} frames; {:.0f} % of the image", calibration_.dots,
                                calibration_.located, 100 * calibration_.coverage));
@@ -115,7 +115,7 @@ class CalibrationPicture {
                      R"(opacity="{:.2f}"/>)",
                      at.x - side / 2, at.y - side / 2, std::min(side, right() - at.x + side / 2),
                      std::min(side, bottom() - at.y + side / 2), colour::kEdge,
-                     0.08 + 0.8 * part.dots / most);
+                     0.08 + 0.8 * part.dots / max_dots);
         });
     }
     double right() const { return corner(2).x + width(); }

@@ -16,7 +16,7 @@ constexpr double kSmallSize = 36;
 constexpr double kSecondRow_y = 190;
 constexpr double kSheetRow_y = 292;
 
-/// A value of the caption; its name is drawn above it.
+/// A value of the caption with its name, which is drawn above.
 struct Entry {
     std::string label;
     std::string value;
@@ -28,7 +28,7 @@ double text_width(const std::string& text, double size) {
     return 0.72 * size * static_cast<double>(std::ranges::count_if(text, is_first_byte));
 }
 
-/// Draws entries in columns of equal width; an entry that is wider gets a smaller font.
+/// Draws entries in columns of equal width; wider entries have a smaller font.
 void draw_entries(const std::vector<Entry>& entries, double y, double column, double size,
                   Svg& svg) {
     double font = size;
@@ -62,7 +62,7 @@ std::string probability(const Fix& fix) {
     return "≤ 10" + exponent;
 }
 
-/// Replaces a leading hyphen by a minus sign, which is as wide as a digit.
+/// Replaces a leading hyphen by a minus sign, which has the width of a digit.
 std::string with_minus(std::string text) {
     if (text.starts_with('-')) text.replace(0, 1, "−");
     return text;
@@ -70,7 +70,7 @@ std::string with_minus(std::string text) {
 
 /// The pose in large numbers, and its standard deviations.
 struct Shown {
-    const char* frame;  ///< continues the name of a coordinate
+    const char* frame;  ///< suffix of the name of a coordinate
     std::string x;
     std::string y;
     double angle_rad;
@@ -117,7 +117,7 @@ Shown on_sheet(const SheetPlace& place) {
                  place.covariance, 1e3);
 }
 
-/// Describes where the fix lies in the frames that the large numbers do not show.
+/// Describes the pose in the frames that are not shown in large numbers.
 std::string other_frames(const Fix& fix, const DrawOptions& options) {
     const SheetPlace& place = *options.place;
     std::string text = "on sheet " + place.entry->name;
@@ -154,7 +154,7 @@ void draw_pose(const Fix& fix, const DrawOptions& options, double width, Svg& sv
              R"(class="place" fill="#17202a")");
 }
 
-/// Breaks a text between words into lines of at most this many bytes, if its words allow it.
+/// Breaks a text between words into lines of at most `max_bytes` bytes; longer words are not split.
 std::vector<std::string> wrapped(const std::string& text, std::size_t max_bytes) {
     std::vector<std::string> lines(1);
     std::istringstream words(text);
@@ -169,7 +169,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t max_bytes)
     return lines;
 }
 
-/// Returns the message of the status with the counts behind it.
+/// Returns the message of the status with its counts.
 std::string message_of(const Fix& fix, const Options& options) {
     std::string text = fmt::format("{}; dots seen: {}", message(fix.status), fix.dots_seen);
     if (fix.status == Status::too_few_dots) {

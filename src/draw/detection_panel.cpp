@@ -14,9 +14,9 @@ const Dot& dot_of_seed(const Trace& trace, int seed) {
     return trace.dots[trace.seeds[static_cast<std::size_t>(seed)]];
 }
 
-/// Returns the radius of a dot on the drawing. For a dot that was measured at its expected place
-/// the number of pixels is not known; it is drawn a third of the spacing wide, as blurred dots
-/// look.
+/// Returns the radius of a dot on the drawing. The number of pixels of a dot that was measured at
+/// its predicted place is not known; its diameter is drawn as a third of the spacing, like a
+/// blurred dot.
 double radius_of(const Dot& dot, const FrameView& view) {
     return dot.area_px == 0 ? view.spacing() / 6
                             : std::sqrt(dot.area_px / std::numbers::pi) * view.scale();
@@ -91,7 +91,8 @@ void draw_edges(const FrameView& view, double side, Svg& svg) {
     svg.line({0, middle.y}, {side, middle.y}, {});
     svg.line({middle.x, 0}, {middle.x, side}, {});
     svg.add("</g>");
-    // The square shows 1.7 spacings to each side, because the longest edges have about 1.5.
+    // The square extends 1.7 spacings to each side, because the longest edges have about 1.5
+    // spacings.
     const double scale = side / 2 / (1.7 * view.spacing() / view.scale());
     svg.add(R"(<g class="edges" fill="{0}" stroke="{0}" stroke-width="1" stroke-opacity="0.25">)",
             colour::kEdge);

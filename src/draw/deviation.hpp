@@ -1,4 +1,4 @@
-/// Texts of standard deviations.
+/// Formats standard deviations.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace dotpose::draw {
 
-/// Returns " +- VALUE" with this many decimals, or with one significant digit where they would all
-/// be 0; an empty text for a deviation of exactly 0, which belongs to what is given.
+/// Returns " +- VALUE" with `decimals` decimals, or with one significant digit if all of them would
+/// be 0. Returns an empty text for a deviation of exactly 0, which means a given value.
 inline std::string plus_minus(double sigma, int decimals) {
     if (sigma == 0) return {};
     const std::string text = fmt::format("{:.{}f}", sigma, decimals);

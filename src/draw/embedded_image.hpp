@@ -1,4 +1,4 @@
-// Encodes a grey image as a data URI, so that a drawing and its image are one file.
+// Encodes a grey image as a data URI, which makes a drawing with an image a single file.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace dotpose::draw {
 
-/// Returns "data:image/png;base64,...", or an empty string for an image without pixels. An image
-/// whose sides are longer than `max_side_px` is reduced by a whole factor, and to 64 grey levels.
-/// Throws Error if the image cannot be encoded.
+/// Returns "data:image/png;base64,...", or an empty string for an image without pixels. Larger
+/// images than `max_side_px` are reduced by an integer factor, and to 64 grey levels. Throws Error
+/// if the image cannot be encoded.
 std::string data_uri(ImageView image, int max_side_px);
 
 }  // namespace dotpose::draw

@@ -15,12 +15,12 @@ using namespace dotpose::draw;
 
 constexpr double kFrameMargin = 36;
 constexpr double kPanelWidth = 1200;
-constexpr double kLeastPanelHeight = 240;
+constexpr double kMinPanelHeight = 240;
 constexpr double kFrameHead = 64;
 constexpr double kStripHeight = 360;
 constexpr double kWidth = 2 * kPanelWidth + 3 * kFrameMargin;
 
-/// Estimates the width of a text, in the widest of the fonts that viewers may have.
+/// Estimates the width of a text in the widest font that viewers may use.
 double text_width(std::string_view text, double size) {
     return 0.64 * size * static_cast<double>(std::max<std::size_t>(text.size(), 1));
 }
@@ -30,7 +30,7 @@ class Sketch {
     Sketch(ImageView image, const Trace& trace, const DrawOptions& draw_options)
         : view_(image, trace, kPanelWidth),
           draw_options_(draw_options),
-          panel_height_(std::max(view_.height(), kLeastPanelHeight)),
+          panel_height_(std::max(view_.height(), kMinPanelHeight)),
           svg_(kWidth, height(), draw_options.title) {
         define_frame(image);
     }

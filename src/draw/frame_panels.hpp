@@ -1,18 +1,18 @@
-// The parts of the picture that `draw_frame` makes. Each draws in its own coordinate system, whose
-// top left corner is (0, 0).
+// The parts of the picture of `draw_frame`. Each part has its own coordinate system, with (0, 0) at
+// the top left corner.
 #pragma once
 
 #include "draw/frame_view.hpp"
 
 namespace dotpose::draw {
 
-/// Draws the dots and the edges between neighbours on the frame, as the paper's Fig. 2 and 3.
+/// Draws the dots and the edges between neighbours on the frame, like Fig. 2 and 3 of the paper.
 void draw_detection(const FrameView& view, Svg& svg);
 
-/// Draws all edges from a common origin in a square with this side, as the paper's Fig. 4.
+/// Draws all edges from a common origin in a square with side `side`, like Fig. 4 of the paper.
 void draw_edges(const FrameView& view, double side, Svg& svg);
 
-/// Draws the grid and the symbols that were read on a faded frame, as the paper's Fig. 9.
+/// Draws the grid and the symbols on a faded frame, like Fig. 9 of the paper.
 void draw_reading(const FrameView& view, Svg& svg);
 
 /// Writes the pose, or the reason why there is none.

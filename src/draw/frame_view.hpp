@@ -1,4 +1,4 @@
-// Maps a frame to the drawing, and says which stages of `locate` succeeded.
+// Maps a frame to the drawing, and reports which stages of `locate` succeeded.
 #pragma once
 
 #include "dotpose/tools/draw.hpp"
@@ -6,13 +6,13 @@
 
 namespace dotpose::draw {
 
-/// Which results the trace holds after `locate`.
+/// The results in the trace after `locate`.
 struct Reached {
-    bool undistorted = false;  ///< dot centres are where a camera without distortion sees them
+    bool undistorted = false;  ///< dot centres are corrected for lens distortion
     bool edges = false;        ///< edges between neighbouring dots
     bool axes = false;         ///< the grid vectors
     bool cells = false;        ///< the likelihoods of the bits of each cell
-    bool window = false;       ///< the 8 x 8 cells read most clearly
+    bool window = false;       ///< the 8 x 8 clearest cells
     bool place = false;        ///< a position and orientation, certain or not
     bool pose = false;         ///< a fix
 };
@@ -40,8 +40,8 @@ class Plane {
     double area_;  ///< area of a pixel, in squared spacings
 };
 
-/// Maps pixels to the drawing. *Image* pixels are those of the image; *ideal* pixels are where a
-/// camera without lens distortion would see the same point.
+/// Maps pixels to the drawing. *Image* pixels are the pixels of the image; *ideal* pixels are the
+/// pixels of a camera without lens distortion.
 class FrameView {
   public:
     FrameView(ImageView image, const Trace& trace, double side);
@@ -52,8 +52,7 @@ class FrameView {
     double height() const { return height_px_ * scale_; }
     /// Size of a pixel on the drawing.
     double scale() const { return scale_; }
-    /// Whether the dots are so close together on the drawing that letters and rings would not be
-    /// legible.
+    /// Whether the dots are too close together on the drawing for legible letters and rings.
     bool is_dense() const;
     /// Factor for the width of strokes: 1 if the grid spacing is at least 70 units on the drawing,
     /// less for a smaller spacing.
@@ -66,7 +65,7 @@ class FrameView {
     Point at_dot(const Dot& dot) const;
     /// Returns the point of the drawing that shows a point of the grid; needs `reached().cells`.
     Point at_grid(double i, double j) const;
-    /// The point whose pose is wanted, in ideal pixels.
+    /// The reference point of the pose, in ideal pixels.
     Point reference_px() const { return reference_px_; }
     /// The unit vector of the pattern's x axis on the drawing, at the reference point. Needs
     /// `reached().pose`.
@@ -89,8 +88,7 @@ class FrameView {
     Point reference_px_;
 };
 
-/// The grid cell of the symbol that is the top left one of the window on the pattern; needs
-/// `Reached::place`.
+/// The grid cell of the top left symbol of the window on the pattern; needs `Reached::place`.
 Vec window_corner(const Trace& trace);
 /// The position of a grid cell in the code; needs `Reached::place`.
 Place place_of(const Trace& trace, Vec grid_cell);

@@ -15,14 +15,13 @@ using namespace dotpose::draw;
 
 constexpr double kMapMargin = 40;
 constexpr double kMapHead = 110;
-constexpr double kLongestMapSide = 1000;
-/// Length of the longest arrow in units of the drawing; it is shorter where arrows are closer
-/// together than this.
-constexpr double kLongestArrow = 45;
-constexpr double kLongestStep = 0.95;
-/// Arrows are not enlarged beyond the scale at which this distortion has the longest arrow, so that
-/// noise looks small.
-constexpr double kLeastMapScale_mm = 0.01;
+constexpr double kMaxMapSide = 1000;
+/// Length of the longest arrow in units of the drawing; shorter if the spacing of the arrows is
+/// smaller.
+constexpr double kMaxArrow = 45;
+constexpr double kMaxStep = 0.95;
+/// Smallest distortion that is drawn with the longest arrow; noise therefore looks small.
+constexpr double kMinMapScale_mm = 0.01;
 
 /// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `value`.
 double round_down(double value) {
@@ -37,17 +36,16 @@ class PrintMap {
   public:
     PrintMap(const ImageView& scan, const PrintCheck& check)
         : check_(check),
-          scale_(kLongestMapSide / std::max(scan.width_px, scan.height_px)),
+          scale_(kMaxMapSide / std::max(scan.width_px, scan.height_px)),
           width_(scan.width_px * scale_),
           height_(scan.height_px * scale_),
           svg_(std::max(width_, 560.0) + 2 * kMapMargin, height_ + kMapHead + 2 * kMapMargin,
                "Distortion of a print") {
-        full_mm_ = kLeastMapScale_mm;
-        double longest = kLongestArrow;
+        full_mm_ = kMinMapScale_mm;
+        double longest = kMaxArrow;
         for (const PrintField& field : check.fields) {
             full_mm_ = std::max(full_mm_, field.largest_distortion_mm);
-            longest =
-                std::min(longest, kLongestStep * kDistortionCells * field.spacing_px * scale_);
+            longest = std::min(longest, kMaxStep * kDistortionCells * field.spacing_px * scale_);
         }
         per_mm_ = longest / full_mm_;
     }

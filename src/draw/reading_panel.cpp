@@ -38,13 +38,13 @@ std::string quality_colour(double quality) {
                        mix(low.blue, high.blue));
 }
 
-/// Returns the symbol of the pattern for a symbol that was read along the axes of the grid.
+/// Converts a symbol from the axes of the grid to those of the pattern.
 Symbol turned(Symbol symbol, Turn pattern_from_grid) {
     const Vec d = pattern_from_grid({dx(symbol), dy(symbol)});
     return make_symbol((d.y - d.x + 1) / 2, (d.y + d.x + 1) / 2);
 }
 
-/// Draws what was read in one frame, layer by layer.
+/// Draws the symbols read in one frame, layer by layer.
 class Reading {
   public:
     Reading(const FrameView& view, Svg& svg) : view_(view), trace_(view.trace()), svg_(svg) {}
@@ -65,7 +65,7 @@ class Reading {
     void draw_symbol(int i, int j, const GridCell& cell) const;
     void draw_points() const;
     /// Calls a function with column, row and cell of each dot that was read. Returns the centres of
-    /// the dots that were not: those near no intersection, or at one that another dot fits better.
+    /// the other dots: dots far from an intersection, or near one with a better dot.
     std::vector<Point> for_each_read_dot(
         const std::function<void(int, int, const GridCell&)>& draw) const;
     /// Draws a line of the grid as several strokes, because lens distortion may bend it.
@@ -118,7 +118,7 @@ void Reading::draw_symbol(int i, int j, const GridCell& cell) const {
     const bool is_legible = cell.x != 0 && cell.y != 0;
     const char capital = static_cast<char>(letter(read_in(cell)) - 'a' + 'A');
     const double size = 1.45 * radius;
-    // Letters are upright on the pattern, so that they show its orientation.
+    // Letters are upright on the pattern to show its orientation.
     const double angle_deg =
         view_.reached().pose ? -trace_.fix.theta_rad() * 180 / std::numbers::pi : 0;
     svg_.add(R"svg(<text transform="translate({:.2f} {:.2f}) rotate({:.2f})" y="{:.2f}" )svg"
@@ -166,7 +166,7 @@ std::vector<Point> Reading::for_each_read_dot(
     return unread;
 }
 
-/// Draws dots without letters, those of similar likelihood in one element.
+/// Draws dots without letters, with one element for dots of similar likelihood.
 void Reading::draw_points() const {
     constexpr std::size_t kColours = 8;
     std::array<std::vector<Point>, kColours> points;
@@ -191,8 +191,8 @@ void Reading::draw_points() const {
 void Reading::draw_window() const {
     if (!view_.reached().window) return;
     const Region& window = trace_.decoding.window;
-    // The outline is half a cell outside of the outer intersections. It is drawn cell by cell,
-    // because lens distortion may bend it.
+    // The outline is half a cell outside the outer intersections. It is drawn cell by cell, because
+    // lens distortion may bend it.
     const double left = window.i0 - 0.5;
     const double top = window.j0 - 0.5;
     std::string path;
@@ -228,7 +228,7 @@ void Reading::draw_axes() const {
                           colour::kWindow, 4 * stroke, 11 * stroke));
     const double reach = 2.4 * view_.spacing();
     const Point ahead = reach * view_.ahead_of_reference();
-    const double arc = 0.6;  // radius of the arc as a share of the arrows' length
+    const double arc = 0.6;  // radius of the arc as a fraction of the arrows' length
     svg_.add(R"(<path d="M{:.2f} {:.2f}A{:.2f} {:.2f} 0 0 {} {:.2f} {:.2f}" fill="none" )"
              R"(stroke="{}" stroke-width="{:.2f}"/>)",
              reference.x + arc * reach, reference.y, arc * reach, arc * reach, ahead.y > 0 ? 1 : 0,

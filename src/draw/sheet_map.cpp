@@ -1,5 +1,5 @@
-// Draws the sheets of a file: on the left where they lie in the world, and on the right, each as
-// large as there is room for, those whose pose in the world is not known.
+// Draws the sheets of a file: on the left the sheets in the world, and on the right the sheets
+// without a known pose, each as large as possible.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,8 +26,8 @@ constexpr double kBox = 190;  // the longest side of a sheet without a pose
 constexpr double kBoxPitch_x = 230;
 constexpr double kBoxPitch_y = 300;
 constexpr std::size_t kBoxRows = 3;
-/// Beyond it a page is smaller than the rounding of the numbers in the drawing.
-constexpr double kMostExtent_m = 1e7;
+/// Maximum extent; beyond it a page is smaller than the rounding of the numbers in the drawing.
+constexpr double kMaxExtent_m = 1e7;
 constexpr const char* kCentred = R"(text-anchor="middle" fill="#17202a")";
 constexpr const char* kCentredQuiet = R"(text-anchor="middle" fill="#6b7885")";
 
@@ -42,10 +42,10 @@ std::array<Point, 4> corners_m(const SheetEntry& entry) {
             corner(0, sheet.height_mm)};
 }
 
-/// The box that holds all pages with a pose and the world's origin, which is left out where the
-/// pages would get too small beside it.
+/// The bounding box of all pages with a pose and of the world's origin. The origin is left out if
+/// the pages would become too small.
 Bounds world_bounds(std::span<const SheetEntry> sheets) {
-    constexpr double kMostForOrigin = 3;
+    constexpr double kMaxRatioForOrigin = 3;
     Bounds bounds;
     for (const SheetEntry& entry : sheets) {
         if (!entry.world) continue;
@@ -54,16 +54,17 @@ Bounds world_bounds(std::span<const SheetEntry> sheets) {
     }
     Bounds with_origin = bounds;
     with_origin.add({0, 0});
-    const bool is_near = with_origin.extent() <= kMostForOrigin * bounds.extent();
+    const bool is_near = with_origin.extent() <= kMaxRatioForOrigin * bounds.extent();
     const Bounds shown = is_near ? with_origin : bounds;
-    if (!bounds.is_empty() && !(shown.extent() < kMostExtent_m)) {
+    if (!bounds.is_empty() && !(shown.extent() < kMaxExtent_m)) {
         throw Error(fmt::format("the sheets lie over {:g} km of the world: too far apart to draw",
                                 shown.extent() / 1000));
     }
     return shown;
 }
 
-/// The longest of 1, 2 and 5 times a power of ten metres that is at most `longest_m`.
+/// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most
+/// `longest_m`.
 double round_length_m(double longest_m) {
     const double power = std::pow(10, std::floor(std::log10(longest_m)));
     for (const double digit : {5.0, 2.0}) {
@@ -120,7 +121,7 @@ class SheetMap {
         svg_.add(R"(<polygon class="sheet" points="{}" fill="{}" fill-opacity="0.07" )"
                  R"(stroke="{}" stroke-width="1.2"/>)",
                  points, colour::kEdge, colour::kInk);
-        // The pose is that of the top left corner and of the upper edge.
+        // The pose refers to the top left corner and the upper edge.
         svg_.circle(corners[0], 5, fmt::format(R"(fill="{}")", colour::kBad));
         svg_.arrow(corners[0], corners[0] + 0.4 * (corners[1] - corners[0]), 2, colour::kBad);
     }

@@ -1,4 +1,5 @@
-// Draws a robot's turn on the spot: where the camera was, and the centre of rotation by each frame.
+// Draws a robot's turn on the spot: the places of the camera, and the centre of rotation from each
+// frame.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,9 +16,8 @@ namespace {
 
 using namespace dotpose::draw;
 
-/// Residuals are not enlarged beyond the scale at which this one fills the panel, so that noise
-/// looks small.
-constexpr double kLeastFullScale_mm = 0.001;
+/// Smallest residual that fills the panel; noise therefore looks small.
+constexpr double kMinFullScale_mm = 0.001;
 
 class SpinPicture {
   public:
@@ -79,9 +79,9 @@ class SpinPicture {
         draw_cross(middle(0), colour::kBad);
     }
 
-    /// Draws the centre of rotation as each frame alone gives it.
+    /// Draws the centre of rotation from each single frame.
     void draw_residuals() {
-        double full_mm = kLeastFullScale_mm;
+        double full_mm = kMinFullScale_mm;
         for (const SpinStation& station : spin_.stations)
             full_mm = std::max(full_mm, std::hypot(station.off_x_mm, station.off_y_mm));
         const double per_mm = 0.45 * kPanelSide / full_mm;

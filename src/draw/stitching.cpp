@@ -1,5 +1,5 @@
-// Draws sheets side by side before and after stitching, and how far the two sheets of each frame
-// over a seam disagree about its position.
+// Draws sheets side by side before and after stitching, with the difference between the two
+// positions of each frame over a seam.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,13 +18,12 @@ namespace {
 
 using namespace dotpose::draw;
 
-constexpr double kLongestArrow = 70;
-/// Arrows are not enlarged beyond the scale at which this disagreement has the longest arrow, so
-/// that noise looks small.
-constexpr double kLeastArrowScale_mm = 0.002;
+constexpr double kMaxArrow = 70;
+/// Smallest difference that is drawn with the longest arrow; noise therefore looks small.
+constexpr double kMinArrowScale_mm = 0.002;
 
 /// The image centre of one frame, in world mm with y DOWN, and the difference between its positions
-/// by the two sheets.
+/// on the two sheets.
 struct Disagreement {
     Point at;
     Point off;
@@ -95,7 +94,7 @@ class StitchingPicture {
             if (entry.world) draw_sheet(panel, entry);
         }
         const std::vector<Disagreement> all = disagreements(sheets, stitching_);
-        double full_mm = kLeastArrowScale_mm;
+        double full_mm = kMinArrowScale_mm;
         double squares = 0;
         for (const Disagreement& one : all) {
             full_mm = std::max(full_mm, length(one.off));
@@ -103,7 +102,7 @@ class StitchingPicture {
         }
         for (const Disagreement& one : all) {
             const Point at = on_drawing(panel, one.at);
-            svg_.arrow(at, at + kLongestArrow / full_mm * one.off, 1.6, ink);
+            svg_.arrow(at, at + kMaxArrow / full_mm * one.off, 1.6, ink);
         }
         draw_panel_head(
             panel, title,

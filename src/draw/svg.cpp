@@ -28,9 +28,9 @@ std::size_t character_bytes(std::string_view text) {
         if ((byte(i) & 0xC0) != 0x80) return 0;
         code_point = code_point << 6 | (byte(i) & 0x3FU);
     }
-    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
+    constexpr std::uint32_t kMinCode[] = {0, 0, 0x80, 0x800, 0x10000};
     const bool is_surrogate = code_point >= 0xD800 && code_point < 0xE000;
-    const bool is_character = code_point >= kLeast[count] && code_point < 0x110000 &&
+    const bool is_character = code_point >= kMinCode[count] && code_point < 0x110000 &&
                               !is_surrogate && code_point != 0xFFFE && code_point != 0xFFFF;
     return is_character ? count : 0;
 }

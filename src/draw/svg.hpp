@@ -1,4 +1,4 @@
-// Builds SVG drawings, and defines the palette that all of them use.
+// Builds SVG drawings, and defines their common palette.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace dotpose::draw {
 
-/// A point or vector; the name of the variable tells the coordinate frame.
+/// A point or vector; the name of the variable contains the coordinate frame.
 struct Point {
     double x = 0;
     double y = 0;
@@ -45,7 +45,7 @@ inline constexpr const char* kPattern = "#8e24aa";
 
 class Svg {
   public:
-    /// Starts a drawing of this size in user units, with a white background.
+    /// Starts a drawing with a white background; the size is in user units.
     Svg(double width, double height, std::string_view title);
 
     /// Appends formatted markup, without escaping it, and a line break.
@@ -56,7 +56,7 @@ class Svg {
     }
     void line(Point from, Point to, std::string_view attributes);
     void circle(Point centre, double radius, std::string_view attributes);
-    /// Draws filled discs of one size in a single element, whose attributes include the stroke
+    /// Draws filled discs of one size in a single element; `attributes` must include the stroke
     /// colour.
     void discs(std::span<const Point> centres, double diameter, std::string_view attributes);
     /// Draws a line with a head at its end; `width` is the width of the line.

@@ -20,7 +20,7 @@ struct MapSheet {
 struct MapRobot {
     std::string name;
     std::vector<std::vector<Point>> strokes_mm;  ///< its path; a jump starts a new stroke
-    /// The position at which it was seen last.
+    /// The last known position.
     Point place_mm;
     std::optional<double> heading_rad;  ///< from +x towards +y of the plane; none if not known
     bool is_lost = false;

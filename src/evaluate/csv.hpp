@@ -7,7 +7,7 @@
 namespace dotpose::csv {
 
 /// Splits a line into cells by RFC 4180, without line breaks in cells: quoted cells may contain
-/// commas and doubled quotes. Blanks are kept. The result has at least one cell, which may be
+/// commas and doubled quotes. Spaces are kept. The result has at least one cell, which may be
 /// empty.
 std::vector<std::string> cells_of(const std::string& line);
 

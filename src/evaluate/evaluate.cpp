@@ -16,7 +16,7 @@ namespace {
 
 using Outcomes = std::vector<std::vector<Outcome>>;
 
-/// The frames that all threads share: a thread that is free takes the next one.
+/// The frames shared by all threads; a free thread takes the next frame.
 class Crew {
   public:
     Crew(const FrameRun& run, Outcomes& outcomes)
@@ -88,7 +88,7 @@ std::vector<std::vector<Outcome>> evaluate(const FrameRun& run) {
                       std::vector<Outcome>(static_cast<std::size_t>(run.frames)));
     Crew crew(run, outcomes);
     const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    // No more threads than frames, so that this one, which reports, has its share.
+    // At most one thread per frame, to leave work for this thread, which reports progress.
     const int threads = std::min(run.threads > 0 ? run.threads : cores, run.frames);
     {
         std::vector<std::jthread> others;

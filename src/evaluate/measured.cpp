@@ -1,4 +1,4 @@
-// Compares located frames with places that were measured by other means.
+// Compares located frames with independently measured places.
 #include "dotpose/tools/measured.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ double wrapped(double angle_rad) {
     return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
 
-/// Whether the frame can be compared: both places are known, and not of different sheets.
+/// Whether the frame can be compared: both places are known and on the same sheet.
 bool is_comparable(const MeasuredFrame& frame) {
     return frame.truth && frame.found &&
            (frame.truth->sheet.empty() || frame.truth->sheet == frame.found->sheet);
@@ -54,7 +54,7 @@ double median_of(std::vector<double> values) {
 
 /// Least squares; without a spread of the true places only the offset is fitted.
 Map fit(std::span<const Pair> pairs) {
-    constexpr double kLeastSpread_mm = 1e-6;
+    constexpr double kMinSpread_mm = 1e-6;
     const auto count = static_cast<double>(pairs.size());
     Complex found = 0;
     Complex truth = 0;
@@ -71,7 +71,7 @@ Map fit(std::span<const Pair> pairs) {
         spread_mm = std::max(spread_mm, std::abs(pair.truth - truth));
     }
     Map map;
-    if (squares > 0 && spread_mm > kLeastSpread_mm) map.factor = product / squares;
+    if (squares > 0 && spread_mm > kMinSpread_mm) map.factor = product / squares;
     map.offset = truth - map.factor * found;
     return map;
 }
@@ -83,29 +83,29 @@ double median_residual(std::span<const Pair> pairs, const Map& map) {
     return median_of(std::move(residuals));
 }
 
-/// Residual up to which a pair is no outlier.
+/// Returns the maximum residual of pairs that are not outliers.
 double near_limit(std::span<const Pair> pairs, const Map& map) {
     constexpr double kNear_medians = 5;
     return kNear_medians * median_residual(pairs, map) + 1e-9;
 }
 
-/// Fits the pairs without outliers: begins with the map through two pairs that has the least median
-/// of residuals, and fits all pairs near it.
+/// Fits the pairs without outliers: starts with the map through two pairs that has the smallest
+/// median residual, and fits all pairs near it.
 Map fit_most(std::span<const Pair> pairs) {
     constexpr std::size_t kTries = 500;
     constexpr int kRounds = 5;
     Map best = fit(pairs);
-    double least = median_residual(pairs, best);
+    double min_median = median_residual(pairs, best);
     const std::size_t n = pairs.size();
     const std::size_t all = n * (n - 1) / 2;
     for (std::size_t k = 0; k < std::min(all, kTries); ++k) {
-        // Frames that are far apart in the list are mostly far apart on the sheet.
+        // Frames far apart in the list are usually far apart on the sheet.
         const std::size_t apart = 1 + (n / 2 + 7 * (k / n)) % (n - 1);
         const Map map = fit(std::array{pairs[k % n], pairs[(k + apart) % n]});
         const double median = median_residual(pairs, map);
-        if (median < least) {
+        if (median < min_median) {
             best = map;
-            least = median;
+            min_median = median;
         }
     }
     for (int round = 0; round < kRounds; ++round) {
@@ -141,7 +141,7 @@ MeasuredError error_of(const MeasuredFrame& frame, const std::optional<Similarit
     return error;
 }
 
-/// Marks errors that are far above the median of all.
+/// Marks errors far above the median error.
 void mark_wrong(const std::vector<MeasuredFrame>& frames,
                 std::vector<std::optional<MeasuredError>>& errors) {
     constexpr double kWrongFrom_medians = 10;

@@ -25,10 +25,10 @@ bool is_point(Point p) {
 
 }  // namespace
 
-double tick_step(double range, int least) {
-    const double power = std::pow(10, std::floor(std::log10(range / least)));
+double tick_step(double range, int min_count) {
+    const double power = std::pow(10, std::floor(std::log10(range / min_count)));
     for (const double factor : {5.0, 2.5, 2.0}) {
-        if (factor * power * least <= range * (1 + 1e-9)) return factor * power;
+        if (factor * power * min_count <= range * (1 + 1e-9)) return factor * power;
     }
     return power;
 }
@@ -47,17 +47,17 @@ double Scale::at(double value) const {
     return at_first + (on(value) - on(first)) / (on(last) - on(first)) * (at_last - at_first);
 }
 
-std::vector<double> Scale::ticks(int least) const {
+std::vector<double> Scale::ticks(int min_count) const {
     std::vector<double> result;
     if (!is_log) {
         // An axis may run downwards, as y does on a page.
         const auto [low, high] = std::minmax(first, last);
-        const double step = tick_step(high - low, least);
+        const double step = tick_step(high - low, min_count);
         for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
             result.push_back(i * step + 0.0);  // the sum turns -0 into 0
         return result;
     }
-    // Over several decades, fewer multiples of each power of ten are labelled.
+    // Over several decades, fewer multiples of each power of ten have labels.
     const bool is_long = last / first > 150;
     for (double power = std::pow(10, std::floor(std::log10(first))); power <= last; power *= 10) {
         for (const double factor : {1.0, 2.0, 5.0}) {

@@ -23,14 +23,14 @@ inline constexpr const char* kBelow = "#1565c0";  ///< negative errors; blue as 
 }  // namespace style
 
 /// Returns the largest step of the form 1, 2, 2.5 or 5 times a power of ten that divides `range`
-/// into at least `least` steps.
-double tick_step(double range, int least);
+/// into at least `min_count` steps.
+double tick_step(double range, int min_count);
 
 /// Returns the smallest number of the form 1, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten
 /// that is at least `value`.
 double rounded_up(double value);
 
-/// One axis: it converts data values to drawing units.
+/// One axis; converts data values to drawing units.
 struct Scale {
     double first = 0;
     double last = 1;  ///< may be below `first`, unless `is_log`
@@ -39,7 +39,7 @@ struct Scale {
     double at_last = 1;
 
     double at(double value) const;
-    std::vector<double> ticks(int least) const;
+    std::vector<double> ticks(int min_count) const;
 };
 
 /// A rectangle with an x axis below and a y axis to the left.
@@ -64,7 +64,7 @@ class Axes {
         const char* colour = draw::colour::kInk;
         bool is_dashed = false;
         bool has_marks = true;
-        bool is_wide = false;  ///< wide enough to be seen under a curve that covers it
+        bool is_wide = false;  ///< whether it is wide enough to be visible under another curve
     };
     /// Draws a curve through the points. It is interrupted where a coordinate is not a number.
     void curve(std::span<const Point> data, const Line& line) const;

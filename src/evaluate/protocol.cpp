@@ -15,7 +15,7 @@ using namespace evaluate_detail;
 /// The cell in the middle of the area; the choice is arbitrary.
 constexpr Cell kMiddle{10'000, 20'000};
 
-/// The position of the device and the page that it is on.
+/// The position of the device, and its page.
 struct Stand {
     Vec2 place_mm;
     double theta_rad = 0;
@@ -23,8 +23,8 @@ struct Stand {
 };
 
 /// Applies the print model to the camera's view of the pattern: the ink at the point p of the page
-/// was meant for p - shift(p), and the pattern is rotated by the gradient of the shift. The stretch
-/// within a frame, at most 1 % over 8.6 mm, is neglected.
+/// belongs at p - shift(p), and the pattern is rotated by the gradient of the shift. Neglects the
+/// stretch within a frame, at most 1 % over 8.6 mm.
 void place(CameraPose& pose, const Stand& stand, double spacing_mm) {
     Vec2 pattern_mm = stand.place_mm;
     pose.theta_rad = stand.theta_rad;
@@ -47,7 +47,7 @@ void place(CameraPose& pose, const Stand& stand, double spacing_mm) {
     pose.fraction_y = y - std::floor(y);
 }
 
-/// Returns the pose to which the device was sent, which is the true pose on a perfect page.
+/// Returns the commanded pose of the device, which is the true pose on a perfect page.
 Truth sent_to(const Stand& stand, double spacing_mm) {
     Truth truth;
     truth.x_grid = kMiddle.x + stand.place_mm.x / spacing_mm;
@@ -69,8 +69,8 @@ Station station_of(const Stand& stand, std::span<const Outcome> outcomes) {
         if (!outcome.is_fix() || outcome.is_wrong()) continue;
         ++station.located;
         const double spacing_mm = outcome.truth.spacing_mm;
-        // Whether a fix is wrong is judged by the pattern that is printed at the position; its
-        // accuracy by the pose to which the device was sent.
+        // The printed pattern at the position determines whether a fix is wrong; the commanded pose
+        // determines its accuracy.
         const Deviation off = deviation_of(outcome.fix, sent_to(stand, spacing_mm));
         x_mm.push_back(off.x_grid * spacing_mm);
         y_mm.push_back(off.y_grid * spacing_mm);
@@ -162,7 +162,7 @@ Protocol run_protocol(const ProtocolOptions& options) {
     }
     Shot device = draw_shot(options.setup, 0);
     device.page.pattern.section = options.setup.pattern.section;
-    device.imperfections.motion_px = {};  // the device stands still
+    device.imperfections.motion_px = {};  // the device is at rest
     device.imperfections.dirt_blobs = 0;
     device.imperfections.graphics = 0;  // the paper's sheets are "carrying only the pattern"
     device.pose.tilt_x_rad = device.pose.tilt_y_rad = 0;

@@ -1,4 +1,4 @@
-/// Parts of the paper's protocol that its figures and tests use.
+/// Parts of the paper's protocol for its figures and tests.
 #pragma once
 
 #include <functional>

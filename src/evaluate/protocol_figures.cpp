@@ -36,15 +36,15 @@ struct Coordinate {
     const char* unit;
 };
 
-/// The words of a figure.
+/// The texts of a figure.
 struct Words {
-    const char* how;       ///< how the poses were taken
-    std::string stations;  ///< how many there are
+    const char* how;       ///< origin of the poses
+    std::string stations;  ///< number of stations
     const char* y_label;
     bool is_y_up = false;
 };
 
-/// The square of the page that a panel shows.
+/// The square of the page in a panel.
 struct Extent {
     Vec2 middle_mm;
     double side_mm = 1;
@@ -52,7 +52,7 @@ struct Extent {
 
 Extent extent_of(std::span<const Station> stations) {
     constexpr double kWithMargin = 1.1;
-    constexpr double kLeastSide_mm = 1;
+    constexpr double kMinSide_mm = 1;
     const auto [left, right] =
         std::ranges::minmax(stations, {}, [](const Station& s) { return s.place_mm.x; });
     const auto [top, bottom] =
@@ -60,7 +60,7 @@ Extent extent_of(std::span<const Station> stations) {
     const double width_mm = right.place_mm.x - left.place_mm.x;
     const double height_mm = bottom.place_mm.y - top.place_mm.y;
     return {{(left.place_mm.x + right.place_mm.x) / 2, (top.place_mm.y + bottom.place_mm.y) / 2},
-            kWithMargin * std::max({width_mm, height_mm, kLeastSide_mm})};
+            kWithMargin * std::max({width_mm, height_mm, kMinSide_mm})};
 }
 
 struct Panel {
@@ -103,14 +103,14 @@ const char* colour_of(double bias) {
 
 // ---- Figures 13 and 14 ----
 
-constexpr double kLargestMark = 16;
+constexpr double kMaxMark = 16;
 
 double mark_radius(double bias, double scale) {
-    // The area of a mark is proportional to its value; small values keep a mark that can be seen.
-    return std::max(1.2, kLargestMark * std::sqrt(std::abs(bias) / scale));
+    // The area of a mark is proportional to its value; marks of small values stay visible.
+    return std::max(1.2, kMaxMark * std::sqrt(std::abs(bias) / scale));
 }
 
-/// The axes of a page, with y as its coordinates have it.
+/// The axes of a page, with y in the direction of its coordinates.
 struct PageScale {
     Scale x;
     Scale y;
@@ -136,16 +136,16 @@ void draw_mark(const Panel& panel, const Station& station, Point at, double scal
 }
 
 void draw_page_axes(const Panel& panel, const PageScale& page, const char* y_name) {
-    constexpr int kLeastTicks = 4;
+    constexpr int kMinTicks = 4;
     const Point corner = panel.corner;
     panel.svg.add(R"(<rect x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" fill="#f7f9fb" )"
                   R"(stroke="{}"/>)",
                   corner.x, corner.y, kPanel, kPanel, draw::colour::kFrame);
-    for (const double mm : page.x.ticks(kLeastTicks)) {
+    for (const double mm : page.x.ticks(kMinTicks)) {
         panel.svg.text({page.x.at(mm), corner.y + kPanel + 22}, style::kFont, fmt::format("{}", mm),
                        text_in(draw::colour::kQuiet, "middle"));
     }
-    for (const double mm : page.y.ticks(kLeastTicks)) {
+    for (const double mm : page.y.ticks(kMinTicks)) {
         panel.svg.text({corner.x - 10, page.y.at(mm) + 5}, style::kFont, fmt::format("{}", mm),
                        text_in(draw::colour::kQuiet, "end"));
     }
@@ -254,9 +254,8 @@ void draw_figure(std::ostream& out, const Coordinate& coordinate, const Words& w
                  std::span<const FigurePage> pages) {
     const bool is_rose = coordinate.figure == kAngleFigure;
     const auto count = static_cast<double>(pages.size());
-    constexpr double kLeastWidth = 800;
-    const double width =
-        std::max(2 * kLeft + count * kPanel + (count - 1) * kGap - 40, kLeastWidth);
+    constexpr double kMinWidth = 800;
+    const double width = std::max(2 * kLeft + count * kPanel + (count - 1) * kGap - 40, kMinWidth);
     const std::string title = fmt::format("Accuracy of {} at rest, {} (paper: Figure {})",
                                           coordinate.name, words.how, coordinate.figure);
     Svg svg(width, is_rose ? kHeight - 70 : kHeight, title);

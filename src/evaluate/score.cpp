@@ -99,10 +99,10 @@ std::vector<std::pair<std::string, std::string>> described(const Score& score) {
                     number(score.normalised[2], 2)));
     // Smaller probabilities are not reported: the model of paper, ink and camera does not justify
     // them.
-    constexpr double kLeast_p_wrong = 1e-30;
+    constexpr double kMinPWrong = 1e-30;
     const bool has_fix = score.located + score.wrong > 0;
     add("largest p_wrong of a fix",
-        has_fix ? fmt::format("{:.1e}", std::max(score.largest_p_wrong, kLeast_p_wrong)) : "-");
+        has_fix ? fmt::format("{:.1e}", std::max(score.largest_p_wrong, kMinPWrong)) : "-");
     add("time of locate, us: median / 95 % / max", numbers(score.elapsed_us, 1));
     return rows;
 }

@@ -1,5 +1,4 @@
-// Draws a sweep: the share of frames that are located above, the errors below, over the same
-// condition.
+// Draws a sweep: the share of located frames above, the errors below, over the same condition.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,8 +19,8 @@ constexpr double kHeight = 690;
 constexpr double kLeft = 80;
 constexpr double kPlotWidth = kWidth - kLeft - 40;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-/// Errors are drawn from this number of fixes on; those of fewer are no useful statistic.
-constexpr int kFewestFixes = 5;
+/// Minimum number of fixes for which errors are drawn.
+constexpr int kMinFixes = 5;
 
 struct Words {
     const char* title;
@@ -60,10 +59,10 @@ double success(const Score& score) {
     return 100 * score.located_share();
 }
 double median_um(const Score& score) {
-    return score.located >= kFewestFixes ? score.position_um.median : kNone;
+    return score.located >= kMinFixes ? score.position_um.median : kNone;
 }
 double p95_um(const Score& score) {
-    return score.located >= kFewestFixes ? score.position_um.p95 : kNone;
+    return score.located >= kMinFixes ? score.position_um.p95 : kNone;
 }
 
 void draw_head(Svg& svg, const Sweep& sweep) {
@@ -92,17 +91,17 @@ void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder)
 
 /// Returns a logarithmic scale that contains all errors and whose ends are round numbers.
 Scale error_scale(const Sweep& sweep) {
-    double least = 1e300;
-    double most = 0;
+    double low_um = 1e300;
+    double high_um = 0;
     for (const SweepPoint& point : sweep.points) {
         for (const Score* score : {&point.window, &point.all}) {
-            if (score->located < kFewestFixes) continue;
-            least = std::min(least, score->position_um.median);
-            most = std::max(most, score->position_um.p95);
+            if (score->located < kMinFixes) continue;
+            low_um = std::min(low_um, score->position_um.median);
+            high_um = std::max(high_um, score->position_um.p95);
         }
     }
-    if (most <= 0) return {1, 10, true};
-    return {1 / rounded_up(1 / (0.9 * least)), rounded_up(1.1 * most), true};
+    if (high_um <= 0) return {1, 10, true};
+    return {1 / rounded_up(1 / (0.9 * low_um)), rounded_up(1.1 * high_um), true};
 }
 
 }  // namespace
@@ -120,8 +119,8 @@ void draw_sweep(std::ostream& out, const Sweep& sweep) {
     const Axes below(svg, {kLeft, 390, kPlotWidth, 220}, x, error_scale(sweep));
     below.draw_y("position error of the fixes, µm: median (solid) and 95 % (dashed)");
     below.draw_x(words.x_label);
-    // The curves of the decoder `window` are drawn first and wider, so that they stay visible where
-    // both are the same.
+    // The curves of the decoder `window` are drawn first and wider, and stay visible where both are
+    // equal.
     for (const Decoder decoder : kDecoders) {
         const bool is_window = decoder == Decoder::window;
         const char* colour = is_window ? style::kWindow : style::kAll;

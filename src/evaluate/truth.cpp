@@ -17,7 +17,7 @@
 namespace dotpose {
 namespace {
 
-/// Returns the cells of a line without the blanks around them.
+/// Returns the trimmed cells of a line.
 std::vector<std::string> trimmed_cells_of(const std::string& line) {
     std::vector<std::string> cells = csv::cells_of(line);
     for (std::string& cell : cells) {

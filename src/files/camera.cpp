@@ -1,4 +1,4 @@
-// Camera: its geometry, and its use in `locate`.
+// The geometry of a camera, and its use in `locate`.
 #include "dotpose/files/camera.hpp"
 
 #include <cmath>
@@ -12,13 +12,13 @@
 namespace dotpose {
 namespace {
 
-constexpr double kFarthestCentre_px = 1000;
-/// Greatest distance of the reference point: far outside any image, and far inside the range of the
+constexpr double kMaxCentre_px = 1000;
+/// Maximum distance of the reference point: far outside any image, and far inside the range of the
 /// fixed-point pose.
-constexpr double kFarthestReference_px = 10'000;
-constexpr double kLongestFocal_px = 1e6;
-constexpr double kLeastStretch = 0.5;
-constexpr double kMostStretch = 2;
+constexpr double kMaxReference_px = 10'000;
+constexpr double kMaxFocal_px = 1e6;
+constexpr double kMinStretch = 0.5;
+constexpr double kMaxStretch = 2;
 
 PixelPoint image_centre(const Camera& camera) {
     return {(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
@@ -43,7 +43,7 @@ void require_lens(const Camera& camera) {
             const double du = u - camera.centre_px.u;
             const double dv = v - camera.centre_px.v;
             const double stretch = 1 + camera.k_per_px2 * (du * du + dv * dv);
-            require(stretch >= kLeastStretch && stretch <= kMostStretch, "k_per_px2",
+            require(stretch >= kMinStretch && stretch <= kMaxStretch, "k_per_px2",
                     fmt::format("{:g} folds an image of {} x {} px", camera.k_per_px2,
                                 camera.width_px, camera.height_px));
         }
@@ -56,13 +56,13 @@ void require_paper(const PaperScale& paper, const Camera& camera) {
     require(is_length(paper.mm_per_px_x) && is_length(paper.mm_per_px_y), "mm_per_px",
             "must be from 0.000001 to 1000");
     require(std::abs(paper.skew) <= 0.5, "skew", "must be from -0.5 to 0.5");
-    // The horizon, where the divisor of `on_paper` is 0, must lie far outside of the image.
-    const double most_u =
+    // The horizon, where the divisor of `on_paper` is 0, must be far outside the image.
+    const double max_u =
         std::max(std::abs(camera.centre_px.u), std::abs(camera.width_px - 1 - camera.centre_px.u));
-    const double most_v =
+    const double max_v =
         std::max(std::abs(camera.centre_px.v), std::abs(camera.height_px - 1 - camera.centre_px.v));
     const double change =
-        std::abs(paper.perspective_u) * most_u + std::abs(paper.perspective_v) * most_v;
+        std::abs(paper.perspective_u) * max_u + std::abs(paper.perspective_v) * max_v;
     require(change <= 0.75, "perspective_per_px", "puts the horizon into the image");
 }
 
@@ -73,12 +73,12 @@ void validate(const Camera& camera) {
     const auto side_range = fmt::format("must be {} to {}", kMinFrameSide_px, kMaxFrameSide_px);
     require(is_side(camera.width_px), "width_px", side_range);
     require(is_side(camera.height_px), "height_px", side_range);
-    require_near(camera.centre_px, camera, kFarthestCentre_px, "centre_px");
+    require_near(camera.centre_px, camera, kMaxCentre_px, "centre_px");
     require_lens(camera);
     if (camera.paper) require_paper(*camera.paper, camera);
     if (camera.focal_px) {
-        require(*camera.focal_px >= 1 && *camera.focal_px <= kLongestFocal_px, "focal_px",
-                fmt::format("must be from 1 to {:g}", kLongestFocal_px));
+        require(*camera.focal_px >= 1 && *camera.focal_px <= kMaxFocal_px, "focal_px",
+                fmt::format("must be from 1 to {:g}", kMaxFocal_px));
     }
     if (camera.tilt) {
         const auto is_tilt = [](double rad) { return std::abs(rad) < std::numbers::pi / 2; };
@@ -86,7 +86,7 @@ void validate(const Camera& camera) {
                 "must be below a quarter turn");
     }
     if (camera.reference_px) {
-        require_near(*camera.reference_px, camera, kFarthestReference_px, "reference_px");
+        require_near(*camera.reference_px, camera, kMaxReference_px, "reference_px");
     }
     require(std::abs(camera.theta_offset_rad) <= 2 * std::numbers::pi, "theta_offset_rad",
             "must be at most a full turn");
@@ -178,8 +178,8 @@ Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int 
     part.centre_px = moved(camera.centre_px);
     part.reference_px = moved(camera.reference_px.value_or(image_centre(camera)));
     if (camera.paper) {
-        // The heading is defined by the image x axis at the image centre, which differs in the
-        // part.
+        // The heading is defined by the image x axis at the image centre, and the part has another
+        // centre.
         part.theta_offset_rad +=
             image_axis_rad(camera, image_centre(camera)) - image_axis_rad(part, image_centre(part));
     }

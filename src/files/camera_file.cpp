@@ -80,7 +80,7 @@ Camera camera_of(const YamlMap& file, const std::string& name) {
     return camera;
 }
 
-/// Returns a number that is short to read, and exact to far below any standard deviation.
+/// Formats a number with few digits, but far more exactly than any standard deviation.
 std::string text_of(double value) {
     return fmt::format("{:.10g}", value);
 }

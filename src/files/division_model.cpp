@@ -11,16 +11,16 @@
 namespace dotpose::files {
 namespace {
 
-/// Greatest undistorted coordinate; larger ones come from an iteration that does not converge.
-constexpr double kMostUndistorted_px = 1e6;
+/// Maximum undistorted coordinate; larger values come from an iteration that does not converge.
+constexpr double kMaxUndistorted_px = 1e6;
 
-/// Number of parameters: k, the centre, and an affine map, as the fit of every pose contains one;
-/// lengths are in units of half the image diagonal.
+/// Number of parameters: k, the centre, and an affine map, because the fit of every pose contains
+/// an affine map. Lengths are in units of half the image diagonal.
 constexpr std::size_t kParameters = 9;
 using Fit = LeastSquares<kParameters>;
 using Parameters = Fit::Vector;
 
-/// One place of the image, distorted and undistorted, in the same units.
+/// One point of the image, distorted and undistorted, in the same units.
 struct Pair {
     PixelPoint seen;
     PixelPoint wanted;
@@ -66,7 +66,7 @@ double squares_of(const std::vector<Pair>& pairs, const Parameters& parameters) 
     return squares;
 }
 
-/// Returns a step of Levenberg and Marquardt.
+/// Returns a Levenberg-Marquardt step.
 Parameters step_of(const std::vector<Pair>& pairs, const Parameters& parameters, double damping) {
     Fit fit;
     Parameters norms2{};
@@ -85,14 +85,14 @@ Parameters step_of(const std::vector<Pair>& pairs, const Parameters& parameters,
     return fit.solve();
 }
 
-/// Improves the parameters until steps are lost in rounding; returns the sum of squares.
+/// Improves the parameters until steps vanish in rounding; returns the sum of squares.
 double minimise(const std::vector<Pair>& pairs, Parameters& parameters) {
-    constexpr int kMostSteps = 500;
-    constexpr double kMostDamping = 1e9;
-    constexpr double kLeastStep = 1e-12;
+    constexpr int kMaxSteps = 500;
+    constexpr double kMaxDamping = 1e9;
+    constexpr double kMinStep = 1e-12;
     double damping = 1e-4;
     double squares = squares_of(pairs, parameters);
-    for (int i = 0; i < kMostSteps && damping < kMostDamping; ++i) {
+    for (int i = 0; i < kMaxSteps && damping < kMaxDamping; ++i) {
         const Parameters step = step_of(pairs, parameters, damping);
         Parameters next = parameters;
         double longest = 0;
@@ -108,7 +108,7 @@ double minimise(const std::vector<Pair>& pairs, Parameters& parameters) {
         } else {
             damping *= 1.5;
         }
-        if (longest < kLeastStep) break;
+        if (longest < kMinStep) break;
     }
     return squares;
 }
@@ -120,7 +120,7 @@ PixelPoint PlumbBob::undistorted(PixelPoint pixel) const {
     const double yd = (pixel.v - cy) / fy;
     double x = xd;
     double y = yd;
-    // Solved by fixed-point iteration, as there is no closed form.
+    // Solved by fixed-point iteration, because there is no closed form.
     constexpr int kIterations = 100;
     for (int i = 0; i < kIterations; ++i) {
         const double r2 = x * x + y * y;
@@ -146,8 +146,8 @@ double fit_division_model(const PlumbBob& lens, Camera& camera) {
             const PixelPoint pixel{(camera.width_px - 1.0) * i / kSteps,
                                    (camera.height_px - 1.0) * j / kSteps};
             const PixelPoint wanted = lens.undistorted(pixel);
-            if (!(std::abs(wanted.u) <= kMostUndistorted_px &&
-                  std::abs(wanted.v) <= kMostUndistorted_px)) {
+            if (!(std::abs(wanted.u) <= kMaxUndistorted_px &&
+                  std::abs(wanted.v) <= kMaxUndistorted_px)) {
                 return std::numeric_limits<double>::infinity();
             }
             pairs.push_back({{pixel.u / reach_px, pixel.v / reach_px},

@@ -5,7 +5,7 @@
 
 namespace dotpose::files {
 
-/// The lens of OpenCV, which leads from the undistorted to the distorted image; plumb_bob in
+/// The lens model of OpenCV, which maps the undistorted to the distorted image; plumb_bob in
 /// http://docs.ros.org/en/api/sensor_msgs/html/msg/CameraInfo.html.
 struct PlumbBob {
     double fx = 0;
@@ -20,8 +20,8 @@ struct PlumbBob {
 
     bool is_straight() const { return k1 == 0 && k2 == 0 && t1 == 0 && t2 == 0 && k3 == 0; }
 
-    /// Returns where a camera without distortion would see what this one sees at `pixel`; a point
-    /// far outside of any image if that cannot be computed.
+    /// Returns the undistorted position of `pixel`, or a point far outside any image if it cannot
+    /// be computed.
     PixelPoint undistorted(PixelPoint pixel) const;
 };
 

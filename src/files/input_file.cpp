@@ -14,7 +14,7 @@
 namespace dotpose::files {
 namespace fs = std::filesystem;
 
-std::optional<std::string> text_of(const fs::path& path, std::size_t most) {
+std::optional<std::string> text_of(const fs::path& path, std::size_t max_bytes) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found) return std::nullopt;
@@ -25,8 +25,8 @@ std::optional<std::string> text_of(const fs::path& path, std::size_t most) {
     std::array<char, 65536> block;
     while (stream.read(block.data(), block.size()), stream.gcount() > 0) {
         text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-        if (text.size() > most) {
-            throw Error(fmt::format("{} has more than {} MB", path.string(), most >> 20));
+        if (text.size() > max_bytes) {
+            throw Error(fmt::format("{} has more than {} MB", path.string(), max_bytes >> 20));
         }
     }
     if (!stream.is_open() || stream.bad())
@@ -35,11 +35,11 @@ std::optional<std::string> text_of(const fs::path& path, std::size_t most) {
 }
 
 bool next_line(std::istream& stream, std::string& line) {
-    constexpr std::size_t kMost = 64 << 10;
+    constexpr std::size_t kMaxBytes = 64 << 10;
     line.clear();
     for (int byte = stream.get(); byte != std::istream::traits_type::eof(); byte = stream.get()) {
         if (byte == '\n') return true;
-        if (line.size() == kMost) throw Error("a line has more than 64 KB");
+        if (line.size() == kMaxBytes) throw Error("a line has more than 64 KB");
         line += static_cast<char>(byte);
     }
     if (stream.bad()) throw Error("it cannot be read");

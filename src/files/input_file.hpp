@@ -1,4 +1,4 @@
-/// Reads text files that anybody may have written, with limits on their size.
+/// Reads untrusted text files, with limits on their size.
 #pragma once
 
 #include <cstddef>
@@ -15,19 +15,20 @@
 namespace dotpose::files {
 
 /// Returns the text of a file or pipe, or none if there is no such file. Throws Error if it cannot
-/// be read or has more than `most` bytes; it stops reading there, so that an endless file does not
-/// fill the memory.
-std::optional<std::string> text_of(const std::filesystem::path& path, std::size_t most);
+/// be read or has more than `max_bytes` bytes. Reading stops at the limit, because files may be
+/// endless.
+std::optional<std::string> text_of(const std::filesystem::path& path, std::size_t max_bytes);
 
 /// Reads the next line, without its line break; returns false at the end of the file. Throws Error
-/// if the line has more than 64 KB, after which it stops reading, or if reading fails.
+/// if the line has more than 64 KB, where reading stops, or if reading fails.
 bool next_line(std::istream& stream, std::string& line);
 
-/// Deepest nesting of JSON that is read. Files of this project need less, and functions that walk
-/// the text recursively have stack enough for it.
+/// Maximum nesting of JSON. Files of this project need less, and the stack is large enough for
+/// recursive functions.
 inline constexpr int kMostJsonDepth = 64;
 
-/// Parses JSON. Throws Error that says where the text is not JSON, or that it is nested too deeply.
+/// Parses JSON. Throws Error with the place where the text is not JSON, or if it is nested too
+/// deeply.
 nlohmann::json parse_json(const std::string& text);
 
 }  // namespace dotpose::files

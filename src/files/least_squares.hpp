@@ -1,5 +1,5 @@
 /// Linear least squares by orthogonal rotations of the rows: as exact as a QR decomposition of all
-/// rows, but the rows need not be kept.
+/// rows, without storing the rows.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace dotpose::files {
 
-/// Sums up equations row . x = right with `kUnknowns` unknowns.
+/// Accumulates equations row . x = right with `kUnknowns` unknowns.
 template <std::size_t kUnknowns>
 class LeastSquares {
   public:
@@ -27,8 +27,8 @@ class LeastSquares {
         }
     }
 
-    /// Returns the unknowns with the least sum of squares. The rows added must determine all of
-    /// them.
+    /// Returns the unknowns with the minimum sum of squares. The added rows must determine all
+    /// unknowns.
     Vector solve() const {
         Vector x{};
         for (std::size_t i = kUnknowns; i-- > 0;) {

@@ -12,16 +12,16 @@
 namespace dotpose::files {
 namespace {
 
-/// Greatest difference, in px rms over the image, between eq. 2 and the plumb_bob lens that it
+/// Maximum difference, in px rms over the image, between eq. 2 and the plumb_bob lens that it
 /// replaces.
-constexpr double kLargestMisfit_px = 0.5;
+constexpr double kMaxMisfit_px = 0.5;
 
-/// Focal lengths, centres and distortion coefficients of cameras are far below these; a fit to
-/// larger ones may overflow.
-constexpr double kMostPx = 1e6;
-constexpr double kMostDistortion = 1e3;
+/// Maximum focal length, centre and distortion coefficients, far above those of cameras; a fit to
+/// larger values may overflow.
+constexpr double kMaxPx = 1e6;
+constexpr double kMaxDistortion = 1e3;
 
-/// Returns the list under a key, as in the matrices of camera_calibration_parsers or in a printed
+/// Returns the list under a key, in the format of camera_calibration_parsers or of a printed
 /// message.
 std::vector<double> coefficients(const YamlMap& file, const char* nested, const char* lower,
                                  const char* upper, std::size_t count) {
@@ -29,11 +29,11 @@ std::vector<double> coefficients(const YamlMap& file, const char* nested, const 
     return file.numbers(file.has(lower) ? lower : file.has(upper) ? upper : nested, count);
 }
 
-/// The model that adds k4 to k6, a divisor, to plumb_bob; some drivers state it for every camera.
+/// The model plumb_bob with a divisor, k4 to k6; some drivers report it for every camera.
 constexpr const char* kRational = "rational_polynomial";
 
-/// Returns the coefficients of plumb_bob among those of a rational polynomial whose further terms,
-/// k4 to k6 and those of a prism and a tilted sensor, are all 0.
+/// Returns the plumb_bob coefficients of a rational polynomial. Throws Error unless the other
+/// coefficients (k4 to k6, thin prism, tilted sensor) are 0.
 std::vector<double> without_rational_terms(const YamlMap& file, std::vector<double> d) {
     constexpr std::size_t kPlumbBob = 5;
     const auto is_set = [](double k) { return k != 0; };
@@ -72,8 +72,8 @@ Camera camera_from_camera_info(const YamlMap& file) {
     if (!(matrix[0] > 0 && matrix[4] > 0)) {
         file.fail(matrix_key, "has no focal lengths above 0: this camera was never calibrated");
     }
-    const auto is_focal = [](double px) { return px >= 1 && px <= kMostPx; };
-    const auto is_centre = [](double px) { return std::abs(px) <= kMostPx; };
+    const auto is_focal = [](double px) { return px >= 1 && px <= kMaxPx; };
+    const auto is_centre = [](double px) { return std::abs(px) <= kMaxPx; };
     if (!is_focal(matrix[0]) || !is_focal(matrix[4]) || !is_centre(matrix[2]) ||
         !is_centre(matrix[5])) {
         file.fail(matrix_key, "has focal lengths, or a centre, that no camera has");
@@ -83,14 +83,14 @@ Camera camera_from_camera_info(const YamlMap& file) {
     if (d.size() != 4 && d.size() != 5) {
         file.fail("distortion_coefficients", "must be k1, k2, t1, t2 and k3");
     }
-    if (std::ranges::any_of(d, [](double k) { return std::abs(k) > kMostDistortion; })) {
+    if (std::ranges::any_of(d, [](double k) { return std::abs(k) > kMaxDistortion; })) {
         file.fail("distortion_coefficients", "are larger than those of any lens");
     }
     d.resize(5);
     const PlumbBob lens{matrix[0], matrix[4], matrix[2], matrix[5], d[0], d[1], d[2], d[3], d[4]};
     camera.focal_px = std::sqrt(lens.fx * lens.fy);
     const double misfit_px = fit_division_model(lens, camera);
-    if (!(misfit_px <= kLargestMisfit_px)) {
+    if (!(misfit_px <= kMaxMisfit_px)) {
         file.fail(
             "distortion_coefficients",
             fmt::format("describe a lens that one coefficient cannot follow (it would be {:.1f} "

@@ -1,4 +1,4 @@
-// ROS camera: reads cameras as ROS describes them.
+// Reads cameras in the formats of ROS.
 #pragma once
 
 #include "dotpose/files/camera.hpp"
@@ -6,8 +6,7 @@
 
 namespace dotpose::files {
 
-/// Whether this is a camera_info file, written by camera_calibration_parsers or as a printed
-/// message.
+/// Whether this is a camera_info file of camera_calibration_parsers, or a printed message.
 bool is_camera_info(const YamlMap& file);
 
 /// Returns the camera of a camera_info file. Throws Error, naming the key, if a value is missing or

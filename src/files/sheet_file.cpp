@@ -23,14 +23,14 @@ namespace fs = std::filesystem;
 using base::throw_system;
 namespace {
 
-/// Largest sheet file that is read; it holds about 100,000 sheets.
-constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+/// Maximum size of a sheet file: about 100,000 sheets.
+constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
 std::optional<std::string> text_of(const fs::path& path) {
-    return files::text_of(path, kMostBytes);
+    return files::text_of(path, kMaxBytes);
 }
 
-/// Waits for locks on a file, until the time allowed for all of them together is over.
+/// Waits for locks on a file, with a common time limit for all locks.
 class Patience {
   public:
     Patience(const fs::path& path, const SheetFileWait& wait)
@@ -38,7 +38,7 @@ class Patience {
           wait_(wait),
           end_(Clock::now() + std::chrono::duration<double>(wait.most_s)) {}
 
-    /// Throws Error if the time is over, or if the file system has no locks.
+    /// Throws Error after the time limit, or if the file system has no locks.
     void lock(int descriptor) {
         constexpr auto kPause = std::chrono::milliseconds(10);
         while (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
@@ -92,8 +92,8 @@ SheetFile::Lock::Lock(const fs::path& path, const SheetFileWait& wait) : path_(p
             close(descriptor_);
             throw;
         }
-        // The previous owner of the lock removes the file when it is done. A lock on a removed file
-        // excludes nobody, so the lock must be taken again on a new file.
+        // The previous owner of the lock removes the file at the end. A lock on a removed file has
+        // no effect, so the lock must be taken again on a new file.
         struct stat held {};
         struct stat named {};
         if (fstat(descriptor_, &held) == 0 && stat(path_.c_str(), &named) == 0 &&
@@ -109,7 +109,7 @@ SheetFile::Lock::~Lock() {
     close(descriptor_);
 }
 
-// Links are followed first, so that all names of a file lead to the same lock.
+// Links are followed first, because all names of a file must lead to the same lock.
 SheetFile::SheetFile(const fs::path& path, const SheetFileWait& wait)
     : path_(base::without_links(path)), lock_(path_, wait), text_(text_of(path_)) {
     if (text_) sheets_ = files::sheets_from_json(*text_, path_.string());

@@ -17,7 +17,7 @@ using nlohmann::json;
 
 constexpr const char* kFormat = "dotpose-sheets";
 
-/// A JSON object of the file with its path, which error messages name.
+/// A JSON object of the file with its path for error messages.
 class Node {
   public:
     Node(const json& value, std::string file, std::string path)
@@ -48,17 +48,16 @@ class Node {
         return value.get<double>();
     }
 
-    std::int64_t whole(const char* key, std::int64_t least, std::int64_t most) const {
+    std::int64_t whole(const char* key, std::int64_t min, std::int64_t max) const {
         const json& value = member(key);
         if (!value.is_number_integer()) fail(path_of(key), "must be a whole number");
-        // nlohmann-json keeps numbers from 2^63 on as unsigned; as signed integers they would wrap.
+        // nlohmann-json stores numbers from 2^63 as unsigned; as signed integers they would wrap.
         const bool is_huge =
             value.is_number_unsigned() &&
             value.get<std::uint64_t>() > std::uint64_t{std::numeric_limits<std::int64_t>::max()};
         const auto number = value.get<std::int64_t>();
-        if (is_huge || number < least || number > most) {
-            fail(path_of(key),
-                 fmt::format("is {}; it must be {} to {}", value.dump(), least, most));
+        if (is_huge || number < min || number > max) {
+            fail(path_of(key), fmt::format("is {}; it must be {} to {}", value.dump(), min, max));
         }
         return number;
     }
@@ -269,7 +268,7 @@ std::string json_from_sheets(const std::vector<SheetEntry>& sheets,
         array.push_back(object);
     }
     document["sheets"] = std::move(array);
-    // A command line may have bytes that are not UTF-8, as names of files do.
+    // A command line may have bytes that are not UTF-8, for example in file names.
     return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 

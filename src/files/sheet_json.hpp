@@ -1,4 +1,4 @@
-/// Reads and writes the text of a sheet file, whose format is in docs/sheet-files.md.
+/// Reads and writes the text of a sheet file (docs/sheet-files.md).
 #pragma once
 
 #include <map>
@@ -14,8 +14,8 @@ namespace dotpose::files {
 /// like `read_sheets`.
 std::vector<SheetEntry> sheets_from_json(const std::string& text, const std::string& file);
 
-/// Writes the text of a sheet file. Keys of `old_text`, a valid sheet file, that this version does
-/// not know are kept; `old_names` has the names in `old_text` of the sheets that were renamed.
+/// Returns the text of a sheet file. Unknown keys of `old_text`, a valid sheet file, are kept.
+/// `old_names` has the names in `old_text` of renamed sheets.
 std::string json_from_sheets(const std::vector<SheetEntry>& sheets,
                              const std::optional<std::string>& old_text,
                              const std::map<std::string, std::string>& old_names = {});

@@ -14,8 +14,8 @@
 namespace dotpose {
 namespace {
 
-constexpr double kLeastPrintScale = 0.5;
-constexpr double kMostPrintScale = 2;
+constexpr double kMinPrintScale = 0.5;
+constexpr double kMaxPrintScale = 2;
 
 /// The cells from `first` to `end` - 1 along one axis.
 struct Range {
@@ -32,7 +32,7 @@ Range rows_of(const Sheet& sheet) {
 bool overlap(Range a, Range b) {
     return a.first < b.end && b.first < a.end;
 }
-/// Extends a range by the gap that is kept on both sides of it.
+/// Extends a range by the required gap on both sides.
 Range with_gap(Range range) {
     return {range.first - kSheetGap_cells, range.end + kSheetGap_cells};
 }
@@ -51,7 +51,7 @@ void validate_name(const std::string& name) {
     }
 }
 
-/// Finds the leftmost column from which `columns` columns are free in these rows, or none.
+/// Finds the leftmost column where `columns` columns are free in these rows, or none.
 std::optional<std::uint32_t> free_column(const std::vector<SheetEntry>& sheets, Range rows,
                                          int columns) {
     std::vector<Range> taken;
@@ -90,9 +90,9 @@ void validate(const SheetEntry& entry) {
         throw BadArgument(fmt::format("page {}: the number must be 1 or more", entry.page));
     }
     for (const double scale : {entry.print_scale_x, entry.print_scale_y}) {
-        if (scale >= kLeastPrintScale && scale <= kMostPrintScale) continue;
+        if (scale >= kMinPrintScale && scale <= kMaxPrintScale) continue;
         throw BadArgument(fmt::format("a print scale of {:g}: it must be {:g} to {:g}", scale,
-                                      kLeastPrintScale, kMostPrintScale));
+                                      kMinPrintScale, kMaxPrintScale));
     }
     if (const auto& world = entry.world) {
         for (const double value : {world->x_m, world->y_m, world->yaw_rad}) {

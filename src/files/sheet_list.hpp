@@ -1,4 +1,4 @@
-/// Checks on all sheets of a file together: names and cells are unique.
+/// Checks that names and cells of all sheets of a file are unique.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace dotpose::files {
 
-/// Throws BadArgument if `entry` is invalid, or if one of `sheets` other than `ignored` has its
-/// name or shares cells with it.
+/// Throws BadArgument if `entry` is invalid, or if one of `sheets` except `ignored` has the same
+/// name or shares cells.
 void check_beside(const SheetEntry& entry, const std::vector<SheetEntry>& sheets,
                   const SheetEntry* ignored = nullptr);
 

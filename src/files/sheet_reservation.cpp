@@ -1,4 +1,4 @@
-// Regions that are reserved in a sheet file while their pages are written.
+// Reserves regions in a sheet file while their pages are written.
 #include <algorithm>
 #include <system_error>
 
@@ -16,7 +16,7 @@ const SheetEntry* find(const SheetFile& file, const std::string& name) {
     return found == file.sheets().end() ? nullptr : &*found;
 }
 
-/// Whether a sheet is still the reserved one, and not another sheet that was given its name.
+/// Whether a sheet is still the reserved one, and not another sheet of the same name.
 bool is_same_region(const Sheet& a, const Sheet& b) {
     return a.origin == b.origin && a.columns == b.columns && a.rows == b.rows &&
            a.pattern.profile == b.pattern.profile && a.pattern.section == b.pattern.section;
@@ -58,13 +58,13 @@ SheetReservation::~SheetReservation() {
 }
 
 void SheetReservation::confirm() {
-    // If this fails, the entries stay in the file with the mark that they are reserved, so no other
-    // sheet gets their regions.
+    // If this fails, the entries stay in the file with their mark, and no other sheet gets their
+    // regions.
     const std::vector<SheetEntry> entries = std::move(entries_);
     entries_.clear();
     SheetFile file(path_, wait_);
     for (SheetEntry entry : entries) {
-        // The entry is read anew, because it may have been given a place in the world meanwhile.
+        // The entry is read again, because its place in the world may have been entered meanwhile.
         const SheetEntry* now = find(file, entry.name);
         if (now != nullptr && !is_same_region(now->sheet, entry.sheet)) {
             throw Error(fmt::format("somebody gave the name '{}' in {} to another sheet meanwhile",

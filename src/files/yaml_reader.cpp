@@ -14,10 +14,10 @@
 namespace dotpose::files {
 namespace {
 
-constexpr std::size_t kMostBytes = 1 << 20;
+constexpr std::size_t kMaxBytes = 1 << 20;
 
 std::string text_of(const std::filesystem::path& path) {
-    const auto text = files::text_of(path, kMostBytes);
+    const auto text = files::text_of(path, kMaxBytes);
     if (!text) base::throw_system("read", path, ENOENT);
     return *text;
 }

@@ -1,4 +1,4 @@
-// YAML reader: reads values of a YAML file, with errors that name the file and the key.
+// Reads values of a YAML file, with errors that name the file and the key.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +14,9 @@ namespace dotpose::files {
 /// its value has the wrong type.
 class YamlMap {
   public:
-    /// Reads a file. Throws Error if it cannot be read, is not YAML, or does not hold a mapping.
+    /// Reads a file. Throws Error if it cannot be read, is not YAML, or is not a mapping.
     explicit YamlMap(const std::filesystem::path& path);
-    /// Reads a text, which messages call `name`.
+    /// Reads a text; messages use `name` as its name.
     YamlMap(const std::string& text, std::string name);
 
     bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }
@@ -41,7 +41,7 @@ class YamlMap {
     double finite(const YAML::Node& node, const std::string& key) const;
 
     std::string file_;
-    std::string prefix_;  ///< what stands before keys in messages
+    std::string prefix_;  ///< prefix of keys in messages
     YAML::Node node_;
 };
 

@@ -1,4 +1,4 @@
-// What single images and sequences have in common: options, sheets, camera file.
+// The common part of single images and sequences: options, sheets, camera file.
 #include "dotpose/tools/follower.hpp"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ void Follower::use_options_for(int width_px, int height_px) {
     }
 }
 
-/// Returns the image, flipped if images are.
+/// Returns the image, flipped if the options require it.
 ImageView Follower::as_located(ImageView image) {
     const bool flips = options_.flip || (options_.camera && options_.camera->flip);
     if (!flips || image.pixels == nullptr) return image;
@@ -59,7 +59,7 @@ Locator& Follower::locator(const Options& options) {
     return locator_;
 }
 
-/// Applies the camera file to the fix that was located last.
+/// Applies the camera file to the newest fix.
 Fix Follower::by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place) const {
     if (!options_.camera) return seen;
     return with_camera(seen, *options_.camera, locator_.trace(),

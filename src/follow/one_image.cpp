@@ -1,4 +1,4 @@
-// Locating an image by itself.
+// Locates single images.
 #include "dotpose/tools/follower.hpp"
 #include "follow/page_cut.hpp"
 #include "follow/reduced_image.hpp"
@@ -10,7 +10,7 @@ using namespace follow_detail;
 Located Follower::locate(const GreyImage& image) {
     use_options_for(image.width_px, image.height_px);
     image_ = as_located(image.view());
-    // A camera file is for images of one size.
+    // A camera file requires images of its size, so images are not reduced.
     const int by = options_.camera ? 1 : reduction_of(image.width_px, image.height_px);
     if (by > 1) {
         used_ = reduced(used_, image_, by);
@@ -23,8 +23,8 @@ Located Follower::locate(const GreyImage& image) {
     return result;
 }
 
-/// Returns the first fix that lies on a sheet of its profile. If there is none, it returns the
-/// first fix, or without any fix the result for the first profile.
+/// Returns the first fix on a sheet with the fix's profile. Otherwise returns the first fix, or,
+/// without any fix, the result for the first profile.
 Follower::Found Follower::read() {
     if (profiles_.empty()) {
         const CodeReading reading = locator(used_).locate_in_any_code(image_, evidence_);
@@ -43,8 +43,8 @@ Follower::Found Follower::read() {
             is_found = true;
         }
     }
-    // Unless it was the last profile, the image is located again in the best one, so that the trace
-    // matches the fix.
+    // The trace must match the fix, so the image is located again in the best profile unless it was
+    // the last.
     return used_.profile == best ? found : read_in(best);
 }
 
@@ -56,8 +56,8 @@ Follower::Found Follower::read_in(Profile profile) {
     return {seen, by_camera_file(seen, place), place, reading};
 }
 
-/// Locates an image on a known sheet again without the area beside its dots: labels and the table
-/// there are no evidence against the fix.
+/// Locates an image on a known sheet again without the area beside its dots, because labels and the
+/// table are not evidence against the fix.
 Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
     if (fix.bit_errors == 0) return fix;
     const auto cut = cut_to_dots(image_, used_, fix, place.entry->sheet);
@@ -68,7 +68,7 @@ Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
                            again.bit_errors < fix.bit_errors &&
                            again.dots_used + fix.bit_errors >= fix.dots_used;
     if (!is_better) {
-        // The trace must hold the results of the fix that is returned.
+        // The trace must match the returned fix.
         (void)locator(used_).locate(image_);
         return fix;
     }

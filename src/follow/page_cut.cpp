@@ -10,7 +10,7 @@
 namespace dotpose::follow_detail {
 namespace {
 
-/// Maps pixels to a page. Tilt and lens distortion are neglected, so it is exact to some pixels.
+/// Maps pixels to a page. Neglects tilt and lens distortion, so it has errors of some pixels.
 class PixelsOnPage {
   public:
     PixelsOnPage(ImageView image, const Options& options, const Fix& fix, const SheetPlace& place)
@@ -37,7 +37,7 @@ class PixelsOnPage {
     double sine_mm_ = 0;
 };
 
-/// Returns the median grey level of the image, which is that of paper.
+/// Returns the median grey level of the image, which is the level of the paper.
 std::uint8_t brightness_of(ImageView image) {
     std::array<std::int64_t, 256> counts{};
     for (int v = 0; v < image.height_px; ++v) {
@@ -51,8 +51,8 @@ std::uint8_t brightness_of(ImageView image) {
     return static_cast<std::uint8_t>(grey);
 }
 
-/// Returns the image with all pixels outside of `region` painted in the grey level of paper, or
-/// none if `region` contains all corners of the image.
+/// Returns the image with all pixels outside `region` set to the grey level of the paper, or none
+/// if `region` contains all corners of the image.
 template <typename Region>
 std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
     const int right = image.width_px - 1;
@@ -105,8 +105,8 @@ class PixelsAmongDots {
     }
 
   private:
-    /// Returns the signed distance in cells from a cell to the edge of the region, which is half a
-    /// cell before its first cell, the shorter way around the cyclic plane.
+    /// Returns the signed distance in cells from a cell to the edge of the region, the shorter way
+    /// around the cyclic plane. The edge is half a cell before the first cell of the region.
     static double cells(std::uint32_t from, std::uint32_t first) {
         return std::remainder(double(first) - double(from), kPositionsPerAxis) - 0.5;
     }

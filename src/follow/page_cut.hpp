@@ -1,5 +1,5 @@
-/// Masks the part of a frame that is beyond the edge of a page, where `locate` would take dots of
-/// the next sheet for dots of this one.
+/// Masks the part of a frame beyond the edge of a page, where `locate` would confuse dots of the
+/// next sheet with dots of this sheet.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,13 @@
 
 namespace dotpose::follow_detail {
 
-/// Returns the image with everything outside of the page painted over, or none if all of the image
-/// shows the page. `fix` and `place` are the results for the image with `options`.
+/// Returns the image with everything outside the page masked, or none if the whole image shows the
+/// page. `fix` and `place` are the results for the image with `options`.
 std::optional<GreyImage> cut_to_page(ImageView image, const Options& options, const Fix& fix,
                                      const SheetPlace& place);
 
-/// Returns the image with everything outside of the sheet's dots painted over, such as labels in
-/// its margins and the table beside it, or none if all of the image shows dots. `fix` must be on
-/// the sheet.
+/// Returns the image with everything outside the sheet's dots masked, such as labels in its margins
+/// and the table beside it, or none if the whole image shows dots. `fix` must be on the sheet.
 std::optional<GreyImage> cut_to_dots(ImageView image, const Options& options, const Fix& fix,
                                      const Sheet& sheet);
 

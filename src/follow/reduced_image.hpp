@@ -8,16 +8,16 @@
 
 namespace dotpose::follow_detail {
 
-/// Returns the smallest factor by which an image of this size has to be reduced. It is 1 if the
-/// image can be located as it is, or if it would become too small.
+/// Returns the smallest factor by which an image of this size has to be reduced; 1 if the image can
+/// be located unchanged or would become too small.
 int reduction_of(int width_px, int height_px);
 
 /// Returns the image whose pixels are the means of `by` x `by` pixels. Remaining pixels at the
-/// right and at the bottom are cut off.
+/// right and bottom edges are dropped.
 GreyImage reduced(ImageView image, int by);
 
 /// Converts options for `image` to options for the image reduced by `by`: lens and reference point
-/// belong to the same points of the scene.
+/// refer to the same points of the scene.
 Options reduced(const Options& options, ImageView image, int by);
 
 /// Converts the fix of an image reduced by `by` to pixels of the original image.

@@ -1,6 +1,6 @@
-// Codes a fixed number of arbitrary bytes as bytes without zeros, protected by a CRC. The CRC is
-// that of the coded bytes, not of the plain ones: an error in a code byte of COBS shifts all bytes
-// after it, which a CRC of the plain bytes would not detect with certainty.
+// Encodes a fixed number of arbitrary bytes as bytes without zeros, protected by a CRC. The CRC is
+// computed over the encoded bytes, not the plain bytes: an error in a code byte of COBS shifts all
+// bytes after it, which a CRC of the plain bytes would not always detect.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@ namespace dotpose::link {
 inline constexpr std::size_t kPlainBytes = 27;
 /// Number of bytes after COBS (Cheshire and Baker, 1999), which adds one byte to up to 254 bytes.
 inline constexpr std::size_t kCodedBytes = kPlainBytes + 1;
-/// Number of bytes of the CRC, which has at most 7 of its bits in a byte, so that no byte is zero.
+/// Number of bytes of the CRC. Each byte has at most 7 of its bits, and the top bit set, so no byte
+/// is zero.
 inline constexpr std::size_t kCheckBytes = 3;
 inline constexpr std::size_t kFramedBytes = kCodedBytes + kCheckBytes;
 
@@ -28,7 +29,7 @@ std::uint16_t crc16(std::span<const std::uint8_t> bytes);
 
 Framed frame(const Plain& plain);
 
-/// Decodes framed bytes. Returns false if `frame` does not give these bytes for any plain bytes.
+/// Decodes framed bytes. Returns false if they are not the result of `frame` for any plain bytes.
 bool unframe(const Framed& framed, Plain& plain);
 
 }  // namespace dotpose::link

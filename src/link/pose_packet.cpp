@@ -13,7 +13,7 @@ using link::Plain;
 
 static_assert(kFramedBytes + 1 == PacketBytes{}.size(), "a packet is a frame and its end mark");
 
-/// Writes integers one after the other, the least significant byte first.
+/// Writes little-endian integers.
 class Writer {
   public:
     void put(std::uint32_t value, int bytes) {
@@ -65,7 +65,7 @@ Plain packed(const PosePacket& packet) {
     return writer.plain();
 }
 
-/// Reads the fields. Returns false if the version is another one or a field is out of its range.
+/// Reads the fields. Returns false if the version is not supported or a field is out of range.
 bool unpack(const Plain& plain, PosePacket& packet) {
     Reader reader(plain);
     if (reader.get8() != kPacketVersion) return false;
@@ -142,7 +142,7 @@ bool PacketReader::push(std::uint8_t byte) {
     }
     const std::size_t count = count_;
     count_ = 0;
-    if (count == 0) return false;  // there is nothing between two end marks in a row
+    if (count == 0) return false;  // two adjacent end marks
     Plain plain;
     if (count == bytes_.size() && link::unframe(bytes_, plain) && unpack(plain, packet_)) {
         return true;

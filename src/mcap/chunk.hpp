@@ -1,4 +1,4 @@
-// A chunk: messages that follow each other, with an index of each channel's.
+// A chunk: consecutive messages, with an index per channel.
 #pragma once
 
 #include <algorithm>
@@ -9,26 +9,26 @@
 
 namespace dotpose::mcap {
 
-/// What the summary says of a chunk that was written.
+/// Entry of a chunk in the summary.
 struct ChunkEntry {
     std::uint64_t first_ns = 0;
     std::uint64_t last_ns = 0;
-    std::uint64_t start = 0;                              ///< place of the chunk in the file
+    std::uint64_t start = 0;                              ///< offset of the chunk in the file
     std::uint64_t length = 0;                             ///< bytes of the record
-    std::map<std::uint16_t, std::uint64_t> index_starts;  ///< places of the indexes, by channel
-    std::uint64_t index_length = 0;                       ///< bytes of all of them
-    std::uint64_t size = 0;                               ///< bytes of the messages' records
+    std::map<std::uint16_t, std::uint64_t> index_starts;  ///< offsets of the indexes, by channel
+    std::uint64_t index_length = 0;                       ///< bytes of all indexes
+    std::uint64_t size = 0;                               ///< bytes of the message records
 };
 
-/// Gathers records and writes them as a chunk.
+/// Collects records and writes them as a chunk.
 class Chunk {
   public:
     bool is_empty() const { return records_.empty(); }
     std::size_t size() const { return records_.size(); }
-    /// From the earliest to the latest message.
+    /// Time from the earliest to the latest message.
     std::uint64_t duration_ns() const { return is_timeless() ? 0 : last_ns_ - first_ns_; }
 
-    /// For schemas and channels, which come before the messages that need them.
+    /// The records, for appending schemas and channels before the messages that need them.
     Bytes& records() { return records_; }
 
     void add_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns,
@@ -45,8 +45,8 @@ class Chunk {
         last_ns_ = std::max(last_ns_, time_ns);
     }
 
-    /// Appends the chunk and its indexes to `out`, which will stand at `place` in the file, and
-    /// begins a new one.
+    /// Appends the chunk and its indexes to `out`, which will be at the offset `place` in the file,
+    /// and begins a new chunk.
     ChunkEntry append_to(Bytes& out, std::uint64_t place) {
         ChunkEntry entry;
         entry.first_ns = is_timeless() ? 0 : first_ns_;

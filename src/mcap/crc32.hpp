@@ -1,4 +1,4 @@
-// The check sum of MCAP, that of zlib and PNG: CRC-32 by ISO 3309.
+// The checksum of MCAP, zlib and PNG: CRC-32 by ISO 3309.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace dotpose::mcap {
 namespace crc_detail {
 
 constexpr std::array<std::uint32_t, 256> table() {
-    constexpr std::uint32_t kPolynomial = 0xEDB88320;  // bits reversed
+    constexpr std::uint32_t kPolynomial = 0xEDB88320;  // bit-reversed
     std::array<std::uint32_t, 256> result{};
     for (std::uint32_t i = 0; i < result.size(); ++i) {
         std::uint32_t remainder = i;
@@ -26,7 +26,7 @@ inline constexpr std::array<std::uint32_t, 256> kTable = table();
 
 }  // namespace crc_detail
 
-/// The check sum of bytes that come in parts.
+/// Checksum of bytes that are added in parts.
 class Crc32 {
   public:
     void add(std::span<const std::uint8_t> bytes) {

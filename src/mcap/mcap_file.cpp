@@ -16,8 +16,8 @@ using namespace mcap;
 
 namespace {
 
-/// Returns the list of qualities that rosbag2 keeps with a channel, as YAML. Policies are the
-/// numbers of rmw, which all versions of rosbag2 read: history 1 keeps the last messages,
+/// Returns the list of qualities of service that rosbag2 stores with a channel, as YAML. Policies
+/// are the numbers of rmw, which all versions of rosbag2 read: history 1 keeps the last messages,
 /// reliability 1 is reliable, durability 1 transient local and 2 volatile, liveliness 1 automatic.
 std::string offered_profiles(const McapQuality& quality) {
     const std::string durability = quality.is_transient_local ? "1" : "2";
@@ -74,7 +74,7 @@ class McapFile::Writer {
         const auto id = static_cast<std::uint16_t>(channel);
         const std::uint64_t number = contents_.messages.at(id)++;
         chunk_.add_message(id, static_cast<std::uint32_t>(number), time_ns, cdr);
-        // A chunk is not smaller than the end of the file, which is written again with each.
+        // A chunk is at least as large as the end of the file, which is rewritten with each chunk.
         const bool is_long =
             chunk_.duration_ns() >= static_cast<std::uint64_t>(options_.chunk_ns) &&
             chunk_.size() >= end_bytes_;
@@ -112,8 +112,8 @@ class McapFile::Writer {
         write_at_end(std::move(bytes));
     }
 
-    /// Writes data over the end of the file, and a new end, in one go. The file never becomes
-    /// shorter, because the new end has all that the old one had.
+    /// Writes data over the end of the file, and a new end, in one write. The file never becomes
+    /// shorter, because the new end contains the old one.
     void write_at_end(Bytes bytes) {
         const std::size_t data_bytes = bytes.size();
         data_.add(bytes);
@@ -151,7 +151,7 @@ McapFile::McapFile(const std::filesystem::path& path, const McapOptions& options
 McapFile::~McapFile() {
     try {
         finish();
-    } catch (const Error&) {  // `finish` would have told
+    } catch (const Error&) {  // call `finish` to get this error
     }
 }
 

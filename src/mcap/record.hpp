@@ -1,5 +1,5 @@
-// The records of an MCAP file: a byte that says which, the length of the rest, its members, little
-// endian and without gaps.
+// The records of an MCAP file: a type byte, the length of the rest, and the members, little endian
+// and packed.
 #pragma once
 
 #include <concepts>
@@ -42,11 +42,11 @@ class Members {
         put(static_cast<std::uint32_t>(text.size()));
         bytes_.insert(bytes_.end(), text.begin(), text.end());
     }
-    /// Bytes without their number.
+    /// Appends bytes without their count.
     void put_raw(std::span<const std::uint8_t> bytes) {
         bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
     }
-    /// A map, after the number of its bytes.
+    /// Appends a map after its size in bytes.
     template <typename Value>
     void put(const std::map<std::uint16_t, Value>& map) {
         put(static_cast<std::uint32_t>(map.size() * (sizeof(std::uint16_t) + sizeof(Value))));
@@ -70,7 +70,7 @@ class Members {
     Bytes& bytes_;
 };
 
-/// Appends a record, whose members `fill` puts.
+/// Appends a record with the members that `fill` appends.
 template <typename Fill>
 void append_record(Bytes& bytes, Op op, Fill fill) {
     Members members(bytes);

@@ -41,12 +41,12 @@ void append_chunk_index(Bytes& out, const ChunkEntry& entry) {
     });
 }
 
-/// Appends groups of records of the same kind, and remembers where each lies.
+/// Appends groups of records of one type, and stores their offsets.
 class Summary {
   public:
     Summary(Bytes& out, std::uint64_t place) : out_(out), base_(place - out.size()) {}
 
-    /// Where the next record will stand in the file.
+    /// Offset of the next record in the file.
     std::uint64_t here() const { return base_ + out_.size(); }
 
     template <typename Append>
@@ -103,7 +103,7 @@ void append_end(Bytes& out, std::uint64_t place, const Contents& contents, const
         footer.put(offsets_start);
         footer.put(std::uint32_t{0});
     });
-    // The check sum covers the summary and the footer up to itself.
+    // The checksum covers the summary and the footer up to the checksum.
     constexpr std::size_t kCrcBytes = sizeof(std::uint32_t);
     const std::size_t crc_at = out.size() - kCrcBytes;
     const std::uint32_t crc = crc32(std::span(out).subspan(summary_at, crc_at - summary_at));

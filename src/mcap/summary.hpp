@@ -1,4 +1,4 @@
-// The end of an MCAP file: what is in it, and where.
+// The end of an MCAP file: its contents and their offsets.
 #pragma once
 
 #include "mcap/chunk.hpp"
@@ -14,8 +14,8 @@ struct Contents {
     std::vector<ChunkEntry> chunks;
 };
 
-/// Appends the end of the data, summary and footer to `out`, which will stand at `place` in the
-/// file. `data` is the check sum of all that comes before.
+/// Appends the end of the data, summary and footer to `out`, which will be at the offset `place` in
+/// the file. `data` is the checksum of all bytes before.
 void append_end(Bytes& out, std::uint64_t place, const Contents& contents, const Crc32& data);
 
 /// Appends the eight bytes that begin and end a file.

@@ -16,18 +16,18 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How long `start` waits for the broker's answer.
+/// Maximum time that `start` waits for the broker's answer.
 constexpr auto kPatience = 3s;
 /// Time between attempts to reach a broker that does not answer.
 constexpr auto kBetweenAttempts = 500ms;
-/// Most messages that libmosquitto has at a time; it sends them in their order.
-constexpr std::size_t kMostUnderWay = 20;
-/// Quality of service of messages about the presence: they arrive.
+/// Maximum number of messages in flight in libmosquitto, which sends them in order.
+constexpr std::size_t kMaxUnderWay = 20;
+/// Quality of service of presence messages: at least once.
 constexpr int kPresenceQos = 1;
-/// Longest wait for something to send or to receive.
+/// Maximum wait for something to send or receive.
 constexpr int kWait_ms = 100;
 
-/// Sets up libmosquitto, which must be done once in a program.
+/// Initialises libmosquitto, once per program.
 struct Library {
     Library() { mosquitto_lib_init(); }
     ~Library() { mosquitto_lib_cleanup(); }
@@ -37,9 +37,8 @@ std::string reason_of(int code) {
     return code == MOSQ_ERR_ERRNO ? std::strerror(errno) : mosquitto_strerror(code);
 }
 
-/// Whether the other side has closed the connection. With TLS, libmosquitto waits for its
-/// keep-alive interval if there is no broker, as if it were slow; the operating system knows at
-/// once.
+/// Whether the other side has closed the connection. With TLS, libmosquitto notices a closed
+/// connection only after its keep-alive interval; the operating system reports it immediately.
 bool is_hung_up(int socket) {
     pollfd state{socket, 0, 0};
     return socket >= 0 && poll(&state, 1, 0) > 0 && (state.revents & (POLLHUP | POLLERR)) != 0;
@@ -160,9 +159,9 @@ void MqttClient::start() {
     mosquitto_disconnect_callback_set(mosquitto_, Callbacks::on_disconnect);
     mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
     mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
-    // One more than those of `publish`, so that the presence does not wait for them.
-    mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMostUnderWay + 1));
-    // Messages are published from other threads than that of `run`.
+    // One more than `publish` uses, because presence messages must not wait.
+    mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMaxUnderWay + 1));
+    // Other threads than the thread of `run` publish messages.
     mosquitto_threaded_set(mosquitto_, true);
     constexpr int kKeepAlive_s = 10;
     const int code =
@@ -204,8 +203,7 @@ int MqttClient::work() {
     return mosquitto_loop(mosquitto_, kWait_ms, 1);
 }
 
-// The thread that libmosquitto offers ends if it cannot reach the broker at first, so this one is
-// used instead.
+// Replaces the thread of libmosquitto, which ends if it cannot reach the broker at first.
 void MqttClient::run() {
     for (;;) {
         int code = is_connected() ? work() : mosquitto_loop(mosquitto_, kWait_ms, 1);
@@ -216,8 +214,8 @@ void MqttClient::run() {
             code = MOSQ_ERR_NO_CONN;
             reason = "no connection";
         }
-        // Before the thread ends, the disconnect message must have been sent, or the broker sends
-        // the last will.
+        // The disconnect message must be sent before the thread ends, or the broker publishes the
+        // last will.
         const bool has_left = !is_connected_ || code != MOSQ_ERR_SUCCESS;
         if (ends_ && (has_left || std::chrono::steady_clock::now() > ends_by_)) return;
         if (code == MOSQ_ERR_SUCCESS) continue;
@@ -267,8 +265,8 @@ MqttPublisher::~MqttPublisher() {
     stop();
 }
 
-// The connection must not be closed before the broker has acknowledged everything: it would see a
-// connection that breaks, and send the last will.
+// The connection must not be closed before the broker has acknowledged all messages; otherwise the
+// broker sees a broken connection and publishes the last will.
 void MqttPublisher::say_goodbye() {
     constexpr std::chrono::seconds kPatience(1);
     {
@@ -316,7 +314,7 @@ void MqttPublisher::publish(std::string topic, std::string payload) {
 
 void MqttPublisher::send_waiting() {
     const std::lock_guard lock(mutex_);
-    while (!waiting_.empty() && under_way_.size() < kMostUnderWay) {
+    while (!waiting_.empty() && under_way_.size() < kMaxUnderWay) {
         const Message& newest = waiting_.back();
         int id = 0;
         const int code = mosquitto_publish(handle(), &id, newest.topic.c_str(),
@@ -351,7 +349,7 @@ void MqttPublisher::on_disconnected() {
         const std::lock_guard lock(mutex_);
         said_online_ = false;
     }
-    // libmosquitto sends messages of QoS 1 again after it reconnects, and forgets those of QoS 0.
+    // After reconnecting, libmosquitto resends messages with QoS 1 and drops messages with QoS 0.
     if (options_.qos > 0) return;
     const std::lock_guard lock(mutex_);
     dropped_ += static_cast<std::int64_t>(under_way_.size());
@@ -398,8 +396,8 @@ void MqttSubscriber::on_message(std::string_view topic, std::string_view payload
     handle_(topic, payload);
 }
 
-// mosquitto_loop takes one message at a time, with eight calls of the operating system for each.
-// Taking all messages that are there saves some of them, and answers go to the network together.
+// mosquitto_loop processes one message with eight system calls. Processing all available messages
+// together saves some of these calls and sends the answers together.
 int MqttSubscriber::work() {
     const int socket = mosquitto_socket(handle());
     const bool has_answers = mosquitto_want_write(handle());
@@ -410,14 +408,15 @@ int MqttSubscriber::work() {
     const std::int64_t taken = received_ - before;
     if (code == MOSQ_ERR_SUCCESS) code = send_all(taken > 1 ? socket : -1);
     if (code == MOSQ_ERR_SUCCESS) code = mosquitto_loop_misc(handle());
-    // To wake for each message would take more time than the message, so some may gather.
+    // Waking up for each message takes longer than processing it, so messages may accumulate for 1
+    // ms.
     if (code == MOSQ_ERR_SUCCESS && taken > 0) std::this_thread::sleep_for(1ms);
     return code;
 }
 
 int MqttSubscriber::receive_all() {
-    constexpr int kMost = 256;  // then the answers are due
-    for (int i = 0; i < kMost; ++i) {
+    constexpr int kMaxBatch = 256;  // then send the answers
+    for (int i = 0; i < kMaxBatch; ++i) {
         const std::int64_t before = received_;
         const int code = mosquitto_loop_read(handle(), 1);
         if (code != MOSQ_ERR_SUCCESS || received_ == before) return code;
@@ -425,7 +424,7 @@ int MqttSubscriber::receive_all() {
     return MOSQ_ERR_SUCCESS;
 }
 
-// With a socket, several answers make few packets of the network; it is -1 if there is only one.
+// With a socket, several answers share network packets; `socket` is -1 if there is only one answer.
 int MqttSubscriber::send_all(int socket) {
     if (!mosquitto_want_write(handle())) return MOSQ_ERR_SUCCESS;
     const auto hold_back = [socket](int yes) {

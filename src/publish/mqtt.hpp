@@ -1,5 +1,6 @@
 // Sends MQTT messages from a bounded queue, and receives messages by subscription, with
-// libmosquitto. Both connect in the background, and again whenever the connection breaks.
+// libmosquitto. Publisher and subscriber connect in the background, and reconnect when the
+// connection breaks.
 #pragma once
 
 #include <chrono>
@@ -37,12 +38,13 @@ struct MqttOptions {
     std::string ca_file;    ///< certificates to trust; empty for those of the system
     int qos = 0;            ///< 0: at most once, 1: at least once
     std::string client_id;  ///< empty if the broker chooses
-    /// Topic of messages about the presence of a publisher; empty for none. The broker retains the
-    /// newest of them for later subscribers. That of a broken connection is the last will.
+    /// Topic of the presence messages of a publisher; empty for none. The broker retains the newest
+    /// message for later subscribers. The message for a broken connection is the last will.
     std::string presence_topic;
-    /// Returns the message. Called by both threads, but not at the same time.
+    /// Returns a presence message. Both threads call it, but never at the same time.
     std::function<std::string(Presence)> presence;
-    /// Most messages that are kept while there is no connection; beyond it, the oldest are dropped.
+    /// Maximum number of messages that are kept without a connection; then the oldest are
+    /// dropped.
     std::size_t queue = 50;
     /// Called with messages for the user, for example that the connection is lost or back.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
@@ -52,7 +54,7 @@ struct MqttOptions {
 /// are 1883 and 8883. Throws BadArgument if the URL is invalid.
 void parse_url(const std::string& url, MqttOptions& options);
 
-/// The connection and its thread, which publisher and subscriber share.
+/// The connection and its thread: base class of publisher and subscriber.
 class MqttClient {
   public:
     MqttClient(const MqttClient&) = delete;
@@ -60,7 +62,7 @@ class MqttClient {
 
     bool is_connected() const;
 
-    /// Throws Error with the reason if the broker was never reached so far.
+    /// Throws Error with the reason if the broker was never reached.
     void require_reached() const;
 
   protected:
@@ -68,8 +70,8 @@ class MqttClient {
     virtual ~MqttClient();
 
     /// Connects, and waits a short time for the answer. Throws Error if the broker refuses the user
-    /// or the certificates cannot be read. If the broker does not answer, this is reported through
-    /// `MqttOptions::tell`, and the thread goes on trying.
+    /// or the certificates cannot be read. If the broker does not answer, reports it through
+    /// `MqttOptions::tell`, and the thread keeps trying.
     void start();
     /// Ends the connection and the thread; after this, no virtual function is called.
     void stop();
@@ -79,8 +81,8 @@ class MqttClient {
     virtual void on_disconnected() {}
     virtual void on_published(int) {}
     virtual void on_message(std::string_view, std::string_view) {}
-    /// Sends and receives once, while there is a connection; waits a short time for something to
-    /// do. Returns an error of libmosquitto.
+    /// Sends and receives once while connected; waits a short time for something to do. Returns an
+    /// error code of libmosquitto.
     virtual int work();
 
     /// Whether the newest attempt to connect failed, or the connection is lost. Needs the lock.
@@ -117,7 +119,7 @@ class MqttPublisher : public MqttClient {
     explicit MqttPublisher(MqttOptions options);
     ~MqttPublisher() override;
 
-    /// Sends a message, or keeps it until there is a connection; does not block. After an
+    /// Sends a message, or queues it until there is a connection; does not block. After an
     /// interruption, the newest messages are sent first.
     void publish(std::string topic, std::string payload);
 
@@ -125,10 +127,10 @@ class MqttPublisher : public MqttClient {
     bool flush(std::chrono::milliseconds patience);
 
     std::int64_t sent() const;
-    /// Number of messages that are in the queue or being sent.
+    /// Number of messages in the queue or being sent.
     std::int64_t unsent() const;
-    /// Number of messages that were never sent, because newer ones took their place in the queue,
-    /// they are invalid, or (QoS 0) the connection broke while they were being sent.
+    /// Number of messages that were never sent because newer messages replaced them in the queue,
+    /// they were invalid, or (QoS 0) the connection broke while they were being sent.
     std::int64_t dropped() const;
 
   private:
@@ -144,9 +146,10 @@ class MqttPublisher : public MqttClient {
     void say_goodbye();
 
     std::deque<Message> waiting_;
-    std::set<int> under_way_;  ///< with libmosquitto, not yet sent (QoS 0) or acknowledged (QoS 1)
-    std::set<int> presence_under_way_;  ///< not yet acknowledged
-    bool said_online_ = false;          ///< on this connection
+    std::set<int>
+        under_way_;  ///< messages in libmosquitto, not yet sent (QoS 0) or acknowledged (QoS 1)
+    std::set<int> presence_under_way_;  ///< presence messages that are not yet acknowledged
+    bool said_online_ = false;          ///< whether `online` was published on this connection
     std::condition_variable done_;
     std::int64_t sent_ = 0;
     std::int64_t dropped_ = 0;
@@ -173,7 +176,7 @@ class MqttSubscriber : public MqttClient {
 
     std::vector<std::string> topics_;
     Handler handle_;
-    std::int64_t received_ = 0;  ///< number of messages
+    std::int64_t received_ = 0;  ///< number of received messages
 };
 
 }  // namespace dotpose::publish

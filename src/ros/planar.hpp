@@ -13,7 +13,7 @@ inline double wrapped(double angle_rad) {
     return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
 
-/// Returns the pose in A of what has the pose `c_in_b` in B.
+/// Returns the pose of C in A.
 inline PlanarPose compose(const PlanarPose& b_in_a, const PlanarPose& c_in_b) {
     const double c = std::cos(b_in_a.yaw_rad);
     const double s = std::sin(b_in_a.yaw_rad);

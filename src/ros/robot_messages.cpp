@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kSize = 6;  ///< rows and columns of the covariances of messages
 
-/// The places of x, y and yaw among (x, y, z, roll, pitch, yaw).
+/// The indices of x, y and yaw in (x, y, z, roll, pitch, yaw).
 constexpr std::array<std::size_t, 3> kPlanar = {0, 1, 5};
 
 Quaternion rotation_about_z(double yaw_rad) {
@@ -56,14 +56,16 @@ PlanarCovariance propagated(const Jacobian& by, const PlanarMotion& motion) {
     return result;
 }
 
-/// The pose of a motion in a frame that is turned by `yaw_rad` in its plane.
+/// Returns the covariance of a pose in a frame that is turned by `yaw_rad` in the plane of the
+/// motion.
 PlanarCovariance turned_covariance(const PlanarMotion& motion, double yaw_rad) {
     const double c = std::cos(yaw_rad);
     const double s = std::sin(yaw_rad);
     return propagated({{{c, s, 0, 0, 0, 0}, {-s, c, 0, 0, 0, 0}, {0, 0, 1, 0, 0, 0}}}, motion);
 }
 
-/// The velocities in the robot's own frame; their directions are as uncertain as the yaw.
+/// Returns the velocities in the frame of the robot; the uncertainty of the yaw makes their
+/// directions uncertain.
 TwistWithCovariance twist_of(const PlanarMotion& motion) {
     const double c = std::cos(motion.pose.yaw_rad);
     const double s = std::sin(motion.pose.yaw_rad);
@@ -110,7 +112,7 @@ RobotMessages RobotMessenger::messages(const RobotUpdate& update) {
     return result;
 }
 
-/// Moves `odom_from_base_`, or where the motion does not go on from the one before,
+/// Updates `odom_from_base_`, or, if the motion does not continue the previous one,
 /// `map_from_odom_`.
 void RobotMessenger::follow(const RobotUpdate& update) {
     const PlanarPose& map_from_base = update.motion->pose;
@@ -149,14 +151,14 @@ std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFr
     if (!camera.paper) return std::nullopt;
     const PixelPoint centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
     const CameraPoint reference = from_image_centre(camera, camera.reference_px.value_or(centre));
-    // The robot's place and heading as seen along the image's axes, y up.
+    // The robot's place and heading along the image axes, with y up.
     const PlanarPose camera_from_base = {reference.x_mm / 1000, -reference.y_mm / 1000,
                                          -camera.theta_offset_rad};
     const PlanarPose base_from_camera = inverse(camera_from_base);
     const double height_m = camera.focal_px.value_or(0) *
                             std::sqrt(camera.paper->mm_per_px_x * camera.paper->mm_per_px_y) / 1000;
     const double half_rad = base_from_camera.yaw_rad / 2;
-    // Turned about z by the yaw, then about the new x axis by half a turn: z looks down.
+    // Rotated about z by the yaw, then about the new x axis by half a turn: z points down.
     TransformStamped mount;
     mount.header.frame_id = frames.base;
     mount.child_frame_id = frames.camera;

@@ -1,4 +1,4 @@
-// From the results of a frame, in mm with y down or in the world, to metres with y up.
+// Converts the results of a frame, in mm with y down or in the world, to metres with y up.
 #include <cmath>
 #include <cstdio>
 
@@ -8,7 +8,7 @@
 namespace dotpose::ros {
 namespace {
 
-/// Where y points down in the plane, y and all angles are reversed.
+/// If y points down in the plane, y and all angles are negated.
 struct Axes {
     bool is_y_up = true;
 

@@ -6,8 +6,8 @@
 namespace dotpose::simulate {
 namespace {
 
-// Random printing errors of one dot. They depend only on the page and the cell of the dot, so a dot
-// has the same errors in every frame.
+// Random printing errors of one dot. They depend only on the page and the cell, so a dot has the
+// same errors in every frame.
 struct DotErrors {
     double presence;  // uniform in [0, 1)
     Vec2 jitter;      // normal, deviation 1
@@ -18,8 +18,8 @@ DotErrors errors_of(const Page& page, Cell cell) {
     const Section section = page.pattern.section;
     const std::uint64_t sheet = page.seed * 4096 + section.u * std::uint64_t{64} + section.v;
     Rng rng(sheet, (std::uint64_t{cell.x} << 32) | cell.y);
-    // All random numbers are drawn, used or not, so that switching one imperfection on or off does
-    // not change the others.
+    // All random numbers are always drawn, because switching one imperfection must not change the
+    // others.
     DotErrors errors{};
     errors.presence = rng.uniform();
     errors.jitter.x = rng.normal();
@@ -50,7 +50,7 @@ Vec2 shift_of(const Page& page, Cell cell) {
     return page.shift_mm({static_cast<double>(cell.x), static_cast<double>(cell.y)});
 }
 
-/// Returns the reflectance of a dot. Dots may be printed in four inks by the direction of their
+/// Returns the reflectance of a dot. Dots may have four inks by the direction of their
 /// displacement: right is the darkest, then down, left and up.
 double reflectance_of(Vec2 displacement, const Imperfections& imperfections) {
     const double paleness = displacement.x > 0   ? 0
@@ -121,8 +121,8 @@ void add_dots(Ink& ink, const View& view, const Page& page, const Imperfections&
     const Pattern& pattern = page.pattern;
     const OffsetBox box = visible_offsets(view);
     const CameraPose& pose = view.pose;
-    // Cells are counted from the cell of the pose, so that offsets are exact anywhere on the plane.
-    // The range has one cell more on each side for dots that are displaced or jittered into view.
+    // Cells are relative to the cell of the pose, so offsets are exact anywhere on the plane. The
+    // range has a further cell on each side for dots that are displaced or jittered into view.
     const AxisScale scale = page.print_scale;
     const Vec2 spacing_mm{scale.x * pattern.spacing_mm, scale.y * pattern.spacing_mm};
     const auto first = [](double low, double fraction) {

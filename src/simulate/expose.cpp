@@ -1,8 +1,8 @@
 // Computes grey levels from ink. Ink is drawn on sub-pixels, `kernel.per_pixel` per pixel and axis,
-// each with the exact share of its area that is covered. Blur of the lens, motion and integration
-// over the pixel's area are one weighted sum over sub-pixels, first along rows, then along columns.
-// Sub-rows are drawn in bands and added to the pixel rows that they contribute to, so that no image
-// larger than the frame is kept.
+// each with its exact covered fraction. Lens blur, motion and integration over the area of the
+// pixel are one weighted sum over sub-pixels, first along rows, then along columns. Sub-rows are
+// drawn in bands and added to the pixel rows that they contribute to, without storing an image
+// larger than the frame.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,11 +16,11 @@
 namespace dotpose::simulate {
 namespace {
 
-// Sums are computed for four pixels at a time, which compilers turn into vector instructions.
+// Number of pixels whose sums are computed together, with vector instructions.
 constexpr std::size_t kLanes = 4;
 
-// Computes the light in each pixel as the light of bare paper minus the light that ink absorbs. Ink
-// covers a few percent of the sub-pixels, and only these are spread over neighbouring pixels.
+// Computes the light in each pixel as the light of bare paper minus the light absorbed by ink. Ink
+// covers only a few percent of the sub-pixels, and only these are spread over neighbouring pixels.
 class Sensor {
   public:
     Sensor(const CameraModel& camera, const Kernel& kernel, const std::vector<float>& paper)
@@ -35,8 +35,7 @@ class Sensor {
         collect_paper();
     }
 
-    // Subtracts the light that ink absorbs in a sub-row, which is counted from the top of the
-    // border.
+    // Subtracts the light absorbed by ink in a sub-row, numbered from the top of the border.
     void absorb(int sub_row, std::span<const Raster::Spot> spots) {
         if (spots.empty()) return;
         const int row = sub_row / kernel_.per_pixel;
@@ -60,7 +59,7 @@ class Sensor {
     }
 
   private:
-    // A range of elements of row_; their number is a multiple of kLanes.
+    // A range of elements of row_; its length is a multiple of kLanes.
     struct Reach {
         std::size_t from, to;
     };
@@ -80,7 +79,7 @@ class Sensor {
         for (Raster::Spot& loss : losses_) {
             for (float& light : loss.darkness)
                 light *= paper[loss.pixel];
-            // Pixels next to each other share a range.
+            // Adjacent pixels share a range.
             if (reaches_.empty() || loss.pixel < reaches_.back().from ||
                 loss.pixel > reaches_.back().to) {
                 reaches_.push_back({loss.pixel, loss.pixel});
@@ -114,8 +113,8 @@ class Sensor {
         }
     }
 
-    // The number of phases is a template parameter, so that the compiler can unroll the loop over
-    // them and load and store each pixel once.
+    // The number of phases is a template parameter, so the compiler can unroll the loop over phases
+    // and load and store each pixel once.
     template <std::size_t kPhases>
     void spread_phases(const Kernel::Weights& weights) {
         std::array<const float*, kPhases> of_phase;
@@ -135,7 +134,7 @@ class Sensor {
         }
     }
 
-    // Adds a range of row_ to all pixel rows that row `row` contributes to. Rows are counted from
+    // Adds a range of row_ to all pixel rows that row `row` contributes to. Rows are numbered from
     // the edge of the border.
     void add_row(int row, const std::vector<float>& weights, Reach reach) {
         const int top = row - 2 * kernel_.border_px;
@@ -254,14 +253,14 @@ class ImageRows {
     }
 
   private:
-    // Returns the pixel coordinate of the centre of a sub-pixel. Sub-pixels are counted from the
+    // Returns the pixel coordinate of the centre of a sub-pixel. Sub-pixels are numbered from the
     // edge of the border.
     double pixel_of(int sub_pixel) const {
         return (sub_pixel + 0.5) / kernel_.per_pixel - 0.5 - kernel_.border_px;
     }
 
     float darkness_at(Vec2 offset_mm) const {
-        // Half a pixel is subtracted because the centre of a pixel has whole coordinates.
+        // Half a pixel is subtracted because pixel centres have integer coordinates.
         const double u = (page_.centre_mm.x + offset_mm.x) / page_.mm_per_px - 0.5;
         const double v = (page_.centre_mm.y + offset_mm.y) / page_.mm_per_px - 0.5;
         if (!(u > -1 && v > -1 && u < page_.image.width_px && v < page_.image.height_px)) return 0;

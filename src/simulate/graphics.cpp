@@ -58,7 +58,7 @@ Vec2 random_offset(const View& view, Rng& rng) {
 
 void add_stroke(Ink& ink, const View& view, const Stroke& stroke, double reflectance) {
     const Vec2 span{stroke.to_mm.x - stroke.from_mm.x, stroke.to_mm.y - stroke.from_mm.y};
-    // Short pieces, so that a straight line on paper bends with the lens.
+    // Short pieces, because the lens bends straight lines.
     const double piece_mm = 24 * view.camera.mm_per_px;
     const int pieces = std::max(1, static_cast<int>(std::hypot(span.x, span.y) / piece_mm));
     for (int piece = 0; piece < pieces; ++piece) {

@@ -1,4 +1,4 @@
-/// Ink as shapes in the image, as a lens without blur would project it.
+/// Ink as shapes in the image of a lens without blur.
 #pragma once
 
 #include <functional>
@@ -30,12 +30,13 @@ struct Ink {
     std::vector<InkPolygon> polygons;
 };
 
-/// The projection and the part of the page that the image shows.
+/// The projection and the visible part of the page.
 struct View {
     CameraModel camera;
     CameraPose pose;
     Projection projection;
-    double margin_px;  ///< ink this far outside the image still reaches it by blur and motion
+    double margin_px;  ///< maximum distance at which ink outside the image contributes by blur and
+                       ///< motion
 
     View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperfections& blurred);
 };
@@ -96,7 +97,7 @@ void check(const Page& page, const CameraModel& camera, const CameraPose& pose,
 /// ink, blur, motion and the area of the pixels.
 std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
                           const Imperfections& imperfections);
-/// Computes the grey levels of a frame of a page that is given as an image.
+/// Computes the grey levels of a frame of a page image.
 std::vector<float> expose(const PageImage& page, const View& view,
                           const Imperfections& imperfections);
 

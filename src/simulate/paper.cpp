@@ -17,8 +17,7 @@ double PageArea::distance(double x, double y) const {
 namespace simulate {
 namespace {
 
-// Rounds down without std::floor, which is a function call unless the compiler may assume a newer
-// processor.
+// Rounds down without std::floor, which is a function call on the baseline processor.
 std::int64_t floor_of(double x) {
     // Points near the horizon of an extreme tilt are too far away for a 64-bit integer.
     if (!(std::abs(x) < 4e18)) return 0;
@@ -35,8 +34,8 @@ class Texture {
           nodes_per_mm_(1 / (Imperfections::kGrain_px * view.camera.mm_per_px)),
           origin_{x_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_,
                   y_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_},
-          // A uniform value in [-1, 1) has the deviation 1/sqrt(3), and interpolation reduces the
-          // deviation to 2/3.
+          // A uniform value in [-1, 1) has the standard deviation 1/sqrt(3), and interpolation
+          // multiplies it by 2/3.
           amplitude_(deviation * std::sqrt(3.0) * 1.5) {
         if (deviation > 0) tabulate(view);
     }
@@ -66,8 +65,8 @@ class Texture {
         return nodes_[static_cast<std::size_t>(row * columns_ + column)];
     }
 
-    // Computes the values of the nodes in view in advance: each is used by about 36 pixels. Under a
-    // strong tilt there can be more nodes than pixels; then there is no table.
+    // Precomputes the values of the nodes in view, because about 36 pixels use each. Under a strong
+    // tilt there can be more nodes than pixels; then there is no table.
     void tabulate(const View& view) {
         const OffsetBox box = visible_offsets(view);
         const double width = (box.high_mm.x - box.low_mm.x) * nodes_per_mm_ + 3;
@@ -94,8 +93,8 @@ class Texture {
     std::vector<double> nodes_;
 };
 
-/// The table on which the paper lies: beyond the edge of the paper its reflectance counts, and
-/// pixels on the edge see a part of both.
+/// The table under the paper, which is visible beyond the edge of the paper. Pixels on the edge mix
+/// paper and table.
 class Table {
   public:
     Table(const Page& page, const View& view)

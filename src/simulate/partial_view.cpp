@@ -1,4 +1,4 @@
-// Draws views in which the pattern covers only a part: edges of sheets, and islands of pattern.
+// Draws partly covered views: edges of sheets, and islands of pattern.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,7 +9,7 @@
 namespace dotpose {
 namespace {
 
-/// Returns the points of the page under evenly spread pixels of the image, in units of the spacing.
+/// Returns the points of the page under evenly spaced pixels of the image, in units of the spacing.
 std::vector<Vec2> sample_points(const Shot& shot) {
     constexpr int kColumns = 64;
     constexpr int kRows = 48;
@@ -48,12 +48,12 @@ double draw_direction(const Shot& shot, Rng& rng) {
     return of_image + static_cast<double>(rng.below(4)) * std::numbers::pi / 2;
 }
 
-/// Returns half the side of a square so large that at most one of its corners is in view.
+/// Returns half the side of a square that is large enough for at most one corner in view.
 double endless(const Shot& shot) {
     return 8 * std::hypot(shot.camera.width_px, shot.camera.height_px) / spacing_px(shot);
 }
 
-/// Draws a sheet of which a side or a corner is in view, so that it covers a share of the view.
+/// Draws a sheet with a side or a corner in view that covers a given fraction of the view.
 PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     const std::vector<Vec2> points = sample_points(shot);
     const double size = endless(shot);
@@ -71,23 +71,23 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
         area.x_grid = x_grid(shot.pose) + u * along.x - v * along.y;
         area.y_grid = y_grid(shot.pose) + u * along.y + v * along.x;
     };
-    double least = -size;
-    double most = size;
+    double low = -size;
+    double high = size;
     for (int halving = 0; halving < 40; ++halving) {
-        const double middle = (least + most) / 2;
+        const double middle = (low + high) / 2;
         advance(middle);
-        (share_in(area, points) < share ? least : most) = middle;
+        (share_in(area, points) < share ? low : high) = middle;
     }
     return area;
 }
 
 /// Draws a rectangle inside the view that contains enough dots.
 PageArea draw_island(const Shot& shot, Rng& rng) {
-    constexpr double kFewest = PartialView::kFewestIslandDots * 1.05;
+    constexpr double kMinDots = PartialView::kFewestIslandDots * 1.05;
     PageArea area;
     const double width = rng.uniform(7, 12);
     area.half_width = width / 2;
-    area.half_height = std::max(rng.uniform(7, 12), kFewest / width) / 2;
+    area.half_height = std::max(rng.uniform(7, 12), kMinDots / width) / 2;
     area.angle_rad = draw_direction(shot, rng);
     const Projection projection(shot.camera, shot.pose);
     const double reach_px = 0.75 * spacing_px(shot) * std::hypot(area.half_width, area.half_height);
@@ -99,8 +99,8 @@ PageArea draw_island(const Shot& shot, Rng& rng) {
     return area;
 }
 
-/// Whether two areas are some spacings apart. It takes about the distance from the centre of `a` to
-/// its corners as the extent of `a`, whatever direction they point in.
+/// Whether two areas are some spacings apart. The extent of `a` is approximated by a circle through
+/// about its corners.
 bool are_apart(const PageArea& a, const PageArea& b) {
     constexpr double kGap = 2;
     const double reach = std::hypot(a.half_width, a.half_height);
@@ -135,9 +135,10 @@ void cover_partly(Shot& shot, const PartialView& view) {
         }
         return;
     }
-    // The margin of 15 % is for the dots at the border, which are not seen whole.
-    const double least = std::max(view.least_share, 1.15 * view.fewest_dots / intersections(shot));
-    const double share = rng.uniform(least, std::max(least, view.most_share));
+    // The margin of 15 % is for the dots at the border, which are not completely visible.
+    const double min_share =
+        std::max(view.least_share, 1.15 * view.fewest_dots / intersections(shot));
+    const double share = rng.uniform(min_share, std::max(min_share, view.most_share));
     const PageArea dots = edge_of_sheet(shot, share, rng);
     shot.page.areas = {dots};
     if (!view.on_table) return;

@@ -54,7 +54,7 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
     if (discriminant < 0) return kInvisible;
     const double scale = 2 / (1 + std::sqrt(discriminant));
     const Vec2 seen{scale * undistorted.x, scale * undistorted.y};
-    // Its row, seen.y + time * readout.y, is read at `time`, as a share of the readout.
+    // Its row, seen.y + time * readout.y, is read at `time`, a fraction of the readout.
     const double time = seen.y / (height_px_ - readout_px_.y);
     return {centre_px_.x + seen.x + time * readout_px_.x,
             centre_px_.y + seen.y + time * readout_px_.y};
@@ -77,7 +77,7 @@ Vec2 Projection::offset_from_pixel(Vec2 pixel) const {
     return {(d * rx - b * ry) * factor, (a * ry - c * rx) * factor};
 }
 
-// Flat: without a call for each pixel it takes half the time.
+// Flattened: without a call per pixel it takes half the time.
 [[gnu::flatten]] void Projection::offsets_from_row(Vec2 first_pixel,
                                                    std::span<Vec2> offsets_mm) const {
     for (std::size_t i = 0; i < offsets_mm.size(); ++i)

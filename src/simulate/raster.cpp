@@ -20,7 +20,7 @@ Raster::Raster(const Ink& ink, const Layout& layout)
                              1 - dot.reflectance});
         tallest_ = std::max(tallest_, ellipses_.back().half_height);
     }
-    // The sort is stable because the order of the ellipses affects how sums are rounded.
+    // The sort is stable because the order of the ellipses affects the rounding of sums.
     std::stable_sort(ellipses_.begin(), ellipses_.end(),
                      [](const Ellipse& a, const Ellipse& b) { return a.y < b.y; });
     for (const InkPolygon& shape : ink.polygons) {
@@ -88,14 +88,14 @@ void Raster::draw_band(int top) {
     }
 }
 
-// Darkens each sub-pixel by the share of its area that a convex shape covers. The area is exact
-// along the row and a Gauss quadrature with four chords across it, which is right to 0.1 % even at
-// the round ends of a dot. `chord_at(y)` returns the left and right end of the chord at y.
+// Darkens each sub-pixel by the fraction of its area that a convex shape covers. The area is exact
+// along the row and a Gauss quadrature with four chords across it, with an error below 0.1 % even
+// at the round ends of a dot. `chord_at(y)` returns the left and right end of the chord at y.
 template <typename ChordAt>
 void Raster::fill(double top, double bottom, double darkness, const ChordAt& chord_at) {
     struct Line {
-        double at;      // position of the chord, as a share of the height
-        double weight;  // weight of the chord, as a share of the height
+        double at;      // position of the chord, as a fraction of the height
+        double weight;  // weight of the chord, as a fraction of the height
     };
     static constexpr Line kLines[] = {{0.06943184420297371, 0.17392742256872693},
                                       {0.33000947820757187, 0.32607257743127307},
@@ -118,7 +118,7 @@ void Raster::fill(double top, double bottom, double darkness, const ChordAt& cho
         float* out = row(row_index - band_top_);
         for (int x = touched_.from; x < touched_.to; ++x) {
             double& coverage = coverage_[static_cast<std::size_t>(x)];
-            // Where shapes overlap, the darker one counts.
+            // Overlapping shapes do not add: the darker one counts.
             out[x] = std::max(out[x], static_cast<float>(coverage * darkness));
             coverage = 0;
         }

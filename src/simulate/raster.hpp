@@ -1,4 +1,4 @@
-/// Draws ink on sub-pixels, a band of sub-rows at a time.
+/// Draws ink on sub-pixels in bands of sub-rows.
 #pragma once
 
 #include <array>
@@ -21,19 +21,19 @@ class Raster {
 
     Raster(const Ink& ink, const Layout& layout);
 
-    /// Draws the sub-rows `top` to `top + band_rows - 1`, counted from the top of the border. Call
+    /// Draws the sub-rows `top` to `top + band_rows - 1`, numbered from the top of the border. Call
     /// `take_row` for all rows of the previous band first.
     void draw_band(int top);
 
     /// The sub-pixels of one pixel in a sub-row.
     struct Spot {
-        std::size_t pixel = 0;  ///< counted from the left of the border
-        /// Share of the light that the ink absorbs in each sub-pixel; zero from Layout::per_pixel
-        /// on.
+        std::size_t pixel = 0;  ///< numbered from the left of the border
+        /// Fraction of the light that the ink absorbs in each sub-pixel; zero from index
+        /// Layout::per_pixel.
         std::array<float, Kernel::kMaxPerPixel> darkness{};
     };
 
-    /// Returns the pixels with ink in a row of the band, each once, and clears the row.
+    /// Returns the pixels with ink in a row of the band, without duplicates, and clears the row.
     std::span<const Spot> take_row(int row_in_band);
 
   private:
@@ -56,19 +56,19 @@ class Raster {
     void cover(double left, double right, double weight);
 
     Layout layout_;
-    std::vector<Ellipse> ellipses_;  // in the order of y
+    std::vector<Ellipse> ellipses_;  // sorted by y
     double tallest_ = 0;             // largest half_height
     std::vector<Polygon> polygons_;
     int band_top_ = 0;
-    // Most sub-pixels have no ink: only those in `spans_` of their row are read.
+    // Most sub-pixels have no ink; only the sub-pixels in `spans_` of their row are read.
     struct Span {
         int from, to;
     };
     float* row(int row_in_band);
     std::vector<float> band_;
     std::vector<std::vector<Span>> spans_;  // may overlap
-    std::vector<double> coverage_;          // covered shares in the current row
-    Span touched_{};                        // the part of coverage_ that is not zero
+    std::vector<double> coverage_;          // covered fractions in the current row
+    Span touched_{};                        // the non-zero part of coverage_
     std::vector<Spot> spots_;
 };
 

@@ -12,15 +12,15 @@ void require(bool holds, const std::string& otherwise) {
     if (!holds) throw BadArgument(otherwise);
 }
 
-// Whether a value is from `low` to `high`; false for NaN.
+// Whether a value is between `low` and `high`; false for NaN.
 bool within(double value, double low, double high) {
     return value >= low && value <= high;
 }
 
 void check_camera(const CameraModel& camera, const CameraPose& pose) {
-    constexpr int kLargest_px = 16384;
-    require(camera.width_px >= 1 && camera.width_px <= kLargest_px && camera.height_px >= 1 &&
-                camera.height_px <= kLargest_px,
+    constexpr int kMaxSide_px = 16384;
+    require(camera.width_px >= 1 && camera.width_px <= kMaxSide_px && camera.height_px >= 1 &&
+                camera.height_px <= kMaxSide_px,
             "the image must be 1 x 1 to 16384 x 16384 px, not " + std::to_string(camera.width_px) +
                 " x " + std::to_string(camera.height_px));
     require(within(camera.mm_per_px, 1e-6, 1e6), "mm per px must be above 0");

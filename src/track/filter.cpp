@@ -6,21 +6,20 @@
 namespace dotpose::track {
 namespace {
 
-/// Time constant with which the acceleration decays, that is, how long a robot goes on
-/// accelerating.
+/// Time constant of the decay of the acceleration.
 constexpr float kHold_s = 0.5F;
 
-/// Factor by which the agility, the variance of new acceleration, changes from one sighting to the
-/// next. It rises and falls by the same factor, so that in balance the innovations keep their sign
-/// as often as they change it, as those of a matched filter do.
+/// Factor by which the agility, the variance of new acceleration, changes per sighting. The agility
+/// rises and falls by the same factor: in equilibrium the innovations keep their sign as often as
+/// they change it, as in a matched filter.
 constexpr float kAgility_step = 1.5F;
-constexpr float kLeast_agility = 1e-6F;
-/// Innovations of more standard deviations than this are not taken for noise.
+constexpr float kMinAgility = 1e-6F;
+/// Innovations above this number of standard deviations do not count as noise.
 constexpr float kSurprise = 4;
-/// Number of sightings over which their scatter is averaged.
+/// Number of sightings over which the scatter is averaged.
 constexpr float kScatter_sightings = 32;
-constexpr float kLeast_scatter = 0.01F;
-constexpr float kLargest_scatter = 9;
+constexpr float kMinScatter = 0.01F;
+constexpr float kMaxScatter = 9;
 
 /// Bound of the rounding error of the difference of two variances, relative to the larger one.
 constexpr float kRounding = 4e-6F;
@@ -29,7 +28,7 @@ float squared(float value) {
     return value * value;
 }
 
-/// Returns the covariance of a sighting's pose, to which the least errors of the options are added.
+/// Returns the covariance of a sighting's pose plus the minimum errors of the options.
 Matrix3 noise_of(const Sighting& sighting, const TrackOptions& options) {
     Matrix3 noise = sighting.covariance;
     noise[0][0] += squared(options.least_sigma_mm);
@@ -57,13 +56,13 @@ void move(MotionEstimate& motion, const Vector9& step) {
         motion.acceleration[i] += step[i + 6];
 }
 
-/// Returns the share of the acceleration that is left after a time.
+/// Returns the fraction of the acceleration that remains after a time.
 float kept(float dt_s) {
     return kHold_s / (kHold_s + dt_s);
 }
 
 /// Advances a state, or a row or column of its covariance, by a time; `at(i)` is a reference to its
-/// part i. The acceleration is taken to be constant over the interval.
+/// part i. The acceleration is assumed to be constant over the interval.
 template <typename State>
 void advance(const State& at, float dt_s) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -78,13 +77,13 @@ float spread(std::size_t axis, const TrackOptions& options) {
     return axis < 2 ? options.acceleration_mm_s2 : options.angular_acceleration_rad_s2;
 }
 
-/// Returns the variance of the acceleration that is new after a time, at an agility of 1.
+/// Returns the variance of the new acceleration after a time, at an agility of 1.
 float push(std::size_t axis, float dt_s, const TrackOptions& options) {
     return squared(spread(axis, options)) * (1 - squared(kept(dt_s)));
 }
 
-/// Adds process noise to the covariance: a random variable with this variance, which `effect`
-/// multiplies to the changes of position, velocity and acceleration along an axis.
+/// Adds process noise to the covariance: a random variable with variance `variance`, which changes
+/// position, velocity and acceleration along an axis in proportion to `effect`.
 void add_noise(Covariance9& covariance, std::size_t axis, float variance, const Vector3& effect) {
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j)
@@ -93,7 +92,7 @@ void add_noise(Covariance9& covariance, std::size_t axis, float variance, const 
 }
 
 /// Sets the covariance of the pose. If sightings scatter less than their covariances predict, the
-/// rest of their errors is common to all of them, and averaging does not reduce it.
+/// rest of their errors is common to all sightings, and averaging does not reduce it.
 void set_pose_covariance(MotionEstimate& motion) {
     const float common = std::max(1 - motion.scatter, 0.0F);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -253,11 +252,11 @@ MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting,
         // follows the noise, they alternate.
         const float agility = repeated > 0 ? old * kAgility_step : old / kAgility_step;
         const float needed = old + surprise() / (pushed * squared(effect[0]));
-        motion.agility[i] = std::clamp(std::max(agility, needed), kLeast_agility, 1.0F);
+        motion.agility[i] = std::clamp(std::max(agility, needed), kMinAgility, 1.0F);
         add_noise(motion.covariance, i, (motion.agility[i] - old) * pushed, effect);
-        // An innovation that this does not explain may come from a collision, which changes the
-        // velocity abruptly. The first one may also be an outlier, so it changes the position only;
-        // a second one in the same direction changes the velocity too.
+        // An innovation that the agility does not explain may come from a collision, which changes
+        // the velocity abruptly, or from an outlier. The first such innovation therefore changes
+        // only the position; a second one in the same direction also changes the velocity.
         if (surprise() > 0) {
             const bool is_hit = repeated > squared(moved) / 2;
             add_noise(motion.covariance, i, surprise(), {1, is_hit ? 1 / dt_s : 0, 0});
@@ -287,8 +286,7 @@ MotionEstimate corrected(const MotionEstimate& predicted, const Sighting& sighti
     motion.noise = noise_of(sighting, options);
     subtract_known(motion.covariance, weighted, motion.noise);
     motion.scatter +=
-        (std::clamp(distance / 3, kLeast_scatter, kLargest_scatter) - motion.scatter) /
-        kScatter_sightings;
+        (std::clamp(distance / 3, kMinScatter, kMaxScatter) - motion.scatter) / kScatter_sightings;
     set_pose_covariance(motion);
     return motion;
 }

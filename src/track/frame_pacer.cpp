@@ -21,8 +21,8 @@ std::int32_t turn_bam(std::int32_t a, std::int32_t b) {
 bool FramePacer::has_moved(const Fix& fix) const {
     const bool was_seen = rest_.status == Status::ok;
     if (fix.status != Status::ok) {
-        // A frame without a fix tells nothing about a moving device. A stationary device that had a
-        // fix should have one again, so it may have been moved.
+        // A frame without a fix is not informative for a moving device. A stationary device that
+        // had a fix should have one again; without one, it may have been moved.
         return options_.lost_is_moved && was_seen && motion_ == Motion::stationary;
     }
     if (!was_seen) return true;

@@ -9,16 +9,16 @@ namespace {
 
 using namespace dotpose::track;
 
-/// Least standard deviation of a prediction. Dots are searched for within three deviations, so this
-/// is at least a tenth of a spacing and half a degree: after a long rest of the robot, the
-/// covariance of the filter is too small.
-constexpr std::int32_t kLeast_sigma_q16 = 65536 / 32;
-constexpr std::int32_t kLeast_sigma_theta_bam = 1 << 21;
+/// Minimum standard deviation of a prediction. The search for dots covers three standard
+/// deviations, that is, at least a tenth of a spacing and half a degree. The minimum is needed
+/// because the covariance of the filter is too small after a long rest of the robot.
+constexpr std::int32_t kMinSigma_q16 = 65536 / 32;
+constexpr std::int32_t kMinSigma_theta_bam = 1 << 21;
 constexpr float kDeviations = 3;
 
-/// Longest motion between two frames that is predicted, in spacings: robots do not move further,
-/// and sums of integers must not overflow.
-constexpr float kFarthest = 2048;
+/// Maximum predicted motion between two frames, in spacings. Robots do not move further, and sums
+/// of integers must not overflow.
+constexpr float kMaxMotion = 2048;
 
 /// Converts a vector from the plane of the sighting to the pattern frame. The rotation between them
 /// follows from the angle of the image x axis, which is known in both.
@@ -33,17 +33,17 @@ std::array<float, 2> in_pattern(float x, float y, const Fix& fix, const Sighting
     return {c * x - s * y, s * x + c * y};
 }
 
-/// Returns a deviation as an integer multiple of a unit, clamped to limits; NaN gives the upper
-/// one.
-std::int32_t bounded(float sigma, float unit, std::int32_t least, std::int32_t most) {
+/// Returns a standard deviation as an integer multiple of a unit, clamped to limits; NaN gives the
+/// upper limit.
+std::int32_t bounded(float sigma, float unit, std::int32_t min, std::int32_t max) {
     const float value = sigma / unit;
-    if (!(value < static_cast<float>(most))) return most;
-    return std::max(static_cast<std::int32_t>(value), least);
+    if (!(value < static_cast<float>(max))) return max;
+    return std::max(static_cast<std::int32_t>(value), min);
 }
 
-/// Returns the standard deviation of the predicted pose. It contains those of the filter and of the
-/// fix whose map is used, and `unforeseen`, a motion that the filter cannot predict, so that three
-/// deviations cover it.
+/// Returns the standard deviation of the predicted pose. It combines the standard deviations of the
+/// filter and of the fix, and `unforeseen`, a motion that the filter cannot predict and that three
+/// standard deviations must cover.
 float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis,
             float unforeseen) {
     return std::sqrt(predicted[axis][axis] + seen.covariance[axis][axis]) +
@@ -73,7 +73,7 @@ Prediction Tracker::predict(std::int64_t time_us, const Fix& newest, const Sight
     const Vector3 step = difference(pose_of(seen), expected);
     const float spacing_mm = static_cast<float>(seen.spacing_nm) * 1e-6F;
     const auto by = in_pattern(step[0] / spacing_mm, step[1] / spacing_mm, newest, seen);
-    if (!(std::fabs(by[0]) < kFarthest && std::fabs(by[1]) < kFarthest)) return as_seen;
+    if (!(std::fabs(by[0]) < kMaxMotion && std::fabs(by[1]) < kMaxMotion)) return as_seen;
 
     const auto q16 = [](float spacings) { return static_cast<std::int32_t>(spacings * 65536); };
     const auto turn_bam =
@@ -90,9 +90,9 @@ Prediction Tracker::predict(std::int64_t time_us, const Fix& newest, const Sight
     };
     const float sigma_mm = std::max(deviation(0, options_.max_acceleration_mm_s2),
                                     deviation(1, options_.max_acceleration_mm_s2));
-    next.sigma_q16 = bounded(sigma_mm, spacing_mm / 65536, kLeast_sigma_q16, as_seen.sigma_q16);
+    next.sigma_q16 = bounded(sigma_mm, spacing_mm / 65536, kMinSigma_q16, as_seen.sigma_q16);
     next.sigma_theta_bam = bounded(deviation(2, options_.max_angular_acceleration_rad_s2),
-                                   kRad_per_bam, kLeast_sigma_theta_bam, as_seen.sigma_theta_bam);
+                                   kRad_per_bam, kMinSigma_theta_bam, as_seen.sigma_theta_bam);
     return next;
 }
 

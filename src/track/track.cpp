@@ -10,23 +10,23 @@ namespace {
 
 using namespace dotpose::track;
 
-/// Number of hypotheses along one axis, positions, sections and turns, as a power of two:
+/// log2 of the number of hypotheses along one axis (positions, sections and turns):
 /// floor(log2(kPositionsPerAxis * 63 * 4)).
 constexpr int kHypotheses_log2 = 36;
 static_assert((std::uint64_t{kPositionsPerAxis} * kSections * 4) >> kHypotheses_log2 == 1,
               "the number of hypotheses is rounded down to a power of two");
 
-/// Positions that differ by fewer cells than this have different places in each of the sequences
-/// that encode the position, the shortest of which has a period of 31, so they resemble each other
-/// only by chance. docs/tracking.md explains this.
-constexpr int kShortestSequence = 31;
+/// Period of the shortest sequence that encodes the position. Positions that differ by fewer cells
+/// have different places in all sequences, so they resemble each other only by chance
+/// (docs/tracking.md).
+constexpr int kMinSequencePeriod = 31;
 
 float seconds(std::int64_t from_us, std::int64_t to_us) {
     return static_cast<float>(to_us - from_us) * 1e-6F;
 }
 
-/// Returns the largest differences from the prediction that are accepted: some deviations of the
-/// innovation, plus the effect of the largest acceleration.
+/// Returns the maximum accepted differences from the prediction: `gate_sigmas` standard deviations
+/// of the innovation, plus the effect of the maximum acceleration.
 Vector3 gate(const Innovation& found, float dt, const TrackOptions& options) {
     Vector3 limits{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -45,7 +45,7 @@ bool is_within(const Vector3& difference, const Vector3& limits) {
     return true;
 }
 
-/// Whether a robot that was at `from` can be at `sighting` within the limits of speed and turn
+/// Whether a robot can have moved from `from` to `sighting` within the limits of speed and turn
 /// rate.
 bool is_reachable(const MotionEstimate& from, const Sighting& sighting,
                   const TrackOptions& options) {
@@ -61,12 +61,12 @@ bool is_reachable(const MotionEstimate& from, const Sighting& sighting,
            std::fabs(found.difference[2]) <= options.max_turn_rad_s * dt + slack_rad;
 }
 
-/// Returns log2 of the bound of the probability that a sighting within the gate is wrong, or 0 if
-/// the prediction does not help.
+/// Returns log2 of an upper bound of the probability that a sighting within the gate is wrong, or 0
+/// if the prediction does not help.
 int p_wrong_with_prior(const Sighting& sighting, const Vector3& limits,
                        const TrackOptions& options) {
     const float half = std::max(limits[0], limits[1]) / options.spacing_mm;
-    if (!(half < static_cast<float>(kShortestSequence / 2)) || limits[2] > 0.78F) return 0;
+    if (!(half < static_cast<float>(kMinSequencePeriod / 2)) || limits[2] > 0.78F) return 0;
     const auto cells = static_cast<unsigned>(2 * half) + 2;
     int cells_log2 = 0;
     while ((1U << cells_log2) < cells)

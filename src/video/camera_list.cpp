@@ -16,9 +16,9 @@
 namespace dotpose::video {
 namespace {
 
-constexpr int kMostDevices = 64;
-/// Most entries of each kind that a driver is asked for; a broken one might never end.
-constexpr std::uint32_t kMostEntries = 256;
+constexpr int kMaxDevices = 64;
+/// Maximum number of entries of each kind; the list of a broken driver might never end.
+constexpr std::uint32_t kMaxEntries = 256;
 
 class Device {
   public:
@@ -46,18 +46,18 @@ class Device {
     int descriptor_;
 };
 
-/// Asks for entries 0, 1, ... until the driver has no more.
+/// Requests entries 0, 1, ... until the driver has no more.
 template <typename Entry>
 void for_each_entry(const Device& device, unsigned long request, Entry entry,
                     const std::function<void(const Entry&)>& use) {
-    for (std::uint32_t index = 0; index < kMostEntries; ++index) {
+    for (std::uint32_t index = 0; index < kMaxEntries; ++index) {
         entry.index = index;
         if (!device.ask(request, entry)) return;
         use(entry);
     }
 }
 
-/// Returns a text that a driver has put into an array, which need not end with a zero.
+/// Returns the text in an array of a driver, which may lack the terminating zero.
 template <std::size_t size>
 std::string text_of(const std::uint8_t (&bytes)[size]) {
     const char* text = reinterpret_cast<const char*>(bytes);
@@ -86,7 +86,7 @@ std::vector<double> rates_at(const Device& device, std::uint32_t format, std::ui
     for_each_entry<v4l2_frmivalenum>(
         device, VIDIOC_ENUM_FRAMEINTERVALS, asked, [&rates](const v4l2_frmivalenum& found) {
             const bool is_one = found.type == V4L2_FRMIVAL_TYPE_DISCRETE;
-            // Of a range, the shortest interval.
+            // For a range, the shortest interval.
             rates.push_back(rate_of(is_one ? found.discrete : found.stepwise.min));
         });
     return rates;
@@ -132,7 +132,7 @@ std::vector<CameraSize> sizes_of(const Device& device) {
     return sizes;
 }
 
-/// Returns the name that the kernel tells of a device that cannot be opened.
+/// Returns the kernel's name of a device that cannot be opened.
 std::string name_in_sysfs(int number) {
     std::ifstream file(fmt::format("/sys/class/video4linux/video{}/name", number));
     std::string name;
@@ -150,7 +150,7 @@ bool is_camera(const v4l2_capability& device) {
 
 std::vector<FoundCamera> find_cameras() {
     std::vector<FoundCamera> cameras;
-    for (int number = 0; number < kMostDevices; ++number) {
+    for (int number = 0; number < kMaxDevices; ++number) {
         FoundCamera camera;
         camera.device = fmt::format("/dev/video{}", number);
         const Device device(camera.device);

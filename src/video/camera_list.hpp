@@ -1,4 +1,4 @@
-// Finds the cameras of this computer (V4L2) and what they can do.
+// Finds the cameras of this computer (V4L2) and their capabilities.
 #pragma once
 
 #include <string>
@@ -6,22 +6,21 @@
 
 namespace dotpose::video {
 
-/// A size of the frames of a camera, with the rates and formats in which it delivers them.
+/// A frame size of a camera, with its rates and formats.
 struct CameraSize {
     std::string size;                  ///< such as "640x480", or a range of sizes
-    std::vector<double> rates;         ///< frames per second, the highest first; empty if not told
+    std::vector<double> rates;         ///< frames per second, the highest first; empty if not known
     std::vector<std::string> formats;  ///< such as "YUYV" and "MJPG"
 };
 
 struct FoundCamera {
     std::string device;  ///< such as "/dev/video0"
-    std::string name;    ///< as its driver calls it
+    std::string name;    ///< name reported by its driver
     std::vector<CameraSize> sizes;
-    std::string problem;  ///< why nothing else is known of it; empty if it could be asked
+    std::string problem;  ///< reason why the device could not be queried; empty if it could
 };
 
-/// Asks all of /dev/video0 to /dev/video63, and leaves out devices that are no cameras. An empty
-/// list means that there is none.
+/// Returns the cameras among /dev/video0 to /dev/video63; empty if there are none.
 std::vector<FoundCamera> find_cameras();
 
 /// Returns the cameras in a sentence without a full stop: "cameras are /dev/video0 (name), ...", or

@@ -1,5 +1,5 @@
 // Cameras, videos and windows: the module dotpose-video.so beside the program. OpenCV and FFmpeg
-// take a third of a second to load, so it is loaded when the first of them is used.
+// take a third of a second to load, so the module is loaded at its first use.
 #pragma once
 
 #include <functional>
@@ -14,11 +14,11 @@ namespace dotpose::video {
 
 using Tell = std::function<void(const std::string&)>;
 
-/// A video file that is being written.
+/// An output video file.
 class GreyVideo {
   public:
     virtual ~GreyVideo() = default;
-    /// Throws Error, as on a full disk or if the frames differ in size.
+    /// Throws Error, for example if the disk is full or the frames differ in size.
     virtual void write(ImageView image) = 0;
     /// Throws Error if the file is not complete.
     virtual void finish() = 0;
@@ -36,7 +36,7 @@ struct Module {
     std::unique_ptr<ScreenOutput> (*open_screen)(const ScreenOptions& options);
 };
 
-/// Returns the module, which it loads first if need be. Throws Error if that fails.
+/// Loads the module at the first call, and returns it. Throws Error if that fails.
 const Module& module();
 
 }  // namespace dotpose::video

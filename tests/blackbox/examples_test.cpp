@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "../drive.hpp"
+#include "../paths.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "sheets_command.hpp"
 
@@ -21,6 +22,13 @@ class Examples : public ToolCommand {
         return shell("\"$(dirname \"$T\")\"/dotpose_" + command);
     }
 };
+
+TEST(Readme, HasTheProgramOfTheExample) {
+    const std::string readme = read_file(test::source_dir() + "/README.md");
+    const std::string example = read_file(test::source_dir() + "/examples/locate_one.cpp");
+    // Without the first line, a comment.
+    EXPECT_THAT(readme, HasSubstr("```cpp\n" + example.substr(example.find('\n') + 1) + "```\n"));
+}
 
 TEST_F(Examples, LocateOneTellsWhereAnImageLooks) {
     const Shot truth = shot(0);

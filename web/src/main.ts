@@ -1,4 +1,4 @@
-// Starts the page: shows one of its three parts, by the address after '#'.
+// Starts the page: the address after '#' selects one of its three parts.
 import { Engine } from "./engine/engine.js";
 import { LookView } from "./look/look.js";
 import { element, show } from "./page/dom.js";
@@ -35,7 +35,8 @@ function route(): void {
         if (link.dataset["view"] === name) link.setAttribute("aria-current", "page");
         else link.removeAttribute("aria-current");
     }
-    // Keyboards and screen readers go on at the content, but not when the page is opened.
+    // Move the focus of keyboards and screen readers to the content, except when the page is
+    // opened.
     if (current !== "") element("content", HTMLElement).focus({ preventScroll: true });
     if (current !== "") scrollTo(0, 0);
     current = name;

@@ -1,9 +1,8 @@
-// Keeps all files of this build, and answers with them, so that the page works offline. vite.config.js
-// puts in the list.
+// Caches all files of this build for offline use. vite.config.js inserts the list.
 declare const __FILES__: string[];
 declare const __BUILD__: string;
 
-/** What is used of a ServiceWorkerGlobalScope, whose types exclude those of a page. */
+/** The parts of ServiceWorkerGlobalScope used here; its types conflict with those of a page. */
 interface WorkEvent extends Event {
     waitUntil(work: Promise<unknown>): void;
 }
@@ -25,7 +24,7 @@ const kCache = kPrefix + __BUILD__;
 
 async function install(): Promise<void> {
     const cache = await caches.open(kCache);
-    // Past the browser's own cache, which may still have files of the build before.
+    // Bypass the browser's HTTP cache, which may still have files of the previous build.
     await cache.addAll(__FILES__.map((file) => new Request(file, { cache: "reload" })));
     await worker.skipWaiting();
 }

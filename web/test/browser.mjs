@@ -10,7 +10,7 @@ import { chromium } from "playwright-core";
 const kRoot = fileURLToPath(new URL("../..", import.meta.url));
 const kDist = fileURLToPath(new URL("../dist", import.meta.url));
 const kChromium = process.env.CHROMIUM ?? "/usr/bin/chromium";
-/** The tool of the same checkout, which makes frames and judges prints. */
+/** The tool of the same checkout, which makes frames and checks prints. */
 const kTool = process.env.DOTPOSE_TOOL ?? join(kRoot, "build/release/bin/dotpose");
 
 const kTypes = {
@@ -23,7 +23,7 @@ const kTypes = {
     ".webmanifest": "application/manifest+json",
 };
 
-/** Serves dist/ below /page/, since the page must not need to be at the root of a server. */
+/** Serves dist/ below /page/, because the page must also work below the root of a server. */
 export async function serve() {
     const server = createServer((request, response) => {
         const path = normalize(decodeURIComponent(new URL(request.url, "http://localhost").pathname));
@@ -61,7 +61,7 @@ export async function launch({ clip, ...options } = {}) {
         args: [...quiet, ...offline, ...camera, ...(clip ? [`--use-file-for-fake-video-capture=${clip}`] : [])],
         ...options,
     });
-    // A busy machine takes its time; what never comes fails after this.
+    // Generous, for a busy machine.
     context.setDefaultTimeout(120_000);
     return {
         context,
@@ -72,7 +72,7 @@ export async function launch({ clip, ...options } = {}) {
     };
 }
 
-/** Opens a page; what it complains about, and what it asks of other servers, is collected. */
+/** Opens a page; collects its complaints and its requests to other servers. */
 export async function open(context, url) {
     const page = await context.newPage();
     const complaints = [];
@@ -89,7 +89,7 @@ export async function open(context, url) {
     return { page, complaints };
 }
 
-/** Runs the tool; returns what it prints. */
+/** Runs the tool; returns its output. */
 export function dotpose(...args) {
     return execFileSync(kTool, args, { encoding: "utf8", maxBuffer: 1 << 28 });
 }

@@ -18,8 +18,8 @@ function readPgm(bytes) {
 }
 
 /**
- * Writes `clip.y4m` into the folder; returns for each of its frames the true pose, what the tool reads in
- * its luma (`tool`), and a picture file of it (`png`).
+ * Writes `clip.y4m` into the folder; returns for each of its frames the true pose, the line of the tool for
+ * its luma (`tool`), and the frame as a picture file (`png`).
  */
 export function makeClip(folder, { frames, size }) {
     const still = join(folder, "frames");
@@ -39,7 +39,7 @@ export function makeClip(folder, { frames, size }) {
         lumas.push(path);
     }
     writeFileSync(join(folder, "clip.y4m"), Buffer.concat(parts));
-    const read = dotpose("locate", "--code", "anoto", ...lumas).trim().split("\n").map((line) => JSON.parse(line));
+    const read = dotpose("locate", ...lumas).trim().split("\n").map((line) => JSON.parse(line));
     return truth.map((pose, i) => ({ ...pose, tool: read[i], png: pngOf(join(still, pose.file)) }));
 }
 

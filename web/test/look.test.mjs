@@ -1,4 +1,4 @@
-// Look, with a camera that shows a clip of known poses, by both ways to the luma.
+// Look, with a camera that shows a clip of known poses, with both methods for the luma.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -24,7 +24,7 @@ after(async () => {
     if (folder) rmSync(folder, { recursive: true, force: true });
 });
 
-/** Lets the camera run until so many frames are logged; returns the log and what the page complained of. */
+/** Runs the camera until `frames` frames are logged; returns the log and the page's complaints. */
 async function runCamera(address, frames) {
     const { page, complaints } = await open(browser.context, server.url + address);
     await page.click("#look-start");
@@ -37,7 +37,7 @@ async function runCamera(address, frames) {
     return { page, complaints, rate, log };
 }
 
-/** Returns the truth of the frame that a line of the log is of: they lie meters apart. */
+/** Returns the true pose for a line of the log: the nearest one, as frames are metres apart. */
 function truthOf(line) {
     const near = (at) => Math.hypot(at.x_mm - line.x_mm, at.y_mm - line.y_mm);
     return truth.reduce((best, at) => (near(at) < near(best) ? at : best));
@@ -128,7 +128,7 @@ test("a picture is read, and one of something else gets a hint", async () => {
     await page.waitForFunction(() => document.getElementById("look-x").textContent !== "–");
     const x_mm = Number((await page.textContent("#look-x")).replaceAll("\u202f", ""));
     assert.ok(Math.abs(x_mm - truth[0].x_mm) < 0.005, `${x_mm}, not ${truth[0].x_mm}`);
-    // The header of the page shows no dots.
+    // The header of the page has no dots.
     const buffer = await page.screenshot({ clip: { x: 0, y: 0, width: 640, height: 200 } });
     await page.setInputFiles("#look-file", { name: "other.png", mimeType: "image/png", buffer });
     await page.waitForFunction(() => document.getElementById("look-x").textContent === "–");

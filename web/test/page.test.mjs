@@ -1,4 +1,4 @@
-// The page as such: accessible, offline, installable, without outside requests.
+// The whole page: accessible, offline, installable, without outside requests.
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";

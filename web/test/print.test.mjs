@@ -1,4 +1,4 @@
-// Print: the PDF, rendered, has the dots of the tool's.
+// Print: the rendered PDF has the dots of the tool's PDF.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -43,7 +43,7 @@ async function printed({ paper, x, y, code = "anoto", margin = "6", name = "test
     return { page, complaints, path, suggested: file.suggestedFilename() };
 }
 
-/** Counts the pixels inside of the margins that differ. */
+/** Counts the pixels inside the margins that differ. */
 function differences(a, b, margin_px) {
     assert.deepEqual([a.width, a.height], [b.width, b.height]);
     let [different, dark] = [0, 0];
@@ -75,7 +75,7 @@ for (const code of ["anoto", "libdots"]) {
 test("what is printed passes check-print and is located where it should be", async () => {
     const { page, path } = await printed({ paper: "148x210", x: "410815000", y: "2000", name: "a5" });
     const rendered = render(path, 600);
-    // It ends with another status if anything is wrong.
+    // The exit status is not 0 if the print has faults.
     const verdict = dotpose("check-print", rendered.path, "--dpi", "600");
     assert.match(verdict, /\b600\b|100(\.0+)? ?%|ok/i);
     const fix = JSON.parse(dotpose("locate", "--code", "anoto", rendered.path));

@@ -1,4 +1,4 @@
-// Try: the simulated camera, moved and spoilt, is read where it is.
+// Try: the simulated camera is located after it is moved and its frames are degraded.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { launch, open, serve } from "./browser.mjs";
@@ -22,7 +22,7 @@ async function openTry() {
     return opened;
 }
 
-/** What the page shows, in mm. */
+/** Returns the pose and error shown by the page, in mm. */
 async function shown(page) {
     const [x, y, error] = await Promise.all(["#try-x", "#try-y", "#try-error"].map((id) => page.textContent(id)));
     const unit_mm = { µm: 0.001, mm: 1 }[error.split(" ")[1]];
@@ -45,7 +45,7 @@ test("the first frame is read at the middle of the sheet, without a word of comp
     await page.close();
 });
 
-test("what is dragged follows the mouse", async () => {
+test("the picture follows the mouse", async () => {
     const { page } = await openTry();
     await settled(page, () => page.fill("#try-turn_deg", "0"));
     const box = await page.locator("#try-camera").boundingBox();
@@ -73,7 +73,7 @@ test("keys move and turn it", async () => {
     await page.close();
 });
 
-test("a place on the map is gone to", async () => {
+test("a click on the map moves the camera there", async () => {
     const { page } = await openTry();
     const box = await page.locator("#try-map").boundingBox();
     await settled(page, () => page.mouse.click(box.x + box.width / 2, box.y + box.height / 4));
@@ -83,7 +83,7 @@ test("a place on the map is gone to", async () => {
     await page.close();
 });
 
-test("what cannot be read gets a hint and no answer", async () => {
+test("a frame that cannot be located gets a hint and no pose", async () => {
     const { page } = await openTry();
     await page.fill("#try-paper_level", "5");
     await page.waitForFunction(() => document.getElementById("try-hint").textContent.startsWith("Brighter"));
@@ -95,7 +95,7 @@ test("what cannot be read gets a hint and no answer", async () => {
     await page.close();
 });
 
-test("the presets are read; hard ones less exactly than clean ones", async () => {
+test("the presets are located; hard ones less exactly than clean ones", async () => {
     const { page } = await openTry();
     for (const [preset, most_mm] of [["clean", 0.003], ["usual", 0.004], ["hard", 0.02]]) {
         await settled(page, () => page.click(`[data-preset=${preset}]`));
@@ -110,7 +110,7 @@ test("the presets are read; hard ones less exactly than clean ones", async () =>
     await page.close();
 });
 
-test("it drives by itself until somebody takes over", async () => {
+test("it drives automatically until the user moves it", async () => {
     const { page } = await openTry();
     await page.click("#try-drive");
     await page.waitForFunction(() => Math.abs(parseFloat(document.getElementById("try-x").textContent) - 105) > 0.5);

@@ -1,9 +1,8 @@
 /// Camera: the optics of one camera, its view of the paper and its place on the robot.
 ///
-/// Frames: *pixel* (the centre of the first pixel is (0, 0), v down); *undistorted* pixel, where a
-/// camera without distortion would see the same point, in the same frame, which reaches beyond the
-/// image; *camera*, mm on the paper from the point under the distortion centre, x along the image x
-/// axis, y DOWN.
+/// Frames: *pixel* (the centre of the first pixel is (0, 0), v down); *undistorted* pixel, the
+/// pixel of the same point in a camera without distortion, possibly outside the image; *camera*, mm
+/// on the paper from the point under the distortion centre, x along the image x axis, y DOWN.
 #pragma once
 
 #include <map>
@@ -23,7 +22,7 @@ struct PixelPoint {
     double v = 0;
 };
 
-/// How the undistorted image lies on the paper, for a camera that rides on it at a fixed height.
+/// The map from the undistorted image to the paper, for a camera that is mounted at a fixed height.
 /// With (a, b) in undistorted px from the distortion centre, the camera frame is
 ///
 ///     x = mm_per_px_x (a + skew b) / d,   y = mm_per_px_y b / d,   d = 1 + perspective . (a, b).
@@ -31,7 +30,7 @@ struct PaperScale {
     double mm_per_px_x = 0;
     double mm_per_px_y = 0;
     double skew = 0;           ///< shift of rows against each other, px per px
-    double perspective_u = 0;  ///< per px; 0 for a camera that looks straight down
+    double perspective_u = 0;  ///< per px; 0 for a camera looking straight down
     double perspective_v = 0;
 };
 
@@ -48,70 +47,67 @@ struct Camera {
     /// Radial distortion, paper eq. 1-2 (a division model), about `centre_px`: below 0 for barrel.
     double k_per_px2 = 0;
     PixelPoint centre_px;
-    std::optional<PaperScale> paper;  ///< none: the camera is held by hand, or its view is not
-                                      ///< known
-    std::optional<double> focal_px;   ///< none: the frames of the calibration did not show it
-    std::optional<Tilt> tilt;  ///< tilt of a mounted camera; none: the frames of the calibration
-                               ///< did not show it
+    std::optional<PaperScale> paper;  ///< none if the camera is hand-held, or its view is not known
+    std::optional<double> focal_px;   ///< none if the calibration did not determine it
+    std::optional<Tilt>
+        tilt;  ///< tilt of a mounted camera; none if the calibration did not determine it
 
-    /// The point whose pose is wanted, an undistorted pixel; it may lie outside the image. None:
-    /// the image centre.
+    /// The reference point of the pose, an undistorted pixel, possibly outside the image. None: the
+    /// image centre.
     std::optional<PixelPoint> reference_px;
     /// Heading of the robot minus the angle of the image x axis at the image centre.
     double theta_offset_rad = 0;
 
-    /// Whether the camera sees the paper as in a mirror: its frames are flipped, left to right,
-    /// before they are located. All pixels here are those of flipped frames.
+    /// Whether frames are mirrored. They are then flipped left to right before they are located,
+    /// and all pixels here are pixels of flipped frames.
     bool flip = false;
 
-    /// Settings of the sensor, for its users; dotpose itself does not use them.
+    /// Settings of the sensor, for information; dotpose does not use them.
     std::optional<double> exposure_us;
     std::optional<double> gain;
 
-    /// Standard deviations from a calibration, by the name of the key they belong to and in its
-    /// unit.
+    /// Standard deviations from a calibration, by the name of the key, in the unit of the key.
     std::map<std::string, double> sigma;
 };
 
-/// Checks all values. Throws BadArgument: a size that `locate` does not take, a lens that folds the
-/// image (1 + k r^2 must stay in [0.5, 2]), a centre more than 1000 px off the image centre,
-/// anything not finite, lengths not above 0, a reference more than 10,000 px off.
+/// Checks all values. Throws BadArgument: a size that `locate` does not accept, a lens that folds
+/// the image (1 + k r^2 must be in [0.5, 2]), a centre more than 1000 px from the image centre,
+/// values that are not finite, lengths of 0 or less, a reference point more than 10,000 px away.
 void validate(const Camera& camera);
 
-/// Returns the pixel where a camera without distortion would see what this one sees at `pixel`
-/// (paper eq. 1-2).
+/// Returns the undistorted pixel of `pixel` (paper eq. 1-2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
-/// Returns the pixel where this camera sees an undistorted pixel. A point that it cannot see at all
-/// comes out at twice its radius.
+/// Returns the pixel of an undistorted pixel. A point that the camera cannot see is returned at
+/// twice its radius.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
-/// A place in the camera frame.
+/// A point in the camera frame.
 struct CameraPoint {
     double x_mm = 0;
     double y_mm = 0;
 };
-/// Returns where an undistorted pixel lies in the camera frame; `camera.paper` must be known.
+/// Returns the point in the camera frame of an undistorted pixel; `camera.paper` must be known.
 CameraPoint on_paper(const Camera& camera, PixelPoint undistorted);
-/// Returns the undistorted pixel of a place in the camera frame; `camera.paper` must be known.
+/// Returns the undistorted pixel of a point in the camera frame; `camera.paper` must be known.
 PixelPoint on_image(const Camera& camera, CameraPoint point);
 
 /// Returns the direction of the image x axis at an undistorted pixel, in the camera frame.
 double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
-/// Returns the place in mm of an undistorted pixel, from the point under the image centre, x along
-/// the image x axis there; `camera.paper` must be known. Two calibrations of one camera agree in
-/// this frame to microns, but not in the pixels of points far outside the image.
+/// Returns the point of an undistorted pixel in mm from the point under the image centre, with x
+/// along the image x axis there; `camera.paper` must be known. Two calibrations of one camera agree
+/// in this frame to microns, but not in the pixels of points far outside the image.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
-/// Returns the undistorted pixel of a place as `from_image_centre` gives it.
+/// Returns the undistorted pixel of a point returned by `from_image_centre`.
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 
 /// Returns the reference point of `camera` as an undistorted pixel of `other`, another calibration
-/// of the same camera. If the view of either is not known, the pixel stays the same.
+/// of the same camera. If the view of either is not known, returns the same pixel.
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
 
 /// Returns the camera of a part of its images: the rectangle of `width_px` x `height_px` whose top
-/// left pixel is (`left_px`, `top_px`). Reference point and heading stay the same, also where the
-/// camera names none. Throws BadArgument as `validate`, and if the part leaves the image.
+/// left pixel is (`left_px`, `top_px`). Reference point and heading do not change, also if the
+/// camera has none. Throws BadArgument as `validate`, and if the part exceeds the image.
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
 /// Sets lens and reference point for images of this size and, if the camera's view is known, keeps

@@ -16,19 +16,19 @@
 
 namespace dotpose {
 
-/// Version of the format that is written, and the only one that is read.
+/// Version of the format, for writing and reading.
 inline constexpr int kCameraFileVersion = 1;
 
-/// Reads a camera file, or a camera_info file of ROS. Throws Error, naming the file and the key
-/// concerned: the file cannot be read, is neither, is of another version, a key is missing, not
-/// known, of the wrong type or out of range; a distortion model other than plumb_bob, or one that
-/// eq. 2 cannot follow to within 0.5 px rms.
+/// Reads a camera file, or a camera_info file of ROS. Throws Error with the names of the file and
+/// the key: the file cannot be read, is neither of these, or has another version; a key is missing,
+/// unknown, of the wrong type or out of range; the distortion model is not plumb_bob, or eq. 2
+/// cannot approximate it to 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 
-/// Reads a camera from the text of such a file. `name` is what messages call the file.
+/// Reads a camera from the text of such a file. `name` is the name of the file in messages.
 Camera parse_camera(const std::string& text, const std::string& name);
 
-/// Whether the file is a camera_info file of ROS, which `write_camera` would replace by one of
+/// Whether the file is a camera_info file of ROS, which `write_camera` would replace by a file in
 /// another format. Throws Error if the file cannot be read.
 bool is_camera_info(const std::filesystem::path& path);
 

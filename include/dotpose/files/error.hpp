@@ -1,5 +1,5 @@
-/// Errors of the layers around the core (printing, simulation, files, the tool). The core itself
-/// never throws: it returns a Status.
+/// Errors of the layers around the core (printing, simulation, files, the tool). The core never
+/// throws; it returns a Status.
 #pragma once
 
 #include <stdexcept>
@@ -10,16 +10,15 @@
 
 namespace dotpose {
 
-/// Thrown if something could not be done; `what()` is one sentence for the user, without a full
-/// stop, that names the file or value concerned.
+/// Thrown if an operation failed; `what()` is one sentence for the user, without a full stop, that
+/// names the file or value.
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// Thrown if the request itself cannot be met, whatever the state of the machine: a margin wider
-/// than the page, an unknown paper size. `what()` says which value is wrong and what would be
-/// right.
+/// Thrown if an argument is invalid, independent of the state of the machine: a margin wider than
+/// the page, an unknown paper size. `what()` names the wrong value and the permitted values.
 class BadArgument : public Error {
   public:
     using Error::Error;

@@ -1,7 +1,6 @@
-/// Sheet: the measures of a printed pattern and of the page it stands on. The core does not need
-/// it.
+/// Sheet: the dimensions of a printed pattern and of its page. The core does not need it.
 ///
-/// Frames (both x right, y DOWN): *pattern*, where intersection (i, j) lies at (i, j) * spacing_mm;
+/// Frames (both x right, y DOWN): *pattern*, where intersection (i, j) is at (i, j) * spacing_mm;
 /// *sheet*, in mm from the top left corner of the page.
 #pragma once
 
@@ -11,15 +10,16 @@
 
 namespace dotpose {
 
-/// Grid spacing at which dots fall on printer pixels at 300, 600 and 1200 dpi (paper III-A.1).
+/// Grid spacing for which dots are whole printer pixels at 300, 600 and 1200 dpi (paper III-A.1).
 inline constexpr double kDefaultSpacing_mm = 0.508;
 
-/// Largest width and height of a page, in mm.
+/// Maximum width and height of a page, in mm.
 inline constexpr double kMaxPage_mm = 100'000;
-/// Fewest columns and rows of a sheet: smaller regions cannot be read (paper section III-A.3).
+/// Minimum number of columns and rows of a sheet: smaller regions cannot be read (paper section
+/// III-A.3).
 inline constexpr int kMinSheetCells = 8;
 
-/// Measures of a printed pattern, in mm.
+/// Dimensions of a printed pattern, in mm.
 struct Pattern {
     Profile profile = Profile::anoto;
     Section section;
@@ -28,19 +28,19 @@ struct Pattern {
     double dot_mm = kDefaultSpacing_mm / 6;           ///< diameter of a dot
 };
 
-/// Returns the greatest distance of ink from its intersection along x or y, in mm.
+/// Returns the maximum distance of ink from its intersection along x or y, in mm.
 inline double reach_mm(const Pattern& pattern) {
     return pattern.displacement_mm + pattern.dot_mm / 2;
 }
 
-/// Printed length of a unit length, per axis: printers differ, and they scale the direction of
-/// paper feed and that of the scan differently.
+/// Printed length of a unit length, per axis. Printers differ, and they scale the directions of
+/// paper feed and of the scan differently.
 struct AxisScale {
     double x = 1;
     double y = 1;
 };
 
-/// One page: `columns` x `rows` intersections, the first of which is `origin`.
+/// One page: `columns` x `rows` intersections, starting at `origin`.
 struct Sheet {
     Pattern pattern;
     Cell origin;
@@ -52,9 +52,9 @@ struct Sheet {
     double origin_y_mm = 0;
 };
 
-/// Checks a sheet from any source: lengths positive and finite, dots apart from each other, section
+/// Checks a sheet from any source: lengths positive and finite, dots that do not touch, section
 /// below kSections, at least kMinSheetCells columns and rows, region inside the code plane, all ink
-/// on the page. Throws BadArgument naming the first value that is wrong.
+/// on the page. Throws BadArgument for the first wrong value.
 void validate(const Sheet& sheet);
 
 }  // namespace dotpose

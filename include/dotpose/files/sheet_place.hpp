@@ -1,5 +1,4 @@
-/// Places: where a fix lies on a page of a sheet file and in the world, with the full covariance of
-/// the pose.
+/// Places: the pose of a fix on a page of a sheet file and in the world, with its full covariance.
 ///
 ///     const std::vector<SheetEntry> sheets = read_sheets("sheets.json");
 ///     if (const auto place = find_sheet(sheets, Profile::anoto, fix)) {
@@ -26,38 +25,40 @@ namespace dotpose {
 /// Covariance of a pose (x, y, angle), in squares and products of the units of that pose.
 using PoseCovariance = std::array<std::array<float, 3>, 3>;
 
-/// Where a fix lies on a page of a sheet file.
+/// The place of a fix on a page of a sheet file.
 struct SheetPlace {
-    const SheetEntry* entry = nullptr;  ///< entry of the page, among those that were searched
+    const SheetEntry* entry = nullptr;  ///< entry of the page, in the searched entries
     double x_mm = 0;                    ///< sheet frame, with the print scale applied
     double y_mm = 0;
     double theta_rad = 0;  ///< angle of the image x axis, from the sheet's +x towards +y, in (-pi,
                            ///< pi]
-    /// Covariance of (x_mm, y_mm, theta_rad), from that of the fix; all 0 if the fix has none.
+    /// Covariance of (x_mm, y_mm, theta_rad), from the covariance of the fix; all 0 if the fix has
+    /// none.
     PoseCovariance covariance{};
 };
 
-/// Returns the place of `fix`, read in this profile: on the sheet whose region holds it, otherwise
-/// on one whose margins hold it. None if the fix is not ok or lies elsewhere.
+/// Returns the place of `fix`, read in the given profile: on the sheet whose region contains it,
+/// otherwise on a sheet whose margins contain it. None if the fix is not ok or is on no sheet.
 std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, Profile profile,
                                      const Fix& fix);
 
-/// Where a fix lies in the world.
+/// The place of a fix in the world.
 struct WorldPlace {
     double x_m = 0;
     double y_m = 0;
     double yaw_rad = 0;  ///< angle of the image x axis, counter-clockwise from the world's, in
                          ///< (-pi, pi]
-    /// Covariance of (x_m, y_m, yaw_rad), from that of the fix; the page's pose counts as exact.
+    /// Covariance of (x_m, y_m, yaw_rad), from the covariance of the fix; the pose of the page
+    /// counts as exact.
     PoseCovariance covariance{};
 };
 
 /// Converts a place on a sheet to the world. None if the world pose of the sheet is not known.
 std::optional<WorldPlace> world_place(const SheetPlace& place);
 
-/// Converts the covariance of a pose from the sheet to the world, where the page's upper edge runs
-/// in the direction `sheet_yaw_rad`: it is turned by that angle, with y and the angle reversed. The
-/// unit of length stays.
+/// Converts the covariance of a pose from the sheet to the world, where the upper edge of the page
+/// has the direction `sheet_yaw_rad`: the covariance is rotated by this angle, with y and the angle
+/// negated. The unit of length does not change.
 PoseCovariance world_covariance(const PoseCovariance& on_sheet, double sheet_yaw_rad);
 
 }  // namespace dotpose

@@ -1,4 +1,4 @@
-/// Evaluation: how often `locate` finds frames whose pose is known, and how large its errors are.
+/// Evaluation: success rate and errors of `locate` for frames with known poses.
 ///
 ///     const std::vector<TruthRow> rows = read_truth("frames/truth.csv");
 ///     FrameRun run;
@@ -7,10 +7,11 @@
 ///     const Score score = score_of(evaluate(run).front());
 ///
 /// `frames_of_setup` simulates the frames instead. `run_protocol` (protocol.hpp) repeats the
-/// paper's own experiment (section IV); `run_sweep` (sweep.hpp) worsens one condition step by step.
+/// paper's own experiment (section IV); `run_sweep` (sweep.hpp) degrades one condition step by
+/// step.
 ///
-/// Apart from times, results depend on the frames alone, not on the number of threads. Functions
-/// share no state. Errors of files and arguments are thrown as Error and BadArgument.
+/// Except for times, results depend only on the frames, not on the number of threads. Functions
+/// share no state. They throw Error for files and BadArgument for arguments.
 #pragma once
 
 #include <filesystem>
@@ -36,35 +37,36 @@ namespace dotpose {
 struct KnownFrame {
     GreyImage image;
     Truth truth;
-    std::optional<Profile> profile;  ///< profile of this frame, in place of that of the options
+    std::optional<Profile> profile;  ///< profile of this frame, instead of that of the options
     std::string problem;             ///< reason why there is no image; empty if there is one
 };
 
-/// Returns frame `index`. Called from several threads, so it must depend on the index alone.
+/// Returns frame `index`. Called from several threads, so it must depend only on the index.
 using FrameSource = std::function<KnownFrame(int index)>;
 
-/// Returns the images that a truth.csv lists. A file that cannot be read becomes a frame with a
+/// Returns the images listed in a truth.csv. A file that cannot be read becomes a frame with a
 /// `problem`.
 FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<TruthRow> rows);
 
 /// Returns the frames of `draw_shot(setup, index)`, rendered.
 FrameSource frames_of_setup(const Setup& setup);
 
-/// Called now and then from the calling thread; false stops the work with an Error.
+/// Called regularly from the calling thread; returning false stops the work with an Error.
 using Progress = std::function<bool(int done, int total)>;
 
-/// The frames to locate, and how.
+/// The frames to locate, and the options.
 struct FrameRun {
     int frames = 0;
     FrameSource frame_at;
     /// Every frame is located with each of these options.
     std::vector<Options> options = {Options{}};
-    /// Whether frames without a known profile are read in all profiles, each frame by itself.
+    /// Whether the profile of frames without a known profile is detected, independently for each
+    /// frame.
     bool any_code = false;
-    /// Refines a new fix from the trace of its frame, as `with_camera` does; none: fixes stay as
-    /// they are. Called from several threads; its time does not count.
+    /// Refines a new fix with the trace of its frame, like `with_camera`; none if fixes are not
+    /// refined. Called from several threads; its time does not count.
     std::function<Fix(const Fix&, const Trace&)> refine;
-    int threads = 0;  ///< 0: one for each core
+    int threads = 0;  ///< 0: one per core
     Progress progress;
 };
 

@@ -1,4 +1,4 @@
-/// Flips images, left to right.
+/// Flips images left to right.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace dotpose {
 
-/// Flips an image, left to right: what a camera sees in a mirror, or its driver has mirrored, can
-/// be located afterwards.
+/// Flips an image left to right. Mirrored images of a camera or its driver can be located
+/// afterwards.
 inline void flip(GreyImage& image) {
     const auto width = static_cast<std::ptrdiff_t>(image.width_px);
     for (auto row = image.pixels.begin(); row != image.pixels.end(); row += width)

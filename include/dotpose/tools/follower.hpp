@@ -8,7 +8,7 @@
 ///         if (now.located.place) use(now.located.place->x_mm, now.track.pose);
 ///     }
 ///
-/// Functions throw BadArgument if an image does not have the size that the camera file is for.
+/// Functions throw BadArgument if an image does not have the size in the camera file.
 #pragma once
 
 #include <cstdint>
@@ -27,60 +27,62 @@
 
 namespace dotpose {
 
-/// What is known of sheets, code and camera.
+/// Sheets, code and camera of a Follower.
 struct FollowerOptions {
     Options locate;
-    /// The sheets that may be seen. Empty: poses are given in the pattern frame.
+    /// The sheets that may be in view. If empty, poses are in the pattern frame.
     std::vector<SheetEntry> sheets;
-    /// The profile of the code, if it is known. Sheets have their own; without sheets and without a
-    /// profile it is found from all images together.
+    /// The profile of the code; none to detect it from all images together. Sheets have their own
+    /// profiles.
     std::optional<Profile> code;
-    /// Spacing of the pattern where there are no sheets.
+    /// Spacing of the pattern if there are no sheets.
     double spacing_mm = kDefaultSpacing_mm;
     /// Lens, view and mount of the camera. Images must have its size.
     std::optional<Camera> camera;
-    /// Whether images are flipped, left to right, before they are located, as they are if the
-    /// camera file says so. All pixels are then those of flipped images.
+    /// Whether images are flipped left to right before they are located, as with `flip` of a camera
+    /// file. All pixels are then pixels of flipped images.
     bool flip = false;
-    /// The pixel whose pose is wanted, instead of the image centre or the camera file's.
+    /// The reference pixel of the pose, instead of the image centre or the reference point of the
+    /// camera file.
     std::optional<PixelPoint> reference_px;
     TrackOptions track;
 };
 
-/// The result of one image by itself.
+/// The result of a single image.
 struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
-    std::optional<SheetPlace> place;  ///< place of the fix, if it lies on a sheet
-    /// The profile, and other places that explain the image. Its fix is the one before the camera
-    /// file is applied.
+    std::optional<SheetPlace> place;  ///< place of the fix; none if it is on no sheet
+    /// The profile, and other places that explain the image. Its fix does not include the camera
+    /// file.
     CodeReading reading;
-    /// Spacing of the sheet, or of all sheets; not a number where sheets differ and none was found.
+    /// Spacing of the sheet, or the common spacing of all sheets; not a number if spacings differ
+    /// and the fix is on no sheet.
     double spacing_mm = 0;
-    /// Spacing as the camera file measures it; `contradicts` (mounted_pose.hpp) compares it with
+    /// Spacing measured by the camera file; `contradicts` (mounted_pose.hpp) compares it with
     /// `spacing_mm`. Not a number if it is not known.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
     bool code_is_given = false;  ///< whether options or sheets gave the profile
-    int reduced_by = 1;          ///< factor by which a too large image was reduced
+    int reduced_by = 1;          ///< factor by which the image was reduced
 };
 
-/// The result of an image of a sequence, given the images before it.
+/// The result of an image of a sequence, given the previous images.
 struct Followed {
-    Located located;  ///< its `p_wrong` includes the prior where the fix needed it
+    Located located;  ///< its `p_wrong` includes the prior if the fix needed it
     Track track;
 };
 
-/// Locates single images, or images of a sequence one after the other.
+/// Locates single images, or the images of a sequence in order.
 class Follower {
   public:
     explicit Follower(const FollowerOptions& options);
 
-    /// Locates an image by itself. An image larger than `kMaxFrameSide_px` is reduced, unless there
-    /// is a camera file. Evidence of the profile adds up over the images.
+    /// Locates an image independently of others. Reduces images larger than `kMaxFrameSide_px`,
+    /// unless there is a camera file. Accumulates the evidence for the profile over all images.
     Located locate(const GreyImage& image);
 
-    /// Locates the next image of a sequence, taken at `time_us`. The pattern is looked for where
-    /// the images before predict it, and a weak fix is believed where it was predicted.
+    /// Locates the next image of a sequence, taken at `time_us`. The previous images predict the
+    /// place of the pattern, and a weak fix is accepted at the predicted place.
     Followed follow(ImageView image, std::int64_t time_us);
 
     /// Whether the robot is tracked in the world of the sheet file (m, y up) instead of the pattern
@@ -88,15 +90,15 @@ class Follower {
     bool is_in_world() const { return is_in_world_; }
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
 
-    /// Return, for the newest image, the image as located (flipped if asked, and reduced if it was
-    /// too large), the options used and the trace of the stages.
+    /// Return, for the newest image, the image as located (possibly flipped and reduced), the
+    /// options used and the trace of the stages.
     ImageView image() const { return image_; }
     const Options& used_options() const { return used_; }
     Trace trace() const { return locator_.trace(); }
 
   private:
     struct Found {
-        Fix seen;  ///< fix before the camera file is applied
+        Fix seen;  ///< fix without the camera file
         Fix fix;
         std::optional<SheetPlace> place;  ///< place of `seen`
         CodeReading reading;
@@ -131,9 +133,9 @@ class Follower {
     void remember(const Found& found, const std::optional<Sighting>& sighting);
 
     FollowerOptions options_;
-    /// The profiles to try, in this order, beginning with the one seen last. Empty: all.
+    /// The profiles to try in order, starting with the profile of the last fix. Empty: all.
     std::vector<Profile> profiles_;
-    CodeEvidence evidence_;       ///< evidence of the images before
+    CodeEvidence evidence_;       ///< evidence of the previous images
     double unplaced_spacing_mm_;  ///< spacing for a fix on no sheet
     bool is_in_world_ = false;
     Options used_;
@@ -142,7 +144,7 @@ class Follower {
     GreyImage reduced_;
     Locator locator_;
     Tracker tracker_;
-    std::optional<Seen> seen_;  ///< none if it is too long ago to predict from
+    std::optional<Seen> seen_;  ///< none if it is too old for a prediction
 };
 
 }  // namespace dotpose

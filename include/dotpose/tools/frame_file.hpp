@@ -1,4 +1,4 @@
-/// Reads images that are to be located.
+/// Reads images for locating.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace dotpose {
 
-/// Reads an image as `read_image` does. One that is larger than `locate` takes is not decoded:
-/// throws ImageTooLarge.
+/// Reads an image as `read_image` does. Throws ImageTooLarge, without decoding, for an image larger
+/// than `locate` accepts.
 inline GreyImage read_frame(const std::filesystem::path& path) {
     return read_image(path, kMaxFrameSide_px * kMaxFrameSide_px);
 }

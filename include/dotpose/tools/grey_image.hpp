@@ -1,4 +1,4 @@
-/// An 8-bit grey image that owns its pixels, for tools; the core only sees `ImageView`.
+/// An 8-bit grey image that owns its pixels, for tools; the core uses only `ImageView`.
 #pragma once
 
 #include <cstddef>

@@ -1,20 +1,18 @@
 /// Reads images from files as 8-bit grey, and writes grey images.
 ///
 /// Formats: PNM (PBM, PGM and PPM, text and binary), PNG, JPEG, BMP, TIFF. The format is detected
-/// from the first bytes of a file, never from its name. A file that is cut short or damaged is an
-/// Error, even if part of the picture could be shown: made-up pixels are no measurement. A JPEG
-/// that lacks nothing but its end marker is read.
+/// from the first bytes of a file, never from its name. A truncated or damaged file is an Error,
+/// even if part of the picture could be decoded, because interpolated pixels are not measurements.
+/// A JPEG that lacks only its end marker is read.
 ///
-/// Every pixel becomes one grey level, 0 black to 255 white:
-///  - colour: luma 0.299 R + 0.587 G + 0.114 B (Rec. 601) of the stored values; palettes are
+/// Every pixel becomes one grey level, 0 black to 255 white: - colour: luma 0.299 R + 0.587 G +
+/// 0.114 B (Rec. 601) of the stored values; palettes are
 ///    expanded; CMYK is converted without profiles; gamma and colour profiles are ignored
-///  - 16 bits, and maximum values other than 255: scaled to 0..255 and rounded. Opaque images of 16
-///    bits without a value above 4095 are taken for 8 to 12 bits, in the lower ones, as sensors
-///    deliver them
-///  - transparency: laid on white paper
-///  - several pages in one TIFF file: the first, or the one that is asked for
-/// EXIF orientation is ignored: the pixels come as the sensor delivered them, because a camera's
-/// calibration and mount refer to those.
+/// - 16 bits, and maximum values other than 255: scaled to 0..255 and rounded. Opaque images of 16
+/// bits without a value above 4095 are interpreted as 8 to 12 bits in the lower bits, as sensors
+/// deliver them - transparency: composited on white - several pages in one TIFF file: the first, or
+/// the requested page EXIF orientation is ignored, because the calibration and mount of a camera
+/// refer to the pixels of the sensor.
 #pragma once
 
 #include <cstdint>
@@ -28,13 +26,13 @@
 
 namespace dotpose {
 
-/// Greatest side and number of pixels of an image that can be read, and the default limit of
-/// pixels.
+/// Maximum side and number of pixels of an image that can be read, and the default limit of pixels.
 inline constexpr int kMaxImageSide_px = 100'000;
 inline constexpr int kMaxImagePixels = 1 << 28;
 inline constexpr int kDefaultImagePixels = 100'000'000;
 
-/// Thrown for an image that has more pixels than the limit, by its header; they were not decoded.
+/// Thrown for an image with more pixels than the limit according to its header; the pixels are not
+/// decoded.
 struct ImageTooLarge : Error {
     ImageTooLarge(const std::string& what, int width, int height)
         : Error(what), width_px(width), height_px(height) {}
@@ -42,16 +40,17 @@ struct ImageTooLarge : Error {
     int height_px;
 };
 
-/// Reads one image. Reading needs up to 15 bytes of memory per pixel, besides the file, of which no
-/// more is read than an image of `max_pixels` takes. `page` is the number of a page of a TIFF file,
-/// from 1. Throws Error, naming the file and the reason: no such page, no such file, a directory,
-/// no permission, empty, no known image format, cut short, damaged, too large, not enough memory.
-/// Throws ImageTooLarge for more than `max_pixels`, at most kMaxImagePixels. Thread-safe.
+/// Reads one image. Reading needs up to 15 bytes of memory per pixel in addition to the file, which
+/// is read up to the size of an image of `max_pixels`. `page` is the number of a page of a TIFF
+/// file, from 1. Throws Error with the name of the file and the reason: no such page, no such file,
+/// a directory, no permission, empty, unknown image format, truncated, damaged, too large, not
+/// enough memory. Throws ImageTooLarge for more than `max_pixels`, at most kMaxImagePixels.
+/// Thread-safe.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
 
-/// Returns the number of pages in a file: TIFF may have several, all others have one. What is not a
-/// regular file, such as a pipe, is not read and counts as one page. Throws Error as `read_image`.
+/// Returns the number of pages in a file, which is 1 except for TIFF. A file that is not regular,
+/// such as a pipe, is not read and counts as one page. Throws Error as `read_image`.
 int count_pages(const std::filesystem::path& path);
 
 /// Pixels per inch along both axes.
@@ -60,14 +59,13 @@ struct Resolution {
     double y_dpi = 0;
 };
 
-/// What a file says of how its image was made.
+/// The origin of an image according to its file.
 struct ImageOrigin {
-    /// Whether a camera took it: EXIF data (of JPEG, PNG and TIFF) have the exposure time,
+    /// Whether the image is from a camera: its EXIF data (JPEG, PNG, TIFF) have the exposure time,
     /// f-number, sensitivity or focal length.
     bool is_photo = false;
-    /// Resolution of a scan: PNG pHYs, JPEG density, TIFF and BMP resolution. None if the file
-    /// states none, of photos, and of 72 and 96 dpi, which stand for a screen's where nobody knows
-    /// better.
+    /// Resolution of a scan: PNG pHYs, JPEG density, TIFF and BMP resolution. None if it is
+    /// missing, for photos, and for 72 and 96 dpi, the defaults of programs without a resolution.
     std::optional<Resolution> resolution;
 };
 

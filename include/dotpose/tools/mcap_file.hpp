@@ -1,14 +1,14 @@
-/// MCAP files: recordings of timed messages of any types, which Foxglove, Lichtblick, PlotJuggler
-/// and `ros2 bag` read. https://mcap.dev/spec describes the format.
+/// MCAP files: recordings of timed messages of any types, for Foxglove, Lichtblick, PlotJuggler and
+/// `ros2 bag`. Format: https://mcap.dev/spec.
 ///
 ///     McapFile file("run.mcap");
 ///     const McapChannel poses = file.add_channel("/anna/pose", ros::type_of(pose));
 ///     file.write(poses, time_ns, ros::to_cdr(pose));
 ///     file.finish();
 ///
-/// Messages are gathered in chunks. With every chunk, index and end of the file are written as
-/// well, and the next chunk replaces them: also the file of a program that was killed is complete,
-/// except for the messages of the chunk that it was gathering.
+/// Messages are collected in chunks. Each chunk is written with the index and the end of the file,
+/// which the next chunk overwrites. The file of a killed program is therefore complete except for
+/// the messages of the last chunk.
 #pragma once
 
 #include <cstdint>
@@ -26,27 +26,27 @@ namespace dotpose {
 /// The number of a channel in its file.
 enum class McapChannel : std::uint16_t {};
 
-/// The quality of service that `ros2 bag play` offers the messages of a channel with. The default
-/// suits every subscriber but those of /tf_static, which need the newest message of `depth` 1 kept
-/// for subscribers that come later.
+/// The quality of service with which `ros2 bag play` offers the messages of a channel. The default
+/// suits all topics except /tf_static, which needs `depth` 1 and the newest message kept for later
+/// subscribers.
 struct McapQuality {
     int depth = 100;
     bool is_transient_local = false;
 };
 
-/// When a chunk ends.
+/// Limits of a chunk.
 struct McapOptions {
-    /// A chunk ends with the message that makes it longer or larger than this. Longer ones lose
-    /// more of a run that is cut off; shorter ones make the index larger.
+    /// A chunk ends with the message that exceeds these limits. Longer chunks lose more of a killed
+    /// run; shorter chunks make the index larger.
     std::int64_t chunk_ns = 1'000'000'000;
     std::size_t chunk_bytes = 4 << 20;
 };
 
 class McapFile {
   public:
-    /// Creates the file or replaces an old one. Throws Error.
+    /// Creates or replaces the file. Throws Error.
     explicit McapFile(const std::filesystem::path& path, const McapOptions& options = {});
-    /// Writes what is left; call `finish` to learn whether that worked.
+    /// Writes the rest and ignores errors; call `finish` to check for errors.
     ~McapFile();
     McapFile(const McapFile&) = delete;
     McapFile& operator=(const McapFile&) = delete;
@@ -58,7 +58,7 @@ class McapFile {
     /// Appends a message. `time_ns` should not be below 0. Throws Error.
     void write(McapChannel channel, std::int64_t time_ns, std::span<const std::uint8_t> cdr);
 
-    /// Writes all that is left and closes the file. Throws Error.
+    /// Writes the rest and closes the file. Throws Error.
     void finish();
 
   private:

@@ -1,5 +1,5 @@
-/// Measured: places of located frames on a sheet or in the world, compared with places that were
-/// measured by other means, for example by a motion stage.
+/// Measured: compares the places of located frames on a sheet or in the world with independently
+/// measured places, for example of a motion stage.
 ///
 ///     std::vector<MeasuredFrame> frames = ...;
 ///     const Similarity alignment = align(frames);
@@ -27,7 +27,7 @@
 
 namespace dotpose {
 
-/// A place that was found in a frame.
+/// A place found in a frame.
 struct FoundPlace {
     std::string sheet;
     double x_mm = 0;
@@ -35,12 +35,13 @@ struct FoundPlace {
     double angle_rad = 0;
 };
 
-/// One frame: what is known of it and what was found.
+/// One frame with its true and its found place.
 struct MeasuredFrame {
     std::string file;
-    std::optional<TruePlace> truth;  ///< none: the frame shows no readable pattern
+    std::optional<TruePlace> truth;  ///< none if the frame has no readable pattern
     Status status = Status::ok;
-    std::optional<FoundPlace> found;  ///< none: no fix, or one outside of the truth's frame
+    std::optional<FoundPlace>
+        found;  ///< none if there is no fix, or a fix outside the frame of the truth
     double spacing_mm = kDefaultSpacing_mm;
 };
 
@@ -52,13 +53,14 @@ struct Similarity {
     double shift_y_mm = 0;
     double turn_rad = 0;  ///< in the sense of the frame's angles
     double scale = 1;
-    /// Mean of true minus found angles after the turn: how the measured heading lies in the image.
+    /// Mean of true minus found angles after the turn: the direction of the measured heading in the
+    /// image.
     double angle_offset_rad = 0;
 };
 
-/// Returns the similarity with the least squared residuals over the frames, without those that are
-/// far off the others. If all true places are equal, only the shift and the angle offset are
-/// determined. Throws Error if no frame has a true and a found place.
+/// Returns the least-squares similarity over the frames, without outliers. If all true places are
+/// equal, only the shift and the angle offset are determined. Throws Error if no frame has a true
+/// and a found place.
 Similarity align(std::span<const MeasuredFrame> frames);
 
 /// Found minus true, after the alignment.
@@ -66,19 +68,19 @@ struct MeasuredError {
     double x_mm = 0;
     double y_mm = 0;
     std::optional<double> angle_rad;  ///< none if the true angle is not known
-    /// Whether the fix is wrong: on another sheet, without a true place, or off by more than half a
-    /// spacing or 2 degrees and by more than ten times the median.
+    /// Whether the fix is wrong: on another sheet, without a true place, or with an error above
+    /// half a spacing or 2 degrees and above ten times the median.
     bool is_wrong = false;
 };
 
 /// All frames with their errors.
 struct Measurement {
     std::vector<MeasuredFrame> frames;
-    std::vector<std::optional<MeasuredError>> errors;  ///< of each frame; none without a fix
-    std::optional<Similarity> alignment;               ///< none: places were compared as they are
+    std::vector<std::optional<MeasuredError>> errors;  ///< error of each frame; none without a fix
+    std::optional<Similarity> alignment;  ///< none if places were compared without alignment
     bool is_in_world = false;
 
-    // Without wrong fixes.
+    // Number and errors of fixes, without wrong fixes.
     int located = 0;
     int wrong = 0;
     Quantiles position_um;
@@ -87,7 +89,7 @@ struct Measurement {
     Spread y_um;
 };
 
-/// Compares found with true places, after the alignment if there is one.
+/// Compares found and true places, after the alignment if there is one.
 Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Similarity>& alignment);
 
 /// Returns the result in words and numbers, for tables: (name, value).

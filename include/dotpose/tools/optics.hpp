@@ -1,10 +1,10 @@
-/// Optics: how a camera built from given parts sees the pattern, for designing a device (paper
+/// Optics: the view of the pattern by a camera with given parts, for designing a device (paper
 /// III-A). The model is a thin lens, focused on the paper.
 ///
 ///     const OpticsReport report = design_optics(paper_optics());
 ///     for (const OpticsAdvice& advice : report.advice) puts(advice.text.c_str());
 ///
-/// The functions are pure; bad values throw BadArgument.
+/// The functions are pure and throw BadArgument for bad values.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ namespace dotpose {
 struct Optics {
     int width_px = 188;
     int height_px = 120;
-    double pixel_um = 24;     ///< from pixel to pixel on the sensor; binned pixels count as one
+    double pixel_um = 24;     ///< pixel pitch on the sensor; binned pixels count as one
     double focal_mm = 5.5;    ///< focal length of the lens
     double distance_mm = 16;  ///< from the lens to the paper; more than the focal length
     double spacing_mm = kDefaultSpacing_mm;
@@ -31,10 +31,10 @@ struct Optics {
     double exposure_s = 1.0 / 7684;
     double speed_mm_s = 100;     ///< fastest straight motion, image x or y axis
     double turn_rpm = 60;        ///< fastest turn, about the image centre
-    double largest_blur_px = 1;  ///< motion during the exposure that is still good
+    double largest_blur_px = 1;  ///< maximum motion during the exposure
 
-    /// Measured values, used in place of those of the thin lens: size of a pixel on the paper, and
-    /// the field of view after correction of distortion.
+    /// Measured values, which replace those of the thin lens: size of a pixel on the paper, and the
+    /// field of view after correction of distortion.
     std::optional<double> mm_per_px;
     std::optional<double> field_width_mm;
     std::optional<double> field_height_mm;
@@ -46,11 +46,11 @@ Optics paper_optics();
 
 /// One fault or remark about a device.
 struct OpticsAdvice {
-    bool is_fault = false;  ///< true: the device would not work well; false: a remark
-    std::string text;       ///< one sentence: the fault and what to change
+    bool is_fault = false;  ///< true: a fault of the device; false: a remark
+    std::string text;       ///< one sentence: the fault and the remedy
 };
 
-/// What the camera of a device sees of the pattern.
+/// The view of the pattern by the camera of a device.
 struct OpticsReport {
     double magnification = 0;
     double mm_per_px = 0;
@@ -67,8 +67,8 @@ struct OpticsReport {
     double block_diagonal_mm = 0;
     bool block_fits = false;  ///< whether the field's shorter side is at least that diagonal: paper
                               ///< III-A.3
-    /// Side of a field that contains some 8 x 8 dots wherever the grid lies: at 45 degrees the
-    /// nearest block may be half a diagonal step off the middle.
+    /// Side of a field that contains 8 x 8 dots at any position of the grid: at 45 degrees the
+    /// nearest block may be half a diagonal step from the middle.
     double block_anywhere_mm = 0;
     bool block_fits_anywhere = false;
 

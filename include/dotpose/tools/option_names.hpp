@@ -17,7 +17,7 @@ inline constexpr std::array kEfforts = {Effort::device, Effort::once, Effort::tw
 const char* name(Decoder decoder);
 const char* name(Effort effort);
 
-/// Returns which option is outside of its range, and the range, in a sentence; empty if none is.
+/// Returns a sentence with the option outside its range, and the range; empty if there is none.
 std::string fault_text(const Options& options);
 
 }  // namespace dotpose

@@ -1,4 +1,4 @@
-/// Outcome: what `locate` found in one frame, beside the frame's true pose.
+/// Outcome: the result of `locate` for one frame, with the true pose.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace dotpose {
 
-/// A fix with a deviation above these is wrong: it counts as a failure, not as an error.
+/// Deviations above which a fix is wrong: it counts as a failure, not as an error.
 inline constexpr double kWrongFrom_grid = 0.5;
 inline constexpr double kWrongFrom_deg = 2;
 
@@ -20,7 +20,7 @@ struct Deviation {
     double y_grid = 0;
     double theta_rad = 0;  ///< in [-pi, pi]
 };
-/// Returns how far a fix is off the truth.
+/// Returns the deviation of a fix from the truth.
 Deviation deviation_of(const Fix& fix, const Truth& truth);
 
 /// The result of locating one frame once.
@@ -28,12 +28,12 @@ struct Outcome {
     Fix fix;
     Truth truth;
     double elapsed_us = 0;  ///< time of `locate` alone
-    std::string problem;    ///< fault of the file; if not empty, the rest is not valid
+    std::string problem;    ///< error of the file; if not empty, the rest is not valid
 
-    /// Whether the frame was read and located, rightly or wrongly.
+    /// Whether the frame was read and located, correctly or not.
     bool is_fix() const { return problem.empty() && fix.status == Status::ok; }
-    /// Whether there is a fix that is off by more than kWrongFrom_grid or kWrongFrom_deg, in
-    /// another section, or on a frame without a pose.
+    /// Whether there is a fix with a deviation above kWrongFrom_grid or kWrongFrom_deg, in another
+    /// section, or for a frame without a pose.
     bool is_wrong() const;
 };
 

@@ -1,14 +1,14 @@
-/// Printing: lays a part of the code plane out on a page and writes it as text, SVG,
-/// PNG, TIFF or PDF.
+/// Printing: lays a part of the code plane out on a page and writes it as text, SVG, PNG, TIFF or
+/// PDF.
 ///
 ///     dotpose::SheetOptions options;                      // A4, 5 mm margin, 0.508 mm spacing
 ///     options.origin = {.x = 1000, .y = 2000};
 ///     const dotpose::Sheet sheet = dotpose::make_sheet(options);
 ///     dotpose::write_sheet(sheet, "page.png");
 ///
-/// Rows are written as they are made, so memory grows with the width of the page, not with its
-/// area. Functions throw BadArgument or Error (error.hpp); they share no state, so threads may
-/// write different files at the same time.
+/// Rows are written immediately, so memory grows with the width of the page, not with its area.
+/// Functions throw BadArgument or Error (error.hpp). They share no state, so threads may write
+/// different files at the same time.
 #pragma once
 
 #include <filesystem>
@@ -25,9 +25,9 @@
 
 namespace dotpose {
 
-/// Greatest number of pages of one document.
+/// Maximum number of pages of one document.
 inline constexpr int kMaxPages = 10'000;
-/// Largest accepted resolution of PNG, TIFF and PDF files.
+/// Maximum resolution of PNG, TIFF and PDF files.
 inline constexpr double kMaxResolution_dpi = 19'200;
 
 /// Size of a page; the default is A4, portrait.
@@ -41,36 +41,36 @@ struct Paper {
 /// text, and for sizes outside (0, kMaxPage_mm].
 Paper paper_by_name(std::string_view name);
 
-/// Returns the page with its longer side across.
+/// Returns the page in landscape orientation.
 Paper landscape(Paper paper);
 
-/// The contents of the sheet that `make_sheet` lays out.
+/// The options of `make_sheet`.
 struct SheetOptions {
     Pattern pattern;       ///< code, section and measures of the dots
-    Cell origin;           ///< cell of the top left dot; should differ from sheet to sheet
+    Cell origin;           ///< cell of the top left dot; should be different for each sheet
     Paper paper;           ///< the page; default A4 portrait
     double margin_mm = 5;  ///< margin without ink on all sides; 0 for printers that reach the edge
 };
 
 /// Lays out a sheet: fills the page inside its margins with whole cells, from the top left.
 ///
-/// The first intersection is the first one whose dot clears the margin and whose coordinates are an
-/// odd multiple of half a 300 dpi printer pixel. With the default pattern every dot then covers
-/// whole printer pixels at 300, 600 and 1200 dpi (paper section III-A.1, Fig. 11).
+/// The first intersection is the first one with its dot inside the margins and with coordinates
+/// that are odd multiples of half a 300 dpi printer pixel. With the default pattern every dot then
+/// covers whole printer pixels at 300, 600 and 1200 dpi (paper section III-A.1, Fig. 11).
 ///
 /// Throws BadArgument: as `validate`; also if the margins leave no room for kMinSheetCells columns
 /// and rows, and if the region would run past the end of the code plane.
 Sheet make_sheet(const SheetOptions& options);
 
-/// Lays out `pages` sheets whose regions lie side by side and share no cell: each begins to the
-/// right of the one before; past the end of the plane a new line of regions begins below, at
+/// Lays out `pages` sheets with adjacent regions that share no cell. Each region begins to the
+/// right of the previous one; past the end of the plane a new line of regions begins below, at
 /// `options.origin.x`.
 ///
 /// Throws BadArgument: as `make_sheet`; also if `pages` is not 1 to kMaxPages.
 std::vector<Sheet> make_sheets(const SheetOptions& options, int pages);
 
 /// Checks that a printer of this resolution can print the pattern: the displacement is at least one
-/// printer pixel, and at least one white pixel lies between any two dots. Throws BadArgument.
+/// printer pixel, and at least one white pixel is between any two dots. Throws BadArgument.
 void validate_resolution(const Sheet& sheet, double dpi);
 
 /// File formats of printed sheets.
@@ -89,42 +89,42 @@ PrintFormat print_format(const std::filesystem::path& path);
 /// Called after each row of the pattern; return false to stop.
 using Progress = std::function<bool(int rows_done, int rows)>;
 
-/// How a dot is drawn in a PDF.
+/// Drawing of dots in a PDF.
 enum class DotDrawing {
     automatic,  ///< `glyphs` where they are exact, otherwise `strokes`
-    glyphs,   ///< text in a font of four glyphs: small and fast, but renderers move every glyph to
-              ///< a whole pixel, so spacing, displacement and dot must be whole pixels
-    strokes,  ///< lines of no length with round ends: exact at any spacing
+    glyphs,  ///< text in a font of four glyphs: small and fast, but renderers round the position of
+             ///< every glyph to whole pixels, so spacing, displacement and dot must be whole pixels
+    strokes,  ///< lines of length 0 with round ends: exact at any spacing
 };
 
 /// Options of `write_sheet`.
 struct PrintOptions {
-    /// Resolution in dots per inch of PNG, TIFF and PDF; it should be the printer's own. A PDF has
-    /// no pixels, but its dots are drawn for this resolution. Not used by text and SVG.
+    /// Resolution in dots per inch of PNG, TIFF and PDF; it should be the resolution of the
+    /// printer. A PDF has no pixels, but its dots are drawn for this resolution. Not used for text
+    /// and SVG.
     double dpi = 600;
     DotDrawing drawing = DotDrawing::automatic;  ///< PDF only
-    /// PDF only: labels with name, page, region and spacing, and a ruler, in the margins where they
-    /// fit.
+    /// PDF only: whether there are labels with name, page, region and spacing, and rulers, in the
+    /// margins where they fit.
     bool labels = true;
-    std::string name;     ///< PDF only: first of the labels, and the document's title
-    std::string command;  ///< PDF only: label with the command that makes the sheet again
-    /// PDF only: this label of each page, where pages have commands of their own; `command` does
-    /// not matter then.
+    std::string name;     ///< PDF only: the first label, and the document's title
+    std::string command;  ///< PDF only: label with the command that reprints the sheet
+    /// PDF only: commands of the pages, if pages have different commands; they replace `command`.
     std::vector<std::string> page_commands;
-    int first_page = 1;  ///< PDF only: what the labels say is the number of the first sheet
-    int page_count = 0;  ///< PDF only: and the number of pages; 0: as many as are written
-    /// Called often, so it must be quick. Default: none.
+    int first_page = 1;  ///< PDF only: number of the first sheet in the labels
+    int page_count = 0;  ///< PDF only: number of pages in the labels; 0 for the number of sheets
+    /// Called often, so it must be fast. Default: none.
     Progress progress;
 };
 
 /// Writes the sheet in the format of the file's ending.
 ///
-/// In PNG and TIFF the centre of every dot is rounded by itself to the nearest position that the
-/// printer has, so the error is at most half a printer pixel per axis and does not add up.
+/// In PNG and TIFF the centre of every dot is rounded to the nearest printer pixel, so the error is
+/// at most half a printer pixel per axis and does not accumulate.
 ///
 /// The file appears complete or not at all: it is written under a temporary name in the same
-/// directory and renamed at the end. After any error, and when `progress` returned false, a file
-/// that was there before is unchanged and nothing is left behind.
+/// directory and renamed at the end. After any error, and if `progress` returned false, an existing
+/// file is unchanged and no temporary file remains.
 ///
 /// Throws BadArgument: as `print_format`, `validate` and `validate_resolution`; DotDrawing::glyphs
 /// where lengths are not whole pixels. Throws Error: the file cannot be created or written (with
@@ -133,7 +133,7 @@ void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
                  const PrintOptions& options = {});
 
 /// Writes a document of several pages as `write_sheet` does; more than one page needs a PDF. Throws
-/// as `write_sheet`, and BadArgument if there is no sheet or the format takes only one.
+/// as `write_sheet`, and BadArgument if there is no sheet or the format has only one page.
 void write_sheets(std::span<const Sheet> sheets, const std::filesystem::path& path,
                   const PrintOptions& options = {});
 
@@ -159,9 +159,9 @@ struct PrintPage {
 std::vector<InkRectangle> ink_text(std::string_view text, double x_mm, double y_mm,
                                    double height_mm);
 
-/// Writes a page as `write_sheet` does, as PDF, SVG, PNG or TIFF; BadArgument for text. Where
-/// regions overlap, both are printed. For PNG and TIFF, the page is held in memory at one bit per
-/// pixel. A PDF gets the marks but no labels.
+/// Writes a page as `write_sheet` does, as PDF, SVG, PNG or TIFF; BadArgument for text. Overlapping
+/// regions are both printed. For PNG and TIFF, the page is stored in memory at one bit per pixel. A
+/// PDF has the marks but no labels.
 void write_page(const PrintPage& page, const std::filesystem::path& path,
                 const PrintOptions& options = {});
 

@@ -8,17 +8,16 @@
 namespace dotpose {
 
 /// A model (not a measurement) of a printer's errors over a page: a smooth shift of low frequency.
-/// The amplitudes are chosen so that its largest values on the measured area are those that the
-/// paper found (Table III); they are larger along y, the direction of paper feed.
+/// The amplitudes give the maximum errors of the paper (Table III) on the measured area; they are
+/// larger along y, the direction of paper feed.
 class PrintModel {
   public:
-    static constexpr double kSide_mm = 200;  ///< side of the area on which the amplitudes are
-                                             ///< reached
+    static constexpr double kSide_mm = 200;  ///< side of the area of the maximum errors
 
-    /// The greatest errors on the area, along x and y, in mm; by default those of Table III.
+    /// The maximum errors on the area, along x and y, in mm; by default those of Table III.
     PrintModel(double worst_x_mm = 0.15, double worst_y_mm = 0.27);
 
-    /// Returns printed minus intended place, at a place relative to the middle of the area.
+    /// Returns printed minus intended position, at a position relative to the middle of the area.
     Vec2 shift_mm(Vec2 from_middle_mm) const;
 
   private:

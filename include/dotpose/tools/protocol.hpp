@@ -16,18 +16,17 @@
 
 namespace dotpose {
 
-/// How the experiment is simulated.
+/// Options of the simulated experiment.
 struct ProtocolOptions {
     int samples = 20;  ///< number of samples at each position and angle
-    /// Light, blur and noise are those of the device and drawn once; the page gives the places of
-    /// dots.
+    /// Light, blur and noise of the device, drawn once; the page determines the positions of dots.
     Setup setup;
     Options locate;
     int threads = 0;
     Progress progress;
 };
 
-/// Error of one coordinate while the device stands still.
+/// Error of one coordinate while the device is at rest.
 struct Spread {
     double bias = 0;   ///< mean of found minus true; its absolute value is the paper's accuracy
     double sigma = 0;  ///< standard deviation; the paper's precision
@@ -37,7 +36,7 @@ struct Spread {
 struct Station {
     Vec2 place_mm;  ///< from the middle of the area, y down
     double theta_deg = 0;
-    Spread x_mm;  ///< error of the right fixes
+    Spread x_mm;  ///< error of the correct fixes
     Spread y_mm;
     Spread theta;  ///< degrees
     int samples = 0;
@@ -51,17 +50,17 @@ struct ProtocolResult {
     std::vector<Station> angles;     ///< 36 angles, at the middle
 };
 
-/// The experiment on a perfect page and on a printed one.
+/// The experiment on a perfect page and on a printed page.
 struct Protocol {
     int samples = 0;
-    ProtocolResult perfect;  ///< every dot in its intended place, except for its jitter
+    ProtocolResult perfect;  ///< every dot at its intended position, except for jitter
     ProtocolResult printed;  ///< with the errors of `PrintModel`
 };
 
 /// Simulates the experiment. Throws Error if interrupted.
 Protocol run_protocol(const ProtocolOptions& options);
 
-/// Returns Table III in Markdown, with the paper's figures beside the simulated ones.
+/// Returns Table III in Markdown, with the numbers of the paper and the simulated numbers.
 std::string table_3(const Protocol& protocol);
 /// Writes one line for each station.
 void write_stations_csv(std::ostream& out, std::span<const Station> stations);

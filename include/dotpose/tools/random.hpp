@@ -59,8 +59,8 @@ class Rng {
     }
 
   private:
-    /// Returns how many of 128 bits are set, counted in fields of 2, 4 and 8 bits side by side
-    /// because std::popcount is a call where the processor may lack the instruction.
+    /// Returns the number of set bits among 128 bits. Counts in parallel fields of 2, 4 and 8 bits,
+    /// because std::popcount is a function call on processors that may lack the instruction.
     static constexpr int ones_in(std::uint64_t a, std::uint64_t b) noexcept {
         constexpr std::uint64_t kOdd2 = 0x3333333333333333u;
         constexpr std::uint64_t kOdd4 = 0x0F0F0F0F0F0F0F0Fu;

@@ -1,4 +1,4 @@
-/// Robot messages: what a frame told about a robot, as messages of ROS 2.
+/// Robot messages: converts the results of a frame to ROS 2 messages.
 ///
 ///     Follower follower(options);
 ///     RobotMessenger messenger("anna");
@@ -8,12 +8,12 @@
 ///     if (messages.pose) publish(to_cdr(*messages.pose));
 ///
 /// Frames (ROS REP 103: metres, x forward, y left, z up, counter-clockwise; REP 105): `map` is the
-/// world of the sheet file, or without one the pattern with y up, the origin where it is. `odom`
-/// begins where the robot is first seen. While the robot is followed, `map` to `odom` does not
-/// change; when it is found again after it was lost, or was put elsewhere, `map` to `odom` jumps,
-/// and `odom` to `base_link` goes on from where it was. `base_link` is the reference point of the
-/// camera file, which points in the robot's heading, on the paper; without a camera file the point
-/// under the image centre, x along the image x axis.
+/// world of the sheet file, or without one the pattern with y up and the same origin. `odom` begins
+/// at the first pose of the robot. While the robot is followed, `map` to `odom` does not change;
+/// when it is found again after it was lost, or was put elsewhere, `map` to `odom` jumps, and
+/// `odom` to `base_link` continues. `base_link` is the reference point of the camera file on the
+/// paper, with the robot's heading; without a camera file it is the point under the image centre,
+/// with x along the image x axis.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@
 
 namespace dotpose::ros {
 
-/// Variance, in m^2 or rad^2, of what a camera above a sheet does not observe: height, roll and
-/// pitch; also of a pose whose covariance is not known.
+/// Variance, in m^2 or rad^2, of unobserved coordinates (height, roll and pitch), and of poses
+/// without a known covariance.
 inline constexpr double kUnobserved = 1e6;
 
 /// A pose in a plane, y up.
@@ -43,34 +43,34 @@ struct PlanarPose {
 
 using PlanarCovariance = std::array<std::array<double, 3>, 3>;
 
-/// The pose that one frame shows by itself.
+/// The pose from a single frame.
 struct PlanarFix {
     PlanarPose pose;
     std::optional<PlanarCovariance> covariance;  ///< of (x, y, yaw)
 };
 
-/// Pose and velocities of a robot that is followed.
+/// Pose and velocities of a tracked robot.
 struct PlanarMotion {
     PlanarPose pose;
     double vx_m_s = 0;  ///< along the x axis of the plane
     double vy_m_s = 0;
     double turn_rad_s = 0;
-    std::array<std::array<double, 6>, 6> covariance{};  ///< of all six, in their order
+    std::array<std::array<double, 6>, 6> covariance{};  ///< of all six values, in their order
 };
 
-/// What a frame told about the robot, in the frame `map`.
+/// The results of a frame, in the frame `map`.
 struct RobotUpdate {
     std::int64_t time_ns = 0;            ///< middle of the exposure
     std::optional<PlanarFix> fix;        ///< none without a fix, or if its place is not known
     std::optional<PlanarMotion> motion;  ///< none while the robot is lost
-    std::uint32_t plane = 0;             ///< poses of different planes are not related
-    bool is_found_again = false;         ///< the motion does not go on from the one before
+    std::uint32_t plane = 0;             ///< poses in different planes are unrelated
+    bool is_found_again = false;         ///< whether the motion does not continue the previous one
     std::string state;                   ///< "lost", "moving" or "stationary"
-    std::string problem;                 ///< why there is no fix; empty if there is one
-    std::vector<KeyValue> facts;         ///< what else is known of the frame
+    std::string problem;                 ///< reason why there is no fix; empty if there is one
+    std::vector<KeyValue> facts;         ///< further values of the frame
 };
 
-/// Returns what a frame told. `is_in_world` is Follower::is_in_world.
+/// Returns the results of a frame. `is_in_world` is Follower::is_in_world.
 RobotUpdate update_of(const Followed& followed, bool is_in_world, std::int64_t time_ns);
 
 /// Names of the frames of reference.
@@ -81,7 +81,7 @@ struct RobotFrames {
     std::string camera = "camera_optical";
 };
 
-/// Returns the frames with `prefix` ("anna/") before the names of the robot's own frames: `odom`,
+/// Returns the frames with `prefix` ("anna/") before the names of the frames of the robot: `odom`,
 /// `base` and `camera`. Robots with different prefixes share one tree of transforms, with one
 /// `map`. Throws BadArgument if ROS does not allow the prefix: it begins with a slash, or contains
 /// a space or a control character.
@@ -95,7 +95,7 @@ struct RobotMessages {
     DiagnosticArray status;
 };
 
-/// Makes the messages of one robot, frame after frame.
+/// Makes the messages of one robot, frame by frame.
 class RobotMessenger {
   public:
     explicit RobotMessenger(std::string robot, RobotFrames frames = {});
@@ -113,12 +113,12 @@ class RobotMessenger {
     RobotFrames frames_;
     PlanarPose map_from_odom_;
     PlanarPose odom_from_base_;
-    std::optional<std::uint32_t> plane_;  ///< none before the robot is seen first
+    std::optional<std::uint32_t> plane_;  ///< none before the first pose
 };
 
-/// Returns where the camera sits: the optical frame (z towards the paper, x and y along the axes of
-/// the image) in `base_link`, above the point under the image centre. The height is 0 if the camera
-/// file does not tell the focal length. None if it does not tell the camera's view of the paper.
+/// Returns the mount of the camera: the optical frame (z towards the paper, x and y along the axes
+/// of the image) in `base_link`, above the point under the image centre. The height is 0 if the
+/// camera file has no focal length. None if it has no view of the paper.
 std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFrames& frames = {});
 
 }  // namespace dotpose::ros

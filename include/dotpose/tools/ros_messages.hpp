@@ -5,8 +5,8 @@
 ///     message.header = {ros_time(time_ns), "map"};
 ///     const std::vector<std::uint8_t> bytes = to_cdr(message);
 ///
-/// robot_messages.hpp makes them of fixes, mcap_file.hpp writes them to files. Units and frames are
-/// those of ROS REP 103: metres, radians, seconds; x forward, y left, z up.
+/// robot_messages.hpp makes messages from fixes, mcap_file.hpp writes messages to files. Units and
+/// frames are those of ROS REP 103: metres, radians, seconds; x forward, y left, z up.
 #pragma once
 
 #include <array>
@@ -26,8 +26,7 @@ struct Time {
     std::uint32_t nanosec = 0;
 };
 
-/// Converts nanoseconds since 1970, or since any other start. Times that do not fit become the
-/// nearest that does.
+/// Converts nanoseconds since 1970, or since any other start; times out of range are clamped.
 Time ros_time(std::int64_t time_ns);
 
 /// std_msgs/Header
@@ -146,10 +145,10 @@ std::vector<std::uint8_t> to_cdr(const TFMessage& message);
 std::vector<std::uint8_t> to_cdr(const DiagnosticArray& message);
 std::vector<std::uint8_t> to_cdr(const CompressedImage& message);
 
-/// A type of messages, as files that are readable without ROS name and describe it.
+/// A message type with its description for files that are readable without ROS.
 struct MessageType {
     std::string name;        ///< such as "geometry_msgs/msg/PoseWithCovarianceStamped"
-    std::string definition;  ///< the .msg files of the type and of all that it contains (ros2msg)
+    std::string definition;  ///< the .msg files of the type and of all types in it (ros2msg)
     std::string hash;        ///< "RIHS01_" and 64 hexadecimal digits (ROS REP 2011)
 };
 

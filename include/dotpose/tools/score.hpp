@@ -1,4 +1,4 @@
-/// Score: the outcomes of many frames, summed up in numbers.
+/// Score: statistics of the outcomes of many frames.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace dotpose {
 
-/// Quantiles by nearest rank: the least value that at least this share of all values does not
-/// exceed. Not a number if there are no values.
+/// Quantiles by nearest rank: the smallest value that is at least as large as a given fraction of
+/// all values. Not a number if there are no values.
 struct Quantiles {
     double median = std::numeric_limits<double>::quiet_NaN();
     double p95 = std::numeric_limits<double>::quiet_NaN();
@@ -27,20 +27,20 @@ Quantiles quantiles_of(std::vector<double> values);
 
 /// Counts and errors of many frames.
 struct Score {
-    int frames = 0;  ///< readable frames; each is located, wrong, or has a status other than ok
+    int frames = 0;  ///< readable frames; each is located, wrong, or has another status than ok
     int unreadable = 0;
-    int located = 0;                               ///< right fixes
-    int wrong = 0;                                 ///< fixes that are wrong
-    std::array<int, kStatusCount> by_status = {};  ///< `ok` counts right and wrong fixes
+    int located = 0;                               ///< correct fixes
+    int wrong = 0;                                 ///< wrong fixes
+    std::array<int, kStatusCount> by_status = {};  ///< `ok` counts correct and wrong fixes
 
-    // Only right fixes count in the following.
+    // The following statistics are those of correct fixes.
     Quantiles position_um;  ///< distance in the plane
     Quantiles angle_deg;
-    /// Mean of error^2 / variance, for x, y and theta: 1 if the covariance is right, more if the
-    /// errors are larger than it says.
+    /// Mean of error^2 / variance, for x, y and theta: 1 if the covariance is correct, above 1 if
+    /// the errors are larger.
     std::array<double, 3> normalised = {};
 
-    double largest_p_wrong = 0;  ///< largest value given by any fix
+    double largest_p_wrong = 0;  ///< largest value of any fix
     Quantiles elapsed_us;        ///< time of all readable frames
 
     double located_share() const { return frames > 0 ? 1.0 * located / frames : 0; }
@@ -48,7 +48,7 @@ struct Score {
 /// Returns the score of some outcomes.
 Score score_of(std::span<const Outcome> outcomes);
 
-/// Returns the score in words and numbers, for tables: (name, value).
+/// Returns the score as (name, value) for tables.
 std::vector<std::pair<std::string, std::string>> described(const Score& score);
 
 }  // namespace dotpose

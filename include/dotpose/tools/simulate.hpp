@@ -1,4 +1,4 @@
-/// Simulated printer and camera: frames whose exact pose is known.
+/// Simulated printer and camera: frames with exactly known poses.
 ///
 /// A frame is rendered from the geometry of the printed page, in this order: paper with texture,
 /// ink, light, blur, motion, integration over the area of each pixel, noise, clipping, rounding.
@@ -13,8 +13,8 @@
 /// any number of threads. All functions are pure and thread-safe. Bad values throw BadArgument.
 ///
 /// Frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y DOWN as the
-/// page is read, mm). Offsets named `offset_mm` are in the pattern frame, from the pose point, so
-/// that rounding loses nothing anywhere on the plane of 2.1e8 mm.
+/// page is read, mm). Offsets named `offset_mm` are in the pattern frame, relative to the pose
+/// point, and therefore exact anywhere on the plane of 2.1e8 mm.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@
 
 namespace dotpose {
 
-/// A point or vector; the unit and frame stand in the variable's name.
+/// A point or vector; the name of the variable contains unit and frame.
 struct Vec2 {
     double x = 0;
     double y = 0;
@@ -49,15 +49,14 @@ struct CameraModel {
     /// Radial distortion of eq. 1-2, p_u = m + r_d / (1 + k |r_d|^2), in 1 / px^2; m is the image
     /// centre. Below 0: barrel. 1 + k |r|^2 must stay in (0, 2) over the whole image.
     double k = 0;
-    /// Distance of the projection centre from the pose point, which matters only with tilt. Above
-    /// 0.
+    /// Distance of the projection centre from the pose point, relevant only with tilt. Above 0.
     double working_distance_mm = 16;
     /// Motion of the scene in the image while a rolling shutter reads the rows, at most half the
-    /// image along each axis; the pose is that of the middle row. None: a global shutter.
+    /// image along each axis; the pose is that of the middle row. (0, 0) is a global shutter.
     Vec2 readout_px;
 };
 
-/// Where the camera looks: the pattern point under the image centre is cell + fraction.
+/// The pose of the camera: the pattern point under the image centre is cell + fraction.
 struct CameraPose {
     Cell cell;
     double fraction_x = 0;  ///< grid units, from `cell`; usually in [0, 1)
@@ -81,17 +80,16 @@ struct Imperfections {
     double paper_level = 200;       ///< grey level of bare paper at the image centre, 0 to 255
     double ink_reflectance = 0.15;  ///< relative to paper
     double ink_variation = 0;  ///< standard deviation of a dot's reflectance, relative to paper
-    /// Contrast of the palest ink relative to the darkest. Inks may be unequally dark, one for each
-    /// direction of displacement: the darkest has `ink_reflectance`; the other two lie evenly in
-    /// between.
+    /// Contrast of the palest ink relative to the darkest. Each direction of displacement may have
+    /// its own ink: the darkest has `ink_reflectance`, and the other two are evenly in between.
     double palest_ink = 1;
     double vignetting = 0;  ///< loss of light in the image corners, growing with r^2
     /// Linear change of light from one side to the other, relative to that at the centre; 0 to 2.
     double fall = 0;
     double fall_direction_rad = 0;  ///< image direction of less light, from +u towards +v
     double blur_sigma_px = 0;
-    Vec2 motion_px;  ///< motion of the scene in the image during exposure; the pose is that of its
-                     ///< middle
+    Vec2 motion_px;  ///< motion of the scene in the image during the exposure; the pose is that of
+                     ///< the middle of the exposure
     double noise_sigma = 0;      ///< grey levels
     double salt_and_pepper = 0;  ///< fraction of the pixels
     double jitter_mm = 0;        ///< standard deviation of a printed dot's place, per axis
@@ -102,12 +100,12 @@ struct Imperfections {
     static constexpr double kGrain_px = 3;  ///< size of the texture's grains
     double tilt_x_rad = 0;  ///< added to the pose by `draw_shot`; `render` ignores it
     double tilt_y_rad = 0;
-    /// Rows and columns drawn for each of the image, at most 8; 0: so many that no dot is more than
-    /// 0.003 px off. More take longer.
+    /// Number of sub-pixels per pixel and axis, at most 8; 0 for enough that no dot has an error
+    /// above 0.003 px. More take longer.
     int sub_pixels = 0;
 };
 
-/// The named conditions for which accuracy is given.
+/// The named conditions of the accuracy tables.
 enum class Preset : std::uint8_t { clean, nominal, hard };
 /// All values of Preset, for tables.
 inline constexpr std::array kPresets = {Preset::clean, Preset::nominal, Preset::hard};
@@ -123,7 +121,7 @@ struct PageArea {
     double y_grid = 0;
     double half_width = 0;  ///< in grid units
     double half_height = 0;
-    double angle_rad = 0;  ///< direction of the side that is `half_width`, from +x towards +y
+    double angle_rad = 0;  ///< direction of the side along `half_width`, from +x towards +y
 
     /// Returns the distance of a point from the area, in grid units; negative inside.
     double distance(double x, double y) const;
@@ -133,24 +131,23 @@ struct PageArea {
 struct Page {
     Pattern pattern;
     /// Seed of the printing errors. Together with the cell it determines the jitter, ink and
-    /// absence of a dot, which are so the same in every frame that shows it.
+    /// absence of a dot, which are therefore the same in every frame.
     std::uint64_t seed = 1;
-    /// Printed intersections: `columns` x `rows` from `origin`; 0 columns: the whole plane.
+    /// Printed intersections: `columns` x `rows` from `origin`; the whole plane if `columns` is 0.
     Cell origin;
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
-    /// Printed length of a unit length, above 0. Pose and `displacement_mm` are as meant to be
-    /// printed, offsets and theta are those on the paper.
+    /// Printed length of a unit length, above 0. Pose and `displacement_mm` are nominal; offsets
+    /// and theta are on the paper.
     AxisScale print_scale;
-    /// Dots are printed where their intersection lies in one of these areas; if there are none, on
-    /// the whole page.
+    /// Areas with printed dots, by the places of their intersections; the whole page if empty.
     std::vector<PageArea> areas;
-    /// Extent of the paper, if it is limited, and reflectance of the table around it, relative to
+    /// Extent of the paper (none if unlimited), and reflectance of the table around it, relative to
     /// paper.
     std::optional<PageArea> paper;
     double table_reflectance = 0.2;
-    /// Returns the displacement of a dot from its intended place (in grid units), by printing
-    /// errors or because the paper is bent; none: no displacement. Called from several threads.
+    /// Returns the displacement of a dot from its intended place (in grid units) by printing errors
+    /// or bent paper; empty for no displacement. Called from several threads.
     std::function<Vec2(Vec2 place_grid)> shift_mm;
 };
 
@@ -163,10 +160,10 @@ class Projection {
   public:
     Projection(const CameraModel& camera, const CameraPose& pose);
 
-    /// Returns the pixel of an offset. A point that the camera cannot see at all gives a pixel 1e9
+    /// Returns the pixel of an offset. For a point that the camera cannot see, returns a pixel 1e9
     /// away.
     Vec2 pixel_from_offset(Vec2 offset_mm) const;
-    /// Returns the offset that a pixel shows, in mm.
+    /// Returns the offset of a pixel, in mm.
     Vec2 offset_from_pixel(Vec2 pixel) const;
     /// Computes `offset_from_pixel` for adjacent pixels, from `first_pixel` to the right.
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
@@ -178,13 +175,13 @@ class Projection {
     double k_;
     double focal_px_;
     double distance_mm_;
-    // camera_mm = x_axis * offset.x + y_axis * offset.y + (0, 0, distance): the pattern's axes as
-    // the camera sees them (x right, y down, z ahead).
+    // camera_mm = x_axis * offset.x + y_axis * offset.y + (0, 0, distance): the pattern's axes in
+    // the frame of the camera (x right, y down, z ahead).
     std::array<double, 3> x_axis_;
     std::array<double, 3> y_axis_;
 };
 
-/// Renders the image that the camera sees. `seed` determines noise, dirt and graphics.
+/// Renders the camera's image. `seed` determines noise, dirt and graphics.
 GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
@@ -195,22 +192,22 @@ GreyImage render(const Pattern& pattern, const CameraModel& camera, const Camera
 /// A page given as an image, for example a PDF rendered at 1200 dpi. Between pixels, its darkness
 /// is interpolated linearly.
 struct PageImage {
-    ImageView image;  ///< 255 is bare paper, 0 is solid ink; around it is endless paper
+    ImageView image;  ///< 255 is bare paper, 0 is solid ink; surrounded by unlimited paper
     double mm_per_px = 25.4 / 1200;
     /// Point under the image centre, from the upper left corner of the image: x right, y down.
     Vec2 centre_mm;
 };
 
-/// Renders the image that the camera sees of a page image. Of the pose only the angles count; of
-/// the imperfections, the printer's own (jitter, missing dots), dirt and graphics do not count.
+/// Renders the camera's image of a page image. Uses only the angles of the pose, and ignores the
+/// imperfections of the printer (jitter, missing dots), dirt and graphics.
 GreyImage render(const PageImage& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// What all frames of a run have in common.
+/// The common parameters of all frames of a run.
 struct Setup {
     Preset preset = Preset::nominal;
-    Pattern pattern;             ///< its section counts only if `random_section` is false
-    bool random_section = true;  ///< each frame reads another section
+    Pattern pattern;             ///< its section is used only if `random_section` is false
+    bool random_section = true;  ///< whether each frame has a random section
     CameraModel camera;
     std::uint64_t seed = 1;
 };
@@ -228,42 +225,42 @@ struct Shot {
 /// on it, imperfections from the preset.
 Shot draw_shot(const Setup& setup, std::uint64_t index);
 
-/// A view that the pattern covers only in part.
+/// A view that is only partly covered by the pattern.
 struct PartialView {
-    /// 0: one area along a border or in a corner of the image. Otherwise the number of rectangles
-    /// anywhere in the image, apart from each other, each with at least `kFewestIslandDots` dots.
+    /// Number of separate rectangles anywhere in the image, each with at least `kFewestIslandDots`
+    /// dots; 0 for one area along a border or in a corner of the image.
     int islands = 0;
     static constexpr int kFewestIslandDots = 60;
-    /// Range of the share of the image that the one area covers; the area holds at least
+    /// Range of the fraction of the image that the single area covers; the area has at least
     /// `fewest_dots`.
     double least_share = 0.15;
     double most_share = 0.45;
     int fewest_dots = 150;
-    /// Whether the one area is the corner or side of a sheet that lies on a table.
+    /// Whether the single area is the corner or side of a sheet on a table.
     bool on_table = false;
 };
 
-/// Draws from the shot's seed where its page has dots and where its paper ends. In every second
-/// frame, areas have the direction of the pattern, otherwise that of the image. Throws BadArgument
-/// if there is no room for the islands.
+/// Draws the areas with dots and the edge of the paper from the shot's seed. In every second frame,
+/// areas are aligned with the pattern, otherwise with the image. Throws BadArgument if there is no
+/// room for the islands.
 void cover_partly(Shot& shot, const PartialView& view);
 
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Frames without one valid position, which a locator must refuse. At a seam, the position and
-/// section of either side would also be right.
+/// Frames without a single valid position, which a locator must refuse. At a seam, the position and
+/// section of either side are also correct.
 enum class Scene : std::uint8_t {
     black,
     white,
     noise,            ///< each pixel dark with probability `density`, nothing else
     text,             ///< a page of words
     plain_grid,       ///< dots on the intersections, not displaced
-    random_symbols,   ///< a perfect grid whose symbols are drawn at random
+    random_symbols,   ///< a perfect grid with random symbols
     scattered_dots,   ///< dots at random places, `density` per grid cell
     checkerboard,     ///< squares of two grid spacings
     seam_vertical,    ///< two sections side by side, the border through the image centre
-    seam_horizontal,  ///< two sections one above the other
+    seam_horizontal,  ///< two sections, one above the other
     mirrored,         ///< the pattern seen from behind
 };
 /// All values of Scene, for tables.
@@ -274,8 +271,8 @@ inline constexpr std::array kScenes = {
 /// Returns the identifier, such as "seam_vertical".
 const char* name(Scene scene);
 
-/// Renders `scene` with the shot's camera, pose and imperfections in place of its page. `density`
-/// is 0 to 1 and counts for `noise` and `scattered_dots` only.
+/// Renders `scene` with the shot's camera, pose and imperfections instead of its page. `density` is
+/// 0 to 1 and used only for `noise` and `scattered_dots`.
 GreyImage render_scene(Scene scene, const Shot& shot, double density = 0.5);
 
 }  // namespace dotpose

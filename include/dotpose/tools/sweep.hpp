@@ -1,4 +1,4 @@
-/// Sweep: the score of `locate` while one condition of the simulated frames gets worse and worse.
+/// Sweep: the score of `locate` for simulated frames with increasing degradation of one condition.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@
 
 namespace dotpose {
 
-/// The condition that gets worse, with its unit.
+/// The degraded condition, with its unit.
 enum class SweepKind : std::uint8_t {
     noise,      ///< sensor noise, grey levels
-    blur,       ///< sigma of the lens's blur, px
+    blur,       ///< sigma of the lens blur, px
     missing,    ///< dots not printed, %
     tilt,       ///< tilt of the camera about a random axis in the image, degrees
     spacing,    ///< grid spacing in the image, px
-    occlusion,  ///< share of the image behind a straight dark edge from a random side, %
+    occlusion,  ///< fraction of the image behind a straight dark edge from a random side, %
 };
 /// All values of SweepKind, for tables.
 inline constexpr std::array kSweepKinds = {SweepKind::noise,   SweepKind::blur,
@@ -32,13 +32,13 @@ inline constexpr std::array kSweepKinds = {SweepKind::noise,   SweepKind::blur,
 /// Returns the identifier, such as "occlusion".
 const char* name(SweepKind kind);
 
-/// What is the same at each value of the condition.
+/// Options for all values of the condition.
 struct SweepOptions {
     Setup setup;                 ///< all other conditions
     int frames_per_value = 200;  ///< the same frames for each value
-    Options locate;              ///< options of `locate`; `decoder` is ignored, as both are run
+    Options locate;  ///< options of `locate`; `decoder` is ignored, because both are run
     int threads = 0;
-    /// If it returns false, the sweep ends with the values that are complete.
+    /// If it returns false, the sweep ends with the complete values.
     Progress progress;
 };
 

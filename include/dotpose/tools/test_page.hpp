@@ -1,12 +1,13 @@
-/// Test page: patches of dot sizes against spacings, to find out what a printer can do.
+/// Test page: patches with different dot sizes and spacings, to find the best settings of a
+/// printer.
 ///
-/// Each patch encodes in its position how it was printed: the cell (x, y) at its top left is
+/// The position of each patch encodes its settings: the cell (x, y) at its top left is
 ///
 ///     x = kTestPageCell + kTestPatchCells * (spacing in 1/1200 inch)
 ///     y = kTestPageCell + kTestPatchCells * (diameter of a dot in 1/1200 inch)
 ///
 /// so the position that `locate` reads anywhere in a patch identifies the patch. Cells from
-/// kTestPageCell on, on both axes, are kept for test pages: do not print sheets there. The
+/// kTestPageCell, on both axes, are reserved for test pages: do not use them for sheets. The
 /// displacement is a sixth of the spacing.
 #pragma once
 
@@ -21,14 +22,15 @@
 
 namespace dotpose {
 
-/// First cell, on both axes, of the region that is kept for test pages.
+/// First cell, on both axes, of the region reserved for test pages.
 inline constexpr std::uint32_t kTestPageCell = 410'000'000;
-/// Cells between the patches of neighbouring settings; a patch has at most half as many per axis.
+/// Distance in cells between the patches of adjacent settings; a patch has at most half as many
+/// cells per axis.
 inline constexpr std::uint32_t kTestPatchCells = 10'000;
 /// Unit of spacings and diameters on a test page.
 inline constexpr double kTestUnit_mm = 25.4 / 1200;
 
-/// What a test page shows.
+/// The contents of a test page.
 struct TestPageOptions {
     Profile profile = Profile::anoto;
     Paper paper;
@@ -39,11 +41,11 @@ struct TestPageOptions {
     std::vector<int> dots = {2, 3, 4, 6, 8};       ///< 0.042, 0.064, 0.085, 0.127, 0.169 mm
 };
 
-/// Lays the patches out, with a label "spacing/dot" in mm above each. Combinations whose dots would
-/// touch are left out. Throws BadArgument: as `make_sheet`, and for settings outside 1 to 80.
+/// Lays out the patches, with a label "spacing/dot" in mm above each. Combinations with touching
+/// dots are omitted. Throws BadArgument: as `make_sheet`, and for settings outside 1 to 80.
 PrintPage make_test_page(const TestPageOptions& options);
 
-/// Returns how the patch with this cell was printed; none for cells that belong to no test page.
+/// Returns the settings of the patch with this cell; none for cells outside test pages.
 std::optional<Pattern> test_patch_at(Profile profile, Cell cell);
 
 }  // namespace dotpose

@@ -1,4 +1,4 @@
-/// The words in which lines, panels and messages tell what a tracker says.
+/// Names of the tracker's states and events for lines, panels and messages.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace dotpose {
 /// Returns "lost", "stationary" or "moving".
 std::string state_name(const Track& track);
 
-/// Returns the names of what happened, with spaces in between; empty if nothing did.
+/// Returns the names of the events, separated by spaces; empty if there are none.
 std::string event_names(const TrackEvents& events);
 
 }  // namespace dotpose

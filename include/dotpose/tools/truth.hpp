@@ -1,4 +1,4 @@
-/// Truth: the known poses of frames, drawn by the simulator or read from a truth.csv.
+/// Truth: the known poses of frames, from the simulator or from a truth.csv.
 #pragma once
 
 #include <filesystem>
@@ -15,13 +15,13 @@
 
 namespace dotpose {
 
-/// The true pose of a frame, in the terms of `Fix`.
+/// The true pose of a frame, with the conventions of `Fix`.
 struct Truth {
-    bool has_pose = true;  ///< false: the frame shows no readable pattern and must be refused
+    bool has_pose = true;  ///< false if the frame has no readable pattern and must be refused
     double x_grid = 0;
     double y_grid = 0;
     double theta_rad = 0;
-    std::optional<Section> section;  ///< not judged if not known
+    std::optional<Section> section;  ///< not checked if not known
     double spacing_mm = kDefaultSpacing_mm;
 };
 
@@ -30,8 +30,9 @@ Truth truth_of(const Shot& shot);
 
 /// The true pose of a frame in the frame of a sheet or of the world of a sheet file.
 struct TruePlace {
-    bool is_in_world = false;  ///< y up and angles counter-clockwise; else y down and clockwise
-    std::string sheet;         ///< name of the sheet; empty if not known
+    bool is_in_world =
+        false;          ///< y up and angles counter-clockwise; otherwise y down and clockwise
+    std::string sheet;  ///< name of the sheet; empty if not known
     double x_mm = 0;
     double y_mm = 0;
     std::optional<double> angle_rad;
@@ -42,18 +43,18 @@ struct TruthRow {
     std::string file;
     Truth truth;                     ///< valid if `is_in_pattern`
     bool is_in_pattern = true;       ///< whether the file has poses in the pattern frame
-    std::optional<Profile> profile;  ///< profile as printed, if the file has it
+    std::optional<Profile> profile;  ///< printed profile, if the file has it
     std::optional<TruePlace> place;  ///< place on a sheet or in the world, if the file has it
 };
 
-/// Reads truth.csv as `dotpose simulate` writes it, or poses measured on a sheet or in the world.
-/// Columns are identified by name and may be in any order. Required: file, and one of
+/// Reads a truth.csv of `dotpose simulate`, or poses measured on a sheet or in the world. Columns
+/// are identified by name and may be in any order. Required: file, and one of
 ///   - x_grid, y_grid or x_mm, y_mm (grid units win), and theta_deg;
 ///   - x_sheet_mm, y_sheet_mm; optional theta_sheet_deg, sheet;
 ///   - x_m, y_m (they win over places on sheets); optional yaw_rad or yaw_deg, sheet.
 /// Optional are section_u, section_v, profile, spacing_mm. A row with an empty pose is a frame
-/// without a pose. `spacing_mm`, if given, replaces that of the file.
-/// Throws Error, naming file and line, if the file cannot be read or has invalid content.
+/// without a pose. `spacing_mm`, if given, replaces that of the file. Throws Error with the names
+/// of file and line if the file cannot be read or has invalid content.
 std::vector<TruthRow> read_truth(const std::filesystem::path& path,
                                  std::optional<double> spacing_mm = std::nullopt);
 

@@ -16,25 +16,25 @@ dds_entity_t require(dds_entity_t entity, const std::string& what) {
     return entity;
 }
 
-/// Number of messages of a reliable topic that are kept until all readers have them.
+/// Number of messages of a reliable topic that are kept until all readers have received them.
 constexpr int kDepth = 100;
 
-/// How a topic is sent; the values that ROS uses.
+/// Quality of service of a topic, with the values of ROS.
 struct Quality {
     bool is_reliable = true;
-    bool is_kept = false;  ///< for readers that come later
+    bool is_kept = false;  ///< whether messages are kept for later readers
     int depth = kDepth;
 };
 
-/// How long a reliable message may wait for room, which delays the frame.
-constexpr dds_duration_t kMostWait_ns = DDS_MSECS(10);
+/// Maximum time that a reliable message waits for room, which delays the frame.
+constexpr dds_duration_t kMaxWait_ns = DDS_MSECS(10);
 
-/// How long readers are waited for that fall behind. A reader that has ended without a word is
-/// forgotten after that time.
+/// Maximum time to wait for slow readers. A reader that ended without disconnecting is dropped
+/// after this time.
 constexpr dds_duration_t kPatience_ns = DDS_SECS(10);
 
-/// Returns a domain that finds programs of this computer only, by the same settings as those of
-/// ROS's rmw_cyclonedds. CYCLONEDDS_URI comes after them, as it overrides them.
+/// Returns a domain limited to this computer, with the settings of ROS's rmw_cyclonedds.
+/// CYCLONEDDS_URI is appended and overrides them.
 dds_entity_t local_domain(int number) {
     std::string settings =
         "<General><AllowMulticast>false</AllowMulticast></General>"
@@ -55,14 +55,14 @@ dds_entity_t writer_of(dds_entity_t participant, const dds_topic_descriptor_t& t
     dds_qos_t* qos = dds_create_qos();
     dds_qset_reliability(
         qos, quality.is_reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
-        kMostWait_ns);
+        kMaxWait_ns);
     dds_qset_durability(qos,
                         quality.is_kept ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, quality.depth);
-    // Nodes since ROS 2 Iron warn of topics without it.
+    // Nodes since ROS 2 Iron warn about topics without a type hash.
     const std::string user_data = "typehash=" + type_hash + ';';
     dds_qset_userdata(qos, user_data.data(), user_data.size());
-    // ROS 2 up to Humble looks at the representation that old readers have: plain CDR.
+    // Readers of ROS 2 up to Humble need plain CDR.
     const std::array<dds_data_representation_id_t, 1> plain = {DDS_DATA_REPRESENTATION_XCDR1};
     dds_qset_data_representation(qos, plain.size(), plain.data());
     const dds_entity_t writer = dds_create_writer(participant, entity, qos, nullptr);
@@ -77,7 +77,7 @@ class Publisher::Writers {
     Writers(const std::string& robot, const PublisherOptions& options)
         : domain_(options.is_local ? local_domain(options.domain) : 0) {
         const Quality sensor = {options.is_reliable, false, options.is_reliable ? kDepth : 5};
-        // ROS puts "rt" before the names of its topics.
+        // ROS prefixes its topics with "rt".
         const std::string prefix = "rt/" + robot;
         try {
             participant_ =
@@ -116,8 +116,8 @@ class Publisher::Writers {
         ++unconfirmed_frames_;
     }
 
-    /// Waits until reliable readers have all messages, before messages would be replaced that they
-    /// do not have yet. Those that a reader does not take are counted as dropped.
+    /// Waits until reliable readers have all messages, before messages that they have not received
+    /// would be replaced. Messages that are not received in time are counted as dropped.
     void keep_pace() {
         if (unconfirmed_frames_ < kDepth / 2) return;
         if (!wait_for_readers(kPatience_ns)) dropped_ += sent_ - confirmed_;
@@ -164,12 +164,12 @@ class Publisher::Writers {
         if (participant_ > 0) dds_delete(participant_);
         if (domain_ > 0) dds_delete(domain_);
     }
-    /// Returns whether all reliable readers have all messages. The time is for the first writer
-    /// that waits in vain: the others share its readers.
-    bool wait_for_readers(dds_duration_t most_ns) {
+    /// Returns whether all reliable readers have all messages. Stops after the first writer that
+    /// times out, because the others have the same readers.
+    bool wait_for_readers(dds_duration_t max_wait_ns) {
         bool have_all = true;
         for (const dds_entity_t writer : {pose_, odometry_, status_, tf_}) {
-            const dds_duration_t patience_ns = have_all ? most_ns : 0;
+            const dds_duration_t patience_ns = have_all ? max_wait_ns : 0;
             have_all = dds_wait_for_acks(writer, patience_ns) == DDS_RETCODE_OK && have_all;
         }
         return have_all;
@@ -186,7 +186,7 @@ class Publisher::Writers {
         dds_write(writer, sample) == DDS_RETCODE_OK ? ++sent_ : ++dropped_;
     }
 
-    dds_entity_t domain_;  ///< 0 if it is that of the environment
+    dds_entity_t domain_;  ///< 0 for the domain of the environment
     dds_entity_t participant_ = 0;
     dds_entity_t pose_ = 0;
     dds_entity_t odometry_ = 0;
@@ -195,7 +195,7 @@ class Publisher::Writers {
     dds_entity_t tf_static_ = 0;
     std::int64_t sent_ = 0;
     std::int64_t dropped_ = 0;
-    std::int64_t confirmed_ = 0;  ///< of the messages sent, those that reliable readers have
+    std::int64_t confirmed_ = 0;  ///< number of messages that reliable readers have received
     int unconfirmed_frames_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Draws what a calibration has seen: over the frame the parts of the image, beside it how far
-// everything that is wanted has been reached.
+// Draws the progress of a calibration: the covered parts of the image over the frame, and gauges
+// beside it.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -8,7 +8,7 @@
 
 namespace dotpose::video {
 
-/// Tints the parts of the image that have not shown dots. `frame` is all of the frame.
+/// Tints the parts of the image that have not shown dots. `frame` is the whole frame.
 void draw_coverage(const CalibrationScene& scene, cv::Mat frame);
 
 /// Draws the gauges, and below them the directions in which frames were taken.

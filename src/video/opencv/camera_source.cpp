@@ -1,4 +1,4 @@
-// Reads cameras, at this computer (V4L2) or in the network, through OpenCV.
+// Reads cameras of this computer (V4L2) or of the network through OpenCV.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -80,7 +80,7 @@ class Camera : public capture::FrameSource {
     double rate() const override { return rate_; }
 
   private:
-    /// Returns the path of a camera of this computer, which may be named by its number.
+    /// Returns the path of a camera of this computer, which may be given by its number.
     std::string device() const {
         const bool is_number = name_.find_first_not_of("0123456789") == std::string::npos;
         return is_number ? "/dev/video" + name_ : name_;
@@ -123,9 +123,9 @@ class Camera : public capture::FrameSource {
         if (options_.gain) capture_.set(cv::CAP_PROP_GAIN, *options_.gain);
     }
 
-    /// Returns when the frame was taken, on the monotonic clock: by the driver if it tells,
-    /// otherwise when the frame was read. The times of a stream are not used, because their clock
-    /// is not known.
+    /// Returns the time of the frame on the monotonic clock: from the driver if available,
+    /// otherwise the time when the frame was read. The times of a stream are not used, because
+    /// their clock is not known.
     std::int64_t time_us() const {
         const double driver_ms = is_remote_ ? 0 : capture_.get(cv::CAP_PROP_POS_MSEC);
         if (driver_ms > 0) return std::llround(driver_ms * 1e3);
@@ -163,7 +163,7 @@ class Camera : public capture::FrameSource {
         latest_.put(std::move(frame));
     }
 
-    /// Puts an empty frame with the current time, on the camera's clock.
+    /// Puts an empty frame with the current time on the camera's clock.
     void put_none() {
         using namespace std::chrono;
         put({}, newest_us_ + duration_cast<microseconds>(steady_clock::now() - read_at_).count());
@@ -180,7 +180,7 @@ class Camera : public capture::FrameSource {
         if (frames_ > 0) put_none();
         try {
             open();
-        } catch (const Error&) {  // the next read fails too, and leads here again
+        } catch (const Error&) {  // the next read fails as well and calls this function again
         }
     }
 

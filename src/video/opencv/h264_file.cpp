@@ -17,7 +17,7 @@ extern "C" {
 namespace dotpose::video {
 namespace {
 
-/// Encoders that run on every processor: those of graphics cards are found even where there is no
+/// Software encoders only: FFmpeg also lists encoders of graphics cards on computers without a
 /// card.
 constexpr const char* kEncoders[] = {"libx264", "libopenh264"};
 
@@ -93,14 +93,14 @@ class H264File::Encoder {
         encoder_->width = size.width;
         encoder_->height = size.height;
         encoder_->pix_fmt = AV_PIX_FMT_YUV420P;
-        constexpr int kLargestDenominator = 100'000;
-        encoder_->framerate = av_d2q(fps, kLargestDenominator);
+        constexpr int kMaxDenominator = 100'000;
+        encoder_->framerate = av_d2q(fps, kMaxDenominator);
         encoder_->time_base = av_inv_q(encoder_->framerate);
         if ((file_->oformat->flags & AVFMT_GLOBALHEADER) != 0) {
             encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
         }
-        // Locating must not wait for the encoder: this preset takes a third of the default's time
-        // and makes files hardly larger.
+        // Locating must not wait for the encoder. This preset takes a third of the default's time,
+        // and its files are hardly larger.
         AVDictionary* options = nullptr;
         av_dict_set(&options, "preset", "veryfast", 0);
         av_dict_set(&options, "crf", "23", 0);
@@ -109,7 +109,8 @@ class H264File::Encoder {
         require(code);
     }
 
-    /// Encodes a picture and writes what is ready; no picture: writes what is left.
+    /// Encodes a picture and writes the finished packets; without a picture, writes the remaining
+    /// packets.
     void encode(const AVFrame* picture) {
         require(avcodec_send_frame(encoder_.get(), picture));
         while (true) {
@@ -151,7 +152,7 @@ H264File::~H264File() {
     try {
         encoder_->finish();
     } catch (const Error&) {
-        // Who needs to know whether the file is complete calls `finish`.
+        // To check whether the file is complete, call `finish`.
     }
 }
 

@@ -15,17 +15,17 @@ class H264File {
     /// Whether this FFmpeg can encode H.264.
     static bool is_available();
 
-    /// Creates the file, whose ending chooses the container. `size` must be even. Throws Error.
+    /// Creates the file; its ending determines the container. `size` must be even. Throws Error.
     H264File(const std::string& path, double fps, cv::Size size);
     /// Completes the file as far as possible.
     ~H264File();
     H264File(const H264File&) = delete;
     H264File& operator=(const H264File&) = delete;
 
-    /// Appends a picture, which has blue, green and red. Throws Error, as on a full disk.
+    /// Appends a BGR picture. Throws Error, for example if the disk is full.
     void write(const cv::Mat& picture);
 
-    /// Completes the file, after which nothing may be appended. Throws Error.
+    /// Completes the file; no further pictures may be appended. Throws Error.
     void finish();
 
   private:

@@ -1,4 +1,4 @@
-// Colours of the live picture, and its pixels.
+// Colours and text of the live picture.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace dotpose::video {
 
-// Colours are given as blue, green, red.
+// Colours are BGR.
 inline const cv::Scalar kGood(73, 132, 30);
 inline const cv::Scalar kBad(43, 57, 192);
 inline const cv::Scalar kDot(0, 143, 255);

@@ -22,8 +22,7 @@ int even(double length) {
     return 2 * static_cast<int>(std::ceil(length / 2));
 }
 
-/// Draws the grid that was found; of a large grid, only every n-th line, so that there are at most
-/// a few hundred.
+/// Draws the grid. For a large grid, draws only every n-th line, at most a few hundred.
 void draw_grid(const draw::FrameView& view, cv::Mat& picture) {
     const Region& grid = view.trace().grid.region;
     const int step = std::max({1, grid.columns / 64, grid.rows / 64});
@@ -64,7 +63,7 @@ void draw_captions(const Scene& scene, cv::Mat panel) {
     }
 }
 
-/// The panel with the sheets and the path from above, scaled to fill it.
+/// The panel with the sheets and the path from above, scaled to fit.
 class Plan {
   public:
     Plan(const Scene& scene, cv::Mat panel) : panel_(std::move(panel)), y_up_(scene.y_up) {

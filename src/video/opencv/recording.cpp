@@ -16,7 +16,7 @@ bool is_avi(const std::string& path) {
     return path.ends_with(".avi");
 }
 
-/// Returns the codec of what OpenCV writes.
+/// Returns the codec for OpenCV.
 int codec_of(const std::string& path) {
     return is_avi(path) ? cv::VideoWriter::fourcc('M', 'J', 'P', 'G')
                         : cv::VideoWriter::fourcc('m', 'p', '4', 'v');
@@ -28,11 +28,11 @@ Recording::Recording(std::string path, double fps, Tell tell)
     : path_(std::move(path)), fps_(fps), tell_(std::move(tell)) {}
 
 bool Recording::is_disk_full() const {
-    constexpr std::uintmax_t kLeast_bytes = 1 << 20;
+    constexpr std::uintmax_t kMin_bytes = 1 << 20;
     std::error_code error;
     const auto folder = std::filesystem::absolute(path_, error).parent_path();
     const auto space = std::filesystem::space(folder, error);
-    return !error && space.available < kLeast_bytes;
+    return !error && space.available < kMin_bytes;
 }
 
 void Recording::open(cv::Size size) {

@@ -19,8 +19,8 @@ class Recording : public GreyVideo {
     /// The file is created with the first picture. `tell` gets messages for the user.
     Recording(std::string path, double fps, Tell tell);
 
-    /// Append a picture, which has blue, green and red, or is grey. Throw Error, as on a full disk
-    /// or if the pictures differ in size.
+    /// Append a BGR or grey picture. Throw Error, for example if the disk is full or the pictures
+    /// differ in size.
     void write(const cv::Mat& picture);
     void write(ImageView image) override;
 
@@ -38,7 +38,7 @@ class Recording : public GreyVideo {
     std::unique_ptr<H264File> h264_;
     cv::VideoWriter writer_;  ///< open if the recording is not H.264
     cv::Size size_;
-    std::int64_t frames_ = 0;  ///< number of frames that were written
+    std::int64_t frames_ = 0;  ///< number of frames written
 };
 
 }  // namespace dotpose::video

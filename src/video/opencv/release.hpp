@@ -8,8 +8,7 @@ extern "C" {
 
 namespace dotpose::video {
 
-/// Deleter for what reading and writing have in common. Files are closed differently: a class
-/// derived from this adds how.
+/// Deleter for objects of reading and writing. Derived classes add closing of files, which differs.
 struct Release {
     void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
     void operator()(AVPacket* packet) const { av_packet_free(&packet); }

@@ -1,5 +1,5 @@
-// Reads video files with FFmpeg's libraries. Unlike OpenCV, they give the time of every frame and
-// report damaged frames.
+// Reads video files with FFmpeg's libraries. Unlike OpenCV, they provide the time of every frame
+// and report damaged frames.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -55,7 +55,7 @@ class GreyConverter {
             const int* colours = sws_getCoefficients(SWS_CS_DEFAULT);
             sws_setColorspaceDetails(converter_.get(), colours, 1, colours, 1, 0, 1 << 16, 1 << 16);
         }
-        // The converter needs rows with a certain alignment, which this allocation gives.
+        // The converter needs aligned rows, which this allocation provides.
         const auto grey = owned(av_frame_alloc());
         grey->format = AV_PIX_FMT_GRAY8;
         grey->width = width;
@@ -122,11 +122,12 @@ class VideoFile : public capture::FrameSource {
   private:
     bool open() {
         AVFormatContext* file = nullptr;
-        // With the prefix, the part of a name before a colon is not taken for a protocol.
+        // With the prefix, FFmpeg does not interpret the part of a name before a colon as a
+        // protocol.
         const std::string url = "file:" + name_;
         if (avformat_open_input(&file, url.c_str(), nullptr, nullptr) < 0) return false;
         file_.reset(file);
-        // This must come before packets are read, which adds entries to the index.
+        // Must precede the reading of packets, which adds entries to the index.
         for (unsigned i = 0; i < file->nb_streams; ++i) {
             const int entries = avformat_index_get_entries_count(file->streams[i]);
             has_index_ = has_index_ || (entries > 0 && entries >= file->streams[i]->nb_frames);
@@ -146,17 +147,17 @@ class VideoFile : public capture::FrameSource {
                avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
     }
 
-    /// Returns the duration of the video that the file states, or 0 if it states none.
+    /// Returns the duration of the video in the file, or 0 if it is missing.
     double duration_s() const {
         if (stream_->duration > 0) {
             return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
         }
-        // The duration of a file is that of its longest stream, so it is used only if there is one
-        // stream.
+        // The duration of a file is the duration of its longest stream, so it is used only if there
+        // is one stream.
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
-    /// Returns the number of frames that the file states, or the number for the stated duration.
+    /// Returns the number of frames in the file, or the number computed from the duration.
     std::int64_t promised() const {
         return stream_->nb_frames > 0 ? stream_->nb_frames : std::llround(duration_s() * rate_);
     }
@@ -181,8 +182,8 @@ class VideoFile : public capture::FrameSource {
     /// Sends the next packet of the video to the decoder, or the end of the stream after the last
     /// one.
     void send_packet() {
-        constexpr int kMostFailures = 100;
-        for (int failures = 0; failures < kMostFailures;) {
+        constexpr int kMaxFailures = 100;
+        for (int failures = 0; failures < kMaxFailures;) {
             const int code = av_read_frame(file_.get(), packet_.get());
             if (code == AVERROR_EOF) break;
             if (code < 0) {
@@ -204,7 +205,7 @@ class VideoFile : public capture::FrameSource {
     }
 
     /// Corrects the time of a packet of an AVI file by the file's index. AVI stores no times;
-    /// FFmpeg counts packets, which is wrong after damage. The index tells the position of every
+    /// FFmpeg counts packets, which is wrong after damage. The index contains the position of every
     /// frame.
     void correct_time() {
         if (std::string_view(file_->iformat->name) != "avi") return;
@@ -224,8 +225,7 @@ class VideoFile : public capture::FrameSource {
         if (packet_->pts != AV_NOPTS_VALUE) packet_->pts = entry->timestamp;
     }
 
-    /// Discards frames up to the next key frame, which does not depend on earlier ones: the others
-    /// may contain parts of wrong frames.
+    /// Discards frames up to the next key frame, because they may contain parts of damaged frames.
     void pass_over() {
         is_damaged_ = true;
         waits_for_key_frame_ = true;
@@ -268,14 +268,14 @@ class VideoFile : public capture::FrameSource {
     double begin_s_ = 0;  ///< time of the first picture in the file
     double time_s_ = 0;   ///< time of the newest picture after the first
     bool is_lossy_ = false;
-    std::int64_t packet_bytes_ = 0;  ///< of the packets that were decoded
-    std::int64_t packet_px_ = 0;     ///< of the frames that were returned
+    std::int64_t packet_bytes_ = 0;  ///< total size of the decoded packets
+    std::int64_t packet_px_ = 0;     ///< total number of pixels of the returned frames
     bool has_begun_ = false;
     bool is_damaged_ = false;
     bool has_index_ = false;
-    bool is_counted_ = false;  ///< whether times are counted, because the index does not fit
+    bool is_counted_ = false;  ///< whether times are counted because the index is inconsistent
     bool waits_for_key_frame_ = false;
-    std::int64_t frames_ = 0;  ///< number of frames that were returned
+    std::int64_t frames_ = 0;  ///< number of returned frames
 };
 
 }  // namespace

@@ -1,16 +1,16 @@
-// A frame and what was read in it, layer by layer.
+// Draws a frame with its dots, grid and pose, layer by layer.
 import { imageFromPattern } from "dotpose";
 import type { Reading } from "../engine/messages.js";
 import { arrow, kInk, kSymbolInk, kSymbolStep, surfaceOf, type Surface } from "./surface.js";
 
-/** What is drawn over, or in place of, the frame. */
+/** The layers to draw. */
 export interface Layers {
-    /** Of the frame itself, 0 to 1. */
+    /** Opacity of the frame, 0 to 1. */
     frame?: number;
-    /** Rings around the dots that were found. */
+    /** Rings around the dots found. */
     found?: boolean;
     grid?: boolean;
-    /** The symbols that the code has in view, as dots of four colours. */
+    /** The symbols of the code in view, as dots of four colours. */
     symbols?: boolean;
     /** Arrows from the image centre along x and y of the paper. */
     pose?: boolean;
@@ -30,12 +30,12 @@ class FrameView {
         this.scale = surface.width / reading.width_px;
     }
 
-    /** The place on the canvas of an image point; (0, 0) is the centre of the first pixel. */
+    /** Returns the canvas point of an image point; (0, 0) is the centre of the first pixel. */
     at(u_px: number, v_px: number): Pixel {
         return [(u_px + 0.5) * this.scale, (v_px + 0.5) * this.scale];
     }
 
-    /** The same of a point of the pattern, in spacings. */
+    /** Returns the canvas point of a point of the pattern, in spacings. */
     atCell(x: number, y: number): Pixel {
         const { fix } = this.reading;
         const { u_px, v_px } = imageFromPattern(fix, x * fix.spacing_mm, y * fix.spacing_mm);
@@ -144,7 +144,7 @@ function drawPose(view: FrameView): void {
     context.stroke();
 }
 
-/** Draws a reading; the canvas gets the shape of the frame. */
+/** Draws a reading; sets the aspect ratio of the canvas to that of the frame. */
 export function drawFrame(canvas: HTMLCanvasElement, reading: Reading, layers: Layers): void {
     const surface = surfaceOf(canvas, reading.width_px / reading.height_px);
     const view = new FrameView(surface, reading);

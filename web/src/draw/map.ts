@@ -1,10 +1,10 @@
-// The sheet from above, with the path of the camera and its field of view.
+// Draws the sheet from above, with the path of the camera and its field of view.
 import { patternFromImage, type Fix } from "dotpose";
 import type { SheetLayout } from "../engine/messages.js";
 import { pageFromPattern, type Point_mm } from "../page/sheet_frame.js";
 import { surfaceOf, themed } from "./surface.js";
 
-/** What the map shows, in mm of the page, or of the pattern where no sheet is known. */
+/** Contents of the map, in mm on the page, or in the pattern if no sheet is known. */
 export interface MapContent {
     sheet: SheetLayout | null;
     path: readonly Point_mm[];
@@ -19,7 +19,7 @@ export interface MapFrame {
     top_mm: number;
 }
 
-/** Returns the corners of what an image shows, in the pattern. */
+/** Returns the corners of the field of view in the pattern. */
 export function cornersOf(fix: Fix, width_px: number, height_px: number): Point_mm[] {
     return [
         [0, 0],
@@ -29,7 +29,7 @@ export function cornersOf(fix: Fix, width_px: number, height_px: number): Point_
     ].map(([u, v]) => patternFromImage(fix, u!, v!));
 }
 
-/** Returns points of the pattern as points of the page, if there is one. */
+/** Converts points of the pattern to points of the page, if there is one. */
 export function onPage(sheet: SheetLayout | null, points: readonly Point_mm[]): Point_mm[] {
     return points.map((point) => (sheet ? pageFromPattern(sheet, point) : point));
 }
@@ -60,7 +60,7 @@ function drawPaper(context: CanvasRenderingContext2D, sheet: SheetLayout, at: (p
     context.fillStyle = themed("--paper");
     context.fillRect(x, y, right - x, bottom - y);
     context.restore();
-    // Every tenth dot in every tenth row stands for the pattern.
+    // Only every tenth dot of every tenth row is drawn.
     context.fillStyle = themed("--paper-dots");
     const step = 10 * 0.508;
     for (let y_mm = sheet.first_y_mm; y_mm < sheet.height_mm - sheet.margin_mm; y_mm += step)
@@ -70,7 +70,7 @@ function drawPaper(context: CanvasRenderingContext2D, sheet: SheetLayout, at: (p
         }
 }
 
-/** Draws the map; returns how it is laid out, or null if there is nothing to show. */
+/** Draws the map; returns its layout, or null if there is nothing to show. */
 export function drawMap(canvas: HTMLCanvasElement, content: MapContent): MapFrame | null {
     const { context, width, height } = surfaceOf(canvas);
     if (content.sheet === null && content.path.length === 0) return null;

@@ -1,6 +1,6 @@
-// A canvas that is drawn in CSS pixels, sharp on every screen.
+// A canvas with coordinates in CSS pixels and the resolution of the screen.
 
-/** Colours over camera frames: apart from each other for all kinds of colour vision. */
+/** Colours over camera frames; distinguishable with all kinds of colour vision. */
 export const kInk = {
     up: "#0072b2",
     left: "#d55e00",
@@ -28,7 +28,7 @@ export interface Surface {
     height: number;
 }
 
-/** Gives the canvas as many pixels as it has on the screen; `aspect` also sets its height. */
+/** Sets the resolution of the canvas to that of the screen; `aspect` also sets its height. */
 export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
     if (aspect !== undefined) canvas.style.aspectRatio = String(aspect);
     const scale = window.devicePixelRatio || 1;
@@ -42,7 +42,7 @@ export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
     return { context, width, height };
 }
 
-/** Returns a colour of the style sheet, which differs in the light and in the dark. */
+/** Returns a colour of the style sheet, which depends on the colour scheme. */
 export function themed(name: string): string {
     return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }

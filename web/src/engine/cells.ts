@@ -1,10 +1,10 @@
-// Which symbols the code has in view. A block around the view is kept, so that a camera that moves a
-// little does not ask for every frame.
+// The symbols of the code in view. A block around the view is cached for small motions of the
+// camera.
 import { patternBits, patternFromImage, type Cell, type Code, type Fix } from "dotpose";
 import type { CellsInView } from "./messages.js";
 
 const kAround = 64;
-const kMostCells = 20_000;
+const kMaxCells = 20_000;
 const kPositions = 410_815_348;
 
 interface Block extends CellsInView {
@@ -18,7 +18,7 @@ interface Range {
     rows: number;
 }
 
-/** Returns the cells in view of a fix; none if there are too many to be drawn. */
+/** Returns the cells in view of a fix; null if there are too many to draw. */
 function rangeInView(fix: Fix, width: number, height: number): Range | null {
     const corners = [0, width - 1].flatMap((u) =>
         [0, height - 1].map((v) => patternFromImage(fix, u, v)),
@@ -29,7 +29,7 @@ function rangeInView(fix: Fix, width: number, height: number): Range | null {
     const first = { x: clamp(Math.floor(Math.min(...xs))), y: clamp(Math.floor(Math.min(...ys))) };
     const columns = clamp(Math.ceil(Math.max(...xs))) - first.x + 1;
     const rows = clamp(Math.ceil(Math.max(...ys))) - first.y + 1;
-    return columns * rows <= kMostCells ? { first, columns, rows } : null;
+    return columns * rows <= kMaxCells ? { first, columns, rows } : null;
 }
 
 function holds(kept: Block, range: Range): boolean {

@@ -1,4 +1,4 @@
-// The page's side of the worker: a function for each thing that it does.
+// The page's interface to the worker: a function for each request.
 import type { Code } from "dotpose";
 import type {
     Answer,
@@ -10,7 +10,7 @@ import type {
     SimulatedView,
 } from "./messages.js";
 
-/** What a stream of camera frames tells. */
+/** Events of a stream of camera frames. */
 export interface StreamEvents {
     onFrame(reading: Reading, path: LumaPath): void;
     onEnd(message: string): void;
@@ -28,7 +28,7 @@ export class Engine {
     readonly #waiting = new Map<number, Waiting>();
     #last_id = 0;
     #events: StreamEvents | undefined;
-    /** Whether the worker itself can take a camera's track. */
+    /** Whether the worker can read a camera's track. */
     takesTracks = false;
 
     constructor() {
@@ -48,7 +48,7 @@ export class Engine {
     simulate(sheet: SheetChoice, view: SimulatedView): Promise<Reading> {
         return this.#ask({ kind: "simulate", sheet, view });
     }
-    /** Reads a picture, which is given away and comes back in the reading. */
+    /** Reads a picture, which is transferred to the worker and returned in the reading. */
     read(picture: ImageBitmap, code: Code | "auto", time_s: number): Promise<Reading> {
         return this.#ask({ kind: "picture", picture, code, time_s }, [picture]);
     }

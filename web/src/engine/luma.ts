@@ -1,5 +1,5 @@
-// The grey levels of a frame: copied out of a camera's frame where the browser allows it, otherwise drawn
-// on a canvas and read back.
+// The grey levels of a frame: copied from a camera's frame if the browser supports it, otherwise drawn on a
+// canvas and read back.
 import type { Image } from "dotpose";
 import type { LumaPath } from "./messages.js";
 
@@ -22,13 +22,13 @@ export function lumaByCanvas(picture: CanvasImageSource, width: number, height: 
     return { data: luma, width, height };
 }
 
-/** Whether the frame's own luma can be used: its pixels lie as they are shown. */
+/** Whether the frame's luma can be used directly: it is not rotated or mirrored. */
 function isPlain(frame: VideoFrame): boolean {
     const { rotation = 0, flip = false } = frame as { rotation?: number; flip?: boolean };
     return frame.format !== null && kLumaFirst.has(frame.format) && rotation === 0 && !flip;
 }
 
-/** Returns the luma of a camera's frame, and how it was had. */
+/** Returns the luma of a camera's frame, and the method used. */
 export async function lumaOfFrame(frame: VideoFrame): Promise<{ image: Image; path: LumaPath }> {
     if (!isPlain(frame)) {
         const image = lumaByCanvas(frame, frame.displayWidth, frame.displayHeight);

@@ -1,7 +1,7 @@
-// What the page and its worker say to each other: plain data, which can be posted.
+// The messages between the page and its worker: plain data, which can be posted.
 import type { Cell, Code, Fix, Section } from "dotpose";
 
-/** Where a page lies in the code, and how large it is. */
+/** The part of the code on a page, and the size of the page. */
 export interface SheetChoice {
     code: Code;
     section: Section;
@@ -12,7 +12,7 @@ export interface SheetChoice {
     margin_mm: number;
 }
 
-/** A sheet as it is laid out. */
+/** The layout of a sheet. */
 export interface SheetLayout extends SheetChoice {
     columns: number;
     rows: number;
@@ -21,7 +21,7 @@ export interface SheetLayout extends SheetChoice {
     first_y_mm: number;
 }
 
-/** What the simulated camera sees: its place over the sheet, its optics and what disturbs it. */
+/** The view of the simulated camera: its pose over the sheet, its optics and the conditions. */
 export interface SimulatedView {
     width_px: number;
     height_px: number;
@@ -47,17 +47,17 @@ export interface CellsInView {
     symbols: Uint8Array;
 }
 
-/** How an image looks, read from a sample of its pixels. */
+/** The quality of an image, measured on a sample of its pixels. */
 export interface ImageQuality {
     /** Mean grey level. */
     brightness: number;
     /** Grey levels from the darkest to the brightest twentieth. */
     contrast: number;
-    /** How steep its steepest edges are: the share of the contrast that two pixels make. */
+    /** Largest step between neighbouring pixels, as a fraction of the contrast. */
     sharpness: number;
 }
 
-/** One frame, and what was read in it. */
+/** One frame and its fix. */
 export interface Reading {
     fix: Fix;
     picture: ImageBitmap;
@@ -67,14 +67,14 @@ export interface Reading {
     cells: CellsInView | null;
     /** Duration of the call of the locator. */
     locate_ms: number;
-    /** Of the frame, on the clock of its source. */
+    /** Time of the frame on the clock of its source. */
     time_s: number;
 }
 
-/** How the grey levels of camera frames are had. */
+/** Method of reading the grey levels of camera frames. */
 export type LumaPath = "processor" | "canvas";
 
-/** Asked by the page. Those with an `id` get one answer. */
+/** Requests of the page. A request with an `id` gets one answer. */
 export type Request =
     | { kind: "layout"; id: number; sheet: SheetChoice }
     | { kind: "symbols"; id: number; sheet: SheetLayout }
@@ -85,7 +85,7 @@ export type Request =
     | { kind: "next" }
     | { kind: "stop" };
 
-/** Said by the worker. `frame` comes from a stream, after each `next`. */
+/** Answers of the worker. A stream sends a `frame` after each `next`. */
 export type Answer =
     | { kind: "ready"; processor: boolean }
     | { kind: "result"; id: number; value: unknown }

@@ -1,10 +1,10 @@
-// How bright, contrasty and sharp an image is, from a sample of its rows.
+// Measures brightness, contrast and sharpness of an image on a sample of its rows.
 import type { Image } from "dotpose";
 import type { ImageQuality } from "./messages.js";
 
 const kRows = 24;
 
-/** Returns the grey level that a share of the counted pixels lies below. */
+/** Returns the grey level below which a given fraction of the counted pixels is. */
 function quantile(histogram: Uint32Array, count: number, share: number): number {
     let below = 0;
     for (let level = 0; level < 256; ++level) {

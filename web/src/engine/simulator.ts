@@ -7,7 +7,7 @@ import type { SheetChoice, SheetLayout, SimulatedView } from "./messages.js";
 let tools: Promise<Tools> | undefined;
 const layouts = new Map<string, SheetLayout>();
 
-/** Returns how a sheet is laid out. */
+/** Returns the layout of a sheet. */
 export async function layoutOf(sheet: SheetChoice): Promise<SheetLayout> {
     const key = JSON.stringify(sheet);
     let layout = layouts.get(key);
@@ -21,10 +21,10 @@ export async function layoutOf(sheet: SheetChoice): Promise<SheetLayout> {
 
 /** Standard deviations of an ordinary print, and of its paper (preset `nominal` of the tool). */
 const kPrint = { jitter_mm: 0.01, ink_variation: 0.03, missing: 0.002, texture: 0.005 };
-/** Its projection centre is as far away as its view is wide twice over. */
+/** Distance of the projection centre from the paper, divided by the width of the view. */
 const kDistancePerWidth = 2;
 
-/** Returns what the camera sees. */
+/** Returns the camera's frame. */
 export async function render(sheet: SheetChoice, view: SimulatedView): Promise<Image> {
     const layout = await layoutOf(sheet);
     const { width_px, height_px, mm_per_px, theta_rad, tilt_x_rad, tilt_y_rad } = view;

@@ -1,20 +1,20 @@
-// The camera of the phone or computer, and its frames on their way to the worker.
+// Passes frames from the camera of the phone or computer to the worker.
 import type { Code } from "dotpose";
 import type { Engine, StreamEvents } from "../engine/engine.js";
 
 type Processor = new (init: { track: MediaStreamTrack }) => { readable: ReadableStream<VideoFrame> };
 
-/** Which way frames are taken; `?luma=canvas` in the address forces the one that every browser has. */
+/** Method of reading frames; `?luma=canvas` in the address forces the canvas, which every browser has. */
 const kForced = new URLSearchParams(location.search).get("luma");
 
-/** Starts a camera; the one of the back, which sees the sheet, if none is asked for. */
+/** Starts a camera: the device given, or by default the one on the back of a phone. */
 export async function openCamera(device: string): Promise<MediaStream> {
     const which = device === "" ? { facingMode: { ideal: "environment" } } : { deviceId: { exact: device } };
     const video = { ...which, width: { ideal: 1280 }, height: { ideal: 720 } };
     return navigator.mediaDevices.getUserMedia({ video, audio: false });
 }
 
-/** Returns the cameras by name; browsers tell the names once a camera was allowed. */
+/** Returns the cameras with their names, which browsers reveal after a camera was permitted. */
 export async function listCameras(): Promise<{ id: string; name: string }[]> {
     const devices = await navigator.mediaDevices.enumerateDevices();
     return devices
@@ -22,7 +22,7 @@ export async function listCameras(): Promise<{ id: string; name: string }[]> {
         .map(({ deviceId, label }, i) => ({ id: deviceId, name: label || `Camera ${i + 1}` }));
 }
 
-/** Has the frames of a video element drawn and read, where there is no processor of tracks. */
+/** Reads frames of a video element through a canvas, for browsers without a track processor. */
 class VideoLoop {
     #is_stopped = false;
     #resume: (() => void) | undefined;
@@ -89,7 +89,7 @@ export class CameraFrames {
         }
     }
 
-    /** The last frame is drawn. */
+    /** Requests the next frame after the last one was drawn. */
     next(): void {
         if (this.#loop) this.#loop.next();
         else this.engine.next();

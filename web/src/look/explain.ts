@@ -1,4 +1,4 @@
-// How one frame is read, step by step, in pictures.
+// Explains step by step, in pictures, how one frame is located.
 import { drawFrame, type Layers } from "../draw/frame.js";
 import { kSymbolInk } from "../draw/surface.js";
 import type { Reading } from "../engine/messages.js";
@@ -9,7 +9,7 @@ interface Step {
     title: string;
     text: (reading: Reading) => (Node | string)[];
     layers: Layers;
-    /** Whether the reading got so far. */
+    /** Whether the reading reached this step. */
     reached: (reading: Reading) => boolean;
 }
 
@@ -28,7 +28,7 @@ const kSteps: readonly Step[] = [
     {
         title: "The frame",
         text: ({ width_px, height_px, quality }) => [
-            `${width_px} x ${height_px} grey pixels, ${Math.round(quality.brightness)} bright on average, ${quality.contrast} levels from dark to light.`,
+            `${width_px} x ${height_px} grey pixels with a mean of ${Math.round(quality.brightness)} and a contrast of ${quality.contrast} grey levels.`,
         ],
         layers: {},
         reached: () => true,
@@ -41,20 +41,20 @@ const kSteps: readonly Step[] = [
     },
     {
         title: "The grid",
-        text: ({ fix }) => [`They lie about the crossings of a square grid, ${fix.spacing_px.toFixed(1)} pixels apart. Turn, tilt and lens follow from it.`],
+        text: ({ fix }) => [`The dots are near the crossings of a square grid with a spacing of ${fix.spacing_px.toFixed(1)} pixels, which shows turn, tilt and lens distortion.`],
         layers: { frame: 0.45, found: true, grid: true },
         reached: isRead,
     },
     {
         title: "The symbols",
-        text: () => ["Each dot stands beside its crossing, in one of four directions:", ...legend(), ". That is two bits."],
+        text: () => ["Each dot is displaced from its crossing in one of four directions, which encode two bits:", ...legend(), "."],
         layers: { frame: 0.12, grid: true, symbols: true },
         reached: isRead,
     },
     {
         title: "The place",
         text: ({ fix }) => [
-            `Along a line the bits spell numbers that stand at one place of the code only: column ${fix.cell.x.toLocaleString("en")}, row ${fix.cell.y.toLocaleString("en")}, section ${fix.section.u}, ${fix.section.v}. ${fix.bit_errors} of ${2 * fix.dots_used} bits contradict it; it is wrong with at most ${oneIn(fix.p_wrong)}.`,
+            `The bits of each line occur at only one place of the code: column ${fix.cell.x.toLocaleString("en")}, row ${fix.cell.y.toLocaleString("en")}, section ${fix.section.u}, ${fix.section.v}. ${fix.bit_errors} of ${2 * fix.dots_used} bits contradict this place. The chance that it is wrong is at most ${oneIn(fix.p_wrong)}.`,
         ],
         layers: { frame: 0.12, grid: true, symbols: true, pose: true },
         reached: isRead,
@@ -62,14 +62,14 @@ const kSteps: readonly Step[] = [
     {
         title: "The pose",
         text: ({ fix, locate_ms }) => [
-            `All ${fix.dots_used} dots together say where the middle of the picture is: x ${mm(fix.x_mm)}, y ${mm(fix.y_mm)}, turned by ${degrees(fix.theta_rad)}, exact to ${length(Math.sqrt(fix.covariance[0]!))}. It took ${milliseconds(locate_ms)}.`,
+            `A fit to all ${fix.dots_used} dots gives the position of the middle of the picture: x ${mm(fix.x_mm)}, y ${mm(fix.y_mm)}, turned by ${degrees(fix.theta_rad)}, with a standard deviation of ${length(Math.sqrt(fix.covariance[0]!))}. This took ${milliseconds(locate_ms)}.`,
         ],
         layers: { pose: true },
         reached: isRead,
     },
 ];
 
-/** Shows the steps that the reading reached, and where it ended. */
+/** Shows the steps that the reading reached, and the reason if there is no position. */
 export function explain(reading: Reading): void {
     const dialog = element("explain", HTMLDialogElement);
     const reached = kSteps.filter((step) => step.reached(reading));
@@ -83,7 +83,7 @@ export function explain(reading: Reading): void {
         make("li", {}, canvases[i]!, make("h3", {}, title), make("p", {}, ...text(reading))),
     );
     if (!reading.fix.ok)
-        items.push(make("li", {}, make("h3", {}, "Here it ended"), make("p", {}, `No position: ${reading.fix.message}.`)));
+        items.push(make("li", {}, make("h3", {}, "The search failed here"), make("p", {}, `No position: ${reading.fix.message}.`)));
     element("explain-steps", HTMLElement).replaceChildren(...items);
     dialog.showModal();
     const draw = () => reached.forEach(({ layers }, i) => drawFrame(canvases[i]!, reading, layers));
@@ -93,7 +93,7 @@ export function explain(reading: Reading): void {
     dialog.addEventListener("close", done, { once: true });
 }
 
-/** Lets the dialog be closed; `closed` is called each time. */
+/** Connects the close button of the dialog; calls `closed` whenever the dialog closes. */
 export function listenToExplain(closed: () => void): void {
     const dialog = element("explain", HTMLDialogElement);
     element("explain-close", HTMLButtonElement).addEventListener("click", () => dialog.close());

@@ -1,6 +1,6 @@
-// The log of readings: those columns of the CSV that `dotpose watch --log` writes which one frame has
-// (docs/output.md), so that `dotpose replay` reads it. The page has no tracker: the track is the fix, and its
-// velocity the way from the fix of the frame before.
+// The log of readings: a subset of the CSV columns of `dotpose watch --log` (docs/output.md), which
+// `dotpose replay` reads. The page has no tracker: the track is the fix, and the velocity is the difference
+// from the previous fix.
 import type { Reading } from "../engine/messages.js";
 
 const kDegrees = 180 / Math.PI;
@@ -8,7 +8,7 @@ const kDegrees = 180 / Math.PI;
 interface Frame {
     reading: Reading;
     number: number;
-    /** The frame before, unless this is the first one. */
+    /** The previous frame; undefined for the first. */
     before: Reading | undefined;
 }
 
@@ -18,13 +18,13 @@ const sigma = ({ reading }: Frame, i: number) => Math.sqrt(reading.fix.covarianc
 
 const isFound = ({ before }: Frame) => before?.fix.ok ?? false;
 
-/** What happened to the track in this frame, by the names of the tool. */
+/** Returns the event of this frame, as named by the tool. */
 function eventOf(frame: Frame): string {
     if (frame.reading.fix.ok) return isFound(frame) ? "" : "fix";
     return isFound(frame) ? "lost" : "";
 }
 
-/** Returns how fast a quantity changes, from the frame before; 0 after frames without a fix. */
+/** Returns the rate of change of a quantity since the previous frame; 0 after frames without a fix. */
 function speed(frame: Frame, of: (reading: Reading) => number, turns = false): string {
     const { reading, before } = frame;
     const took_s = before ? reading.time_s - before.time_s : 0;
@@ -37,7 +37,7 @@ const x_mm = ({ fix }: Reading) => fix.x_mm;
 const y_mm = ({ fix }: Reading) => fix.y_mm;
 const theta_deg = ({ fix }: Reading) => fix.theta_rad * kDegrees;
 
-/** Values are of located frames only, unless `always`. */
+/** Columns of a line. Frames without a fix have only the columns with `always`. */
 const kColumns: readonly Column[] = [
     ["schema", () => 1, true],
     ["frame", ({ number }) => number, true],
@@ -74,8 +74,8 @@ const kColumns: readonly Column[] = [
     ["turn_deg_s", (frame) => speed(frame, theta_deg, true)],
 ];
 
-/** Longest log that is kept, about an hour at 30 frames per second. */
-const kMostLines = 100_000;
+/** Maximum length of the log, about an hour at 30 frames per second. */
+const kMaxLines = 100_000;
 
 export class Log {
     #lines: string[] = [];
@@ -87,7 +87,7 @@ export class Log {
         return this.#lines.length;
     }
 
-    /** Adds a line; the time counts from the first one. */
+    /** Adds a line; its time is relative to the first. */
     add(reading: Reading): void {
         this.#first_s ??= reading.time_s;
         const timed = { ...reading, time_s: reading.time_s - this.#first_s };
@@ -95,7 +95,7 @@ export class Log {
         this.#before = timed;
         const line = kColumns.map(([, value, always]) => (always || reading.fix.ok ? value(frame) : ""));
         this.#lines.push(line.join(","));
-        if (this.#lines.length > kMostLines) this.#lines.shift();
+        if (this.#lines.length > kMaxLines) this.#lines.shift();
     }
 
     clear(): void {

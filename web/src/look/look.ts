@@ -1,4 +1,4 @@
-// Look: the camera of this device, live, with what is read in its frames.
+// Look: locates the live frames of this device's camera.
 import type { Code } from "dotpose";
 import { drawFrame } from "../draw/frame.js";
 import { cornersOf, drawMap, onPage } from "../draw/map.js";
@@ -15,7 +15,7 @@ import { Log } from "./log.js";
 import { Rate } from "./rate.js";
 import { showReading } from "./readout.js";
 
-const kLongestPath = 3000;
+const kMaxPathPoints = 3000;
 
 export class LookView implements View {
     readonly #engine: Engine;
@@ -123,7 +123,7 @@ export class LookView implements View {
             const picture = await createImageBitmap(file);
             this.#take(await this.#engine.read(picture, this.#code, performance.now() / 1000), null);
         } catch {
-            this.#say(`'${file.name}' is no picture that this browser can read.`);
+            this.#say(`This browser cannot read '${file.name}' as a picture.`);
         }
     }
 
@@ -159,14 +159,14 @@ export class LookView implements View {
         show({ "look-logged": `${this.#log.length} ${this.#log.length === 1 ? "frame" : "frames"} logged` });
     }
 
-    /** Adds the place to the path; a place on another sheet begins a new one. */
+    /** Adds the place to the path; a place on another sheet starts a new path. */
     #follow({ fix }: Reading): void {
         if (!fix.ok) return;
         const sheet = this.#sheets.find((known) => isOnSheet(known.layout, fix)) ?? null;
         if (sheet?.name !== this.#sheet?.name) this.#path = [];
         this.#sheet = sheet;
         this.#path.push({ x_mm: fix.x_mm, y_mm: fix.y_mm });
-        if (this.#path.length > kLongestPath) this.#path.shift();
+        if (this.#path.length > kMaxPathPoints) this.#path.shift();
     }
 
     #showHint(reading: Reading): void {
@@ -175,7 +175,7 @@ export class LookView implements View {
         box.hidden = hint === null;
         box.classList.toggle("good", hint?.good ?? false);
         show({ "look-hint": hint?.text ?? "" });
-        this.#announce(hint?.text ?? "The sheet is read.");
+        this.#announce(hint?.text ?? "The sheet is located.");
     }
 
     #drawMap({ fix, width_px, height_px }: Reading): void {

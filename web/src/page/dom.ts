@@ -15,7 +15,7 @@ export function show(texts: Record<string, string>): void {
     }
 }
 
-/** Returns an element with texts and elements in it. */
+/** Returns a new element with the given children. */
 export function make<K extends keyof HTMLElementTagNameMap>(
     tag: K,
     properties: Partial<HTMLElementTagNameMap[K]> = {},
@@ -26,7 +26,7 @@ export function make<K extends keyof HTMLElementTagNameMap>(
     return made;
 }
 
-/** Returns a function that writes into a live region, at most every three seconds and only what is new. */
+/** Returns a function that writes changed texts into a live region, at most every three seconds. */
 export function announcer(id: string): (text: string) => void {
     const kPause_ms = 3000;
     let last_ms = -kPause_ms;
@@ -38,7 +38,7 @@ export function announcer(id: string): (text: string) => void {
     };
 }
 
-/** Has the browser save a file. */
+/** Lets the browser save a file. */
 export function download(name: string, type: string, content: BlobPart): void {
     const url = URL.createObjectURL(new Blob([content], { type }));
     const link = make("a", { href: url, download: name });

@@ -1,4 +1,4 @@
-// Numbers as people read them.
+// Formats numbers for people.
 
 export function mm(value: number, digits = 3): string {
     return `${value.toFixed(digits)} mm`;
@@ -9,7 +9,7 @@ export function grouped(value_mm: number): string {
     return value_mm.toLocaleString("en", { minimumFractionDigits: 3, maximumFractionDigits: 3 }).replaceAll(",", "\u202f");
 }
 
-/** A length in the unit that suits it. */
+/** Formats a length in mm or µm. */
 export function length(value_mm: number): string {
     const um = Math.abs(value_mm) * 1000;
     if (um >= 1000) return `${(um / 1000).toFixed(2)} mm`;
@@ -20,7 +20,7 @@ export function degrees(rad: number, digits = 2): string {
     return `${((rad * 180) / Math.PI).toFixed(digits)}°`;
 }
 
-/** A bound of a probability, as "1 in" a round power of ten. */
+/** Formats a bound of a probability as "1 in" a power of ten. */
 export function oneIn(probability: number): string {
     const power = Math.floor(-Math.log10(probability));
     const names = ["", "thousand", "million", "billion"];

@@ -1,21 +1,21 @@
-// What to change so that a frame can be read, or be read better.
+// Advice for frames that cannot be located, or not well.
 import type { Reading } from "../engine/messages.js";
 
 export interface Hint {
     text: string;
-    /** Whether the frame was read nevertheless. */
+    /** Whether the frame was located nevertheless. */
     good: boolean;
 }
 
-/** The spacing of the grid in the image that can be read: 6 to 60 px; better is 8 to 40. */
-const kLeastSpacing_px = 7;
-const kMostSpacing_px = 50;
+/** Good spacings of the grid in the image; 6 to 60 px can be located. */
+const kMinSpacing_px = 7;
+const kMaxSpacing_px = 50;
 const kDark = 45;
 const kBright = 245;
 const kPale = 25;
-/** Below this share of the contrast between neighbouring pixels, a picture has no edges left. */
+/** Minimum sharpness of a picture in focus, as a fraction of its contrast. */
 const kBlurred = 0.12;
-/** So many dots in a frame that could not be read are too small, rather than too few. */
+/** If a frame cannot be located, more dots than this are too small, and fewer than `kFewDots` too few. */
 const kManyDots = 1500;
 const kFewDots = 60;
 
@@ -32,20 +32,20 @@ function hintOfFailure(reading: Reading): string {
     const { fix, quality } = reading;
     if (fix.status === "mirrored") return "The picture is mirrored: switch off the mirror effect of the camera.";
     if (fix.status === "ambiguous_code") return "Two codes explain these dots: choose the sheet's code, or show more dots.";
-    if (fix.status === "not_in_code") return "These dots are of another code: choose the sheet's code.";
+    if (fix.status === "not_in_code") return "These dots belong to another code: choose the sheet's code.";
     if (quality.sharpness < kBlurred) return "Sharper: hold still, let the camera focus, or move a little away.";
     if (fix.dots_seen > kManyDots) return "Closer: the dots are too small.";
     if (fix.dots_seen < kFewDots) return "Further away: more dots must be in view. Or no sheet is in view.";
     return "Closer and straighter: fill the picture with dots, seen from above.";
 }
 
-/** Returns what to say of a frame; null if there is nothing to improve. */
+/** Returns the advice for a frame; null if there is nothing to improve. */
 export function hintOf(reading: Reading): Hint | null {
     const { fix } = reading;
     if (!fix.ok) return { text: `${hintOfFailure(reading)} (${fix.message})`, good: false };
-    if (fix.surface !== "even") return { text: "Read, but the paper is not flat here.", good: true };
-    if (fix.spacing_px < kLeastSpacing_px) return { text: "Read. Closer would be more exact.", good: true };
-    if (fix.spacing_px > kMostSpacing_px) return { text: "Read. Further away shows more dots.", good: true };
-    if (fix.attempt === "second") return { text: "Read at the second attempt. Sharper or brighter helps.", good: true };
+    if (fix.surface !== "even") return { text: "Located, but the paper is not flat here.", good: true };
+    if (fix.spacing_px < kMinSpacing_px) return { text: "Located. Closer would be more exact.", good: true };
+    if (fix.spacing_px > kMaxSpacing_px) return { text: "Located. Further away shows more dots.", good: true };
+    if (fix.attempt === "second") return { text: "Located at the second attempt. Sharper or brighter helps.", good: true };
     return null;
 }

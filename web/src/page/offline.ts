@@ -1,4 +1,4 @@
-// The service worker, which keeps the page for when there is no network.
+// Registers the service worker, which caches the page for offline use.
 import { show } from "./dom.js";
 
 export function startOffline(): void {
@@ -8,6 +8,7 @@ export function startOffline(): void {
         .then(() => navigator.serviceWorker.ready)
         .then(() => show({ "offline-state": "The page also works offline." }))
         .catch(() => {
-            // From a file or without permission to store; the page works all the same.
+            // The page was opened from a file, or storage is not permitted. It works without the
+            // cache.
         });
 }

@@ -1,7 +1,7 @@
-/** A part of the page, of which one is shown at a time. */
+/** A part of the page; one part is shown at a time. */
 export interface View {
     shown(): Promise<void> | void;
     hidden(): void;
-    /** The window has another size, or it became light or dark. */
+    /** Called when the size or the colour scheme of the window changes. */
     redraw(): void;
 }

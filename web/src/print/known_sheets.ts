@@ -1,4 +1,4 @@
-// The sheets that were printed here, which this browser keeps.
+// The sheets printed on this page, which are stored in this browser.
 import type { SheetLayout } from "../engine/messages.js";
 
 export interface KnownSheet {
@@ -14,7 +14,7 @@ function isSheet(value: unknown): value is KnownSheet {
     return typeof name === "string" && numbers.every((number) => Number.isFinite(number));
 }
 
-/** Returns them; what somebody else wrote into the storage is left out. */
+/** Returns the stored sheets; skips invalid entries. */
 export function knownSheets(): KnownSheet[] {
     try {
         const kept: unknown = JSON.parse(localStorage.getItem(kKey) ?? "[]");
@@ -28,11 +28,11 @@ function keep(sheets: KnownSheet[]): void {
     try {
         localStorage.setItem(kKey, JSON.stringify(sheets));
     } catch {
-        // No storage is allowed: the sheet is printed all the same.
+        // Storage is not permitted. The sheet is still printed.
     }
 }
 
-/** Keeps a sheet; one of the same name is replaced. */
+/** Stores a sheet; replaces a sheet of the same name. */
 export function remember(sheet: KnownSheet): void {
     keep([...knownSheets().filter(({ name }) => name !== sheet.name), sheet]);
 }
@@ -41,7 +41,7 @@ export function forget(forgotten: string): void {
     keep(knownSheets().filter(({ name }) => name !== forgotten));
 }
 
-/** Returns where a region begins that no known sheet of this section has. */
+/** Returns the origin of a region that no known sheet uses. */
 export function freshOrigin(): { x: number; y: number } {
     const right = knownSheets().map(({ layout }) => layout.origin.x + layout.columns);
     return { x: Math.max(1000, ...right), y: 2000 };

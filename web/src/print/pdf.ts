@@ -1,8 +1,8 @@
 // The PDF of a sheet: the same dots as those of `dotpose print` for 600 dpi, in black ink only.
 //
-// Dots are letters of a font of four glyphs: at the default spacing they are whole printer pixels at 300,
-// 600 and 1200 dpi, and renderers keep letters on whole pixels. src/print/pdf_dots.cpp says why each
-// number is as it is.
+// Dots are letters of a font of four glyphs: at the default spacing they are whole printer pixels
+// at 300, 600 and 1200 dpi, and renderers keep letters on whole pixels. src/print/pdf_dots.cpp
+// has the reason for each number.
 import { PDFDocument, PDFName, type PDFContext, type PDFRef } from "@cantoo/pdf-lib";
 import { kSymbolStep } from "../draw/surface.js";
 import type { SheetLayout } from "../engine/messages.js";
@@ -17,7 +17,7 @@ const kUnitsPerEm = 1000;
 /** Letters of the symbols up, left, right, down. */
 const kLetters = ["u", "l", "r", "d"] as const;
 
-/** A circle of four Bezier curves. */
+/** Returns a circle of four Bezier curves. */
 function circle(x: number, y: number, r: number): string {
     const k = 0.5522847498 * r;
     const points = [
@@ -30,7 +30,7 @@ function circle(x: number, y: number, r: number): string {
     return `${(x + r).toFixed(3)} ${y.toFixed(3)} m ${curves.join(" ")} f\n`;
 }
 
-/** The glyph of a symbol: an undisplaced dot has its lower left corner at the origin. */
+/** Returns the glyph of a symbol: an undisplaced dot has its lower left corner at the origin. */
 function glyph(symbol: number): string {
     const per_mm = kUnitsPerEm / kSpacing_mm;
     const [dx, dy] = kSymbolStep[symbol]!;
@@ -49,7 +49,7 @@ function dotFont(context: PDFContext): PDFRef {
     return context.register(
         context.obj({
             ...{ Type: "Font", Subtype: "Type3", FontMatrix: [0.001, 0, 0, 0.001, 0, 0] },
-            // Renderers keep small glyphs as pixels, and judge by this box whether they are small.
+            // Renderers cache glyphs with small boxes as pixels.
             FontBBox: [-kUnitsPerEm / 2, -kUnitsPerEm / 2, kUnitsPerEm / 2, kUnitsPerEm / 2],
             ...{ FirstChar: first, LastChar: last, Widths: Array(last - first + 1).fill(kUnitsPerEm) },
             Encoding: {
@@ -85,7 +85,7 @@ function clearShift_px(near_px: number, far_px: number): number {
     return clear ?? shifts.reduce((best, shift) => (clearance(shift) > clearance(best) ? shift : best));
 }
 
-/** The text that draws all dots, row by row. */
+/** Returns the text that draws all dots, row by row. */
 function dotContent(sheet: SheetLayout, symbols: Uint8Array): string {
     const px_per_mm = kDpi / 25.4;
     const shifted = (from_mm: number, size_mm: number) =>
@@ -99,11 +99,11 @@ function dotContent(sheet: SheetLayout, symbols: Uint8Array): string {
         return `1 0 0 1 ${x_pt.toFixed(4)} ${(y_mm * kPointsPerMm).toFixed(4)} Tm(${text})Tj\n`;
     });
     const size_pt = (kSpacing_mm * kPointsPerMm).toFixed(9);
-    // With an empty ActualText, viewers do not find or copy the glyphs as letters.
+    // With an empty ActualText, viewers do not search or copy the glyphs as letters.
     return `/Span <</ActualText ()>> BDC BT 0 0 0 1 k /Dots ${size_pt} Tf\n${rows.join("")}ET EMC\n`;
 }
 
-/** A length of the page, rounded as the tool rounds it: renderers of both then draw the same pixels. */
+/** Rounds a length of the page like the tool, so renderers draw the same pixels for both. */
 function points(length_mm: number): number {
     return Math.round(length_mm * kPointsPerMm * 1e4) / 1e4;
 }

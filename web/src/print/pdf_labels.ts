@@ -1,5 +1,5 @@
-// What stands in the margins of a printed sheet: what it is, and a ruler that counts millimetres from
-// the corner of the page, as the tool prints it.
+// The labels in the margins of a printed sheet: a description, and rulers in millimetres from the corner of
+// the page, like those of the tool.
 import type { SheetLayout } from "../engine/messages.js";
 import { kSpacing_mm } from "../page/sheet_frame.js";
 import { kPointsPerMm, shown } from "./pdf_text.js";
@@ -8,13 +8,13 @@ const kGap_mm = 0.8;
 const kTick_mm = { 10: 1.8, 5: 1.2, 1: 0.8 };
 const kNumber_pt = 4.5;
 const kText_pt = 6;
-/** From the dots to the top of the numbers, with the edge of the page. */
+/** Room for a ruler between the dots and the edge of the page. */
 const kRulerRoom_mm = 4.4;
 const kTextRoom_mm = 3.6;
-/** From an intersection to the farthest ink of its dot. */
+/** Distance from an intersection to the farthest ink of its dot. */
 const kReach_mm = kSpacing_mm / 4;
 
-/** Ticks and numbers along the upper edge (`x`) or down the left one (`y`). */
+/** Returns ticks and numbers along the upper edge (`x`) or the left edge (`y`). */
 function ruler(sheet: SheetLayout, axis: "x" | "y"): string {
     const is_x = axis === "x";
     const ink_mm = (is_x ? sheet.first_y_mm : sheet.first_x_mm) - kReach_mm;
@@ -45,7 +45,7 @@ function description(sheet: SheetLayout, name: string): string {
     return `${name}, ${cells}, code ${sheet.code}, spacing ${kSpacing_mm} mm, for 600 dpi, print at 100 %`;
 }
 
-/** Returns the PDF content of what has room in the margins. */
+/** Returns the PDF content of all labels that fit into the margins. */
 export function labelContent(sheet: SheetLayout, name: string): string {
     const ink_end_mm = sheet.first_y_mm + (sheet.rows - 1) * kSpacing_mm + kReach_mm;
     const baseline_mm = ink_end_mm + kGap_mm + 2;

@@ -1,8 +1,8 @@
-// Lengths and texts as operands of PDF.
+// Lengths and texts as PDF operands.
 
 export const kPointsPerMm = 72 / 25.4;
 
-/** Returns a text; what ASCII has no character for becomes a question mark. */
+/** Returns a text as a PDF string; characters that are not ASCII become question marks. */
 export function shown(text: string): string {
     return `(${text.replace(/[^\x20-\x7e]/g, "?").replace(/[\\()]/g, "\\$&")})`;
 }

@@ -1,7 +1,7 @@
-// The simulated camera: where it is, how it is moved, what disturbs it.
+// The simulated camera: its pose, its motion, and the conditions of its frames.
 import type { SheetLayout, SimulatedView } from "../engine/messages.js";
 
-/** The sliders, with what they change. */
+/** A slider and the condition that it changes. */
 export interface Slider {
     name: "mm_per_px" | "tilt_deg" | "turn_deg" | "blur_px" | "noise" | "paper_level" | "vignetting";
     label: string;
@@ -31,7 +31,7 @@ export const kPresets: Record<string, Partial<Conditions>> = {
     hard: { tilt_deg: 4, blur_px: 1, noise: 9, paper_level: 90, vignetting: 0.5 },
 };
 
-/** Size of a pixel of the 188 px wide camera; others see the same field with more pixels. */
+/** Width of the reference camera; wider cameras see the same field with more pixels. */
 const kReferenceWidth_px = 188;
 
 export class SimulatedCamera {
@@ -52,13 +52,13 @@ export class SimulatedCamera {
         return (this.conditions.turn_deg * Math.PI) / 180;
     }
 
-    /** Moves the camera over the page, which keeps it. */
+    /** Moves the camera; it stays over the page. */
     moveTo(x_mm: number, y_mm: number, sheet: SheetLayout): void {
         this.x_mm = Math.min(Math.max(x_mm, 0), sheet.width_mm);
         this.y_mm = Math.min(Math.max(y_mm, 0), sheet.height_mm);
     }
 
-    /** Moves by pixels of the image, so that what is in it follows the finger. */
+    /** Moves by pixels of the image: the image follows the finger. */
     dragBy(du_px: number, dv_px: number, sheet: SheetLayout): void {
         const [cos, sin] = [Math.cos(this.theta_rad), Math.sin(this.theta_rad)];
         const scale = this.mm_per_px;
@@ -79,7 +79,7 @@ export class SimulatedCamera {
         this.conditions.mm_per_px = Math.min(Math.max(this.conditions.mm_per_px * factor, min), max);
     }
 
-    /** Returns what is simulated next; every frame has noise of its own. */
+    /** Returns the next view to simulate; every frame has its own noise. */
     view(): SimulatedView {
         const { tilt_deg, blur_px, noise, paper_level, vignetting } = this.conditions;
         const { x_mm, y_mm, width_px, height_px, mm_per_px, theta_rad } = this;

@@ -1,4 +1,4 @@
-// The simulated camera driving by itself, until somebody takes over.
+// Drives the simulated camera automatically until the user moves it.
 import type { SheetLayout } from "../engine/messages.js";
 import { element } from "../page/dom.js";
 import type { SimulatedCamera } from "./camera.js";
@@ -19,7 +19,7 @@ export class Drive {
         private readonly moved: () => void,
     ) {
         this.#button.addEventListener("click", () => (this.#is_on ? this.stop() : this.#start()));
-        // Who wants less motion starts the drive by the button.
+        // With reduced motion, the user starts the drive by the button.
         if (!matchMedia("(prefers-reduced-motion: reduce)").matches) this.#set(true);
     }
 
@@ -38,7 +38,7 @@ export class Drive {
     #set(is_on: boolean): void {
         this.#is_on = is_on;
         this.#button.setAttribute("aria-pressed", String(is_on));
-        this.#button.textContent = is_on ? "Stop driving" : "Drive by itself";
+        this.#button.textContent = is_on ? "Stop driving" : "Drive automatically";
     }
 
     #start(): void {
@@ -49,8 +49,8 @@ export class Drive {
 
     #step(now_ms: number): void {
         if (!this.#is_on || this.#is_paused || !this.sheet) return;
-        const kLongestStep_s = 0.1;
-        const step_s = Math.min(Math.max(0, now_ms - this.#last_ms) / 1000, kLongestStep_s);
+        const kMaxStep_s = 0.1;
+        const step_s = Math.min(Math.max(0, now_ms - this.#last_ms) / 1000, kMaxStep_s);
         this.#last_ms = now_ms;
         this.#phase += step_s;
         this.camera.turnBy(24 * Math.sin(this.#phase / 3) * step_s);

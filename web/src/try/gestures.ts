@@ -1,12 +1,12 @@
 // Mouse, fingers and keys on the simulated camera's picture.
 
 export interface Gestures {
-    /** Of the picture, in its pixels on the screen. */
+    /** Moves the picture by pixels of the screen. */
     drag(dx: number, dy: number): void;
     turn(degrees: number): void;
     /** Above 1: the camera rises. */
     rise(factor: number): void;
-    /** Any of them began. */
+    /** Called at the start of any gesture. */
     begin(): void;
 }
 
@@ -71,14 +71,14 @@ function listenToKeys(canvas: HTMLCanvasElement, gestures: Gestures): void {
     });
 }
 
-/** Lets people move the camera by its picture. */
+/** Moves the camera by gestures on its picture. */
 export function listen(canvas: HTMLCanvasElement, gestures: Gestures): void {
     listenToPointers(canvas, gestures);
     listenToKeys(canvas, gestures);
     canvas.addEventListener(
         "wheel",
         (event) => {
-            // Only with the focus, so that the page can be scrolled past the picture.
+            // Only with the focus; otherwise the wheel scrolls the page past the picture.
             if (document.activeElement !== canvas) return;
             event.preventDefault();
             gestures.begin();

@@ -1,8 +1,8 @@
-// The sliders and buttons that spoil the simulated frame.
+// The sliders and buttons that degrade the simulated frame.
 import { element, make } from "../page/dom.js";
 import { kPresets, kSliders, type SimulatedCamera } from "./camera.js";
 
-/** Builds them; returns a function that shows the camera's values, which other controls change too. */
+/** Builds the sliders; returns a function that shows the camera's values, which other controls also change. */
 export function buildSliders(camera: SimulatedCamera, changed: () => void): () => void {
     const rows = kSliders.map((slider) => {
         const { name, label, min, max, step } = slider;

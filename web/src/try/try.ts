@@ -1,4 +1,4 @@
-// Try: a simulated camera over a simulated sheet, and what is read in its frames.
+// Try: locates the frames of a simulated camera over a simulated sheet.
 import { drawFrame } from "../draw/frame.js";
 import { cornersOf, drawMap, onPage, type MapFrame } from "../draw/map.js";
 import type { Engine } from "../engine/engine.js";
@@ -17,7 +17,7 @@ const kSheet: SheetChoice = {
     ...{ code: "anoto", section: { u: 0, v: 0 }, origin: { x: 1000, y: 2000 } },
     ...{ width_mm: 210, height_mm: 297, margin_mm: 5 },
 };
-const kLongestPath = 600;
+const kMaxPathPoints = 600;
 
 export class TryView implements View {
     readonly #engine: Engine;
@@ -33,7 +33,7 @@ export class TryView implements View {
     #is_shown = false;
     #is_busy = false;
     #is_stale = false;
-    /** The last frame, to be drawn anew when the window changes. */
+    /** The last frame, which is redrawn when the window changes. */
     #last: { reading: Reading; view: SimulatedView } | undefined;
 
     constructor(engine: Engine) {
@@ -98,7 +98,7 @@ export class TryView implements View {
         this.#map.addEventListener("pointermove", move);
     }
 
-    /** Has the next frame simulated; while one is, changes wait for it. */
+    /** Simulates the next frame; further changes wait until it is done. */
     #changed(): void {
         this.#is_stale = true;
         // Tests wait for the last change to be drawn.
@@ -143,7 +143,7 @@ export class TryView implements View {
         const sheet = this.#sheet!;
         const { fix, width_px, height_px } = reading;
         if (fix.ok) this.#path.push(pageFromPattern(sheet, fix));
-        this.#path = this.#path.slice(-kLongestPath);
+        this.#path = this.#path.slice(-kMaxPathPoints);
         this.#map_frame = drawMap(this.#map, {
             sheet,
             path: this.#path,
@@ -165,19 +165,19 @@ export class TryView implements View {
         show({ "try-dots": String(fix.ok ? fix.dots_used : fix.dots_seen), "try-time": milliseconds(locate_ms) });
         if (!fix.ok) {
             for (const name of ["x", "y", "angle", "error", "angle-error", "wrong"]) show({ [`try-${name}`]: "–" });
-            this.#announce(`Not read: ${fix.message}`);
+            this.#announce(`No position: ${fix.message}`);
             return;
         }
         const read = pageFromPattern(this.#sheet!, fix);
-        const off_mm = Math.hypot(read.x_mm - view.x_mm, read.y_mm - view.y_mm);
+        const error_mm = Math.hypot(read.x_mm - view.x_mm, read.y_mm - view.y_mm);
         show({
             "try-x": mm(read.x_mm),
             "try-y": mm(read.y_mm),
             "try-angle": degrees(fix.theta_rad),
-            "try-error": length(off_mm),
+            "try-error": length(error_mm),
             "try-angle-error": degrees(Math.abs(wrapped(fix.theta_rad - view.theta_rad)), 3),
             "try-wrong": oneIn(fix.p_wrong),
         });
-        this.#announce(`Read: x ${mm(read.x_mm, 2)}, y ${mm(read.y_mm, 2)}, ${length(off_mm)} off the truth`);
+        this.#announce(`x ${mm(read.x_mm, 2)}, y ${mm(read.y_mm, 2)}, position error ${length(error_mm)}`);
     }
 }

@@ -8,8 +8,8 @@
 namespace board {
 namespace {
 
-constexpr int kWidth_px = board::kMostWidth_px;
-constexpr int kHeight_px = board::kMostHeight_px;
+constexpr int kWidth_px = board::kMaxWidth_px;
+constexpr int kHeight_px = board::kMaxHeight_px;
 std::uint8_t row[kWidth_px];
 
 // micros() begins again after 71 minutes; this clock does not.
