@@ -8,7 +8,7 @@
 #include "core/integrity/verify.hpp"
 #include "dotpose/tools/random.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 namespace {
 
 constexpr int kMaxSide = 16;
@@ -35,14 +35,14 @@ GridCell cell_of(Turn turn, int x, int y) {
 struct Noise {
     double odds_log2;  ///< log2 of the odds that a bit of full weight is right
     double missing;    ///< share of the cells that have no dot
-    int least_weight;
+    int min_weight;
 
     double chance_of_error(int weight) const {
         return 1 / (1 + std::exp2(odds_log2 * weight / 127));
     }
     int read(int bit, Rng& rng) const {
-        const int range = 127 - least_weight + 1;
-        const int weight = least_weight + static_cast<int>(rng.below(static_cast<unsigned>(range)));
+        const int range = 127 - min_weight + 1;
+        const int weight = min_weight + static_cast<int>(rng.below(static_cast<unsigned>(range)));
         const bool is_wrong = rng.uniform() < chance_of_error(weight);
         return (bit == 1) != is_wrong ? weight : -weight;
     }
@@ -55,9 +55,9 @@ struct Noise {
     /// Returns the mean information over all cells.
     double information() const {
         double sum = 0;
-        for (int weight = least_weight; weight <= 127; ++weight)
+        for (int weight = min_weight; weight <= 127; ++weight)
             sum += information(weight);
-        return (1 - missing) * sum / (127 - least_weight + 1);
+        return (1 - missing) * sum / (127 - min_weight + 1);
     }
 };
 
@@ -66,9 +66,9 @@ struct Noise {
 /// that, p_wrong is about 2^-13.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
-    constexpr double kMostOdds_log2 = 12;
+    constexpr double kMaxOdds_log2 = 12;
     noise.odds_log2 = 0;
-    for (double step = kMostOdds_log2 / 2; step > 0.01; step /= 2) {
+    for (double step = kMaxOdds_log2 / 2; step > 0.01; step /= 2) {
         noise.odds_log2 += step;
         if (cells * noise.information() > wanted_bits) noise.odds_log2 -= step;
     }
@@ -210,7 +210,7 @@ bool looks_doubtful(const core::Grid& grid, const Decoding& decoding,
 
 }  // namespace
 
-void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, Tally& tally) {
+void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityTally& tally) {
     Rng rng(seed, index);
     Reading reading;
     draw(kind, rng, reading);
@@ -236,4 +236,4 @@ void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, Tally& tal
     }
     tally.add(fix.p_wrong_log2, kind_of_error(reading, decoding));
 }
-}  // namespace dotpose
+}  // namespace dotpose::tables

@@ -3,7 +3,7 @@
 
 #include "integrity_tally.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 
 enum class GridKind : std::uint8_t {
     any,
@@ -11,6 +11,6 @@ enum class GridKind : std::uint8_t {
 };
 
 /// Draws grid `index` of a run, reads it and counts the result. Thread-safe.
-void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, Tally& tally);
+void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityTally& tally);
 
-}  // namespace dotpose
+}  // namespace dotpose::tables

@@ -9,7 +9,7 @@
 
 #include "dotpose/options.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 
 /// Options with which every reading is accepted, however doubtful.
 inline constexpr IntegrityOptions kAcceptAll{0, 256};
@@ -45,7 +45,7 @@ struct Bin {
     }
 };
 
-struct Tally {
+struct IntegrityTally {
     /// Bin n has the readings with p_wrong = 2^-n; the last bin has all smaller values as well.
     std::array<Bin, 64> bins;
     std::uint64_t unread = 0;
@@ -64,7 +64,7 @@ struct Tally {
             sum += bins[n];
         return sum;
     }
-    Tally& operator+=(const Tally& other) {
+    IntegrityTally& operator+=(const IntegrityTally& other) {
         unread += other.unread;
         passed_over += other.passed_over;
         for (std::size_t n = 0; n < bins.size(); ++n)
@@ -73,4 +73,4 @@ struct Tally {
     }
 };
 
-}  // namespace dotpose
+}  // namespace dotpose::tables

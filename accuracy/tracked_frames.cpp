@@ -1,21 +1,18 @@
-#include "tracked_frames.hpp"
-
+#include <algorithm>
 #include <array>
-#include <memory>
+#include <cmath>
+#include <numbers>
+#include <optional>
 
 #include <fmt/core.h>
 
 #include "../tests/adversarial_textures.hpp"
+#include "tracked.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 namespace {
 
 constexpr double kBam_per_degree = 4294967296.0 / 360;
-
-LargeMemory& memory() {
-    thread_local const auto kMemory = std::make_unique<LargeMemory>();
-    return *kMemory;
-}
 
 /// The error of a prediction.
 struct Offset {
@@ -40,9 +37,9 @@ Prediction displaced(const Fix& fix, const Offset& offset, Rng& rng) {
         fix.pattern_from_image.centre_q8);
 }
 
-Setup nominal(const Counting& counting) {
+Setup nominal(std::uint64_t seed) {
     Setup setup;
-    setup.seed = counting.seed;
+    setup.seed = seed;
     return setup;
 }
 
@@ -50,7 +47,7 @@ Setup nominal(const Counting& counting) {
 /// prediction.
 void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     const GreyImage image = render(shot);
-    const Fix fresh = Locator(memory()).locate(image.view());
+    const Fix fresh = Locator(thread_memory()).locate(image.view());
     if (fresh.status != Status::ok) return;
     const TrueView truth = TrueView::of(shot);
     ++tallies[0].afresh;
@@ -58,7 +55,7 @@ void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     Rng rng(shot.seed, 77);
     for (std::size_t i = 0; i < kOffsets.size(); ++i) {
         const Prediction prediction = displaced(fresh, kOffsets[i], rng);
-        tallies[i + 1].count(Locator(memory()).locate(image.view(), prediction), truth);
+        tallies[i + 1].count(Locator(thread_memory()).locate(image.view(), prediction), truth);
     }
 }
 
@@ -92,10 +89,10 @@ const char* text_of(Change change) {
 void drive_on(Shot& shot, Rng& rng) {
     const double direction = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double way = rng.uniform(0, 0.5);
-    constexpr double kMost_rad = 2 * std::numbers::pi / 180;
+    constexpr double kMax_rad = 2 * std::numbers::pi / 180;
     shot.pose.fraction_x += way * std::cos(direction);
     shot.pose.fraction_y += way * std::sin(direction);
-    shot.pose.theta_rad += rng.uniform(-kMost_rad, kMost_rad);
+    shot.pose.theta_rad += rng.uniform(-kMax_rad, kMax_rad);
 }
 
 /// Returns the second frame. Its noise differs from that of the first; printing errors of the dots
@@ -139,12 +136,11 @@ GreyImage nothing_in_focus(const Shot& shot, Rng& rng) {
         shot, [&](int, int) { return 120 + shot.imperfections.noise_sigma * rng.normal(); });
 }
 
-void try_changes(const Counting& counting, std::uint64_t index, TrackedTallies& tallies) {
-    const Setup setup = nominal(counting);
+void try_changes(const Setup& setup, std::uint64_t index, TrackedTallies& tallies) {
     const Shot first = draw_shot(setup, 2 * index);
     const Shot other = draw_shot(setup, 2 * index + 1);
     const GreyImage image = render(first);
-    const Fix seen = Locator(memory()).locate(image.view());
+    const Fix seen = Locator(thread_memory()).locate(image.view());
     if (seen.status != Status::ok) return;
     Rng rng(first.seed, 78);
     for (const Change change : kChanges) {
@@ -152,19 +148,18 @@ void try_changes(const Counting& counting, std::uint64_t index, TrackedTallies& 
         const bool is_lifted = change == Change::lifted;
         const GreyImage next = is_lifted ? nothing_in_focus(shot, rng) : render(shot);
         tallies[static_cast<std::size_t>(change)].count(
-            Locator(memory()).locate(next.view(), Prediction::like(seen)),
+            Locator(thread_memory()).locate(next.view(), Prediction::like(seen)),
             is_lifted ? std::nullopt : std::optional(TrueView::of(shot)));
     }
 }
 
 }  // namespace
 
-TrackedTable offsets_table(const Counting& counting, std::uint64_t frames) {
-    const auto count =
-        count_on_threads<TrackedTallies>("predictions that are off", frames, counting.threads,
-                                         [&](std::uint64_t i, TrackedTallies& mine) {
-                                             try_offsets(draw_shot(nominal(counting), i), mine);
-                                         });
+TrackedTable offsets_table(const TableRun& run, std::uint64_t frames) {
+    const auto count = run.count<TrackedTallies>(
+        "predictions that are off", frames, [&](std::uint64_t i, TrackedTallies& tallies) {
+            try_offsets(draw_shot(nominal(run.seed), i), tallies);
+        });
     TrackedTable table;
     table.text =
         "| prediction off by, spacings | degrees | frames | tracked, % | afresh, % | no fix | "
@@ -182,14 +177,15 @@ TrackedTable offsets_table(const Counting& counting, std::uint64_t frames) {
                         tally.wrong(), tally.errors());
     }
     table.wrong = tallies.wrong();
-    table.is_complete = count.done == count.asked;
+    table.is_complete = count.is_complete();
     return table;
 }
 
-TrackedTable changes_table(const Counting& counting, std::uint64_t frames) {
-    const auto count = count_on_threads<TrackedTallies>(
-        "frames that change", frames, counting.threads,
-        [&](std::uint64_t i, TrackedTallies& mine) { try_changes(counting, i, mine); });
+TrackedTable changes_table(const TableRun& run, std::uint64_t frames) {
+    const auto count = run.count<TrackedTallies>("frames that change", frames,
+                                                 [&](std::uint64_t i, TrackedTallies& tallies) {
+                                                     try_changes(nominal(run.seed), i, tallies);
+                                                 });
     TrackedTable table;
     table.text =
         "| since the frame before | frames | tracked, % | afresh, % | no fix, % | wrong |\n"
@@ -203,8 +199,8 @@ TrackedTable changes_table(const Counting& counting, std::uint64_t frames) {
                         tally.percent(tally.none), tally.wrong());
     }
     table.wrong = tallies.wrong();
-    table.is_complete = count.done == count.asked;
+    table.is_complete = count.is_complete();
     return table;
 }
 
-}  // namespace dotpose
+}  // namespace dotpose::tables

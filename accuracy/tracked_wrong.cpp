@@ -1,14 +1,12 @@
-#include "tracked_wrong.hpp"
-
 #include <array>
-#include <memory>
+#include <optional>
 
 #include <fmt/core.h>
 
 #include "../tests/adversarial_textures.hpp"
-#include "worst_alternative.hpp"
+#include "tracked.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 namespace {
 
 /// A class of wrong predictions, or of images for which every prediction is wrong.
@@ -19,7 +17,7 @@ struct WrongClass {
     int dy = 0;
 };
 
-enum Kind : std::size_t {
+enum WrongKind : std::size_t {
     another_frame,
     elsewhere,
     far_on_one_axis,
@@ -43,7 +41,7 @@ enum Kind : std::size_t {
     mirrored,
     kind_count,
 };
-constexpr std::array<WrongClass, kind_count> kClasses{{
+constexpr std::array<WrongClass, kind_count> kWrongClasses{{
     {"another frame's"},
     {"the same lattice, elsewhere in the code"},
     {"the same, elsewhere on one axis"},
@@ -67,13 +65,8 @@ constexpr std::array<WrongClass, kind_count> kClasses{{
     {"right, but the pattern is seen from behind"},
 }};
 
-LargeMemory& memory_of_looks() {
-    thread_local const auto kMemory = std::make_unique<LargeMemory>();
-    return *kMemory;
-}
-
 /// A frame whose fix is right, and another frame.
-struct Views {
+struct LocatedPair {
     Shot shot;
     GreyImage image;
     Fix fix;
@@ -98,7 +91,7 @@ Prediction alternative_of(const Fix& fix, bool is_along_x, Rng& rng) {
     return prediction;
 }
 
-Prediction predicted(std::size_t kind, const Views& views, Rng& rng) {
+Prediction predicted(std::size_t kind, const LocatedPair& views, Rng& rng) {
     Prediction prediction = Prediction::like(kind == another_frame ? views.other_fix : views.fix);
     Place& place = prediction.place;
     const auto anywhere = [&rng] { return 100 + rng.below(kPositionsPerAxis - 200); };
@@ -120,8 +113,8 @@ Prediction predicted(std::size_t kind, const Views& views, Rng& rng) {
             return alternative_of(views.fix, kind == alternative_x, rng);
         default: {
             const auto either = [&rng](int step) { return rng.below(2) == 0 ? step : -step; };
-            place =
-                moved(Profile::anoto, place, either(kClasses[kind].dx), either(kClasses[kind].dy));
+            place = moved(Profile::anoto, place, either(kWrongClasses[kind].dx),
+                          either(kWrongClasses[kind].dy));
         }
     }
     return prediction;
@@ -151,26 +144,26 @@ GreyImage without_code(std::size_t kind, const Shot& shot, Rng& rng) {
     }
 }
 
-void try_all(const Counting& counting, std::uint64_t index, TrackedTallies& tallies) {
+void try_all(std::uint64_t seed, std::uint64_t index, TrackedTallies& tallies) {
     Setup setup;
-    setup.seed = counting.seed;
-    Views views;
+    setup.seed = seed;
+    LocatedPair views;
     views.shot = draw_shot(setup, 2 * index);
     const Shot other = draw_shot(setup, 2 * index + 1);
     views.image = render(views.shot);
     const GreyImage other_image = render(other);
-    views.fix = Locator(memory_of_looks()).locate(views.image.view());
-    views.other_fix = Locator(memory_of_looks()).locate(other_image.view());
+    views.fix = Locator(thread_memory()).locate(views.image.view());
+    views.other_fix = Locator(thread_memory()).locate(other_image.view());
     if (views.fix.status != Status::ok || views.other_fix.status != Status::ok) return;
     Rng rng(views.shot.seed, 79);
     for (std::size_t kind = 0; kind < kind_count; ++kind) {
         const Prediction prediction = predicted(kind, views, rng);
         if (kind < blank) {
-            tallies[kind].count(Locator(memory_of_looks()).locate(views.image.view(), prediction),
+            tallies[kind].count(Locator(thread_memory()).locate(views.image.view(), prediction),
                                 TrueView::of(views.shot));
         } else {
             const GreyImage image = without_code(kind, views.shot, rng);
-            tallies[kind].count(Locator(memory_of_looks()).locate(image.view(), prediction),
+            tallies[kind].count(Locator(thread_memory()).locate(image.view(), prediction),
                                 std::nullopt);
         }
     }
@@ -178,11 +171,10 @@ void try_all(const Counting& counting, std::uint64_t index, TrackedTallies& tall
 
 }  // namespace
 
-TrackedTable wrong_predictions_table(const Counting& counting, std::uint64_t predictions) {
-    const auto count = count_on_threads<TrackedTallies>(
+TrackedTable wrong_predictions_table(const TableRun& run, std::uint64_t predictions) {
+    const auto count = run.count<TrackedTallies>(
         "frames with wrong predictions", (predictions + kind_count - 1) / kind_count,
-        counting.threads,
-        [&](std::uint64_t i, TrackedTallies& mine) { try_all(counting, i, mine); });
+        [&](std::uint64_t i, TrackedTallies& tallies) { try_all(run.seed, i, tallies); });
     TrackedTable table;
     table.text =
         "| the prediction is | predictions | wrong position, tracked | the right one, tracked | "
@@ -196,13 +188,13 @@ TrackedTable wrong_predictions_table(const Counting& counting, std::uint64_t pre
                                   tally.afresh_wrong);
     };
     for (std::size_t kind = 0; kind < kind_count; ++kind) {
-        row(kClasses[kind].name, tallies[kind]);
+        row(kWrongClasses[kind].name, tallies[kind]);
         all += tallies[kind];
     }
     row("all", all);
     table.wrong = tallies.wrong();
-    table.is_complete = count.done == count.asked;
+    table.is_complete = count.is_complete();
     return table;
 }
 
-}  // namespace dotpose
+}  // namespace dotpose::tables

@@ -20,7 +20,7 @@
 
 #include <dotpose/files/error.hpp>
 
-#include "../reports/document.hpp"
+#include "../accuracy/document.hpp"
 #include "benchmarks.hpp"
 #include "draw/svg.hpp"
 #include "machine.hpp"
