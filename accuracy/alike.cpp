@@ -22,12 +22,12 @@
 namespace dotpose::tables {
 namespace {
 
-constexpr double kApart_deg = 7;
-constexpr std::array kAlike_deg{0.0, 45.0, 90.0};
-/// Limits above which cells are marked: of the error relative to that at 7 degrees, and of the mean
-/// of error^2 / variance.
+constexpr double kReference_deg = 7;
+constexpr std::array kAngles_deg{0.0, 45.0, 90.0};
+/// Limits outside of which cells are marked: of the ratio of the error to that at 7 degrees, and of
+/// the mean of error^2 / variance.
 constexpr double kMaxErrorRatio = 2;
-constexpr std::array kNormalised{0.7, 1.5};
+constexpr std::array kNormalisedRange{0.7, 1.5};
 
 struct AlikeOptions {
     std::uint64_t frames = 200;
@@ -53,25 +53,26 @@ double median_px(const Score& score, const test::AlikeDots& condition) {
     return score.position_um.median / 1000 / camera_of(condition).mm_per_px;
 }
 
-bool is_within_claims(const Score& score) {
+bool agrees_with_covariance(const Score& score) {
     return std::ranges::all_of(score.normalised, [](double value) {
-        return value >= kNormalised[0] && value <= kNormalised[1];
+        return value >= kNormalisedRange[0] && value <= kNormalisedRange[1];
     });
 }
 
 /// Prints a row and returns the number of wrong fixes.
 int print_row(test::AlikeDots condition, std::uint64_t frames, const TableRun& run) {
-    condition.angle_deg = kApart_deg;
-    const Score apart = score_of_condition(condition, frames, run);
-    const double apart_px = median_px(apart, condition);
-    int wrong = apart.wrong;
+    condition.angle_deg = kReference_deg;
+    const Score reference = score_of_condition(condition, frames, run);
+    const double reference_px = median_px(reference, condition);
+    int wrong = reference.wrong;
     std::string row = fmt::format("| {} | {:.2f} | {} | {:.4f} |", condition.spacing_px,
-                                  condition.dot, condition.blur_px, apart_px);
-    for (const double angle_deg : kAlike_deg) {
+                                  condition.dot, condition.blur_px, reference_px);
+    for (const double angle_deg : kAngles_deg) {
         condition.angle_deg = angle_deg;
         const Score score = score_of_condition(condition, frames, run);
         const double error_px = median_px(score, condition);
-        const bool is_met = is_within_claims(score) && error_px <= kMaxErrorRatio * apart_px;
+        const bool is_met =
+            agrees_with_covariance(score) && error_px <= kMaxErrorRatio * reference_px;
         row += fmt::format(" {:.4f}, {:.2f} {:.2f} {:.2f}{} |", error_px, score.normalised[0],
                            score.normalised[1], score.normalised[2], is_met ? "" : " **!**");
         wrong += score.wrong;

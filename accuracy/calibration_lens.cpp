@@ -114,65 +114,65 @@ double field_mm(const CameraModel& model) {
 }
 
 /// The error of a parameter, with its name, the key of its deviation and the unit for output.
-struct Off {
+struct ParameterError {
     const char* title;
     const char* sigma;  ///< key in `Camera::sigma`; empty if no deviation is reported
     double error;
     double unit;
 };
 
-std::vector<Off> offs_of(const Series& series, const Camera& camera) {
+std::vector<ParameterError> parameter_errors(const Series& series, const Camera& camera) {
     const CameraModel& truth = series.kind.camera;
     const double k_percent = 0.01 * std::abs(truth.k);
-    std::vector<Off> offs = {
+    std::vector<ParameterError> errors = {
         {"k, %", "k_per_px2", camera.k_per_px2 - truth.k, k_percent},
         {"centre u, px", "centre_u_px", camera.centre_px.u - (truth.width_px - 1) / 2.0, 1},
         {"centre v, px", "centre_v_px", camera.centre_px.v - (truth.height_px - 1) / 2.0, 1}};
     if (series.kind.tilt_deg == 0 && camera.paper) {
         const double percent = 0.01 * truth.mm_per_px;
-        offs.push_back(
+        errors.push_back(
             {"scale x, %", "mm_per_px_x", camera.paper->mm_per_px_x - truth.mm_per_px, percent});
-        offs.push_back(
+        errors.push_back(
             {"scale y, %", "mm_per_px_y", camera.paper->mm_per_px_y - truth.mm_per_px, percent});
-        offs.push_back({"width of the field, %", "", field_mm(camera) - field_mm(truth),
-                        0.01 * field_mm(truth)});
+        errors.push_back({"width of the field, %", "", field_mm(camera) - field_mm(truth),
+                          0.01 * field_mm(truth)});
     }
     if (camera.tilt) {
-        offs.push_back({"tilt x, degrees", "tilt_x_rad",
-                        camera.tilt->x_rad - series.mounted.tilt_x_rad, kDegree_rad});
-        offs.push_back({"tilt y, degrees", "tilt_y_rad",
-                        camera.tilt->y_rad - series.mounted.tilt_y_rad, kDegree_rad});
+        errors.push_back({"tilt x, degrees", "tilt_x_rad",
+                          camera.tilt->x_rad - series.mounted.tilt_x_rad, kDegree_rad});
+        errors.push_back({"tilt y, degrees", "tilt_y_rad",
+                          camera.tilt->y_rad - series.mounted.tilt_y_rad, kDegree_rad});
     }
     if (camera.focal_px) {
         const double focal_px = truth.working_distance_mm / truth.mm_per_px;
-        offs.push_back(
+        errors.push_back(
             {"focal length, %", "focal_px", *camera.focal_px - focal_px, 0.01 * focal_px});
     }
-    return offs;
+    return errors;
 }
 
-void judge_parameters(const Series& series, const LensCalibration& found,
-                      const std::vector<TrueDot>& dots, LensTally& tally) {
+void measure_parameters(const Series& series, const LensCalibration& found,
+                        const std::vector<TrueDot>& dots, LensTally& tally) {
     const Camera& camera = found.camera;
-    const std::vector<Off> offs = offs_of(series, camera);
-    for (const Off& off : offs) {
+    const std::vector<ParameterError> errors = parameter_errors(series, camera);
+    for (const ParameterError& parameter : errors) {
         constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-        const double sigma = *off.sigma == '\0' ? kNone : camera.sigma.at(off.sigma);
-        tally.errors[off.title].add(off.error / off.unit, sigma / off.unit);
+        const double sigma = *parameter.sigma == '\0' ? kNone : camera.sigma.at(parameter.sigma);
+        tally.errors[parameter.title].add(parameter.error / parameter.unit, sigma / parameter.unit);
     }
     if (!camera.paper) return;
     for (const Unknown unknown : {Unknown::view, Unknown::square, Unknown::straight}) {
         const auto least = least_sigmas(camera, dots, kJitter_mm, unknown);
-        for (const Off& off : offs) {
-            const auto bound = least.find(off.sigma);
+        for (const ParameterError& parameter : errors) {
+            const auto bound = least.find(parameter.sigma);
             if (bound == least.end()) continue;
-            tally.bounds_if[unknown][off.title].add(bound->second / off.unit, 1);
+            tally.bounds_if[unknown][parameter.title].add(bound->second / parameter.unit, 1);
         }
     }
 }
 
-void judge_residual(const LensCalibration& found, const std::vector<Shot>& shots,
-                    const std::vector<TrueDot>& dots, LensTally& tally) {
+void measure_residual(const LensCalibration& found, const std::vector<Shot>& shots,
+                      const std::vector<TrueDot>& dots, LensTally& tally) {
     Locator locator;
     // In the unit of the calibration: px at the middle of each frame.
     std::vector<double> mm_per_px(shots.size(), NAN);
@@ -195,7 +195,7 @@ void judge_residual(const LensCalibration& found, const std::vector<Shot>& shots
 }
 
 /// Locates more frames with the calibrated camera, and frames of a lens without distortion.
-void judge_positions(const Series& series, const Camera& camera, LensTally& tally) {
+void measure_positions(const Series& series, const Camera& camera, LensTally& tally) {
     Locator locator;
     Locator undistorted;
     for (int i = kLensFrames; i < 2 * kLensFrames; ++i) {
@@ -226,9 +226,9 @@ void calibrate_once(const Series& series, LensTally& tally) {
     const auto frame_at = [&](int i) { return render(shots[static_cast<std::size_t>(i)]); };
     const LensCalibration found = calibrate_lens(kLensFrames, frame_at, {});
     const std::vector<TrueDot> dots = true_dots(found, shots);
-    judge_parameters(series, found, dots, tally);
-    judge_residual(found, shots, dots, tally);
-    judge_positions(series, found.camera, tally);
+    measure_parameters(series, found, dots, tally);
+    measure_residual(found, shots, dots, tally);
+    measure_positions(series, found.camera, tally);
     tally.not_good += found.verdict != CalibrationVerdict::good ? 1 : 0;
     tally.wrong_kind += found.is_mounted != series.kind.is_mounted ? 1 : 0;
 }

@@ -8,8 +8,10 @@
 // independent of each other and the rarer the larger the weight, as in the model behind p_wrong.
 // Doubtful grids have so many errors that p_wrong is between 1e-3 and 1e-5, where counting can
 // refute it. Frames are rendered patterns with flipped bits, which `locate` reads. The exit status
-// is 1 if more positions are wrong than p_wrong allows. After Ctrl-C the tables have the cases
+// is 1 if more positions are wrong than p_wrong predicts. After Ctrl-C the tables have the cases
 // counted so far.
+#include "integrity.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,7 +21,6 @@
 #include <fmt/core.h>
 
 #include "../tests/altered_pattern.hpp"
-#include "integrity_grids.hpp"
 #include "tables.hpp"
 
 namespace dotpose::tables {
@@ -55,13 +56,13 @@ void try_flipped_frame(std::uint64_t seed, std::uint64_t index, IntegrityTally& 
     const bool is_right = std::abs(fix.x_grid() - x_grid(shot.pose)) < 1 &&
                           std::abs(fix.y_grid() - y_grid(shot.pose)) < 1 && std::abs(theta) < 0.2 &&
                           fix.section == pattern.section;
-    tally.add(fix.p_wrong_log2, is_right ? Wrong::none : Wrong::unrelated);
+    tally.add(fix.p_wrong_log2, !is_right);
 }
 
 // ---- Result ----
 
 /// Returns P(X <= count) for a Poisson variable X with this mean.
-double chance_of_as_few(std::uint64_t count, double mean) {
+double poisson_at_most(std::uint64_t count, double mean) {
     double sum = 0;
     for (std::uint64_t n = 0; n <= count; ++n) {
         const auto k = static_cast<double>(n);
@@ -71,8 +72,8 @@ double chance_of_as_few(std::uint64_t count, double mean) {
 }
 
 /// Returns P(X >= count) for a Poisson variable X with this mean.
-double chance_of_as_many(std::uint64_t count, double mean) {
-    return count == 0 || mean <= 0 ? 1 : 1 - chance_of_as_few(count - 1, mean);
+double poisson_at_least(std::uint64_t count, double mean) {
+    return count == 0 || mean <= 0 ? 1 : 1 - poisson_at_most(count - 1, mean);
 }
 
 /// Returns the upper 95 % confidence limit of a Poisson mean for this count.
@@ -81,7 +82,7 @@ double upper_limit(std::uint64_t count) {
     double high = 2 * low + 10;
     while (high - low > 1e-6 * high) {
         const double mean = (low + high) / 2;
-        (chance_of_as_few(count, mean) > 0.05 ? low : high) = mean;
+        (poisson_at_most(count, mean) > 0.05 ? low : high) = mean;
     }
     return high;
 }
@@ -89,24 +90,18 @@ double upper_limit(std::uint64_t count) {
 /// Whether the number of wrong positions is consistent with p_wrong, at a significance level of one
 /// in a thousand.
 bool holds(const Bin& bin) {
-    const std::uint64_t wrong = bin.all_wrong();
-    return static_cast<double>(wrong) <= bin.claimed ||
-           chance_of_as_many(wrong, bin.claimed) > 1e-3;
+    return static_cast<double>(bin.wrong) <= bin.predicted ||
+           poisson_at_least(bin.wrong, bin.predicted) > 1e-3;
 }
 
 /// Prints all values of p_wrong in classes of a factor of 8. Returns whether all are consistent.
-bool print(std::string_view title, const IntegrityTally& tally, bool with_kinds) {
+bool print(std::string_view title, const IntegrityTally& tally) {
     constexpr std::size_t kWidth_log2 = 3;
     constexpr std::size_t kLast = 34;  // this bin has all smaller values of p_wrong as well
     bool all_hold = true;
-    fmt::print("\n{} ({} not read{})\n{:>17} {:>9} {:>7} {:>10} {:>10}", title, tally.unread,
-               tally.passed_over > 0 ? fmt::format(", {} passed over", tally.passed_over) : "",
-               "p_wrong", "read", "wrong", "rate", "claimed");
-    if (with_kinds) {
-        for (const char* name : kWrongNames)
-            fmt::print(" {:>9}", name);
-    }
-    fmt::print("\n");
+    fmt::print("\n{} ({} not read{})\n{:>17} {:>9} {:>7} {:>10} {:>10}\n", title, tally.unread,
+               tally.skipped > 0 ? fmt::format(", {} skipped", tally.skipped) : "", "p_wrong",
+               "read", "wrong", "rate", "predicted");
     for (std::size_t from = 0; from <= kLast; from += from == 0 ? 1 : kWidth_log2) {
         const std::size_t to = from == 0       ? 0
                                : from == kLast ? tally.bins.size() - 1
@@ -118,13 +113,9 @@ bool print(std::string_view title, const IntegrityTally& tally, bool with_kinds)
                                   : from == kLast ? fmt::format("up to {:.1e}", high)
                                                   : fmt::format("{:.1e}..{:.1e}", high / 4, high);
         const auto frames = static_cast<double>(bin.frames);
-        fmt::print("{:>17} {:>9} {:>7} {:>10.2e} {:>10.2e}", range, bin.frames, bin.all_wrong(),
-                   static_cast<double>(bin.all_wrong()) / frames, bin.claimed / frames);
-        if (with_kinds) {
-            for (const std::uint64_t n : bin.wrong)
-                fmt::print(" {:>9}", n);
-        }
-        fmt::print("{}\n", holds(bin) ? "" : "  MORE THAN CLAIMED");
+        fmt::print("{:>17} {:>9} {:>7} {:>10.2e} {:>10.2e}{}\n", range, bin.frames, bin.wrong,
+                   static_cast<double>(bin.wrong) / frames, bin.predicted / frames,
+                   holds(bin) ? "" : "  MORE THAN PREDICTED");
         all_hold &= holds(bin);
     }
     return all_hold;
@@ -135,18 +126,18 @@ bool print(std::string_view title, const IntegrityTally& tally, bool with_kinds)
 bool print_doubtful(const IntegrityTally& tally) {
     bool all_hold = true;
     fmt::print("\n{:>15} {:>9} {:>7} {:>10} {:>16} {:>13}\n", "p_wrong", "read", "wrong", "rate",
-               "95 % upper limit", "claimed, mean");
+               "95 % upper limit", "predicted");
     for (const std::size_t middle : {10U, 13U, 17U}) {
         const Bin bin = tally.sum(middle - 1, middle + 1);
         const auto frames = static_cast<double>(std::max<std::uint64_t>(bin.frames, 1));
-        const double limit = upper_limit(bin.all_wrong()) / frames;
-        const double claimed = bin.claimed / frames;
-        const char* verdict = !holds(bin)        ? "MORE THAN CLAIMED"
-                              : limit <= claimed ? "shown"
-                                                 : "too few to tell";
+        const double limit = upper_limit(bin.wrong) / frames;
+        const double predicted = bin.predicted / frames;
+        const char* verdict = !holds(bin)          ? "MORE THAN PREDICTED"
+                              : limit <= predicted ? "shown"
+                                                   : "too few to tell";
         fmt::print("{:>15} {:>9} {:>7} {:>10.2e} {:>16.2e} {:>13.2e}  {}\n",
-                   fmt::format("2^-{}..2^-{}", middle + 1, middle - 1), bin.frames, bin.all_wrong(),
-                   static_cast<double>(bin.all_wrong()) / frames, limit, claimed, verdict);
+                   fmt::format("2^-{}..2^-{}", middle + 1, middle - 1), bin.frames, bin.wrong,
+                   static_cast<double>(bin.wrong) / frames, limit, predicted, verdict);
         all_hold &= holds(bin);
     }
     return all_hold;
@@ -176,10 +167,10 @@ bool integrity_table(TableRun& run) {
     const Counted rendered = run.count<IntegrityTally>(
         "frames", frames,
         [&](std::uint64_t i, IntegrityTally& tally) { try_flipped_frame(run.seed, i, tally); });
-    bool all_hold = print("Grids of 8 to 13 lines", any.tally, true);
-    all_hold &= print("Doubtful grids of 8 to 13 lines", near.tally, true);
+    bool all_hold = print("Grids of 8 to 13 lines", any.tally);
+    all_hold &= print("Doubtful grids of 8 to 13 lines", near.tally);
     all_hold &= print_doubtful(near.tally);
-    all_hold &= print("Rendered frames of 188 x 120 px", rendered.tally, false);
+    all_hold &= print("Rendered frames of 188 x 120 px", rendered.tally);
     fmt::print("\nseed {}, {} threads\n{}\n{}\n{}\n", run.seed, run.threads,
                any.speed_text("grids"), near.speed_text("doubtful grids"),
                rendered.speed_text("frames"));

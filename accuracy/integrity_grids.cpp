@@ -1,4 +1,6 @@
-#include "integrity_grids.hpp"
+#include <array>
+#include <cmath>
+#include <cstdlib>
 
 #include "core/decode/nominal.hpp"
 #include "core/decode/position.hpp"
@@ -7,6 +9,7 @@
 #include "core/integrity/confidence.hpp"
 #include "core/integrity/verify.hpp"
 #include "dotpose/tools/random.hpp"
+#include "integrity.hpp"
 
 namespace dotpose::tables {
 namespace {
@@ -118,65 +121,21 @@ void draw(GridKind kind, Rng& rng, Reading& reading) {
     }
 }
 
-/// Position of the first of several parallel lines, and of the first line that crosses them.
-struct AxisPlace {
-    std::uint32_t position;
-    int section;
-    std::uint32_t cross;
-};
-
-/// Returns the rolls of `count` lines.
-std::array<int, kMaxSide> rolls_of(Profile profile, const AxisPlace& place, int count) {
-    std::array<int, kMaxSide> rolls{};
-    std::uint32_t position = place.position;
-    int here = roll(profile, position) + place.section + static_cast<int>(place.cross % kSections);
-    for (int i = 0; i < count; ++i) {
-        rolls[static_cast<std::size_t>(i)] = here % kSections;
-        here += delta(profile, position);
-        position = position + 1 == kPositionsPerAxis ? 0 : position + 1;
+/// Whether all cells of the grid have the same symbols at the decoded place as at the true one.
+bool is_right(const Reading& reading, const Decoding& decoding) {
+    if (decoding.pattern_from_grid.quarters != reading.turn.quarters) return false;
+    const core::Grid& grid = reading.grid;
+    const auto symbol = [&](const Place& place, int i, int j) {
+        const Vec step = reading.turn({i, j});
+        const Place at = moved(reading.profile, place, step.x, step.y);
+        return symbol_at(reading.profile, at.cell, at.section);
+    };
+    for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
+        for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
+            if (symbol(decoding.place, i, j) != symbol(reading.place, i, j)) return false;
+        }
     }
-    return rolls;
-}
-
-Wrong kind_on_axis(Profile profile, const AxisPlace& found, const AxisPlace& real, int count) {
-    const auto a = rolls_of(profile, found, count);
-    const auto b = rolls_of(profile, real, count);
-    int shared = 0;
-    int longest = 0;
-    int run = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        run = a[i] == b[i] ? run + 1 : 0;
-        shared += a[i] == b[i];
-        longest = std::max(longest, run);
-    }
-    if (shared == count) return Wrong::none;
-    if (found.position == real.position) return Wrong::section;
-    if (longest >= 5) return Wrong::near;
-    int different = 0;
-    for (const unsigned length : {236u, 233u, 31u, 241u})
-        different += found.position % length != real.position % length;
-    if (different == 1) return Wrong::single;
-    return shared > 0 ? Wrong::far : Wrong::unrelated;
-}
-
-Wrong kind_of_error(const Reading& reading, const Decoding& decoding) {
-    const Place& found = decoding.place;
-    const Place& real = reading.place;
-    if (decoding.pattern_from_grid.quarters != reading.turn.quarters) return Wrong::unrelated;
-    if (found == real) return Wrong::none;
-    // The two positions are compared by the columns and rows in view.
-    const Vec a = reading.turn({reading.grid.i0, reading.grid.j0});
-    const Vec b = reading.turn(
-        {reading.grid.i0 + reading.grid.columns - 1, reading.grid.j0 + reading.grid.rows - 1});
-    const Vec corner{std::min(a.x, b.x), std::min(a.y, b.y)};
-    const Vec size{std::abs(a.x - b.x) + 1, std::abs(a.y - b.y) + 1};
-    const Place f = moved(reading.profile, found, corner.x, corner.y);
-    const Place r = moved(reading.profile, real, corner.x, corner.y);
-    const Wrong x = kind_on_axis(reading.profile, {f.cell.x, f.section.u, f.cell.y},
-                                 {r.cell.x, r.section.u, r.cell.y}, size.x);
-    if (x != Wrong::none) return x;
-    return kind_on_axis(reading.profile, {f.cell.y, f.section.v, f.cell.x},
-                        {r.cell.y, r.section.v, r.cell.x}, size.y);
+    return true;
 }
 
 /// Returns the information of a reading's bits per axis, with the odds that `verify` estimates for
@@ -224,7 +183,7 @@ void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityT
     }
     const core::Nominal nominal(reading.grid, reading.profile, decoding);
     if (kind == GridKind::doubtful && !looks_doubtful(reading.grid, decoding, nominal)) {
-        ++tally.passed_over;
+        ++tally.skipped;
         return;
     }
     Fix fix;
@@ -234,6 +193,6 @@ void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityT
         ++tally.unread;
         return;
     }
-    tally.add(fix.p_wrong_log2, kind_of_error(reading, decoding));
+    tally.add(fix.p_wrong_log2, !is_right(reading, decoding));
 }
 }  // namespace dotpose::tables

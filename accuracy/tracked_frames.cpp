@@ -59,34 +59,7 @@ void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     }
 }
 
-/// The change between the first and the second frame.
-enum class Change : std::uint8_t {
-    nothing,
-    driven,
-    light,
-    covered,
-    shaded,
-    lifted,
-    turned,
-    elsewhere,
-};
-constexpr std::array kChanges{Change::nothing, Change::driven, Change::light,  Change::covered,
-                              Change::shaded,  Change::lifted, Change::turned, Change::elsewhere};
-
-const char* text_of(Change change) {
-    constexpr std::array<const char*, kChanges.size()> kTexts = {
-        "nothing but noise",
-        "driven on by up to 0.5 spacing, turned by up to 2 degrees",
-        "light of 0.5 to 1.5 times as much",
-        "graphics and dirt came into view",
-        "a light that falls off to one side",
-        "lifted: nothing in focus",
-        "turned by 10 to 180 degrees",
-        "put on another sheet"};
-    return kTexts[static_cast<std::size_t>(change)];
-}
-
-void drive_on(Shot& shot, Rng& rng) {
+void drive_on(Shot& shot, const Shot&, Rng& rng) {
     const double direction = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double way = rng.uniform(0, 0.5);
     constexpr double kMax_rad = 2 * std::numbers::pi / 180;
@@ -95,40 +68,43 @@ void drive_on(Shot& shot, Rng& rng) {
     shot.pose.theta_rad += rng.uniform(-kMax_rad, kMax_rad);
 }
 
-/// Returns the second frame. Its noise differs from that of the first; printing errors of the dots
-/// are the same.
-Shot changed(Change change, const Shot& first, const Shot& other, Rng& rng) {
-    Shot shot = first;
-    shot.seed = rng.bits();
-    Imperfections& seen = shot.imperfections;
-    constexpr double kBrightest = 255;
-    switch (change) {
-        case Change::nothing:
-        case Change::lifted:
-            break;
-        case Change::driven:
-            drive_on(shot, rng);
-            break;
-        case Change::light:
-            seen.paper_level = std::min(seen.paper_level * rng.uniform(0.5, 1.5), kBrightest);
-            break;
-        case Change::covered:
-            seen.graphics = 1 + static_cast<int>(rng.below(3));
-            seen.dirt_blobs = static_cast<int>(rng.below(12));
-            break;
-        case Change::shaded:
-            seen.fall = rng.uniform(0.3, 1);
-            seen.fall_direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
-            break;
-        case Change::turned:
-            shot.pose.theta_rad +=
-                rng.uniform(std::numbers::pi / 18, std::numbers::pi) * (rng.below(2) == 0 ? 1 : -1);
-            break;
-        case Change::elsewhere:
-            return other;
-    }
-    return shot;
+void change_light(Shot& shot, const Shot&, Rng& rng) {
+    double& level = shot.imperfections.paper_level;
+    level = std::min(level * rng.uniform(0.5, 1.5), 255.0);
 }
+
+void cover(Shot& shot, const Shot&, Rng& rng) {
+    shot.imperfections.graphics = 1 + static_cast<int>(rng.below(3));
+    shot.imperfections.dirt_blobs = static_cast<int>(rng.below(12));
+}
+
+void shade(Shot& shot, const Shot&, Rng& rng) {
+    shot.imperfections.fall = rng.uniform(0.3, 1);
+    shot.imperfections.fall_direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+}
+
+void turn(Shot& shot, const Shot&, Rng& rng) {
+    shot.pose.theta_rad +=
+        rng.uniform(std::numbers::pi / 18, std::numbers::pi) * (rng.below(2) == 0 ? 1 : -1);
+}
+
+/// The change between the first and the second frame.
+struct Change {
+    const char* text;
+    /// Makes the first shot the second one; `other` is on another sheet. Null if the camera is
+    /// lifted.
+    void (*apply)(Shot& shot, const Shot& other, Rng& rng);
+};
+constexpr std::array kChanges{
+    Change{"nothing but noise", [](Shot&, const Shot&, Rng&) {}},
+    Change{"driven on by up to 0.5 spacing, turned by up to 2 degrees", drive_on},
+    Change{"light of 0.5 to 1.5 times as much", change_light},
+    Change{"graphics and dirt came into view", cover},
+    Change{"a light that falls off to one side", shade},
+    Change{"lifted: nothing in focus", nullptr},
+    Change{"turned by 10 to 180 degrees", turn},
+    Change{"put on another sheet", [](Shot& shot, const Shot& other, Rng&) { shot = other; }},
+};
 
 /// Returns the frame of a lifted camera, which is out of focus.
 GreyImage nothing_in_focus(const Shot& shot, Rng& rng) {
@@ -139,17 +115,18 @@ GreyImage nothing_in_focus(const Shot& shot, Rng& rng) {
 void try_changes(const Setup& setup, std::uint64_t index, TrackedTallies& tallies) {
     const Shot first = draw_shot(setup, 2 * index);
     const Shot other = draw_shot(setup, 2 * index + 1);
-    const GreyImage image = render(first);
-    const Fix seen = Locator(thread_memory()).locate(image.view());
+    const Fix seen = Locator(thread_memory()).locate(render(first).view());
     if (seen.status != Status::ok) return;
     Rng rng(first.seed, 78);
-    for (const Change change : kChanges) {
-        const Shot shot = changed(change, first, other, rng);
-        const bool is_lifted = change == Change::lifted;
+    for (std::size_t i = 0; i < kChanges.size(); ++i) {
+        const bool is_lifted = kChanges[i].apply == nullptr;
+        // The noise of the second frame differs; the printing errors of the dots are the same.
+        Shot shot = first;
+        shot.seed = rng.bits();
+        if (!is_lifted) kChanges[i].apply(shot, other, rng);
         const GreyImage next = is_lifted ? nothing_in_focus(shot, rng) : render(shot);
-        tallies[static_cast<std::size_t>(change)].count(
-            Locator(thread_memory()).locate(next.view(), Prediction::like(seen)),
-            is_lifted ? std::nullopt : std::optional(TrueView::of(shot)));
+        tallies[i].count(Locator(thread_memory()).locate(next.view(), Prediction::like(seen)),
+                         is_lifted ? std::nullopt : std::optional(TrueView::of(shot)));
     }
 }
 
@@ -191,10 +168,10 @@ TrackedTable changes_table(const TableRun& run, std::uint64_t frames) {
         "| since the frame before | frames | tracked, % | afresh, % | no fix, % | wrong |\n"
         "|---|--:|--:|--:|--:|--:|\n";
     TrackedTallies tallies = count.tally;
-    for (const Change change : kChanges) {
-        const TrackedTally& tally = tallies[static_cast<std::size_t>(change)];
+    for (std::size_t i = 0; i < kChanges.size(); ++i) {
+        const TrackedTally& tally = tallies[i];
         table.text +=
-            fmt::format("| {} | {} | {:.1f} | {:.1f} | {:.1f} | {} |\n", text_of(change),
+            fmt::format("| {} | {} | {:.1f} | {:.1f} | {:.1f} | {} |\n", kChanges[i].text,
                         tally.all(), tally.percent(tally.tracked), tally.percent(tally.afresh),
                         tally.percent(tally.none), tally.wrong());
     }

@@ -46,7 +46,7 @@ const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera) {
         setup.camera = camera;
         const FrameSource frame_at = frames_of_setup(setup);
         const int count = count_of(camera);
-        frames = rendered(count, [&](int draw) {
+        frames = render_frames(count, [&](int draw) {
             KnownFrame frame = frame_at(draw);
             while (!is_located_at_once(frame))
                 frame = frame_at(draw += count);
@@ -68,7 +68,7 @@ double quantile(const std::vector<double>& sorted, double share) {
     return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
-std::vector<KnownFrame> rendered(int count, const FrameSource& frame_at) {
+std::vector<KnownFrame> render_frames(int count, const FrameSource& frame_at) {
     std::vector<KnownFrame> frames(static_cast<std::size_t>(count));
     on_all_cores(count, [&](int i) { frames[static_cast<std::size_t>(i)] = frame_at(i); });
     return frames;

@@ -26,7 +26,7 @@ double quantile(const std::vector<double>& sorted, double share);
 void on_all_cores(int count, const std::function<void(int)>& work);
 
 /// Returns frame_at(0) to frame_at(count - 1), rendered on all cores.
-std::vector<KnownFrame> rendered(int count, const FrameSource& frame_at);
+std::vector<KnownFrame> render_frames(int count, const FrameSource& frame_at);
 
 /// Results of frames that were located one by one.
 struct TimedFrames {

@@ -26,7 +26,7 @@ HardTimes time_hard_frames(int frames) {
     for (int first = 0; first < frames; first += kMaxRendered) {
         const int count = std::min(kMaxRendered, frames - first);
         const TimedFrames part =
-            time_frames(rendered(count, [&](int i) { return frame_at(first + i); }), kPasses,
+            time_frames(render_frames(count, [&](int i) { return frame_at(first + i); }), kPasses,
                         [&](const ImageView& image) { return Locator(*memory).locate(image); });
         times.located += part.located;
         times.at_once += part.at_once;

@@ -30,7 +30,7 @@ TiltTimes time_tilt(const CameraModel& camera, int tilt_deg, int count, int pass
     setup.camera = camera;
     const auto memory = std::make_unique<LargeMemory>();
     TimedFrames timed =
-        time_frames(rendered(count, [&](int i) { return tilted_frame(setup, tilt_deg, i); }),
+        time_frames(render_frames(count, [&](int i) { return tilted_frame(setup, tilt_deg, i); }),
                     passes, [&](const ImageView& image) { return Locator(*memory).locate(image); });
     std::ranges::nth_element(timed.fastest_us, timed.fastest_us.begin() + count / 2);
     return {camera, tilt_deg, count, timed.at_once,

@@ -147,7 +147,7 @@ FrameSpread spread_of(const Subject& subject) {
 Varied time_varied_frames(int frame_count, int passes) {
     Setup setup;
     setup.seed = kSeed;
-    const std::vector<KnownFrame> frames = rendered(frame_count, frames_of_setup(setup));
+    const std::vector<KnownFrame> frames = render_frames(frame_count, frames_of_setup(setup));
     std::vector<TagFrame> tags = render_tags({}, frame_count / 10);
     const auto memory = std::make_unique<SmallMemory>();
     TagDetector detector_1(1);
