@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
     const auto* const table = std::ranges::find(kTables, name, &Table::name);
     if (table == std::end(kTables)) {
         const bool is_help = name == "--help" || name == "-h";
+        if (argc > 1 && !is_help) fmt::print(stderr, "there is no table '{}'\n\n", name);
         print_usage(is_help ? stdout : stderr);
         return is_help ? EXIT_SUCCESS : kWrongUsage;
     }

@@ -1,5 +1,5 @@
-// Measures whether the covariance of a fix is right where the sheet is not one plane. Both
-// print a table of docs/integrity.md in Markdown, with N frames for each condition.
+// Measures whether the covariance of a fix is right where the sheet is not one plane. Prints tables
+// of docs/integrity.md in Markdown, with N frames for each condition.
 //
 //   dotpose_tables slips [--frames N] [--seed S] [--threads N]
 //   dotpose_tables seams [--frames N] [--seed S] [--threads N]
@@ -41,11 +41,11 @@ struct SheetFrames {
     Effort effort = Effort::twice;
 };
 
-/// Fixes whose errors are above this number of their standard deviations are counted.
+/// Maximum error of a fix that agrees with its covariance, in standard deviations.
 constexpr double kMaxSigmas = 4;
 
 /// Returns the largest error of x, y and theta in units of their standard deviations.
-double sigmas_off(const Outcome& outcome) {
+double max_error_sigmas(const Outcome& outcome) {
     const Deviation off = deviation_of(outcome.fix, outcome.truth);
     const double errors[] = {off.x_grid, off.y_grid, off.theta_rad};
     double max = 0;
@@ -81,8 +81,8 @@ int print_uneven_row(const SheetFrames& sheet, std::uint64_t frames, const Table
         run.evaluate(sheet.what + ", " + sheet.size.text(), std::move(frame_run)).front();
     const Score score = score_of(fixes);
     std::erase_if(fixes, [](const Outcome& outcome) { return !outcome.is_fix(); });
-    const double within =
-        share(fixes, [](const Outcome& outcome) { return sigmas_off(outcome) <= kMaxSigmas; });
+    const double within = share(
+        fixes, [](const Outcome& outcome) { return max_error_sigmas(outcome) <= kMaxSigmas; });
     const auto share_that_is = [&](Surface surface) {
         return share(fixes, [=](const Outcome& outcome) { return outcome.fix.surface == surface; });
     };
