@@ -23,9 +23,6 @@
 #include "../accuracy/document.hpp"
 #include "benchmarks.hpp"
 #include "draw/svg.hpp"
-#include "machine.hpp"
-#include "plots.hpp"
-#include "varied.hpp"
 
 namespace dotpose::bench {
 namespace {

@@ -1,8 +1,8 @@
-#include "plots.hpp"
-
+// Draws the pictures of docs/speed.md.
 #include <algorithm>
 #include <ostream>
 
+#include "benchmarks.hpp"
 #include "evaluate/plot.hpp"
 
 namespace dotpose::bench {

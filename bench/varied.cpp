@@ -1,5 +1,4 @@
-#include "varied.hpp"
-
+// Times many different frames individually, to show how much the time varies.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -16,6 +15,7 @@
 #include <dotpose/tools/random.hpp>
 
 #include "apriltag.hpp"
+#include "benchmarks.hpp"
 #include "core/attempts/first.hpp"
 #include "core/workspace.hpp"
 #include "floor.hpp"
