@@ -76,8 +76,8 @@ bench: $(RELEASE)/build.ninja
 	bench/instructions $(if $(findstring --update,$(ARGS)),--update)
 
 accuracy: $(RELEASE)/build.ninja
-	$(BUILD) release -j $(JOBS) --target dotpose_accuracy
-	$(RELEASE)/bin/dotpose_accuracy $(ARGS)
+	$(BUILD) release -j $(JOBS) --target dotpose_tables
+	$(RELEASE)/bin/dotpose_tables accuracy $(ARGS)
 
 # With ARGS=--all: all sizes of frames and cores.
 ifneq ($(findstring --all,$(ARGS)),)
@@ -87,8 +87,8 @@ endif
 # With ARGS=--quick: Cortex-M0+ only.
 cores = cortex-m0plus $(if $(findstring --quick,$(ARGS)),,mips32r2)
 budget: $(RELEASE)/build.ninja $(patsubst %,build/%/build.ninja,$(cores) $(more_cores))
-	$(BUILD) release -j $(JOBS) --target dotpose_cli dotpose_frames dotpose_count dotpose_budget \
-	    dotpose_golden_files $(more_frames)
+	$(BUILD) release -j $(JOBS) --target dotpose_cli dotpose_frames dotpose_count dotpose_golden_files \
+	    $(more_frames)
 	set -e; for core in $(cores); do $(BUILD) $$core -j $(JOBS); done
 	$(if $(more_cores),set -e; for core in cortex-m0plus mips32r2 $(more_cores); do \
 	    $(BUILD) $$core -j $(JOBS) --target dotpose_firmware_of_all_sizes; done)
@@ -134,7 +134,7 @@ lint: setup
 	scripts/check-design
 
 check: lint $(RELEASE)/build.ninja
-	$(BUILD) release -j $(JOBS) --target dotpose dotpose_golden
+	$(BUILD) release -j $(JOBS) --target dotpose dotpose_tables
 	scripts/golden-frames
 	scripts/check-core-symbols $(RELEASE)/src/libdotpose.a
 

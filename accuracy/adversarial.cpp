@@ -1,17 +1,15 @@
 // Counts wrong fixes of `locate` in adversarial frames, which show patterns that resemble the code.
 //
-//   dotpose_adversarial [--frames N] [--class NAME] [--code given|auto] [--seed S] [--threads N]
+//   dotpose_tables adversarial [--frames N] [--class NAME] [--code given|auto] [--seed S]
+//   [--threads N]
 //
-// The N frames are distributed evenly over the classes of tests/adversarial_frames.hpp, or all are
-// of one class. The exit status is 1 if any fix is wrong. Ctrl-C ends the run and prints the table
-// of the frames until then. Times are processor times.
+// The N frames are divided evenly among the classes of tests/adversarial_frames.hpp, or all are
+// of one class. The exit status is 1 if any fix is wrong. After Ctrl-C the table
+// has the frames located so far. Times are processor times.
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <ctime>
-#include <memory>
 #include <numeric>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,15 +18,13 @@
 
 #include "../apps/dotpose/choices.hpp"
 #include "../tests/adversarial_frames.hpp"
-#include "counting.hpp"
 #include "dotpose/code_evidence.hpp"
-#include "dotpose/locate.hpp"
+#include "tables.hpp"
 
+namespace dotpose::tables {
 namespace {
 
-using namespace dotpose;
 using test::Adversary;
-using test::Verdict;
 
 constexpr std::array<std::string_view, 5> kVerdicts{"refused", "right", "second", "twin", "wrong"};
 using Counts = std::array<std::uint64_t, kVerdicts.size()>;
@@ -61,11 +57,11 @@ struct ClassTally {
     }
 };
 
-struct Tally {
+struct AdversaryTally {
     std::array<ClassTally, kClasses> classes{};
     std::vector<std::string> wrong;
 
-    Tally& operator+=(const Tally& other) {
+    AdversaryTally& operator+=(const AdversaryTally& other) {
         for (std::size_t c = 0; c < kClasses; ++c)
             classes[c] += other.classes[c];
         wrong.insert(wrong.end(), other.wrong.begin(), other.wrong.end());
@@ -73,32 +69,33 @@ struct Tally {
     }
 };
 
-/// Whether the profile is given by the options of the frame or found out by `locate`.
+/// Whether the profile is given by the options of the frame or detected.
 enum class Code : std::uint8_t { given, automatic };
 
-/// Locates a frame. If the profile is found out, it is stored in the options of the frame.
-Fix locate(test::AdversarialFrame& frame, Code code, LargeMemory& memory) {
-    if (code == Code::given) return Locator(memory, frame.options).locate(frame.image.view());
-    const CodeReading reading =
-        Locator(memory, frame.options).locate_in_any_code(frame.image.view(), CodeEvidence{});
+/// Locates a frame. A profile that is detected is stored in the options of the frame.
+Fix locate(test::AdversarialFrame& frame, Code code) {
+    if (code == Code::given)
+        return Locator(thread_memory(), frame.options).locate(frame.image.view());
+    const CodeReading reading = Locator(thread_memory(), frame.options)
+                                    .locate_in_any_code(frame.image.view(), CodeEvidence{});
     frame.options.profile = reading.code;
     return reading.fix;
 }
 
-void try_frame(Adversary adversary, Code code, std::uint64_t seed, std::uint64_t index,
-               LargeMemory& memory, Tally& tally) {
+void try_adversary(Adversary adversary, Code code, std::uint64_t seed, std::uint64_t index,
+                   AdversaryTally& tally) {
     const double start_s = thread_seconds();
     test::AdversarialFrame frame = test::make_adversarial(adversary, seed, index);
     const double rendered_s = thread_seconds();
-    const Fix fix = locate(frame, code, memory);
+    const Fix fix = locate(frame, code);
     const double locating_s = thread_seconds() - rendered_s;
-    const Verdict verdict = test::judge(fix, frame);
+    const test::Verdict verdict = test::judge(fix, frame);
     ClassTally& mine = tally.classes[static_cast<std::size_t>(adversary)];
     ++mine.verdicts[static_cast<std::size_t>(verdict)];
     mine.rendering_s += rendered_s - start_s;
     mine.locating_s += locating_s;
     mine.longest_s = std::max(mine.longest_s, locating_s);
-    if (verdict == Verdict::wrong) {
+    if (verdict == test::Verdict::wrong) {
         tally.wrong.push_back(fmt::format(
             "wrong: {}, seed {}, index {}: cell {}, {}, theta {:.3f}, section {}, {}, 2^{}, "
             "{} bit errors",
@@ -107,7 +104,7 @@ void try_frame(Adversary adversary, Code code, std::uint64_t seed, std::uint64_t
     }
 }
 
-void print(Tally& tally) {
+void print(AdversaryTally& tally) {
     std::sort(tally.wrong.begin(), tally.wrong.end());
     for (const std::string& wrong : tally.wrong)
         fmt::print("{}\n", wrong);
@@ -133,45 +130,40 @@ void print(Tally& tally) {
     line("all", all);
 }
 
-int run(const Counting& counting, std::uint64_t frames, Code code,
-        std::span<const Adversary> adversaries) {
-    Count<Tally> count = count_on_threads<Tally>(
-        "adversarial frames", frames, counting.threads, [&](std::uint64_t i, Tally& mine) {
-            thread_local const auto kMemory = std::make_unique<LargeMemory>();
-            try_frame(adversaries[i % adversaries.size()], code, counting.seed,
-                      i / adversaries.size(), *kMemory, mine);
-        });
-    print(count.tally);
-    fmt::print("seed {}, {} threads: {}\n", counting.seed, counting.threads,
-               speed_line("frames", count.asked, count.done, count.seconds));
-    return count.tally.wrong.empty() && count.done == count.asked ? EXIT_SUCCESS : EXIT_FAILURE;
-}
-
 }  // namespace
 
-int main(int argc, char** argv) {
-    Counting counting;
+bool adversarial_table(TableRun& run) {
     std::uint64_t frames = 18'000;
-    cli::Command app("How often is `locate` deceived? Status 1 if any fix is wrong.",
-                     "dotpose_adversarial");
-    add_count(app, "--frames", frames, "How many, evenly over the classes");
+    run.add_count("--frames", frames, "Number of frames, divided evenly among the classes");
     std::vector<std::string> all;
     for (const Adversary adversary : test::kAdversaries)
         all.emplace_back(name(adversary));
     std::vector<std::string> wanted = all;
-    app.add_option("--class", wanted,
-                   "Only frames of this class, given once or more: " + cli::alternatives(all))
+    run.command
+        .add_option("--class", wanted,
+                    "Only frames of this class, given once or more: " + cli::alternatives(all))
         ->check(cli::one_of(all));
     std::string code = "given";
-    app.add_option("--code", code, "The printed code: given, or found out (auto)")
+    run.command.add_option("--code", code, "The printed code: given, or detected (auto)")
         ->check(cli::one_of({"given", "auto"}));
-    counting.add_to(app);
-    return run_program(app, argc, argv, [&] {
-        std::vector<Adversary> adversaries;
-        for (const std::string& each : wanted) {
-            const auto at = std::find(all.begin(), all.end(), each) - all.begin();
-            adversaries.push_back(test::kAdversaries[static_cast<std::size_t>(at)]);
-        }
-        return run(counting, frames, code == "auto" ? Code::automatic : Code::given, adversaries);
-    });
+    run.add_seed();
+    run.add_threads();
+    if (!run.parse()) return true;
+
+    std::vector<Adversary> adversaries;
+    for (const std::string& each : wanted) {
+        const auto at = std::ranges::find(all, each) - all.begin();
+        adversaries.push_back(test::kAdversaries[static_cast<std::size_t>(at)]);
+    }
+    auto count = run.count<AdversaryTally>(
+        "adversarial frames", frames, [&](std::uint64_t i, AdversaryTally& tally) {
+            try_adversary(adversaries[i % adversaries.size()],
+                          code == "auto" ? Code::automatic : Code::given, run.seed,
+                          i / adversaries.size(), tally);
+        });
+    print(count.tally);
+    fmt::print("seed {}, {} threads: {}\n", run.seed, run.threads, count.speed_text("frames"));
+    return count.tally.wrong.empty() && count.is_complete();
 }
+
+}  // namespace dotpose::tables

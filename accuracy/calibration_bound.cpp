@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-namespace dotpose {
+namespace dotpose::tables {
 namespace {
 
 using Eigen::MatrixXd;
@@ -145,4 +145,4 @@ std::map<std::string, double> least_sigmas(const Camera& camera, const std::vect
     return sigmas;
 }
 
-}  // namespace dotpose
+}  // namespace dotpose::tables

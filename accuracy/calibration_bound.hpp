@@ -9,7 +9,7 @@
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/simulate.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 
 /// A dot that a calibration used, with its true values.
 struct TrueDot {
@@ -32,4 +32,4 @@ enum class Unknown {
 std::map<std::string, double> least_sigmas(const Camera& camera, const std::vector<TrueDot>& dots,
                                            double jitter_mm, Unknown unknown);
 
-}  // namespace dotpose
+}  // namespace dotpose::tables

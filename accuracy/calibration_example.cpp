@@ -4,11 +4,11 @@
 #include <fmt/core.h>
 
 #include "../tests/unit/calibrate/frames.hpp"
-#include "calibration_measures.hpp"
+#include "calibration.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/image_file.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 namespace {
 
 namespace fs = std::filesystem;
@@ -60,4 +60,4 @@ void write_example(const std::string& folder, std::uint64_t seed) {
     write_sheets(root / "sheets.json");
 }
 
-}  // namespace dotpose
+}  // namespace dotpose::tables

@@ -8,23 +8,22 @@
 
 #include <fmt/core.h>
 
+#include "calibration.hpp"
 #include "calibration_bound.hpp"
-#include "calibration_measures.hpp"
-#include "calibration_tally.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
 #include "dotpose/tools/outcome.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
-constexpr int kFrames = 20;
+constexpr int kLensFrames = 20;
 /// Print jitter of the preset `nominal`.
 constexpr double kJitter_mm = 0.010;
 
 /// A kind of camera that is calibrated.
-struct Kind {
+struct CameraKind {
     const char* title;
     CameraModel camera;
     double tilt_deg = 0;  ///< largest tilt about both axes
@@ -47,7 +46,7 @@ CameraModel large_camera() {
     return camera;
 }
 
-struct Tally {
+struct LensTally {
     ErrorTable errors;
     std::map<Unknown, ErrorTable> bounds_if;
     Numbers residual;     ///< relative to the residual with the true parameters
@@ -57,7 +56,7 @@ struct Tally {
     int not_good = 0;
     int wrong_kind = 0;
 
-    Tally& operator+=(const Tally& other) {
+    LensTally& operator+=(const LensTally& other) {
         errors += other.errors;
         for (const auto& [unknown, table] : other.bounds_if)
             bounds_if[unknown] += table;
@@ -73,11 +72,11 @@ struct Tally {
 
 /// All frames of one camera.
 struct Series {
-    const Kind& kind;
+    const CameraKind& kind;
     std::uint64_t seed;
     CameraPose mounted;  ///< the tilt of a mounted camera
 
-    Series(const Kind& k, std::uint64_t s, std::uint64_t index)
+    Series(const CameraKind& k, std::uint64_t s, std::uint64_t index)
         : kind(k), seed(scramble(s) + index) {
         Rng rng(seed);
         tilt(rng, mounted);
@@ -115,65 +114,65 @@ double field_mm(const CameraModel& model) {
 }
 
 /// The error of a parameter, with its name, the key of its deviation and the unit for output.
-struct Off {
+struct ParameterError {
     const char* title;
     const char* sigma;  ///< key in `Camera::sigma`; empty if no deviation is reported
     double error;
     double unit;
 };
 
-std::vector<Off> offs_of(const Series& series, const Camera& camera) {
+std::vector<ParameterError> parameter_errors(const Series& series, const Camera& camera) {
     const CameraModel& truth = series.kind.camera;
     const double k_percent = 0.01 * std::abs(truth.k);
-    std::vector<Off> offs = {
+    std::vector<ParameterError> errors = {
         {"k, %", "k_per_px2", camera.k_per_px2 - truth.k, k_percent},
         {"centre u, px", "centre_u_px", camera.centre_px.u - (truth.width_px - 1) / 2.0, 1},
         {"centre v, px", "centre_v_px", camera.centre_px.v - (truth.height_px - 1) / 2.0, 1}};
     if (series.kind.tilt_deg == 0 && camera.paper) {
         const double percent = 0.01 * truth.mm_per_px;
-        offs.push_back(
+        errors.push_back(
             {"scale x, %", "mm_per_px_x", camera.paper->mm_per_px_x - truth.mm_per_px, percent});
-        offs.push_back(
+        errors.push_back(
             {"scale y, %", "mm_per_px_y", camera.paper->mm_per_px_y - truth.mm_per_px, percent});
-        offs.push_back({"width of the field, %", "", field_mm(camera) - field_mm(truth),
-                        0.01 * field_mm(truth)});
+        errors.push_back({"width of the field, %", "", field_mm(camera) - field_mm(truth),
+                          0.01 * field_mm(truth)});
     }
     if (camera.tilt) {
-        offs.push_back({"tilt x, degrees", "tilt_x_rad",
-                        camera.tilt->x_rad - series.mounted.tilt_x_rad, kDegree_rad});
-        offs.push_back({"tilt y, degrees", "tilt_y_rad",
-                        camera.tilt->y_rad - series.mounted.tilt_y_rad, kDegree_rad});
+        errors.push_back({"tilt x, degrees", "tilt_x_rad",
+                          camera.tilt->x_rad - series.mounted.tilt_x_rad, kDegree_rad});
+        errors.push_back({"tilt y, degrees", "tilt_y_rad",
+                          camera.tilt->y_rad - series.mounted.tilt_y_rad, kDegree_rad});
     }
     if (camera.focal_px) {
         const double focal_px = truth.working_distance_mm / truth.mm_per_px;
-        offs.push_back(
+        errors.push_back(
             {"focal length, %", "focal_px", *camera.focal_px - focal_px, 0.01 * focal_px});
     }
-    return offs;
+    return errors;
 }
 
-void judge_parameters(const Series& series, const LensCalibration& found,
-                      const std::vector<TrueDot>& dots, Tally& tally) {
+void measure_parameters(const Series& series, const LensCalibration& found,
+                        const std::vector<TrueDot>& dots, LensTally& tally) {
     const Camera& camera = found.camera;
-    const std::vector<Off> offs = offs_of(series, camera);
-    for (const Off& off : offs) {
+    const std::vector<ParameterError> errors = parameter_errors(series, camera);
+    for (const ParameterError& parameter : errors) {
         constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-        const double sigma = *off.sigma == '\0' ? kNone : camera.sigma.at(off.sigma);
-        tally.errors[off.title].add(off.error / off.unit, sigma / off.unit);
+        const double sigma = *parameter.sigma == '\0' ? kNone : camera.sigma.at(parameter.sigma);
+        tally.errors[parameter.title].add(parameter.error / parameter.unit, sigma / parameter.unit);
     }
     if (!camera.paper) return;
     for (const Unknown unknown : {Unknown::view, Unknown::square, Unknown::straight}) {
         const auto least = least_sigmas(camera, dots, kJitter_mm, unknown);
-        for (const Off& off : offs) {
-            const auto bound = least.find(off.sigma);
+        for (const ParameterError& parameter : errors) {
+            const auto bound = least.find(parameter.sigma);
             if (bound == least.end()) continue;
-            tally.bounds_if[unknown][off.title].add(bound->second / off.unit, 1);
+            tally.bounds_if[unknown][parameter.title].add(bound->second / parameter.unit, 1);
         }
     }
 }
 
-void judge_residual(const LensCalibration& found, const std::vector<Shot>& shots,
-                    const std::vector<TrueDot>& dots, Tally& tally) {
+void measure_residual(const LensCalibration& found, const std::vector<Shot>& shots,
+                      const std::vector<TrueDot>& dots, LensTally& tally) {
     Locator locator;
     // In the unit of the calibration: px at the middle of each frame.
     std::vector<double> mm_per_px(shots.size(), NAN);
@@ -196,10 +195,10 @@ void judge_residual(const LensCalibration& found, const std::vector<Shot>& shots
 }
 
 /// Locates more frames with the calibrated camera, and frames of a lens without distortion.
-void judge_positions(const Series& series, const Camera& camera, Tally& tally) {
+void measure_positions(const Series& series, const Camera& camera, LensTally& tally) {
     Locator locator;
     Locator undistorted;
-    for (int i = kFrames; i < 2 * kFrames; ++i) {
+    for (int i = kLensFrames; i < 2 * kLensFrames; ++i) {
         Shot shot = series.shot(i);
         const Truth truth = truth_of(shot);
         const auto add = [&](const Fix& fix, Errors& errors) {
@@ -220,26 +219,26 @@ void judge_positions(const Series& series, const Camera& camera, Tally& tally) {
     }
 }
 
-void calibrate_once(const Series& series, Tally& tally) {
+void calibrate_once(const Series& series, LensTally& tally) {
     std::vector<Shot> shots;
-    for (int i = 0; i < kFrames; ++i)
+    for (int i = 0; i < kLensFrames; ++i)
         shots.push_back(series.shot(i));
     const auto frame_at = [&](int i) { return render(shots[static_cast<std::size_t>(i)]); };
-    const LensCalibration found = calibrate_lens(kFrames, frame_at, {});
+    const LensCalibration found = calibrate_lens(kLensFrames, frame_at, {});
     const std::vector<TrueDot> dots = true_dots(found, shots);
-    judge_parameters(series, found, dots, tally);
-    judge_residual(found, shots, dots, tally);
-    judge_positions(series, found.camera, tally);
+    measure_parameters(series, found, dots, tally);
+    measure_residual(found, shots, dots, tally);
+    measure_positions(series, found.camera, tally);
     tally.not_good += found.verdict != CalibrationVerdict::good ? 1 : 0;
     tally.wrong_kind += found.is_mounted != series.kind.is_mounted ? 1 : 0;
 }
 
-Tally measure(const Kind& kind, std::uint64_t calibrations, const Counting& counting) {
-    const auto count = count_on_threads<Tally>(
-        kind.title, calibrations, counting.threads, [&](std::uint64_t index, Tally& tally) {
-            calibrate_once(Series(kind, counting.seed, index), tally);
+LensTally measure(const CameraKind& kind, std::uint64_t calibrations, const TableRun& run) {
+    const auto count =
+        run.count<LensTally>(kind.title, calibrations, [&](std::uint64_t index, LensTally& tally) {
+            calibrate_once(Series(kind, run.seed, index), tally);
         });
-    const Tally& tally = count.tally;
+    const LensTally& tally = count.tally;
     if (tally.not_good + tally.wrong_kind + tally.not_located > 0) {
         fmt::print(stderr,
                    "{}: {} not judged good, {} taken for the wrong kind of mount, {} frames not "
@@ -249,14 +248,14 @@ Tally measure(const Kind& kind, std::uint64_t calibrations, const Counting& coun
     return tally;
 }
 
-std::string bound_text(const Tally& tally, Unknown unknown, const std::string& key) {
+std::string bound_text(const LensTally& tally, Unknown unknown, const std::string& key) {
     const auto table = tally.bounds_if.find(unknown);
     if (table == tally.bounds_if.end()) return "-";
     const auto found = table->second.find(key);
     return found == table->second.end() ? "-" : fmt::format("{:.4f}", found->second.rms());
 }
 
-void print_parameters(const Kind& kind, const Tally& tally) {
+void print_parameters(const CameraKind& kind, const LensTally& tally) {
     for (const auto& [key, errors] : tally.errors) {
         fmt::print("| {} | {} | {} | {:.4f} | {:.4f} | {} | {} |\n", kind.title, errors.count, key,
                    errors.rms(), errors.largest, errors.normalised_text(),
@@ -265,7 +264,7 @@ void print_parameters(const Kind& kind, const Tally& tally) {
     std::fflush(stdout);
 }
 
-void print_use(const Kind& kind, const Tally& tally) {
+void print_use(const CameraKind& kind, const LensTally& tally) {
     fmt::print("| {} | {} | {:.3f} | {:.3f} | {} | {:.2f} | {:.2f} | {:.2f} |\n", kind.title,
                tally.residual.count, tally.residual.mean(), tally.residual.largest,
                tally.located.count / 2, tally.located.rms(), tally.undistorted.rms(),
@@ -274,25 +273,24 @@ void print_use(const Kind& kind, const Tally& tally) {
 
 }  // namespace
 
-void measure_lenses(std::uint64_t small_cameras, std::uint64_t large_cameras,
-                    const Counting& counting) {
-    std::vector<Kind> kinds = {{"188 x 120 px, straight", small_camera()},
-                               {"188 x 120 px, mounted with a tilt", small_camera(), 25},
-                               {"188 x 120 px, by hand", small_camera(), 25, false},
-                               {"640 x 480 px, straight", large_camera()},
-                               {"640 x 480 px, mounted with a tilt", large_camera(), 25},
-                               {"640 x 480 px, by hand", large_camera(), 25, false}};
-    const auto count_of = [&](const Kind& kind) {
+void measure_lenses(std::uint64_t small_cameras, std::uint64_t large_cameras, const TableRun& run) {
+    std::vector<CameraKind> kinds = {{"188 x 120 px, straight", small_camera()},
+                                     {"188 x 120 px, mounted with a tilt", small_camera(), 25},
+                                     {"188 x 120 px, by hand", small_camera(), 25, false},
+                                     {"640 x 480 px, straight", large_camera()},
+                                     {"640 x 480 px, mounted with a tilt", large_camera(), 25},
+                                     {"640 x 480 px, by hand", large_camera(), 25, false}};
+    const auto count_of = [&](const CameraKind& kind) {
         return kind.camera.width_px == small_camera().width_px ? small_cameras : large_cameras;
     };
-    std::erase_if(kinds, [&](const Kind& kind) { return count_of(kind) == 0; });
+    std::erase_if(kinds, [&](const CameraKind& kind) { return count_of(kind) == 0; });
     if (kinds.empty()) return;
     fmt::print(
         "| camera | calibrations | parameter | error, rms | largest | error² / variance | bound "
         "|\n|---|--:|---|--:|--:|--:|--:|\n");
-    std::vector<Tally> tallies;
-    for (const Kind& kind : kinds) {
-        tallies.push_back(measure(kind, count_of(kind), counting));
+    std::vector<LensTally> tallies;
+    for (const CameraKind& kind : kinds) {
+        tallies.push_back(measure(kind, count_of(kind), run));
         print_parameters(kind, tallies.back());
     }
     fmt::print(
@@ -313,4 +311,4 @@ void measure_lenses(std::uint64_t small_cameras, std::uint64_t large_cameras,
     std::fflush(stdout);
 }
 
-}  // namespace dotpose
+}  // namespace dotpose::tables

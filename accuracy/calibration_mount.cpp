@@ -5,16 +5,15 @@
 #include <fmt/core.h>
 
 #include "../tests/unit/calibrate/frames.hpp"
-#include "calibration_measures.hpp"
-#include "calibration_tally.hpp"
+#include "calibration.hpp"
 #include "dotpose/tools/calibrate.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 namespace {
 
 using namespace calibrate_test;
 
-constexpr int kLensFrames = 20;
+constexpr int kFramesOfCamera = 20;
 constexpr int kSpinFrames = 12;
 constexpr int kSeamFrames = 200;
 /// Largest error of the print scale along each axis, as a share.
@@ -88,20 +87,20 @@ void stitch(const Table& table, const CameraModel& model, const Camera& camera, 
 
 Camera calibrated(const CameraModel& model, std::uint64_t seed) {
     const auto frame_at = [&](int i) { return nominal_frame(model, seed, i); };
-    return calibrate_lens(kLensFrames, frame_at, {}).camera;
+    return calibrate_lens(kFramesOfCamera, frame_at, {}).camera;
 }
 
 /// Calls `work(camera, model, seed, errors)` with the true camera file and with an estimated one.
 template <typename Work>
 void measure_both(const std::string& what, std::uint64_t count, const CameraModel& model,
-                  const Counting& counting, Work work) {
+                  const TableRun& run, Work work) {
     if (count == 0) return;
     print_head(what);
     for (const bool is_estimated : {false, true}) {
         const std::string title = is_estimated ? "calibrated from 20 frames" : "known";
-        const auto done = count_on_threads<ErrorTable>(
-            what, count, counting.threads, [&](std::uint64_t index, ErrorTable& errors) {
-                const std::uint64_t seed = scramble(counting.seed) + 1000 * index;
+        const auto done =
+            run.count<ErrorTable>(what, count, [&](std::uint64_t index, ErrorTable& errors) {
+                const std::uint64_t seed = scramble(run.seed) + 1000 * index;
                 const Camera camera =
                     is_estimated ? calibrated(model, seed + 500) : true_camera(model);
                 work(camera, model, seed, errors);
@@ -112,17 +111,17 @@ void measure_both(const std::string& what, std::uint64_t count, const CameraMode
 
 }  // namespace
 
-void measure_spins(std::uint64_t count, const Counting& counting) {
-    measure_both("spin: camera file", count, paper_camera(), counting, spin);
+void measure_spins(std::uint64_t count, const TableRun& run) {
+    measure_both("spin: camera file", count, paper_camera(), run, spin);
 }
 
-void measure_stitching(std::uint64_t count, const Counting& counting) {
+void measure_stitching(std::uint64_t count, const TableRun& run) {
     measure_both(
-        "four sheets: camera file", count, wide_camera(), counting,
+        "four sheets: camera file", count, wide_camera(), run,
         [](const Camera& camera, const CameraModel& model, std::uint64_t seed, ErrorTable& errors) {
             Rng rng(seed);
             stitch(draw_table(rng), model, camera, seed, errors);
         });
 }
 
-}  // namespace dotpose
+}  // namespace dotpose::tables

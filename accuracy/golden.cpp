@@ -2,14 +2,13 @@
 // simulated frames with every attempt and prints one line for each set and attempt: a checksum of
 // the pixels, a checksum of all integers of the fixes, and the number of frames that were located.
 //
-//   dotpose_golden [--threads N]
+//   dotpose_tables golden [--threads N]
 //
 // scripts/golden-frames compares the lines with accuracy/golden.txt. Covariances and residuals are
 // floating-point numbers that may differ between processors, and are left out.
 #include <array>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <string>
@@ -18,15 +17,13 @@
 #include <fmt/core.h>
 
 #include "../tests/limit_frames.hpp"
-#include "counting.hpp"
 #include "dotpose/code_evidence.hpp"
-#include "dotpose/locate.hpp"
+#include "tables.hpp"
 
+namespace dotpose::tables {
 namespace {
 
-using namespace dotpose;
-
-constexpr std::uint64_t kSeed = 2424;
+constexpr std::uint64_t kGoldenSeed = 2424;
 
 /// FNV-1a, 64 bits (Fowler, Noll and Vo).
 class Checksum {
@@ -74,38 +71,38 @@ void add(Checksum& sum, const Fix& fix) {
 }
 
 /// A frame and the frame after it, for which the fix of the first gives a prediction.
-struct Frames {
+struct FramePair {
     GreyImage image;
     GreyImage next;
     Options options;
 };
 
 /// A way to locate a frame.
-struct Way {
+struct GoldenWay {
     std::string name;
-    std::function<Fix(const Frames&, LargeMemory&)> locate;
+    std::function<Fix(const FramePair&, LargeMemory&)> locate;
 };
-constexpr std::size_t kMostWays = 5;
+constexpr std::size_t kMaxWays = 5;
 
 /// Frames that are drawn once and located in several ways.
-struct Set {
+struct GoldenSet {
     std::uint64_t frames = 0;
-    std::function<Frames(std::uint64_t)> frames_at;
-    std::vector<Way> ways;
+    std::function<FramePair(std::uint64_t)> frames_at;
+    std::vector<GoldenWay> ways;
 };
 
 /// Sums of checksums, which do not depend on the order of the frames.
-struct Tally {
+struct GoldenTally {
     struct Fixes {
         std::uint64_t checksum = 0;
         std::uint64_t located = 0;
     };
     std::uint64_t pixels = 0;
-    std::array<Fixes, kMostWays> fixes;  ///< indexed by the number of the way
+    std::array<Fixes, kMaxWays> fixes;  ///< indexed by the number of the way
 
-    Tally& operator+=(const Tally& other) {
+    GoldenTally& operator+=(const GoldenTally& other) {
         pixels += other.pixels;
-        for (std::size_t i = 0; i < kMostWays; ++i) {
+        for (std::size_t i = 0; i < kMaxWays; ++i) {
             fixes[i].checksum += other.fixes[i].checksum;
             fixes[i].located += other.fixes[i].located;
         }
@@ -113,8 +110,8 @@ struct Tally {
     }
 };
 
-void add(Tally& tally, const Set& set, std::uint64_t index) {
-    const Frames frames = set.frames_at(index);
+void add(GoldenTally& tally, const GoldenSet& set, std::uint64_t index) {
+    const FramePair frames = set.frames_at(index);
     Checksum pixels;
     pixels.add(static_cast<std::int64_t>(index));
     for (const GreyImage* image : {&frames.image, &frames.next}) {
@@ -144,20 +141,17 @@ Shot moved(Shot shot) {
     return shot;
 }
 
-std::function<Frames(std::uint64_t)> frames_of(Preset preset, int width_px, int height_px) {
-    Setup setup;
+std::function<FramePair(std::uint64_t)> frames_of(Preset preset, int width_px, int height_px) {
+    Setup setup = setup_of(kGoldenSeed, width_px, height_px);
     setup.preset = preset;
-    setup.seed = kSeed;
-    setup.camera.width_px = width_px;
-    setup.camera.height_px = height_px;
     return [setup](std::uint64_t index) {
         const Shot shot = draw_shot(setup, index);
-        return Frames{render(shot), render(moved(shot)), {}};
+        return FramePair{render(shot), render(moved(shot)), {}};
     };
 }
 
 auto with_effort(Effort effort) {
-    return [effort](const Frames& frames, LargeMemory& memory) {
+    return [effort](const FramePair& frames, LargeMemory& memory) {
         Options options = frames.options;
         options.effort = effort;
         return Locator(memory, options).locate(frames.image.view());
@@ -165,7 +159,7 @@ auto with_effort(Effort effort) {
 }
 
 auto tracked(Effort effort) {
-    return [effort](const Frames& frames, LargeMemory& memory) {
+    return [effort](const FramePair& frames, LargeMemory& memory) {
         Options options = frames.options;
         const Fix fix = Locator(memory, options).locate(frames.image.view());
         options.effort = effort;
@@ -174,12 +168,12 @@ auto tracked(Effort effort) {
     };
 }
 
-Fix in_any_code(const Frames& frames, LargeMemory& memory) {
+Fix in_any_code(const FramePair& frames, LargeMemory& memory) {
     return Locator(memory, frames.options).locate_in_any_code(frames.image.view(), {}).fix;
 }
 
-std::vector<Set> all_sets() {
-    std::vector<Set> sets{
+std::vector<GoldenSet> all_sets() {
+    std::vector<GoldenSet> sets{
         {200,
          frames_of(Preset::nominal, 188, 120),
          {{"nominal, one attempt", with_effort(Effort::once)},
@@ -199,36 +193,33 @@ std::vector<Set> all_sets() {
     };
     for (const test::Limit& limit : test::all_limits()) {
         const auto frames_at = [limit](std::uint64_t index) {
-            const Shot shot = test::shot_at(limit, kSeed, index);
-            return Frames{test::picture_of(limit, shot), {}, test::options_of(limit)};
+            const Shot shot = test::shot_at(limit, kGoldenSeed, index);
+            return FramePair{test::picture_of(limit, shot), {}, test::options_of(limit)};
         };
-        const Way twice{"limit: " + limit.condition, with_effort(Effort::twice)};
+        const GoldenWay twice{"limit: " + limit.condition, with_effort(Effort::twice)};
         sets.push_back({3, frames_at, {twice}});
     }
     return sets;
 }
 
-int run(unsigned threads) {
-    for (const Set& set : all_sets()) {
-        const auto count = count_on_threads<Tally>(
-            set.ways.front().name, set.frames, threads,
-            [&set](std::uint64_t index, Tally& tally) { add(tally, set, index); });
-        if (count.done < count.asked) return EXIT_FAILURE;
+}  // namespace
+
+bool golden_table(TableRun& run) {
+    run.add_threads();
+    if (!run.parse()) return true;
+    for (const GoldenSet& set : all_sets()) {
+        const auto count = run.count<GoldenTally>(
+            set.ways.front().name, set.frames,
+            [&set](std::uint64_t index, GoldenTally& tally) { add(tally, set, index); });
+        if (!count.is_complete()) return false;
         for (std::size_t i = 0; i < set.ways.size(); ++i) {
-            const Tally::Fixes& fixes = count.tally.fixes[i];
+            const GoldenTally::Fixes& fixes = count.tally.fixes[i];
             fmt::print("{:016x} {:016x} {} of {} located: {}\n", count.tally.pixels, fixes.checksum,
                        fixes.located, set.frames, set.ways[i].name);
         }
         std::fflush(stdout);
     }
-    return EXIT_SUCCESS;
+    return true;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    unsigned threads = Counting{}.threads;
-    cli::Command app("Checksums of frames and fixes, for scripts/golden-frames.", "dotpose_golden");
-    app.add_option("--threads", threads, "How many frames at once")->check(cli::Range(1, 256));
-    return run_program(app, argc, argv, [&] { return run(threads); });
-}
+}  // namespace dotpose::tables

@@ -2,37 +2,33 @@
 // with the frequency of wrong positions. Every frame is accepted, however doubtful, and counted by
 // its p_wrong.
 //
-//   dotpose_integrity [--grids N] [--doubtful N] [--frames N] [--seed S] [--threads N]
+//   dotpose_tables integrity [--grids N] [--doubtful N] [--frames N] [--seed S] [--threads N]
 //
 // Grids are bits with random errors that are given to the decoder directly. The errors are
 // independent of each other and the rarer the larger the weight, as in the model behind p_wrong.
 // Doubtful grids have so many errors that p_wrong is between 1e-3 and 1e-5, where counting can
 // refute it. Frames are rendered patterns with flipped bits, which `locate` reads. The exit status
-// is 1 if more positions are wrong than p_wrong allows. Ctrl-C ends the run and prints the counts
-// until then.
+// is 1 if more positions are wrong than p_wrong predicts. After Ctrl-C the tables have the cases
+// counted so far.
+#include "integrity.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include <fmt/core.h>
 
 #include "../tests/altered_pattern.hpp"
-#include "counting.hpp"
-#include "dotpose/locate.hpp"
-#include "integrity_grids.hpp"
+#include "tables.hpp"
 
+namespace dotpose::tables {
 namespace {
-
-using namespace dotpose;
 
 // ---- Frames ----
 
-void try_frame(std::uint64_t seed, std::uint64_t index, LargeMemory& memory, Tally& tally) {
+void try_flipped_frame(std::uint64_t seed, std::uint64_t index, IntegrityTally& tally) {
     Setup setup;
     setup.preset = Preset::clean;
     setup.seed = seed;
@@ -50,7 +46,7 @@ void try_frame(std::uint64_t seed, std::uint64_t index, LargeMemory& memory, Tal
     });
     Options options;
     options.integrity = kAcceptAll;
-    const Fix fix = Locator(memory, options).locate(image.view());
+    const Fix fix = Locator(thread_memory(), options).locate(image.view());
     if (fix.status != Status::ok) {
         ++tally.unread;
         return;
@@ -60,13 +56,13 @@ void try_frame(std::uint64_t seed, std::uint64_t index, LargeMemory& memory, Tal
     const bool is_right = std::abs(fix.x_grid() - x_grid(shot.pose)) < 1 &&
                           std::abs(fix.y_grid() - y_grid(shot.pose)) < 1 && std::abs(theta) < 0.2 &&
                           fix.section == pattern.section;
-    tally.add(fix.p_wrong_log2, is_right ? Wrong::none : Wrong::unrelated);
+    tally.add(fix.p_wrong_log2, !is_right);
 }
 
 // ---- Result ----
 
 /// Returns P(X <= count) for a Poisson variable X with this mean.
-double chance_of_as_few(std::uint64_t count, double mean) {
+double poisson_at_most(std::uint64_t count, double mean) {
     double sum = 0;
     for (std::uint64_t n = 0; n <= count; ++n) {
         const auto k = static_cast<double>(n);
@@ -76,8 +72,8 @@ double chance_of_as_few(std::uint64_t count, double mean) {
 }
 
 /// Returns P(X >= count) for a Poisson variable X with this mean.
-double chance_of_as_many(std::uint64_t count, double mean) {
-    return count == 0 || mean <= 0 ? 1 : 1 - chance_of_as_few(count - 1, mean);
+double poisson_at_least(std::uint64_t count, double mean) {
+    return count == 0 || mean <= 0 ? 1 : 1 - poisson_at_most(count - 1, mean);
 }
 
 /// Returns the upper 95 % confidence limit of a Poisson mean for this count.
@@ -86,7 +82,7 @@ double upper_limit(std::uint64_t count) {
     double high = 2 * low + 10;
     while (high - low > 1e-6 * high) {
         const double mean = (low + high) / 2;
-        (chance_of_as_few(count, mean) > 0.05 ? low : high) = mean;
+        (poisson_at_most(count, mean) > 0.05 ? low : high) = mean;
     }
     return high;
 }
@@ -94,24 +90,18 @@ double upper_limit(std::uint64_t count) {
 /// Whether the number of wrong positions is consistent with p_wrong, at a significance level of one
 /// in a thousand.
 bool holds(const Bin& bin) {
-    const std::uint64_t wrong = bin.all_wrong();
-    return static_cast<double>(wrong) <= bin.claimed ||
-           chance_of_as_many(wrong, bin.claimed) > 1e-3;
+    return static_cast<double>(bin.wrong) <= bin.predicted ||
+           poisson_at_least(bin.wrong, bin.predicted) > 1e-3;
 }
 
 /// Prints all values of p_wrong in classes of a factor of 8. Returns whether all are consistent.
-bool print(std::string_view title, const Tally& tally, bool with_kinds) {
+bool print(std::string_view title, const IntegrityTally& tally) {
     constexpr std::size_t kWidth_log2 = 3;
     constexpr std::size_t kLast = 34;  // this bin has all smaller values of p_wrong as well
     bool all_hold = true;
-    fmt::print("\n{} ({} not read{})\n{:>17} {:>9} {:>7} {:>10} {:>10}", title, tally.unread,
-               tally.passed_over > 0 ? fmt::format(", {} passed over", tally.passed_over) : "",
-               "p_wrong", "read", "wrong", "rate", "claimed");
-    if (with_kinds) {
-        for (const char* name : kWrongNames)
-            fmt::print(" {:>9}", name);
-    }
-    fmt::print("\n");
+    fmt::print("\n{} ({} not read{})\n{:>17} {:>9} {:>7} {:>10} {:>10}\n", title, tally.unread,
+               tally.skipped > 0 ? fmt::format(", {} skipped", tally.skipped) : "", "p_wrong",
+               "read", "wrong", "rate", "predicted");
     for (std::size_t from = 0; from <= kLast; from += from == 0 ? 1 : kWidth_log2) {
         const std::size_t to = from == 0       ? 0
                                : from == kLast ? tally.bins.size() - 1
@@ -123,13 +113,9 @@ bool print(std::string_view title, const Tally& tally, bool with_kinds) {
                                   : from == kLast ? fmt::format("up to {:.1e}", high)
                                                   : fmt::format("{:.1e}..{:.1e}", high / 4, high);
         const auto frames = static_cast<double>(bin.frames);
-        fmt::print("{:>17} {:>9} {:>7} {:>10.2e} {:>10.2e}", range, bin.frames, bin.all_wrong(),
-                   static_cast<double>(bin.all_wrong()) / frames, bin.claimed / frames);
-        if (with_kinds) {
-            for (const std::uint64_t n : bin.wrong)
-                fmt::print(" {:>9}", n);
-        }
-        fmt::print("{}\n", holds(bin) ? "" : "  MORE THAN CLAIMED");
+        fmt::print("{:>17} {:>9} {:>7} {:>10.2e} {:>10.2e}{}\n", range, bin.frames, bin.wrong,
+                   static_cast<double>(bin.wrong) / frames, bin.predicted / frames,
+                   holds(bin) ? "" : "  MORE THAN PREDICTED");
         all_hold &= holds(bin);
     }
     return all_hold;
@@ -137,72 +123,58 @@ bool print(std::string_view title, const Tally& tally, bool with_kinds) {
 
 /// Prints the values of p_wrong near 1e-3, 1e-4 and 1e-5, each in a class of three powers of two,
 /// with confidence limits of the true rate. Returns whether all are consistent.
-bool print_doubtful(const Tally& tally) {
+bool print_doubtful(const IntegrityTally& tally) {
     bool all_hold = true;
     fmt::print("\n{:>15} {:>9} {:>7} {:>10} {:>16} {:>13}\n", "p_wrong", "read", "wrong", "rate",
-               "95 % upper limit", "claimed, mean");
+               "95 % upper limit", "predicted");
     for (const std::size_t middle : {10U, 13U, 17U}) {
         const Bin bin = tally.sum(middle - 1, middle + 1);
         const auto frames = static_cast<double>(std::max<std::uint64_t>(bin.frames, 1));
-        const double limit = upper_limit(bin.all_wrong()) / frames;
-        const double claimed = bin.claimed / frames;
-        const char* verdict = !holds(bin)        ? "MORE THAN CLAIMED"
-                              : limit <= claimed ? "shown"
-                                                 : "too few to tell";
+        const double limit = upper_limit(bin.wrong) / frames;
+        const double predicted = bin.predicted / frames;
+        const char* verdict = !holds(bin)          ? "MORE THAN PREDICTED"
+                              : limit <= predicted ? "shown"
+                                                   : "too few to tell";
         fmt::print("{:>15} {:>9} {:>7} {:>10.2e} {:>16.2e} {:>13.2e}  {}\n",
-                   fmt::format("2^-{}..2^-{}", middle + 1, middle - 1), bin.frames, bin.all_wrong(),
-                   static_cast<double>(bin.all_wrong()) / frames, limit, claimed, verdict);
+                   fmt::format("2^-{}..2^-{}", middle + 1, middle - 1), bin.frames, bin.wrong,
+                   static_cast<double>(bin.wrong) / frames, limit, predicted, verdict);
         all_hold &= holds(bin);
     }
     return all_hold;
 }
 
-struct Arguments {
-    Counting counting;
+}  // namespace
+
+bool integrity_table(TableRun& run) {
     std::uint64_t grids = 200'000;
     std::uint64_t doubtful = 200'000;
     std::uint64_t frames = 4'000;
-};
+    run.add_count("--grids", grids, "Grids with errors of all rates");
+    run.add_count("--doubtful", doubtful, "Grids whose p_wrong is near 1e-3 to 1e-5");
+    run.add_count("--frames", frames, "Rendered frames");
+    run.add_seed();
+    run.add_threads();
+    if (!run.parse()) return true;
 
-int run(const Arguments& arguments) {
-    const std::uint64_t seed = arguments.counting.seed;
-    const unsigned threads = arguments.counting.threads;
-    const auto count_grids = [&](const char* what, GridKind kind, std::uint64_t count) {
-        return count_on_threads<Tally>(what, count, threads, [&](std::uint64_t i, Tally& tally) {
-            try_grid(kind, seed, i, tally);
+    using Counted = Count<IntegrityTally>;
+    const auto count_grids = [&](const char* what, GridKind kind, std::uint64_t count) -> Counted {
+        return run.count<IntegrityTally>(what, count, [&](std::uint64_t i, IntegrityTally& tally) {
+            try_grid(kind, run.seed, i, tally);
         });
     };
-    const Count<Tally> grids = count_grids("grids", GridKind::any, arguments.grids);
-    const Count<Tally> doubtful =
-        count_grids("doubtful grids", GridKind::doubtful, arguments.doubtful);
-    const Count<Tally> frames = count_on_threads<Tally>(
-        "frames", arguments.frames, threads, [&](std::uint64_t i, Tally& tally) {
-            thread_local const auto kMemory = std::make_unique<LargeMemory>();
-            try_frame(seed, i, *kMemory, tally);
-        });
-    bool all_hold = print("Grids of 8 to 13 lines", grids.tally, true);
-    all_hold &= print("Doubtful grids of 8 to 13 lines", doubtful.tally, true);
-    all_hold &= print_doubtful(doubtful.tally);
-    all_hold &= print("Rendered frames of 188 x 120 px", frames.tally, false);
-    fmt::print("\nseed {}, {} threads\n", seed, threads);
-    bool all_done = true;
-    for (const auto& [what, count] :
-         {std::pair{"grids", &grids}, {"doubtful grids", &doubtful}, {"frames", &frames}}) {
-        fmt::print("{}\n", speed_line(what, count->asked, count->done, count->seconds));
-        all_done &= count->done == count->asked;
-    }
-    return all_hold && all_done ? EXIT_SUCCESS : EXIT_FAILURE;
+    const Counted any = count_grids("grids", GridKind::any, grids);
+    const Counted near = count_grids("doubtful grids", GridKind::doubtful, doubtful);
+    const Counted rendered = run.count<IntegrityTally>(
+        "frames", frames,
+        [&](std::uint64_t i, IntegrityTally& tally) { try_flipped_frame(run.seed, i, tally); });
+    bool all_hold = print("Grids of 8 to 13 lines", any.tally);
+    all_hold &= print("Doubtful grids of 8 to 13 lines", near.tally);
+    all_hold &= print_doubtful(near.tally);
+    all_hold &= print("Rendered frames of 188 x 120 px", rendered.tally);
+    fmt::print("\nseed {}, {} threads\n{}\n{}\n{}\n", run.seed, run.threads,
+               any.speed_text("grids"), near.speed_text("doubtful grids"),
+               rendered.speed_text("frames"));
+    return all_hold && any.is_complete() && near.is_complete() && rendered.is_complete();
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    Arguments arguments;
-    cli::Command app("Is p_wrong what it claims to be? Status 1 if more is wrong than claimed.",
-                     "dotpose_integrity");
-    add_count(app, "--grids", arguments.grids, "Grids with errors of all rates");
-    add_count(app, "--doubtful", arguments.doubtful, "Grids whose p_wrong is near 1e-3 to 1e-5");
-    add_count(app, "--frames", arguments.frames, "Rendered frames");
-    arguments.counting.add_to(app);
-    return run_program(app, argc, argv, [&] { return run(arguments); });
-}
+}  // namespace dotpose::tables

@@ -1,4 +1,6 @@
-#include "integrity_grids.hpp"
+#include <array>
+#include <cmath>
+#include <cstdlib>
 
 #include "core/decode/nominal.hpp"
 #include "core/decode/position.hpp"
@@ -7,8 +9,9 @@
 #include "core/integrity/confidence.hpp"
 #include "core/integrity/verify.hpp"
 #include "dotpose/tools/random.hpp"
+#include "integrity.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 namespace {
 
 constexpr int kMaxSide = 16;
@@ -35,14 +38,14 @@ GridCell cell_of(Turn turn, int x, int y) {
 struct Noise {
     double odds_log2;  ///< log2 of the odds that a bit of full weight is right
     double missing;    ///< share of the cells that have no dot
-    int least_weight;
+    int min_weight;
 
     double chance_of_error(int weight) const {
         return 1 / (1 + std::exp2(odds_log2 * weight / 127));
     }
     int read(int bit, Rng& rng) const {
-        const int range = 127 - least_weight + 1;
-        const int weight = least_weight + static_cast<int>(rng.below(static_cast<unsigned>(range)));
+        const int range = 127 - min_weight + 1;
+        const int weight = min_weight + static_cast<int>(rng.below(static_cast<unsigned>(range)));
         const bool is_wrong = rng.uniform() < chance_of_error(weight);
         return (bit == 1) != is_wrong ? weight : -weight;
     }
@@ -55,9 +58,9 @@ struct Noise {
     /// Returns the mean information over all cells.
     double information() const {
         double sum = 0;
-        for (int weight = least_weight; weight <= 127; ++weight)
+        for (int weight = min_weight; weight <= 127; ++weight)
             sum += information(weight);
-        return (1 - missing) * sum / (127 - least_weight + 1);
+        return (1 - missing) * sum / (127 - min_weight + 1);
     }
 };
 
@@ -66,9 +69,9 @@ struct Noise {
 /// that, p_wrong is about 2^-13.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
-    constexpr double kMostOdds_log2 = 12;
+    constexpr double kMaxOdds_log2 = 12;
     noise.odds_log2 = 0;
-    for (double step = kMostOdds_log2 / 2; step > 0.01; step /= 2) {
+    for (double step = kMaxOdds_log2 / 2; step > 0.01; step /= 2) {
         noise.odds_log2 += step;
         if (cells * noise.information() > wanted_bits) noise.odds_log2 -= step;
     }
@@ -118,65 +121,21 @@ void draw(GridKind kind, Rng& rng, Reading& reading) {
     }
 }
 
-/// Position of the first of several parallel lines, and of the first line that crosses them.
-struct AxisPlace {
-    std::uint32_t position;
-    int section;
-    std::uint32_t cross;
-};
-
-/// Returns the rolls of `count` lines.
-std::array<int, kMaxSide> rolls_of(Profile profile, const AxisPlace& place, int count) {
-    std::array<int, kMaxSide> rolls{};
-    std::uint32_t position = place.position;
-    int here = roll(profile, position) + place.section + static_cast<int>(place.cross % kSections);
-    for (int i = 0; i < count; ++i) {
-        rolls[static_cast<std::size_t>(i)] = here % kSections;
-        here += delta(profile, position);
-        position = position + 1 == kPositionsPerAxis ? 0 : position + 1;
+/// Whether all cells of the grid have the same symbols at the decoded place as at the true one.
+bool is_right(const Reading& reading, const Decoding& decoding) {
+    if (decoding.pattern_from_grid.quarters != reading.turn.quarters) return false;
+    const core::Grid& grid = reading.grid;
+    const auto symbol = [&](const Place& place, int i, int j) {
+        const Vec step = reading.turn({i, j});
+        const Place at = moved(reading.profile, place, step.x, step.y);
+        return symbol_at(reading.profile, at.cell, at.section);
+    };
+    for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
+        for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
+            if (symbol(decoding.place, i, j) != symbol(reading.place, i, j)) return false;
+        }
     }
-    return rolls;
-}
-
-Wrong kind_on_axis(Profile profile, const AxisPlace& found, const AxisPlace& real, int count) {
-    const auto a = rolls_of(profile, found, count);
-    const auto b = rolls_of(profile, real, count);
-    int shared = 0;
-    int longest = 0;
-    int run = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        run = a[i] == b[i] ? run + 1 : 0;
-        shared += a[i] == b[i];
-        longest = std::max(longest, run);
-    }
-    if (shared == count) return Wrong::none;
-    if (found.position == real.position) return Wrong::section;
-    if (longest >= 5) return Wrong::near;
-    int different = 0;
-    for (const unsigned length : {236u, 233u, 31u, 241u})
-        different += found.position % length != real.position % length;
-    if (different == 1) return Wrong::single;
-    return shared > 0 ? Wrong::far : Wrong::unrelated;
-}
-
-Wrong kind_of_error(const Reading& reading, const Decoding& decoding) {
-    const Place& found = decoding.place;
-    const Place& real = reading.place;
-    if (decoding.pattern_from_grid.quarters != reading.turn.quarters) return Wrong::unrelated;
-    if (found == real) return Wrong::none;
-    // The two positions are compared by the columns and rows in view.
-    const Vec a = reading.turn({reading.grid.i0, reading.grid.j0});
-    const Vec b = reading.turn(
-        {reading.grid.i0 + reading.grid.columns - 1, reading.grid.j0 + reading.grid.rows - 1});
-    const Vec corner{std::min(a.x, b.x), std::min(a.y, b.y)};
-    const Vec size{std::abs(a.x - b.x) + 1, std::abs(a.y - b.y) + 1};
-    const Place f = moved(reading.profile, found, corner.x, corner.y);
-    const Place r = moved(reading.profile, real, corner.x, corner.y);
-    const Wrong x = kind_on_axis(reading.profile, {f.cell.x, f.section.u, f.cell.y},
-                                 {r.cell.x, r.section.u, r.cell.y}, size.x);
-    if (x != Wrong::none) return x;
-    return kind_on_axis(reading.profile, {f.cell.y, f.section.v, f.cell.x},
-                        {r.cell.y, r.section.v, r.cell.x}, size.y);
+    return true;
 }
 
 /// Returns the information of a reading's bits per axis, with the odds that `verify` estimates for
@@ -210,7 +169,7 @@ bool looks_doubtful(const core::Grid& grid, const Decoding& decoding,
 
 }  // namespace
 
-void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, Tally& tally) {
+void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityTally& tally) {
     Rng rng(seed, index);
     Reading reading;
     draw(kind, rng, reading);
@@ -224,7 +183,7 @@ void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, Tally& tal
     }
     const core::Nominal nominal(reading.grid, reading.profile, decoding);
     if (kind == GridKind::doubtful && !looks_doubtful(reading.grid, decoding, nominal)) {
-        ++tally.passed_over;
+        ++tally.skipped;
         return;
     }
     Fix fix;
@@ -234,6 +193,6 @@ void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, Tally& tal
         ++tally.unread;
         return;
     }
-    tally.add(fix.p_wrong_log2, kind_of_error(reading, decoding));
+    tally.add(fix.p_wrong_log2, !is_right(reading, decoding));
 }
-}  // namespace dotpose
+}  // namespace dotpose::tables

@@ -1,77 +1,56 @@
-// Counts what `locate` makes of right and wrong predictions.
+// Counts the results of `locate` for right and wrong predictions.
 //
-//   dotpose_tracked [--part NAME] [--frames N] [--predictions N] [--seed S] [--document FILE]
+//   dotpose_tables tracked [--part NAME] [--frames N] [--predictions N] [--seed S]
+//                          [--update docs/tracking.md]
 //
 // Prints four tables: drives that are tracked, predictions that are off, frames that change, and
-// wrong predictions by class. The exit status is 1 if any fix is wrong. Ctrl-C ends the run and
-// prints the tables until then.
-#include <cstdlib>
-#include <functional>
+// wrong predictions by class. The exit status is 1 if any fix is wrong. After Ctrl-C the
+// tables have the frames located so far.
+#include "tracked.hpp"
+
 #include <string>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "../apps/dotpose/choices.hpp"
-#include "../reports/document.hpp"
-#include "counting.hpp"
-#include "tracked_drives.hpp"
-#include "tracked_frames.hpp"
-#include "tracked_wrong.hpp"
+#include "tables.hpp"
 
-namespace dotpose {
-namespace {
+namespace dotpose::tables {
 
-struct Arguments {
-    Counting counting;
+bool tracked_table(TableRun& run) {
+    std::vector<std::string> parts = {"drives", "offsets", "changes", "wrong"};
     std::uint64_t frames = 1000;
     std::uint64_t predictions = 1'000'000;
-    std::vector<std::string> parts = {"drives", "offsets", "changes", "wrong"};
-    std::string document;
-};
+    run.command
+        .add_option("--part", parts,
+                    "Only this table, given once or more: " + cli::alternatives(parts))
+        ->check(cli::one_of(parts));
+    run.add_count("--frames", frames, "Frames of the parts offsets and changes");
+    run.add_count("--predictions", predictions,
+                  "Wrong predictions, divided evenly among their classes");
+    run.add_update();
+    run.add_seed();
+    run.add_threads();
+    if (!run.parse()) return true;
 
-TrackedTable table_of(const std::string& part, const Arguments& arguments) {
-    if (part == "drives") return drives_table(arguments.counting);
-    if (part == "offsets") return offsets_table(arguments.counting, arguments.frames);
-    if (part == "changes") return changes_table(arguments.counting, arguments.frames);
-    return wrong_predictions_table(arguments.counting, arguments.predictions);
-}
-
-int run(const Arguments& arguments) {
-    // A document that cannot be read is reported before the measurement, not an hour later.
-    if (!arguments.document.empty()) read_document(arguments.document);
-    Blocks blocks;
+    const auto table_of = [&](const std::string& part) {
+        if (part == "drives") return drives_table(run);
+        if (part == "offsets") return offsets_table(run, frames);
+        if (part == "changes") return changes_table(run, frames);
+        return wrong_predictions_table(run, predictions);
+    };
     std::uint64_t wrong = 0;
     bool is_complete = true;
-    for (const std::string& part : arguments.parts) {
-        const TrackedTable table = table_of(part, arguments);
-        fmt::print("{}\n", table.text);
-        std::fflush(stdout);
-        blocks.push_back({"tracked-" + part, table.text});
+    for (const std::string& part : parts) {
+        const TrackedTable table = table_of(part);
+        run.print_block("tracked-" + part, table.text);
         wrong += table.wrong;
         is_complete = is_complete && table.is_complete;
     }
-    fmt::print("seed {}: {} wrong\n", arguments.counting.seed, wrong);
-    if (!is_complete) return EXIT_FAILURE;
-    if (!arguments.document.empty()) update_document(arguments.document, blocks);
-    return wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    fmt::print("seed {}: {} wrong\n", run.seed, wrong);
+    if (is_complete) run.update_document();
+    return is_complete && wrong == 0;
 }
 
-}  // namespace
-}  // namespace dotpose
-
-int main(int argc, char** argv) {
-    using namespace dotpose;
-    Arguments arguments;
-    cli::Command app("What becomes of predictions? Status 1 if any fix is wrong.",
-                     "dotpose_tracked");
-    app.add_option("--part", arguments.parts,
-                   "Only this table, given once or more: " + cli::alternatives(arguments.parts))
-        ->check(cli::one_of(arguments.parts));
-    add_count(app, "--frames", arguments.frames, "Frames that are off, and that change");
-    add_count(app, "--predictions", arguments.predictions,
-              "Wrong predictions, evenly over their classes");
-    app.add_option("--document", arguments.document, "Document whose tables are to be replaced");
-    arguments.counting.add_to(app);
-    return run_program(app, argc, argv, [&] { return run(arguments); });
-}
+}  // namespace dotpose::tables

@@ -1,25 +1,22 @@
-#include "tracked_drives.hpp"
-
 #include <array>
-#include <string>
+#include <cmath>
 
 #include <fmt/core.h>
 
-#include "../tests/drive_errors.hpp"
-#include "../tests/temporary_directory.hpp"
-#include "dotpose/tools/follower.hpp"
+#include "drive_run.hpp"
+#include "tracked.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 namespace {
 
 /// A drive at some speed, of whose 200 frames per second every n-th is taken.
-struct DriveKind {
+struct DriveRate {
     double speed_mm_s;
     int every;
 };
-constexpr std::array kDrives{DriveKind{0, 1},   DriveKind{30, 1},  DriveKind{100, 1},
-                             DriveKind{300, 1}, DriveKind{300, 2}, DriveKind{300, 4},
-                             DriveKind{100, 4}, DriveKind{30, 8}};
+constexpr std::array kDrives{DriveRate{0, 1},   DriveRate{30, 1},  DriveRate{100, 1},
+                             DriveRate{300, 1}, DriveRate{300, 2}, DriveRate{300, 4},
+                             DriveRate{100, 4}, DriveRate{30, 8}};
 
 /// Results of a drive.
 struct DriveTally {
@@ -64,42 +61,30 @@ void count(const Located& located, const test::DriveState& truth, TrackedTally& 
     if (is_tracked) tally.errors_um.push_back(1000 * error_mm);
 }
 
-void follow(const DriveKind& kind, const std::string& sheets, DriveTally& tally) {
+void follow(const DriveRate& rate, DriveTally& tally) {
     const CameraModel camera;
-    const test::DriveCamera drive_camera(camera.width_px, camera.height_px);
-    const test::Drive drive({.speed_mm_s = kind.speed_mm_s});
-    FollowerOptions options;
-    options.sheets = read_sheets(sheets);
-    options.locate.show_stages = true;  // as `dotpose watch` does
-    options.track.max_speed_mm_s = 400;
-    Follower follower(options);
     constexpr int kSettled = 3;
     int since_put_down = 0;
-    for (int index = 0; index < drive.frames() && !cli::interrupted(); index += kind.every) {
-        const GreyImage image = drive_camera.frame(drive, index);
-        const auto time_us = std::llround(index * 1e6 / test::kDriveFps);
-        const test::DriveState truth = drive.at(index);
-        const Located located = follower.follow(image.view(), time_us).located;
+    const auto take = [&](int, const test::DriveState& truth, const Followed& now) {
         if (truth.is_lifted) {
             since_put_down = 0;
             // A fix of a lifted robot is wrong; frames without a fix are not counted.
-            if (located.fix.status == Status::ok) count(located, truth, tally.seen);
-            continue;
+            if (now.located.fix.status == Status::ok) count(now.located, truth, tally.seen);
+            return;
         }
-        count(located, truth, tally.seen);
-        if (++since_put_down >= kSettled) count(located, truth, tally.settled);
-    }
+        count(now.located, truth, tally.seen);
+        if (++since_put_down >= kSettled) count(now.located, truth, tally.settled);
+    };
+    follow_drive(test::Drive({.speed_mm_s = rate.speed_mm_s}),
+                 test::DriveCamera(camera.width_px, camera.height_px), rate.every, take);
 }
 
 }  // namespace
 
-TrackedTable drives_table(const Counting& counting) {
-    const test::TemporaryDirectory directory;
-    const std::string sheets = (directory.path() / "sheets.json").string();
-    test::save_drive_sheets(sheets);
-    const auto counted = count_on_threads<DriveTallies>(
-        "drives", kDrives.size(), counting.threads,
-        [&](std::uint64_t i, DriveTallies& mine) { follow(kDrives[i], sheets, mine.drives[i]); });
+TrackedTable drives_table(const TableRun& run) {
+    const auto counted = run.count<DriveTallies>(
+        "drives", kDrives.size(),
+        [](std::uint64_t i, DriveTallies& tally) { follow(kDrives[i], tally.drives[i]); });
     TrackedTable table;
     table.text =
         "| speed, mm/s | frames/s | frames | tracked, % | of those from the third on, % | no fix "
@@ -113,8 +98,8 @@ TrackedTable drives_table(const Counting& counting) {
             settled.percent(settled.tracked), seen.none, seen.wrong(), seen.errors());
         table.wrong += seen.wrong();
     }
-    table.is_complete = counted.done == counted.asked;
+    table.is_complete = counted.is_complete();
     return table;
 }
 
-}  // namespace dotpose
+}  // namespace dotpose::tables

@@ -1,21 +1,18 @@
-#include "tracked_frames.hpp"
-
+#include <algorithm>
 #include <array>
-#include <memory>
+#include <cmath>
+#include <numbers>
+#include <optional>
 
 #include <fmt/core.h>
 
 #include "../tests/adversarial_textures.hpp"
+#include "tracked.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 namespace {
 
 constexpr double kBam_per_degree = 4294967296.0 / 360;
-
-LargeMemory& memory() {
-    thread_local const auto kMemory = std::make_unique<LargeMemory>();
-    return *kMemory;
-}
 
 /// The error of a prediction.
 struct Offset {
@@ -40,9 +37,9 @@ Prediction displaced(const Fix& fix, const Offset& offset, Rng& rng) {
         fix.pattern_from_image.centre_q8);
 }
 
-Setup nominal(const Counting& counting) {
+Setup nominal(std::uint64_t seed) {
     Setup setup;
-    setup.seed = counting.seed;
+    setup.seed = seed;
     return setup;
 }
 
@@ -50,7 +47,7 @@ Setup nominal(const Counting& counting) {
 /// prediction.
 void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     const GreyImage image = render(shot);
-    const Fix fresh = Locator(memory()).locate(image.view());
+    const Fix fresh = Locator(thread_memory()).locate(image.view());
     if (fresh.status != Status::ok) return;
     const TrueView truth = TrueView::of(shot);
     ++tallies[0].afresh;
@@ -58,80 +55,56 @@ void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     Rng rng(shot.seed, 77);
     for (std::size_t i = 0; i < kOffsets.size(); ++i) {
         const Prediction prediction = displaced(fresh, kOffsets[i], rng);
-        tallies[i + 1].count(Locator(memory()).locate(image.view(), prediction), truth);
+        tallies[i + 1].count(Locator(thread_memory()).locate(image.view(), prediction), truth);
     }
+}
+
+void drive_on(Shot& shot, const Shot&, Rng& rng) {
+    const double direction = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    const double way = rng.uniform(0, 0.5);
+    constexpr double kMax_rad = 2 * std::numbers::pi / 180;
+    shot.pose.fraction_x += way * std::cos(direction);
+    shot.pose.fraction_y += way * std::sin(direction);
+    shot.pose.theta_rad += rng.uniform(-kMax_rad, kMax_rad);
+}
+
+void change_light(Shot& shot, const Shot&, Rng& rng) {
+    double& level = shot.imperfections.paper_level;
+    level = std::min(level * rng.uniform(0.5, 1.5), 255.0);
+}
+
+void cover(Shot& shot, const Shot&, Rng& rng) {
+    shot.imperfections.graphics = 1 + static_cast<int>(rng.below(3));
+    shot.imperfections.dirt_blobs = static_cast<int>(rng.below(12));
+}
+
+void shade(Shot& shot, const Shot&, Rng& rng) {
+    shot.imperfections.fall = rng.uniform(0.3, 1);
+    shot.imperfections.fall_direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+}
+
+void turn(Shot& shot, const Shot&, Rng& rng) {
+    shot.pose.theta_rad +=
+        rng.uniform(std::numbers::pi / 18, std::numbers::pi) * (rng.below(2) == 0 ? 1 : -1);
 }
 
 /// The change between the first and the second frame.
-enum class Change : std::uint8_t {
-    nothing,
-    driven,
-    light,
-    covered,
-    shaded,
-    lifted,
-    turned,
-    elsewhere,
+struct Change {
+    const char* text;
+    /// Makes the first shot the second one; `other` is on another sheet. Null if the camera is
+    /// lifted.
+    void (*apply)(Shot& shot, const Shot& other, Rng& rng);
 };
-constexpr std::array kChanges{Change::nothing, Change::driven, Change::light,  Change::covered,
-                              Change::shaded,  Change::lifted, Change::turned, Change::elsewhere};
-
-const char* text_of(Change change) {
-    constexpr std::array<const char*, kChanges.size()> kTexts = {
-        "nothing but noise",
-        "driven on by up to 0.5 spacing, turned by up to 2 degrees",
-        "light of 0.5 to 1.5 times as much",
-        "graphics and dirt came into view",
-        "a light that falls off to one side",
-        "lifted: nothing in focus",
-        "turned by 10 to 180 degrees",
-        "put on another sheet"};
-    return kTexts[static_cast<std::size_t>(change)];
-}
-
-void drive_on(Shot& shot, Rng& rng) {
-    const double direction = rng.uniform(-std::numbers::pi, std::numbers::pi);
-    const double way = rng.uniform(0, 0.5);
-    constexpr double kMost_rad = 2 * std::numbers::pi / 180;
-    shot.pose.fraction_x += way * std::cos(direction);
-    shot.pose.fraction_y += way * std::sin(direction);
-    shot.pose.theta_rad += rng.uniform(-kMost_rad, kMost_rad);
-}
-
-/// Returns the second frame. Its noise differs from that of the first; printing errors of the dots
-/// are the same.
-Shot changed(Change change, const Shot& first, const Shot& other, Rng& rng) {
-    Shot shot = first;
-    shot.seed = rng.bits();
-    Imperfections& seen = shot.imperfections;
-    constexpr double kBrightest = 255;
-    switch (change) {
-        case Change::nothing:
-        case Change::lifted:
-            break;
-        case Change::driven:
-            drive_on(shot, rng);
-            break;
-        case Change::light:
-            seen.paper_level = std::min(seen.paper_level * rng.uniform(0.5, 1.5), kBrightest);
-            break;
-        case Change::covered:
-            seen.graphics = 1 + static_cast<int>(rng.below(3));
-            seen.dirt_blobs = static_cast<int>(rng.below(12));
-            break;
-        case Change::shaded:
-            seen.fall = rng.uniform(0.3, 1);
-            seen.fall_direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
-            break;
-        case Change::turned:
-            shot.pose.theta_rad +=
-                rng.uniform(std::numbers::pi / 18, std::numbers::pi) * (rng.below(2) == 0 ? 1 : -1);
-            break;
-        case Change::elsewhere:
-            return other;
-    }
-    return shot;
-}
+constexpr std::array kChanges{
+    Change{"nothing but noise", [](Shot&, const Shot&, Rng&) {}},
+    Change{"driven on by up to 0.5 spacing, turned by up to 2 degrees", drive_on},
+    Change{"light of 0.5 to 1.5 times as much", change_light},
+    Change{"graphics and dirt came into view", cover},
+    Change{"a light that falls off to one side", shade},
+    Change{"lifted: nothing in focus", nullptr},
+    Change{"turned by 10 to 180 degrees", turn},
+    Change{"put on another sheet", [](Shot& shot, const Shot& other, Rng&) { shot = other; }},
+};
 
 /// Returns the frame of a lifted camera, which is out of focus.
 GreyImage nothing_in_focus(const Shot& shot, Rng& rng) {
@@ -139,32 +112,31 @@ GreyImage nothing_in_focus(const Shot& shot, Rng& rng) {
         shot, [&](int, int) { return 120 + shot.imperfections.noise_sigma * rng.normal(); });
 }
 
-void try_changes(const Counting& counting, std::uint64_t index, TrackedTallies& tallies) {
-    const Setup setup = nominal(counting);
+void try_changes(const Setup& setup, std::uint64_t index, TrackedTallies& tallies) {
     const Shot first = draw_shot(setup, 2 * index);
     const Shot other = draw_shot(setup, 2 * index + 1);
-    const GreyImage image = render(first);
-    const Fix seen = Locator(memory()).locate(image.view());
+    const Fix seen = Locator(thread_memory()).locate(render(first).view());
     if (seen.status != Status::ok) return;
     Rng rng(first.seed, 78);
-    for (const Change change : kChanges) {
-        const Shot shot = changed(change, first, other, rng);
-        const bool is_lifted = change == Change::lifted;
+    for (std::size_t i = 0; i < kChanges.size(); ++i) {
+        const bool is_lifted = kChanges[i].apply == nullptr;
+        // The noise of the second frame differs; the printing errors of the dots are the same.
+        Shot shot = first;
+        shot.seed = rng.bits();
+        if (!is_lifted) kChanges[i].apply(shot, other, rng);
         const GreyImage next = is_lifted ? nothing_in_focus(shot, rng) : render(shot);
-        tallies[static_cast<std::size_t>(change)].count(
-            Locator(memory()).locate(next.view(), Prediction::like(seen)),
-            is_lifted ? std::nullopt : std::optional(TrueView::of(shot)));
+        tallies[i].count(Locator(thread_memory()).locate(next.view(), Prediction::like(seen)),
+                         is_lifted ? std::nullopt : std::optional(TrueView::of(shot)));
     }
 }
 
 }  // namespace
 
-TrackedTable offsets_table(const Counting& counting, std::uint64_t frames) {
-    const auto count =
-        count_on_threads<TrackedTallies>("predictions that are off", frames, counting.threads,
-                                         [&](std::uint64_t i, TrackedTallies& mine) {
-                                             try_offsets(draw_shot(nominal(counting), i), mine);
-                                         });
+TrackedTable offsets_table(const TableRun& run, std::uint64_t frames) {
+    const auto count = run.count<TrackedTallies>(
+        "predictions that are off", frames, [&](std::uint64_t i, TrackedTallies& tallies) {
+            try_offsets(draw_shot(nominal(run.seed), i), tallies);
+        });
     TrackedTable table;
     table.text =
         "| prediction off by, spacings | degrees | frames | tracked, % | afresh, % | no fix | "
@@ -182,29 +154,30 @@ TrackedTable offsets_table(const Counting& counting, std::uint64_t frames) {
                         tally.wrong(), tally.errors());
     }
     table.wrong = tallies.wrong();
-    table.is_complete = count.done == count.asked;
+    table.is_complete = count.is_complete();
     return table;
 }
 
-TrackedTable changes_table(const Counting& counting, std::uint64_t frames) {
-    const auto count = count_on_threads<TrackedTallies>(
-        "frames that change", frames, counting.threads,
-        [&](std::uint64_t i, TrackedTallies& mine) { try_changes(counting, i, mine); });
+TrackedTable changes_table(const TableRun& run, std::uint64_t frames) {
+    const auto count = run.count<TrackedTallies>("frames that change", frames,
+                                                 [&](std::uint64_t i, TrackedTallies& tallies) {
+                                                     try_changes(nominal(run.seed), i, tallies);
+                                                 });
     TrackedTable table;
     table.text =
         "| since the frame before | frames | tracked, % | afresh, % | no fix, % | wrong |\n"
         "|---|--:|--:|--:|--:|--:|\n";
     TrackedTallies tallies = count.tally;
-    for (const Change change : kChanges) {
-        const TrackedTally& tally = tallies[static_cast<std::size_t>(change)];
+    for (std::size_t i = 0; i < kChanges.size(); ++i) {
+        const TrackedTally& tally = tallies[i];
         table.text +=
-            fmt::format("| {} | {} | {:.1f} | {:.1f} | {:.1f} | {} |\n", text_of(change),
+            fmt::format("| {} | {} | {:.1f} | {:.1f} | {:.1f} | {} |\n", kChanges[i].text,
                         tally.all(), tally.percent(tally.tracked), tally.percent(tally.afresh),
                         tally.percent(tally.none), tally.wrong());
     }
     table.wrong = tallies.wrong();
-    table.is_complete = count.done == count.asked;
+    table.is_complete = count.is_complete();
     return table;
 }
 
-}  // namespace dotpose
+}  // namespace dotpose::tables

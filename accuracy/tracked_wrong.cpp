@@ -1,79 +1,16 @@
-#include "tracked_wrong.hpp"
-
 #include <array>
-#include <memory>
+#include <optional>
 
 #include <fmt/core.h>
 
 #include "../tests/adversarial_textures.hpp"
-#include "worst_alternative.hpp"
+#include "tracked.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 namespace {
 
-/// A class of wrong predictions, or of images for which every prediction is wrong.
-struct WrongClass {
-    const char* name;
-    /// Error of the prediction in cells, for the classes that have one.
-    int dx = 0;
-    int dy = 0;
-};
-
-enum Kind : std::size_t {
-    another_frame,
-    elsewhere,
-    far_on_one_axis,
-    one_x,
-    one_y,
-    one_both,
-    two_x,
-    two_y,
-    two_both,
-    section,
-    alternative_x,
-    alternative_y,
-    blank,
-    noise,
-    text,
-    halftone,
-    texture,
-    plain_grid,
-    random_symbols,
-    scattered,
-    mirrored,
-    kind_count,
-};
-constexpr std::array<WrongClass, kind_count> kClasses{{
-    {"another frame's"},
-    {"the same lattice, elsewhere in the code"},
-    {"the same, elsewhere on one axis"},
-    {"one cell off in x", 1, 0},
-    {"one cell off in y", 0, 1},
-    {"one cell off in both", 1, 1},
-    {"two cells off in x", 2, 0},
-    {"two cells off in y", 0, 2},
-    {"two cells off in both", 2, 2},
-    {"another section"},
-    {"the worst alternative in x"},
-    {"the worst alternative in y"},
-    {"right, but the paper is blank"},
-    {"right, but there is noise"},
-    {"right, but there is text"},
-    {"right, but there is a printed screen"},
-    {"right, but there is texture"},
-    {"right, but all dots are on their intersections"},
-    {"right, but the symbols are random"},
-    {"right, but the dots are scattered"},
-    {"right, but the pattern is seen from behind"},
-}};
-
-LargeMemory& memory_of_looks() {
-    thread_local const auto kMemory = std::make_unique<LargeMemory>();
-    return *kMemory;
-}
-
 /// A frame whose fix is right, and another frame.
-struct Views {
+struct LocatedPair {
     Shot shot;
     GreyImage image;
     Fix fix;
@@ -86,7 +23,9 @@ std::int32_t between(std::uint32_t from, std::uint32_t to) {
 
 /// Returns a prediction of the wrong position that shares the most of the 10 to 16 lines in the
 /// middle of the view, which shows 11 to 18 lines.
-Prediction alternative_of(const Fix& fix, bool is_along_x, Rng& rng) {
+template <bool is_along_x>
+Prediction worst(const LocatedPair& views, Rng& rng) {
+    const Fix& fix = views.fix;
     const std::int32_t before = 5 + static_cast<std::int32_t>(rng.below(4));
     Prediction prediction = Prediction::like(fix);
     const Place middle{fix.cell, fix.section};
@@ -98,91 +37,124 @@ Prediction alternative_of(const Fix& fix, bool is_along_x, Rng& rng) {
     return prediction;
 }
 
-Prediction predicted(std::size_t kind, const Views& views, Rng& rng) {
-    Prediction prediction = Prediction::like(kind == another_frame ? views.other_fix : views.fix);
-    Place& place = prediction.place;
-    const auto anywhere = [&rng] { return 100 + rng.below(kPositionsPerAxis - 200); };
-    const auto any_section = [&rng] { return static_cast<std::uint8_t>(rng.below(kSections)); };
-    switch (kind) {
-        case elsewhere:
-            place = {{anywhere(), anywhere()}, {any_section(), any_section()}};
-            break;
-        case far_on_one_axis:
-            (rng.below(2) == 0 ? place.cell.x : place.cell.y) = anywhere();
-            break;
-        case section: {
-            std::uint8_t& one = rng.below(2) == 0 ? place.section.u : place.section.v;
-            one = static_cast<std::uint8_t>((one + 1 + rng.below(kSections - 1)) % kSections);
-            break;
-        }
-        case alternative_x:
-        case alternative_y:
-            return alternative_of(views.fix, kind == alternative_x, rng);
-        default: {
-            const auto either = [&rng](int step) { return rng.below(2) == 0 ? step : -step; };
-            place =
-                moved(Profile::anoto, place, either(kClasses[kind].dx), either(kClasses[kind].dy));
-        }
-    }
+/// Returns a prediction that is displaced by some cells in random directions.
+Prediction displaced(const Fix& fix, int dx, int dy, Rng& rng) {
+    Prediction prediction = Prediction::like(fix);
+    const auto either = [&rng](int step) { return rng.below(2) == 0 ? step : -step; };
+    prediction.place = moved(Profile::anoto, prediction.place, either(dx), either(dy));
     return prediction;
 }
 
-/// Returns an image of the same camera without a valid code, on the same grid.
-GreyImage without_code(std::size_t kind, const Shot& shot, Rng& rng) {
-    switch (kind) {
-        case noise:
-            return test::detail::noise(shot, rng);
-        case text:
-            return render_scene(Scene::text, shot);
-        case halftone:
-            return test::detail::halftone(shot, rng);
-        case texture:
-            return test::detail::texture(shot, rng);
-        case plain_grid:
-            return render_scene(Scene::plain_grid, shot);
-        case random_symbols:
-            return render_scene(Scene::random_symbols, shot);
-        case scattered:
-            return render_scene(Scene::scattered_dots, shot, rng.uniform(0.1, 1));
-        case mirrored:
-            return render_scene(Scene::mirrored, shot);
-        default:
-            return render_scene(Scene::white, shot);
-    }
+template <int dx, int dy>
+Prediction displaced(const LocatedPair& views, Rng& rng) {
+    return displaced(views.fix, dx, dy, rng);
 }
 
-void try_all(const Counting& counting, std::uint64_t index, TrackedTallies& tallies) {
+Prediction from_other_frame(const LocatedPair& views, Rng& rng) {
+    return displaced(views.other_fix, 0, 0, rng);
+}
+
+std::uint32_t any_position(Rng& rng) {
+    return 100 + rng.below(kPositionsPerAxis - 200);
+}
+
+std::uint8_t any_section(Rng& rng) {
+    return static_cast<std::uint8_t>(rng.below(kSections));
+}
+
+Prediction elsewhere(const LocatedPair& views, Rng& rng) {
+    Prediction prediction = Prediction::like(views.fix);
+    prediction.place = {{any_position(rng), any_position(rng)},
+                        {any_section(rng), any_section(rng)}};
+    return prediction;
+}
+
+Prediction elsewhere_on_one_axis(const LocatedPair& views, Rng& rng) {
+    Prediction prediction = Prediction::like(views.fix);
+    Cell& cell = prediction.place.cell;
+    (rng.below(2) == 0 ? cell.x : cell.y) = any_position(rng);
+    return prediction;
+}
+
+Prediction in_another_section(const LocatedPair& views, Rng& rng) {
+    Prediction prediction = Prediction::like(views.fix);
+    Section& section = prediction.place.section;
+    std::uint8_t& one = rng.below(2) == 0 ? section.u : section.v;
+    one = static_cast<std::uint8_t>((one + 1 + rng.below(kSections - 1)) % kSections);
+    return prediction;
+}
+
+template <Scene scene>
+GreyImage image_of(const Shot& shot, Rng&) {
+    return render_scene(scene, shot);
+}
+
+GreyImage scattered_dots(const Shot& shot, Rng& rng) {
+    return render_scene(Scene::scattered_dots, shot, rng.uniform(0.1, 1));
+}
+
+/// A class of wrong predictions.
+struct WrongClass {
+    const char* name;
+    Prediction (*predict)(const LocatedPair& views, Rng& rng);
+    /// Draws an image of the same camera without a valid code, for which every prediction is wrong.
+    /// Null if the image is that of the shot.
+    GreyImage (*draw)(const Shot& shot, Rng& rng) = nullptr;
+};
+constexpr Prediction (*kRight)(const LocatedPair&, Rng&) = displaced<0, 0>;
+constexpr std::array kWrongClasses{
+    WrongClass{"another frame's", from_other_frame},
+    WrongClass{"the same lattice, elsewhere in the code", elsewhere},
+    WrongClass{"the same, elsewhere on one axis", elsewhere_on_one_axis},
+    WrongClass{"one cell off in x", displaced<1, 0>},
+    WrongClass{"one cell off in y", displaced<0, 1>},
+    WrongClass{"one cell off in both", displaced<1, 1>},
+    WrongClass{"two cells off in x", displaced<2, 0>},
+    WrongClass{"two cells off in y", displaced<0, 2>},
+    WrongClass{"two cells off in both", displaced<2, 2>},
+    WrongClass{"another section", in_another_section},
+    WrongClass{"the worst alternative in x", worst<true>},
+    WrongClass{"the worst alternative in y", worst<false>},
+    WrongClass{"right, but the paper is blank", kRight, image_of<Scene::white>},
+    WrongClass{"right, but there is noise", kRight, test::detail::noise},
+    WrongClass{"right, but there is text", kRight, image_of<Scene::text>},
+    WrongClass{"right, but there is a printed screen", kRight, test::detail::halftone},
+    WrongClass{"right, but there is texture", kRight, test::detail::texture},
+    WrongClass{"right, but all dots are on their intersections", kRight,
+               image_of<Scene::plain_grid>},
+    WrongClass{"right, but the symbols are random", kRight, image_of<Scene::random_symbols>},
+    WrongClass{"right, but the dots are scattered", kRight, scattered_dots},
+    WrongClass{"right, but the pattern is seen from behind", kRight, image_of<Scene::mirrored>},
+};
+
+void try_all(std::uint64_t seed, std::uint64_t index, TrackedTallies& tallies) {
     Setup setup;
-    setup.seed = counting.seed;
-    Views views;
+    setup.seed = seed;
+    LocatedPair views;
     views.shot = draw_shot(setup, 2 * index);
     const Shot other = draw_shot(setup, 2 * index + 1);
     views.image = render(views.shot);
     const GreyImage other_image = render(other);
-    views.fix = Locator(memory_of_looks()).locate(views.image.view());
-    views.other_fix = Locator(memory_of_looks()).locate(other_image.view());
+    views.fix = Locator(thread_memory()).locate(views.image.view());
+    views.other_fix = Locator(thread_memory()).locate(other_image.view());
     if (views.fix.status != Status::ok || views.other_fix.status != Status::ok) return;
     Rng rng(views.shot.seed, 79);
-    for (std::size_t kind = 0; kind < kind_count; ++kind) {
-        const Prediction prediction = predicted(kind, views, rng);
-        if (kind < blank) {
-            tallies[kind].count(Locator(memory_of_looks()).locate(views.image.view(), prediction),
-                                TrueView::of(views.shot));
-        } else {
-            const GreyImage image = without_code(kind, views.shot, rng);
-            tallies[kind].count(Locator(memory_of_looks()).locate(image.view(), prediction),
-                                std::nullopt);
-        }
+    for (std::size_t i = 0; i < kWrongClasses.size(); ++i) {
+        const auto& [name, predict, draw] = kWrongClasses[i];
+        const Prediction prediction = predict(views, rng);
+        const GreyImage image = draw == nullptr ? views.image : draw(views.shot, rng);
+        tallies[i].count(Locator(thread_memory()).locate(image.view(), prediction),
+                         draw == nullptr ? std::optional(TrueView::of(views.shot)) : std::nullopt);
     }
 }
 
 }  // namespace
 
-TrackedTable wrong_predictions_table(const Counting& counting, std::uint64_t predictions) {
-    const auto count = count_on_threads<TrackedTallies>(
-        "frames with wrong predictions", (predictions + kind_count - 1) / kind_count,
-        counting.threads,
-        [&](std::uint64_t i, TrackedTallies& mine) { try_all(counting, i, mine); });
+TrackedTable wrong_predictions_table(const TableRun& run, std::uint64_t predictions) {
+    const auto count = run.count<TrackedTallies>(
+        "frames with wrong predictions",
+        (predictions + kWrongClasses.size() - 1) / kWrongClasses.size(),
+        [&](std::uint64_t i, TrackedTallies& tallies) { try_all(run.seed, i, tallies); });
     TrackedTable table;
     table.text =
         "| the prediction is | predictions | wrong position, tracked | the right one, tracked | "
@@ -195,14 +167,14 @@ TrackedTable wrong_predictions_table(const Counting& counting, std::uint64_t pre
                                   tally.tracked_wrong, tally.tracked, tally.afresh, tally.none,
                                   tally.afresh_wrong);
     };
-    for (std::size_t kind = 0; kind < kind_count; ++kind) {
-        row(kClasses[kind].name, tallies[kind]);
-        all += tallies[kind];
+    for (std::size_t i = 0; i < kWrongClasses.size(); ++i) {
+        row(kWrongClasses[i].name, tallies[i]);
+        all += tallies[i];
     }
     row("all", all);
     table.wrong = tallies.wrong();
-    table.is_complete = count.done == count.asked;
+    table.is_complete = count.is_complete();
     return table;
 }
 
-}  // namespace dotpose
+}  // namespace dotpose::tables

@@ -1,18 +1,18 @@
-// Counts what is read of sheets that others made: views anywhere on images of pages, at any angle,
-// with the code given and not. Prints the rows of a table of docs/integrity.md in Markdown.
+// Counts how many views of foreign sheets are located: views anywhere on images of pages, at any
+// angle, with the code given and detected. Prints the rows of a table of docs/integrity.md in
+// Markdown.
 //
-//   dotpose_views PAGE... --code NAME [--dpi D] [--views N] [--seed S]
+//   dotpose_tables views PAGE... --code NAME [--dpi D] [--views N] [--seed S]
 //
 // PAGE is an image of a page at D dots per inch, or a text of symbols, one of u d l r for each dot,
 // row by row. The truth of a view is read in the page itself, with the code given, from many more
-// dots than the view has. There are N views of each size, in turns of the pages. The exit status is
-// 1 if any fix is wrong.
+// dots than the view has. There are N views of each size, from each page in turn. The exit status
+// is 1 if any fix is wrong.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <numbers>
 #include <optional>
@@ -22,18 +22,14 @@
 
 #include <fmt/core.h>
 
-#include "counting.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/profile_names.hpp"
-#include "dotpose/locate.hpp"
 #include "dotpose/tools/image_file.hpp"
-#include "dotpose/tools/outcome.hpp"
 #include "dotpose/tools/random.hpp"
-#include "dotpose/tools/simulate.hpp"
+#include "tables.hpp"
 
+namespace dotpose::tables {
 namespace {
-
-using namespace dotpose;
 
 constexpr double kMmPerInch = 25.4;
 /// Side of the part of a page in which the truth of a view is read: of 1500 dots.
@@ -41,15 +37,7 @@ constexpr double kSurroundings_grid = 40;
 /// Frames of one call after which its evidence of the code is expected to be complete.
 constexpr int kFirstViews = 50;
 
-struct Arguments {
-    std::vector<std::string> pages;
-    std::string code = "libdots";
-    double dpi = 1200;
-    std::uint64_t views = 300;
-    std::uint64_t seed = 1;
-};
-
-struct Page {
+struct ScannedPage {
     GreyImage image;
     double mm_per_px = 0;
 };
@@ -88,7 +76,7 @@ GreyImage drawn(const std::vector<std::string>& rows, double dpi) {
     return image;
 }
 
-Page read_page(const std::string& path, double dpi) {
+ScannedPage read_page(const std::string& path, double dpi) {
     if (!path.ends_with(".txt")) return {read_image(path, kMaxImagePixels), kMmPerInch / dpi};
     std::ifstream file(path);
     std::vector<std::string> rows;
@@ -109,7 +97,8 @@ struct View {
 };
 
 /// Returns what the page says at a point, none where its surroundings cannot be read.
-std::optional<Fix> pose_on_page(const Page& page, double x_px, double y_px, Locator& locator) {
+std::optional<Fix> pose_on_page(const ScannedPage& page, double x_px, double y_px,
+                                Locator& locator) {
     const int side_px =
         static_cast<int>(kSurroundings_grid * kDefaultSpacing_mm / page.mm_per_px) / 2 * 2;
     const auto begin = [&](double centre_px) {
@@ -124,7 +113,7 @@ std::optional<Fix> pose_on_page(const Page& page, double x_px, double y_px, Loca
     return fix.status == Status::ok ? std::optional(fix) : std::nullopt;
 }
 
-std::optional<View> draw_view(const Page& page, int width_px, int height_px, Rng& rng,
+std::optional<View> draw_view(const ScannedPage& page, int width_px, int height_px, Rng& rng,
                               Locator& locator) {
     const double x_px = std::round(rng.uniform(0, page.image.width_px));
     const double y_px = std::round(rng.uniform(0, page.image.height_px));
@@ -153,7 +142,7 @@ std::optional<View> draw_view(const Page& page, int width_px, int height_px, Rng
 }
 
 /// Counts of the views of one size.
-struct Row {
+struct ViewCounts {
     int views = 0;
     int given = 0;      ///< located with the code given
     int alone = 0;      ///< of these, located by itself without
@@ -161,14 +150,14 @@ struct Row {
     int later_given = 0;
     int later = 0;  ///< of these, after the first views of a call, located by the call
     int wrong = 0;
-    double most_against_log2 = 0;  ///< evidence of any view by itself against the code given
+    double max_against_log2 = 0;  ///< evidence of any view by itself against the code given
 };
 
-class Reader {
+class ViewReader {
   public:
-    explicit Reader(Profile profile) : profile_(profile), given_(options_of(profile)) {}
+    explicit ViewReader(Profile profile) : profile_(profile), given_(options_of(profile)) {}
 
-    void read(const View& view, Row& row) {
+    void read(const View& view, ViewCounts& row) {
         const ImageView image = view.frame.view();
         const auto is_located = [&](const Fix& fix) {
             Outcome outcome;
@@ -180,8 +169,8 @@ class Reader {
         const bool given = is_located(given_.locate(image));
         const CodeReading alone_reading = any_.locate_in_any_code(image, {});
         const Fix& alone = alone_reading.fix;
-        row.most_against_log2 =
-            std::max(row.most_against_log2, -alone_reading.evidence.log2_q8(profile_) / 256.0);
+        row.max_against_log2 =
+            std::max(row.max_against_log2, -alone_reading.evidence.log2_q8(profile_) / 256.0);
         const bool is_alone = is_located(alone);
         const CodeReading reading = stream_.locate_in_any_code(image, evidence_);
         evidence_ = reading.evidence;
@@ -212,56 +201,63 @@ class Reader {
     CodeEvidence evidence_;
 };
 
-int run(const Arguments& arguments) {
-    const std::optional<Profile> profile = profile_by_name(arguments.code);
-    if (!profile) throw Error(fmt::format("--code {}: no such code", arguments.code));
-    std::vector<Page> pages;
-    for (const std::string& path : arguments.pages)
-        pages.push_back(read_page(path, arguments.dpi));
-
-    fmt::print(
-        "| sheet | view | views | by itself | ambiguous | after {} views | wrong | "
-        "bits against the code |\n",
-        kFirstViews);
-    fmt::print("|---|---|---:|---:|---:|---:|---:|---:|\n");
-    const auto percent = [](int part, int whole) { return 100.0 * part / std::max(whole, 1); };
-    int wrong = 0;
-    for (const auto& [width_px, height_px] :
-         {std::array{188, 120}, std::array{320, 240}, std::array{640, 480}}) {
-        Row row;
-        Reader reader(*profile);
-        cli::ProgressLine progress("views");
-        for (std::uint64_t i = 0; row.views < static_cast<int>(arguments.views); ++i) {
-            if (cli::interrupted()) return EXIT_FAILURE;
-            if (i == 100 * (arguments.views + 1))
-                throw Error("the pages can hardly be read anywhere");
-            Rng rng(arguments.seed, i);
-            const Page& page = pages[i % pages.size()];
-            if (const auto view = draw_view(page, width_px, height_px, rng, reader.given()))
-                reader.read(*view, row);
-            progress.update(row.views, static_cast<int>(arguments.views));
-        }
-        fmt::print("| {} | {} x {} | {} | {:.1f} % | {:.1f} % | {:.1f} % | {} | {:.0f} |\n",
-                   arguments.code, width_px, height_px, row.views, percent(row.alone, row.given),
-                   percent(row.ambiguous, row.given), percent(row.later, row.later_given),
-                   row.wrong, row.most_against_log2);
-        std::fflush(stdout);
-        wrong += row.wrong;
+/// Reads `views` views of one size. Throws Error if interrupted.
+ViewCounts read_views(const std::vector<ScannedPage>& pages, int width_px, int height_px,
+                      Profile profile, int views, std::uint64_t seed) {
+    ViewCounts row;
+    ViewReader reader(profile);
+    cli::ProgressLine progress("views");
+    for (std::uint64_t i = 0; row.views < views; ++i) {
+        if (cli::interrupted()) throw Error("interrupted");
+        if (i == 100 * (static_cast<std::uint64_t>(views) + 1))
+            throw Error("the pages can hardly be read anywhere");
+        Rng rng(seed, i);
+        const ScannedPage& page = pages[i % pages.size()];
+        if (const auto view = draw_view(page, width_px, height_px, rng, reader.given()))
+            reader.read(*view, row);
+        progress.update(row.views, views);
     }
-    return wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return row;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    Arguments arguments;
-    cli::Command app("What is read of sheets that others made? Status 1 if any fix is wrong.",
-                     "dotpose_views");
-    app.add_option("page", arguments.pages, "Images of pages, or texts of symbols")->required();
-    app.add_option("--code", arguments.code, "Of the pages: anoto, libdots, microdots")
+bool views_table(TableRun& run) {
+    std::vector<std::string> paths;
+    std::string code = "libdots";
+    double dpi = 1200;
+    std::uint64_t views = 300;
+    run.command.add_option("page", paths, "Images of pages, or texts of symbols")->required();
+    run.command.add_option("--code", code, "Code of the pages: anoto, libdots, microdots")
         ->capture_default_str();
-    app.add_option("--dpi", arguments.dpi, "Of the images")->capture_default_str();
-    app.add_option("--seed", arguments.seed, "Of places, angles and noise")->capture_default_str();
-    add_count(app, "--views", arguments.views, "How many of each size");
-    return run_program(app, argc, argv, [&] { return run(arguments); });
+    run.command.add_option("--dpi", dpi, "Resolution of the images")->capture_default_str();
+    run.add_count("--views", views, "Number of views of each size");
+    run.add_seed();
+    if (!run.parse()) return true;
+    const std::optional<Profile> profile = profile_by_name(code);
+    if (!profile) throw Error(fmt::format("--code {}: no such code", code));
+    std::vector<ScannedPage> pages;
+    for (const std::string& path : paths)
+        pages.push_back(read_page(path, dpi));
+
+    fmt::print(
+        "| sheet | view | views | by itself | ambiguous | after {} views | wrong | "
+        "bits against the code |\n|---|---|---:|---:|---:|---:|---:|---:|\n",
+        kFirstViews);
+    const auto percent = [](int part, int whole) { return 100.0 * part / std::max(whole, 1); };
+    int wrong = 0;
+    for (const auto& [width_px, height_px] :
+         {std::array{188, 120}, std::array{320, 240}, std::array{640, 480}}) {
+        const ViewCounts row =
+            read_views(pages, width_px, height_px, *profile, static_cast<int>(views), run.seed);
+        fmt::print("| {} | {} x {} | {} | {:.1f} % | {:.1f} % | {:.1f} % | {} | {:.0f} |\n", code,
+                   width_px, height_px, row.views, percent(row.alone, row.given),
+                   percent(row.ambiguous, row.given), percent(row.later, row.later_given),
+                   row.wrong, row.max_against_log2);
+        std::fflush(stdout);
+        wrong += row.wrong;
+    }
+    return wrong == 0;
 }
+
+}  // namespace dotpose::tables

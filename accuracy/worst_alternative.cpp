@@ -1,5 +1,4 @@
-#include "worst_alternative.hpp"
-
+// Finds the wrong position that resembles a true one most.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -8,8 +7,9 @@
 
 #include "code/basis.hpp"
 #include "code/rolls.hpp"
+#include "tracked.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 namespace {
 
 /// Position and section along an axis, and along the axis across it.
@@ -102,4 +102,4 @@ Place worst_alternative(Profile profile, const Place& place, bool is_along_x, in
             {alternative.cross_section, alternative.section}};
 }
 
-}  // namespace dotpose
+}  // namespace dotpose::tables

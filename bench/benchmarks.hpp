@@ -1,6 +1,9 @@
 /// The parts of the program, each of which measures something and makes tables of the results.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -33,6 +36,50 @@ std::vector<FrameTimes> times_by_size(const Results& results);
 std::vector<FrameTimes> times_by_dots(const Results& results);
 std::string size_table(const std::vector<FrameTimes>& times);
 std::string dots_table(const std::vector<FrameTimes>& times);
+
+// ---- Pictures of docs/speed.md: plots.cpp ----
+
+/// Draws times over the number of pixels.
+void draw_pixels(std::ostream& out, const std::vector<FrameTimes>& times);
+/// Draws times over the number of dots, in frames of one size.
+void draw_dots(std::ostream& out, const std::vector<FrameTimes>& times);
+
+// ---- Frames one by one: varied.cpp ----
+
+/// The ways to process the frames, in the order of the table.
+enum class Way : std::uint8_t {
+    twice,
+    once,
+    narrow,   ///< the first attempt with vectors of 16 bytes, as without AVX2
+    tracked,  ///< with predictions that are off by up to a third of a spacing and 2 degrees
+    device,
+    floor,
+    apriltag_1,
+    apriltag_2,
+};
+inline constexpr std::size_t kWays = 8;
+
+/// Statistics of the times of one way in µs, where each frame counts with its fastest pass.
+struct FrameSpread {
+    int frames = 0;
+    int found = 0;
+    double median_us = 0;
+    double p99_us = 0;
+    double longest_us = 0;
+
+    double longest_over_median() const { return longest_us / median_us; }
+    double p99_over_median() const { return p99_us / median_us; }
+};
+
+struct Varied {
+    std::array<FrameSpread, kWays> spreads;
+    const FrameSpread& of(Way way) const { return spreads[static_cast<std::size_t>(way)]; }
+};
+
+/// Times nominal frames of 188 x 120 px, and a tenth as many frames with a tag. Throws Error if a
+/// fix is wrong.
+Varied time_varied_frames(int frames, int passes);
+std::string varied_table(const Varied& varied);
 
 // ---- Tilted cameras: tilt.cpp ----
 
@@ -72,5 +119,13 @@ std::string stage_table(const Results& results);
 
 void add_code_benchmarks();
 std::string code_table(const Results& results);
+
+// ---- The machine: machine.cpp ----
+
+/// Returns the load averages of the last 1, 5 and 15 minutes.
+std::string load_average();
+
+/// Returns a Markdown list of processor, caches, compiler and library.
+std::string machine_list();
 
 }  // namespace dotpose::bench

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <thread>
@@ -44,14 +46,11 @@ const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera) {
         setup.camera = camera;
         const FrameSource frame_at = frames_of_setup(setup);
         const int count = count_of(camera);
-        frames.resize(static_cast<std::size_t>(count));
-        on_all_cores(count, [&](int i) {
-            KnownFrame& frame = frames[static_cast<std::size_t>(i)];
-            int draw = i;
-            do {
-                frame = frame_at(draw);
-                draw += count;
-            } while (!is_located_at_once(frame));
+        frames = render_frames(count, [&](int draw) {
+            KnownFrame frame = frame_at(draw);
+            while (!is_located_at_once(frame))
+                frame = frame_at(draw += count);
+            return frame;
         });
     }
     return frames;
@@ -67,6 +66,32 @@ bool is_right(const Fix& fix, const Truth& truth) {
 double quantile(const std::vector<double>& sorted, double share) {
     const double rank = std::ceil(share * static_cast<double>(sorted.size()));
     return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+std::vector<KnownFrame> render_frames(int count, const FrameSource& frame_at) {
+    std::vector<KnownFrame> frames(static_cast<std::size_t>(count));
+    on_all_cores(count, [&](int i) { frames[static_cast<std::size_t>(i)] = frame_at(i); });
+    return frames;
+}
+
+TimedFrames time_frames(const std::vector<KnownFrame>& frames, int passes,
+                        const std::function<Fix(const ImageView&)>& locate) {
+    using Clock = std::chrono::steady_clock;
+    TimedFrames times;
+    times.fastest_us.assign(frames.size(), std::numeric_limits<double>::max());
+    for (int pass = 0; pass < passes; ++pass) {
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            const auto start = Clock::now();
+            const Fix fix = locate(frames[i].image.view());
+            const std::chrono::duration<double, std::micro> elapsed = Clock::now() - start;
+            times.fastest_us[i] = std::min(times.fastest_us[i], elapsed.count());
+            if (pass > 0 || fix.status != Status::ok) continue;
+            if (!is_right(fix, frames[i].truth)) throw Error("a frame was located wrongly");
+            ++times.located;
+            times.at_once += fix.attempt == Attempt::first ? 1 : 0;
+        }
+    }
+    return times;
 }
 
 void on_all_cores(int count, const std::function<void(int)>& work) {

@@ -25,4 +25,17 @@ double quantile(const std::vector<double>& sorted, double share);
 /// Calls `work(i)` for i from 0 to count - 1, on all cores.
 void on_all_cores(int count, const std::function<void(int)>& work);
 
+/// Returns frame_at(0) to frame_at(count - 1), rendered on all cores.
+std::vector<KnownFrame> render_frames(int count, const FrameSource& frame_at);
+
+/// Results of frames that were located one by one.
+struct TimedFrames {
+    int located = 0;
+    int at_once = 0;                 ///< number of frames whose fix is that of the first attempt
+    std::vector<double> fastest_us;  ///< time of each frame in its fastest pass
+};
+/// Locates all frames `passes` times with `locate`. Throws Error if a fix is wrong.
+TimedFrames time_frames(const std::vector<KnownFrame>& frames, int passes,
+                        const std::function<Fix(const ImageView&)>& locate);
+
 }  // namespace dotpose::bench

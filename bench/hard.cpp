@@ -1,7 +1,5 @@
 // Times hard frames one by one: most of them take the second attempt, whose time varies much.
 #include <algorithm>
-#include <chrono>
-#include <limits>
 #include <memory>
 
 #include <fmt/core.h>
@@ -12,50 +10,32 @@
 #include "frames.hpp"
 
 namespace dotpose::bench {
-namespace {
 
-constexpr int kRenderedAtOnce = 500;
-constexpr int kLooks = 2;
-
-/// Renders frames from `first` on, and adds their results and times.
-void time_frames(int first, int count, SmallMemory& memory, HardTimes& times,
-                 std::vector<double>& all_ms) {
+HardTimes time_hard_frames(int frames) {
+    // Renders a part at a time, to limit the memory.
+    constexpr int kMaxRendered = 500;
+    constexpr int kPasses = 2;
     Setup setup;
     setup.preset = Preset::hard;
     setup.seed = kSeed;
     const FrameSource frame_at = frames_of_setup(setup);
-    std::vector<KnownFrame> frames(static_cast<std::size_t>(count));
-    on_all_cores(count, [&](int i) { frames[static_cast<std::size_t>(i)] = frame_at(first + i); });
-    std::vector<double> fastest_ms(frames.size(), std::numeric_limits<double>::max());
-    for (int look = 0; look < kLooks; ++look) {
-        for (std::size_t i = 0; i < frames.size(); ++i) {
-            using Clock = std::chrono::steady_clock;
-            const auto start = Clock::now();
-            const Fix fix = Locator(memory).locate(frames[i].image.view());
-            const std::chrono::duration<double, std::milli> time = Clock::now() - start;
-            fastest_ms[i] = std::min(fastest_ms[i], time.count());
-            if (look > 0 || fix.status != Status::ok) continue;
-            if (!is_right(fix, frames[i].truth)) throw Error("a frame was located wrongly");
-            ++times.located;
-            times.at_once += fix.attempt == Attempt::first ? 1 : 0;
-        }
-    }
-    all_ms.insert(all_ms.end(), fastest_ms.begin(), fastest_ms.end());
-}
-
-}  // namespace
-
-HardTimes time_hard_frames(int frames) {
+    const auto memory = std::make_unique<SmallMemory>();
     HardTimes times;
     times.frames = frames;
-    const auto memory = std::make_unique<SmallMemory>();
-    std::vector<double> ms;
-    for (int first = 0; first < frames; first += kRenderedAtOnce)
-        time_frames(first, std::min(kRenderedAtOnce, frames - first), *memory, times, ms);
-    std::ranges::sort(ms);
-    times.median_ms = quantile(ms, 0.5);
-    times.p99_ms = quantile(ms, 0.99);
-    times.longest_ms = ms.back();
+    std::vector<double> us;
+    for (int first = 0; first < frames; first += kMaxRendered) {
+        const int count = std::min(kMaxRendered, frames - first);
+        const TimedFrames part =
+            time_frames(render_frames(count, [&](int i) { return frame_at(first + i); }), kPasses,
+                        [&](const ImageView& image) { return Locator(*memory).locate(image); });
+        times.located += part.located;
+        times.at_once += part.at_once;
+        us.insert(us.end(), part.fastest_us.begin(), part.fastest_us.end());
+    }
+    std::ranges::sort(us);
+    times.median_ms = quantile(us, 0.5) / 1000;
+    times.p99_ms = quantile(us, 0.99) / 1000;
+    times.longest_ms = us.back() / 1000;
     return times;
 }
 

@@ -111,37 +111,6 @@ void track_frames(benchmark::State& state, const CameraModel& camera) {
     }
 }
 
-/// Returns the frames that the first attempt locates in any code without a doubt.
-std::vector<const KnownFrame*> frames_of_one_code(const CameraModel& camera, Locator& locator) {
-    std::vector<const KnownFrame*> frames;
-    for (const KnownFrame& frame : nominal_frames(camera)) {
-        const Options before = locator.options();
-        const CodeReading reading = locator.locate_in_any_code(frame.image.view(), {});
-        locator.set_options(before);
-        if (reading.fix.attempt == Attempt::first && reading.code == before.profile &&
-            is_right(reading.fix, frame.truth)) {
-            frames.push_back(&frame);
-        }
-    }
-    return frames;
-}
-
-/// Locates frames in any code, or the same frames in the code given.
-void locate_in_codes(benchmark::State& state, const CameraModel& camera, bool is_given) {
-    Locator& locator = locator_for(camera, Options{}.effort);
-    const std::vector<const KnownFrame*> frames = frames_of_one_code(camera, locator);
-    std::size_t next = 0;
-    for (auto _ : state) {
-        const ImageView image = frames[next]->image.view();
-        if (is_given) {
-            benchmark::DoNotOptimize(locator.locate(image));
-        } else {
-            benchmark::DoNotOptimize(locator.locate_in_any_code(image, {}));
-        }
-        next = (next + 1) % frames.size();
-    }
-}
-
 void count_pixels(benchmark::State& state, const CameraModel& camera) {
     constexpr std::uint8_t kLevel = 128;
     const std::vector<KnownFrame>& frames = nominal_frames(camera);
@@ -208,10 +177,6 @@ void add_frame_benchmarks() {
                 [=](benchmark::State& state) { locate_frames(state, camera, Effort::once); });
             add(name_of("locate_tracked", camera),
                 [=](benchmark::State& state) { track_frames(state, camera); });
-            for (const bool is_given : {true, false}) {
-                add(name_of(is_given ? "code_given" : "code_any", camera),
-                    [=](benchmark::State& state) { locate_in_codes(state, camera, is_given); });
-            }
             add(name_of("locate_device", camera),
                 [=](benchmark::State& state) { locate_frames(state, camera, Effort::device); });
         }

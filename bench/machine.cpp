@@ -1,11 +1,12 @@
-#include "machine.hpp"
-
+// Describes the machine on which a run was measured.
 #include <array>
 #include <cstdlib>
 #include <fstream>
 
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
+
+#include "benchmarks.hpp"
 
 namespace dotpose::bench {
 namespace {

@@ -20,12 +20,9 @@
 
 #include <dotpose/files/error.hpp>
 
-#include "../reports/document.hpp"
+#include "../accuracy/document.hpp"
 #include "benchmarks.hpp"
 #include "draw/svg.hpp"
-#include "machine.hpp"
-#include "plots.hpp"
-#include "varied.hpp"
 
 namespace dotpose::bench {
 namespace {

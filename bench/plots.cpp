@@ -1,8 +1,8 @@
-#include "plots.hpp"
-
+// Draws the pictures of docs/speed.md.
 #include <algorithm>
 #include <ostream>
 
+#include "benchmarks.hpp"
 #include "evaluate/plot.hpp"
 
 namespace dotpose::bench {
@@ -53,23 +53,20 @@ std::vector<Point> data_of(const std::vector<FrameTimes>& times, Value x, Value 
 }
 
 Scale time_scale(const std::vector<FrameTimes>& times, const std::vector<Curve>& curves) {
-    double least_us = 1e300;
-    double most_us = 0;
+    double min_us = 1e300;
+    double max_us = 0;
     for (const Curve& curve : curves) {
         for (const Point p : data_of(times, curve.value, curve.value)) {
-            least_us = std::min(least_us, p.y);
-            most_us = std::max(most_us, p.y);
+            min_us = std::min(min_us, p.y);
+            max_us = std::max(max_us, p.y);
         }
     }
-    return {1 / rounded_up(1.1 / least_us), rounded_up(1.1 * most_us), true};
+    return log_scale(min_us, max_us);
 }
 
 void draw(std::ostream& out, const std::vector<FrameTimes>& times, const Picture& picture) {
     Svg svg(kWidth, kHeight, picture.title);
-    svg.text({kArea.left, 44}, style::kTitleFont, picture.title,
-             fmt::format(R"(font-weight="bold" fill="{}")", draw::colour::kInk));
-    svg.text({kArea.left, 68}, style::kFont, picture.under,
-             fmt::format(R"(fill="{}")", draw::colour::kQuiet));
+    draw_title(svg, kArea.left, picture.title, picture.under);
     const Scale x{0.9 * picture.x(times.front()), 1.1 * picture.x(times.back()), true};
     const Axes axes(svg, kArea, x, time_scale(times, picture.curves));
     axes.draw_y("µs per frame");

@@ -1,5 +1,4 @@
-#include "varied.hpp"
-
+// Times many different frames individually, to show how much the time varies.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -16,6 +15,7 @@
 #include <dotpose/tools/random.hpp>
 
 #include "apriltag.hpp"
+#include "benchmarks.hpp"
 #include "floor.hpp"
 #include "frames.hpp"
 #include "locate/first.hpp"
@@ -142,19 +142,12 @@ FrameSpread spread_of(const Subject& subject) {
             us.back()};
 }
 
-std::vector<KnownFrame> nominal_run(int count) {
-    Setup setup;
-    setup.seed = kSeed;
-    const FrameSource frame_at = frames_of_setup(setup);
-    std::vector<KnownFrame> frames(static_cast<std::size_t>(count));
-    on_all_cores(count, [&](int i) { frames[static_cast<std::size_t>(i)] = frame_at(i); });
-    return frames;
-}
-
 }  // namespace
 
 Varied time_varied_frames(int frame_count, int passes) {
-    const std::vector<KnownFrame> frames = nominal_run(frame_count);
+    Setup setup;
+    setup.seed = kSeed;
+    const std::vector<KnownFrame> frames = render_frames(frame_count, frames_of_setup(setup));
     std::vector<TagFrame> tags = render_tags({}, frame_count / 10);
     const auto memory = std::make_unique<SmallMemory>();
     TagDetector detector_1(1);

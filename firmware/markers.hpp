@@ -1,4 +1,4 @@
-/// Instructions without effect that tell reports/count.cpp what to count.
+/// Instructions without effect that tell firmware/count.cpp what to count.
 #pragma once
 
 namespace markers {

@@ -69,6 +69,10 @@ std::vector<double> Scale::ticks(int min_count) const {
     return result;
 }
 
+Scale log_scale(double min, double max) {
+    return {1 / rounded_up(1 / (0.9 * min)), rounded_up(1.1 * max), true};
+}
+
 Axes::Axes(Svg& svg, const Area& area, Scale x, Scale y) : svg_(svg), area_(area), x_(x), y_(y) {
     x_.at_first = area.left;
     x_.at_last = area.left + area.width;
@@ -137,6 +141,12 @@ void Axes::band(std::span<const Point> low, std::span<const Point> high, const c
     for (std::size_t i = high.size(); i > 0; --i)
         add(high[i - 1]);
     svg_.add(R"(<path d="{}Z" fill="{}" fill-opacity="0.10"/>)", path, colour);
+}
+
+void draw_title(Svg& svg, double left, std::string_view title, std::string_view below) {
+    svg.text({left, 44}, style::kTitleFont, title,
+             fmt::format(R"(font-weight="bold" fill="{}")", draw::colour::kInk));
+    if (!below.empty()) svg.text({left, 68}, style::kFont, below, filled(draw::colour::kQuiet));
 }
 
 double text_width(std::string_view text, double font) {

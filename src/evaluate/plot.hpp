@@ -42,6 +42,9 @@ struct Scale {
     std::vector<double> ticks(int min_count) const;
 };
 
+/// Returns a logarithmic scale with round ends, which are at least 10 % beyond both values.
+Scale log_scale(double min, double max);
+
 /// A rectangle with an x axis below and a y axis to the left.
 class Axes {
   public:
@@ -77,6 +80,9 @@ class Axes {
     Scale x_;
     Scale y_;
 };
+
+/// Draws the title of a picture in bold at its top, and a line of text below it.
+void draw_title(Svg& svg, double left, std::string_view title, std::string_view below = "");
 
 /// Draws an entry of a legend: a short line and its meaning. Returns the x at which the next entry
 /// may start.

@@ -66,12 +66,9 @@ double p95_um(const Score& score) {
 }
 
 void draw_head(Svg& svg, const Sweep& sweep) {
-    svg.text({kLeft, 44}, style::kTitleFont, words_of(sweep.kind).title,
-             fmt::format(R"(font-weight="bold" fill="{}")", draw::colour::kInk));
-    svg.text({kLeft, 68}, style::kFont,
-             fmt::format("{} simulated frames for each value; all else as in preset {}",
-                         sweep.frames_per_value, name(sweep.preset)),
-             fmt::format(R"(fill="{}")", draw::colour::kQuiet));
+    draw_title(svg, kLeft, words_of(sweep.kind).title,
+               fmt::format("{} simulated frames for each value; all else as in preset {}",
+                           sweep.frames_per_value, name(sweep.preset)));
     double x = 465;
     x = legend_entry(svg, {x, 39}, {style::kAll}, "all dots (default)");
     legend_entry(svg, {x, 39}, {style::kWindow, false, false, true}, "8 x 8 window (paper)");
@@ -101,7 +98,7 @@ Scale error_scale(const Sweep& sweep) {
         }
     }
     if (high_um <= 0) return {1, 10, true};
-    return {1 / rounded_up(1 / (0.9 * low_um)), rounded_up(1.1 * high_um), true};
+    return log_scale(low_um, high_um);
 }
 
 }  // namespace

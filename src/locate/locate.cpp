@@ -1,9 +1,9 @@
 // Locates a frame on a desktop: which attempts are made, in which codes, and when a fix is
 // accepted.
 //
-//   tracked    measures the dots where a prediction expects them    attempts/tracked.hpp
-//   first      finds the grid in a part of the image                attempts/first.hpp
-//   second     filters the image and uses all its dots              attempts/second.hpp
+//   tracked    measures the dots where a prediction expects them    locate/tracked.hpp
+//   first      finds the grid in a part of the image                locate/first.hpp
+//   second     filters the image and uses all its dots              locate/second.hpp
 //
 // A frame whose code is known is a frame with one possible code.
 #include "locate/locate.hpp"

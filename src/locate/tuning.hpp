@@ -92,7 +92,7 @@ inline constexpr float kTable = 0.4F;
 inline constexpr float kQuickBells_px = 13;
 inline constexpr float kFinestOnePass_px = 8;
 /// Reach of a bell, in radii of a dot and at least in px: as far as the edge of a dot is seen, and
-/// so far that it does not depend on how dots fall on the pixels (`dotpose_alike`).
+/// so far that it does not depend on how dots fall on the pixels (`dotpose_tables alike`).
 inline constexpr float kBellRadii = 2.4F;
 inline constexpr float kLeastBell_px = 3.3F;
 /// Share of the distance between facing dots that a bell must reach for them to draw each other's
@@ -133,7 +133,7 @@ inline constexpr int kLow_3rds = 2;
 inline constexpr int kHigh_10ths = 9;
 /// Part (1/n) of the least contrast with which an image is looked at again that shows too few dots:
 /// noise is a third in a filtered image. Dots 6 grey levels darker than paper are found by it
-/// (`dotpose_alike --spacings 8 --dots 0.10 --blurs 1.5`).
+/// (`dotpose_tables alike --spacings 8 --dots 0.10 --blurs 1.5`).
 inline constexpr int kPaleParts = 3;
 /// Maximum turn of the periodogram search from the first estimate, in degrees.
 inline constexpr int kMaxTurn_deg = 12;

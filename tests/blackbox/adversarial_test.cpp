@@ -1,5 +1,5 @@
-// Frames meant to deceive: a fix is the true pose, or there is none. `dotpose_adversarial` runs as
-// many as one likes.
+// Frames meant to deceive: a fix is the true pose, or there is none. `dotpose_tables adversarial`
+// runs as many as one likes.
 #include <memory>
 #include <string>
 

@@ -109,7 +109,7 @@ namespace uneven {
 /// leave hardly more, as the plane takes up most of it. One flat sheet in twenty exceeds kShared,
 /// from where on what blocks share widens the covariance. One side of a line is not even beyond
 /// kSuspect, and without a line, a sheet is not beyond kUneven, which hardly one flat sheet in
-/// 1,000 exceeds. `dotpose_slips` measures it.
+/// 1,000 exceeds. `dotpose_tables slips` measures it.
 inline constexpr float kMaybeLine = 0.9F;
 /// Dots up to which kMaybeLine holds; of more, what they share on any sheet shows more.
 inline constexpr float kMaybeLineDots = 200;

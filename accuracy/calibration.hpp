@@ -1,4 +1,4 @@
-// Statistics of the errors of many calibrations.
+/// The parts of the table `calibration`, and statistics of the errors of many calibrations.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,9 @@
 
 #include <fmt/core.h>
 
-namespace dotpose {
+#include "table_run.hpp"
+
+namespace dotpose::tables {
 
 /// Errors of one parameter, and the standard deviations that were reported with it.
 struct Errors {
@@ -67,4 +69,18 @@ struct Numbers {
     double mean() const { return sum / count; }
 };
 
-}  // namespace dotpose
+/// Measures the parameters of lenses, the residuals, and positions located afterwards, and prints
+/// tables in Markdown.
+void measure_lenses(std::uint64_t small_cameras, std::uint64_t large_cameras, const TableRun& run);
+
+/// Measures the reference point of robots that turn on the spot, and prints a table.
+void measure_spins(std::uint64_t count, const TableRun& run);
+
+/// Measures the stitching of four sheets side by side that are printed to different scales, and
+/// prints a table.
+void measure_stitching(std::uint64_t count, const TableRun& run);
+
+/// Writes the frames of the example in docs/calibration.md.
+void write_example(const std::string& folder, std::uint64_t seed);
+
+}  // namespace dotpose::tables

@@ -1,4 +1,4 @@
-/// Counts the results of predictions; all parts of `dotpose_tracked` use it.
+/// The parts of the table `tracked`, and the counts that all of them use.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,10 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/fix.hpp"
-#include "dotpose/locate.hpp"
-#include "dotpose/tools/simulate.hpp"
+#include "dotpose/code.hpp"
+#include "table_run.hpp"
 
-namespace dotpose {
+namespace dotpose::tables {
 
 /// The true pose of the image centre.
 struct TrueView {
@@ -121,4 +120,23 @@ struct TrackedTable {
     bool is_complete = true;  ///< not interrupted
 };
 
-}  // namespace dotpose
+/// Returns the table of drives at several speeds and frame rates.
+TrackedTable drives_table(const TableRun& run);
+
+/// Returns the table of nominal frames with predictions of increasing error.
+TrackedTable offsets_table(const TableRun& run, std::uint64_t frames);
+
+/// Returns the table of second frames that differ from the first, whose fix gives the prediction:
+/// other light, lifted, turned, put elsewhere, covered.
+TrackedTable changes_table(const TableRun& run, std::uint64_t frames);
+
+/// Returns the table of predictions of positions that are not in view; their number is distributed
+/// evenly over the classes.
+TrackedTable wrong_predictions_table(const TableRun& run, std::uint64_t predictions);
+
+/// Returns the wrong position that shares the most of the `lines` columns from `place` on with it
+/// (or rows, if not `is_along_x`). It differs in the place in one secondary sequence along this
+/// axis and in the section. All lines of the other direction are the same.
+Place worst_alternative(Profile profile, const Place& place, bool is_along_x, int lines);
+
+}  // namespace dotpose::tables

@@ -1,0 +1,191 @@
+// Measures every number of docs/accuracy.md. Run by `make accuracy`.
+//
+//   dotpose_tables accuracy [--quick] [--update docs/accuracy.md] [--seed S] [FOLDER]
+//
+// Writes tables.md, sweep-*.{csv,svg,png}, table-3.md and figure-*.{svg,png} to FOLDER
+// (accuracy-out). --update also replaces the generated parts of the document and the pictures
+// beside it. --quick takes a tenth of the frames, to test the program; its numbers are not exact.
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <fmt/core.h>
+
+#include "dotpose/tools/protocol.hpp"
+#include "dotpose/tools/sweep.hpp"
+#include "tables.hpp"
+
+namespace dotpose::tables {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct AccuracyOptions {
+    fs::path out;
+    bool is_quick = false;
+    int share(int frames) const { return is_quick ? frames / 10 : frames; }
+};
+
+/// Options to locate with, as a user may choose them.
+struct Way {
+    const char* name;
+    Decoder decoder;
+    Effort effort;
+};
+constexpr std::array kWays = {
+    Way{"all dots (default)", Decoder::all, Effort::twice},
+    Way{"all dots, `--effort once`", Decoder::all, Effort::once},
+    Way{"all dots, `--effort device`", Decoder::all, Effort::device},
+    Way{"8 x 8 window (paper)", Decoder::window, Effort::twice},
+    Way{"8 x 8 window, `--effort once`", Decoder::window, Effort::once},
+};
+
+struct Condition {
+    Preset preset;
+    int frames;
+};
+constexpr std::array kConditions = {Condition{Preset::clean, 2000},
+                                    Condition{Preset::nominal, 10000},
+                                    Condition{Preset::hard, 4000}};
+
+std::string three(const Quantiles& quantiles, int decimals) {
+    return fmt::format("{:.{}f} / {:.{}f} / {:.{}f}", quantiles.median, decimals, quantiles.p95,
+                       decimals, quantiles.max, decimals);
+}
+
+std::string frame_row(Preset preset, const Way& way, const Score& score) {
+    // Devices report no covariance.
+    const auto& [x, y, theta] = score.normalised;
+    const std::string normalised =
+        std::isfinite(x) ? fmt::format("{:.2f} / {:.2f} / {:.2f}", x, y, theta) : "-";
+    return fmt::format("| {} | {} | {} | {:.2f} % | {} | {} | {} | {} |\n", name(preset), way.name,
+                       score.frames, 100 * score.located_share(), score.wrong,
+                       three(score.position_um, 2), three(score.angle_deg, 3), normalised);
+}
+
+std::string status_rows(Preset preset, const Score& score) {
+    std::string rows;
+    for (std::size_t i = 1; i < score.by_status.size(); ++i) {
+        if (score.by_status[i] == 0) continue;
+        const auto status = static_cast<Status>(i);
+        rows += fmt::format("| {} | `{}` | {:.2f} % | {} |\n", name(preset), name(status),
+                            100.0 * score.by_status[i] / score.frames, message(status));
+    }
+    return rows;
+}
+
+/// Prints the tables of clean, nominal and hard frames, located in all ways.
+void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
+    std::string frames =
+        "| preset | decoder | frames | located | wrong | position error, µm: median / 95 % / max | "
+        "angle error, degrees: median / 95 % / max | error² / variance: x / y / θ |\n"
+        "|---|---|--:|--:|--:|--:|--:|--:|\n";
+    std::string statuses = "| preset | status | frames | message |\n|---|---|--:|---|\n";
+    for (const Condition& condition : kConditions) {
+        Setup setup;
+        setup.preset = condition.preset;
+        setup.seed = run.seed;
+        FrameRun frame_run;
+        frame_run.frames = options.share(condition.frames);
+        frame_run.frame_at = frames_of_setup(setup);
+        frame_run.options.assign(kWays.size(), {});
+        for (std::size_t i = 0; i < kWays.size(); ++i) {
+            frame_run.options[i].decoder = kWays[i].decoder;
+            frame_run.options[i].effort = kWays[i].effort;
+        }
+        const auto outcomes =
+            run.evaluate(fmt::format("preset {}", name(condition.preset)), std::move(frame_run));
+        for (std::size_t i = 0; i < kWays.size(); ++i)
+            frames += frame_row(condition.preset, kWays[i], score_of(outcomes[i]));
+        statuses += status_rows(condition.preset, score_of(outcomes.front()));
+    }
+    run.print_block("frames", frames);
+    run.print_block("statuses", statuses);
+}
+
+/// Returns the last value up to which at least this share of the frames is located. It starts at
+/// the first value, which is the easiest one; for the spacing, it returns the range of values
+/// instead.
+std::string reach(const Sweep& sweep, Decoder decoder, double share) {
+    const auto located = [&](std::size_t i) {
+        const SweepPoint& point = sweep.points[i];
+        return (decoder == Decoder::window ? point.window : point.all).located_share() >= share;
+    };
+    std::size_t first = 0;
+    while (first < sweep.points.size() && !located(first))
+        ++first;
+    if (first == sweep.points.size()) return "never";
+    std::size_t last = first;
+    while (last + 1 < sweep.points.size() && located(last + 1))
+        ++last;
+    const double to = sweep.points[last].value;
+    if (sweep.kind != SweepKind::spacing && first > 0) return "never";
+    return sweep.kind == SweepKind::spacing
+               ? fmt::format("{:g} to {:g}", sweep.points[first].value, to)
+               : fmt::format("{:g}", to);
+}
+
+void print_sweeps(const AccuracyOptions& accuracy, TableRun& run) {
+    constexpr std::array kUnits = {"grey levels", "px", "% of the dots",
+                                   "degrees",     "px", "% of the frame"};
+    std::string table =
+        "| condition | 99 % located up to: all dots | 8 x 8 window | half located up to: all dots "
+        "| 8 x 8 window | unit |\n|---|--:|--:|--:|--:|---|\n";
+    for (const SweepKind kind : kSweepKinds) {
+        cli::ProgressLine line(fmt::format("sweep {}", name(kind)));
+        SweepOptions options;
+        options.setup.seed = run.seed;
+        options.frames_per_value = accuracy.share(500);
+        options.progress = shown_on(line);
+        const Sweep sweep = run_sweep(kind, options);
+        write_sweep(accuracy.out, sweep);
+        table += fmt::format("| {} | {} | {} | {} | {} | {} |\n", name(kind),
+                             reach(sweep, Decoder::all, 0.99), reach(sweep, Decoder::window, 0.99),
+                             reach(sweep, Decoder::all, 0.5), reach(sweep, Decoder::window, 0.5),
+                             kUnits[static_cast<std::size_t>(kind)]);
+    }
+    run.print_block("sweeps", table);
+}
+
+void print_protocol(const AccuracyOptions& accuracy, TableRun& run) {
+    cli::ProgressLine line("the paper's protocol");
+    ProtocolOptions options;
+    options.setup.seed = run.seed;
+    options.samples = accuracy.is_quick ? 2 : options.samples;
+    options.progress = shown_on(line);
+    const Protocol protocol = run_protocol(options);
+    write_protocol(accuracy.out, protocol);
+    run.print_block("table-3", table_3(protocol));
+}
+
+}  // namespace
+
+bool accuracy_table(TableRun& run) {
+    AccuracyOptions options;
+    std::string folder = "accuracy-out";
+    run.seed = 404;  // no test and no tuning uses it
+    run.command.add_option("FOLDER", folder, "Folder of tables and figures")->capture_default_str();
+    run.command.add_flag("--quick", options.is_quick, "A tenth of the frames: not exact");
+    run.add_update();
+    run.add_seed();
+    if (!run.parse()) return true;
+    options.out = folder;
+
+    fs::create_directories(options.out);
+    print_frame_tables(options, run);
+    print_protocol(options, run);
+    print_sweeps(options, run);
+    const fs::path path = options.out / "tables.md";
+    std::ofstream tables(path);
+    for (const Block& block : run.blocks())
+        tables << block.text << '\n';
+    tables.close();
+    if (!tables) throw Error("cannot write " + path.string());
+    run.update_document();
+    if (!run.document().empty()) update_pictures(run.document(), options.out);
+    return true;
+}
+
+}  // namespace dotpose::tables

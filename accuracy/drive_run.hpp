@@ -1,0 +1,19 @@
+/// Follows a robot on the simulated drive of the tests, as `dotpose watch` does.
+#pragma once
+
+#include <functional>
+
+#include "../tests/drive_errors.hpp"
+#include "dotpose/tools/follower.hpp"
+
+namespace dotpose::tables {
+
+/// Called for each frame that is followed, with its number in the drive.
+using TakeFrame =
+    std::function<void(int index, const test::DriveState& truth, const Followed& followed)>;
+
+/// Follows every `step`-th frame of the drive until Ctrl-C.
+void follow_drive(const test::Drive& drive, const test::DriveCamera& camera, int step,
+                  const TakeFrame& take);
+
+}  // namespace dotpose::tables

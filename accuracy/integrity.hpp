@@ -1,0 +1,67 @@
+/// Counts of readings and wrong positions by their p_wrong, for the table `integrity`.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "dotpose/options.hpp"
+
+namespace dotpose::tables {
+
+/// Options with which every reading is accepted, however doubtful.
+inline constexpr IntegrityOptions kAcceptAll{0, 256};
+
+/// Readings with the same or a similar p_wrong.
+struct Bin {
+    std::uint64_t frames = 0;
+    std::uint64_t wrong = 0;
+    double predicted = 0;  ///< sum of p_wrong
+
+    Bin& operator+=(const Bin& other) {
+        frames += other.frames;
+        wrong += other.wrong;
+        predicted += other.predicted;
+        return *this;
+    }
+};
+
+struct IntegrityTally {
+    /// Bin n has the readings with p_wrong = 2^-n; the last bin has all smaller values as well.
+    std::array<Bin, 64> bins;
+    std::uint64_t unread = 0;
+    std::uint64_t skipped = 0;  ///< number of grids that are not doubtful
+
+    void add(int p_wrong_log2, bool is_wrong) {
+        Bin& bin = bins[std::min(static_cast<std::size_t>(-p_wrong_log2), bins.size() - 1)];
+        ++bin.frames;
+        bin.predicted += std::ldexp(1.0, p_wrong_log2);
+        bin.wrong += is_wrong ? 1 : 0;
+    }
+    /// Returns the sum of the bins `first` to `last`; bins that do not exist are empty.
+    Bin sum(std::size_t first, std::size_t last) const {
+        Bin sum;
+        for (std::size_t n = first; n <= last && n < bins.size(); ++n)
+            sum += bins[n];
+        return sum;
+    }
+    IntegrityTally& operator+=(const IntegrityTally& other) {
+        unread += other.unread;
+        skipped += other.skipped;
+        for (std::size_t n = 0; n < bins.size(); ++n)
+            bins[n] += other.bins[n];
+        return *this;
+    }
+};
+
+enum class GridKind : std::uint8_t {
+    any,
+    doubtful,  ///< with enough errors that p_wrong is between 1e-3 and 1e-5
+};
+
+/// Draws grid `index` of a run, whose bits have random errors, decodes it without an image and
+/// counts the result. Thread-safe.
+void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityTally& tally);
+
+}  // namespace dotpose::tables

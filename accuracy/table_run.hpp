@@ -1,0 +1,106 @@
+/// The run of one table of dotpose_tables: its options, its work on all cores, its output.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "../apps/dotpose/command_line.hpp"
+#include "../apps/dotpose/progress.hpp"
+#include "document.hpp"
+#include "dotpose/locate.hpp"
+#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/score.hpp"
+
+namespace dotpose::tables {
+
+/// How much of some work is done.
+struct Done {
+    std::uint64_t wanted = 0;  ///< number of items
+    std::uint64_t done = 0;    ///< number of items done; less than wanted if interrupted
+    double seconds = 0;
+
+    bool is_complete() const { return done == wanted; }
+    /// Returns text such as "12000 frames in 60 s, 200 frames/s", and whether the work was
+    /// interrupted.
+    std::string speed_text(const std::string& items) const;
+};
+
+/// The sum of the tallies of all threads.
+template <typename Tally>
+struct Count : Done {
+    Tally tally;
+};
+
+/// A table adds its options, parses the command line, and measures.
+class TableRun {
+  public:
+    /// `what` is the first line of the help; `argv[0]` is not an option.
+    TableRun(const std::string& name, const std::string& what, int argc, const char* const* argv)
+        : command(what, name), argc_(argc), argv_(argv) {}
+
+    cli::Command command;
+    std::uint64_t seed = 1;
+    unsigned threads = std::max(std::thread::hardware_concurrency(), 1u);
+
+    /// Adds an option for a number of items, 0 to 2e9.
+    void add_count(const std::string& flag, std::uint64_t& count, const std::string& what);
+    void add_seed();
+    void add_threads();
+    /// Adds the option for the document whose generated parts `update_document` replaces.
+    void add_update();
+    /// Parses the command line. Returns false if the help was asked for; it has been printed.
+    /// Throws cli::UsageError, or Error if the document cannot be read.
+    bool parse();
+
+    /// Runs `work(i, tally)` for i from 0 to count - 1 with one Tally for each thread, and adds the
+    /// tallies with +=. The result does not depend on the number of threads. `what` is shown as
+    /// progress. Ctrl-C ends the work early.
+    template <typename Tally, typename Work>
+    Count<Tally> count(const std::string& what, std::uint64_t count, Work work) const {
+        std::vector<Tally> tallies(threads);
+        Count<Tally> result{
+            on_threads(what, count, [&](std::uint64_t i, unsigned k) { work(i, tallies[k]); }), {}};
+        for (const Tally& tally : tallies)
+            result.tally += tally;
+        return result;
+    }
+
+    /// Returns outcomes[k][i], the outcome of frame i of the run with options[k]. `what` is shown
+    /// as progress. Throws Error if interrupted.
+    std::vector<std::vector<Outcome>> evaluate(const std::string& what, FrameRun frames) const;
+
+    /// Prints a generated part of the document, and keeps it.
+    void print_block(const std::string& name, const std::string& text);
+    const Blocks& blocks() const { return blocks_; }
+    /// Replaces the parts of the document, if one was named, by those that were printed.
+    void update_document() const;
+    const std::string& document() const { return document_; }
+
+  private:
+    /// Runs `work(i, thread)` for all i on all threads.
+    Done on_threads(const std::string& what, std::uint64_t count,
+                    const std::function<void(std::uint64_t, unsigned)>& work) const;
+
+    int argc_;
+    const char* const* argv_;
+    std::string document_;  ///< path; empty for none
+    Blocks blocks_;
+};
+
+/// Returns a function that shows progress on a line and stops the work on Ctrl-C.
+Progress shown_on(cli::ProgressLine& line);
+
+/// Memory for the locators of this thread.
+LargeMemory& thread_memory();
+
+/// Returns the frame of a shot with its true pose, whose code is not given.
+KnownFrame known_frame(const Shot& shot);
+
+/// Returns a setup of preset nominal with images of this size.
+Setup setup_of(std::uint64_t seed, int width_px, int height_px);
+
+}  // namespace dotpose::tables

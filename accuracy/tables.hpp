@@ -1,0 +1,23 @@
+/// The tables of dotpose_tables. Each function adds its options to the run, calls `run.parse()`,
+/// and measures and prints its table. It returns false if a fix is wrong or the run was
+/// interrupted.
+#pragma once
+
+#include "table_run.hpp"
+
+namespace dotpose::tables {
+
+bool accuracy_table(TableRun& run);
+bool adversarial_table(TableRun& run);
+bool alike_table(TableRun& run);
+bool calibration_table(TableRun& run);
+bool drive_table(TableRun& run);
+bool golden_table(TableRun& run);
+bool integrity_table(TableRun& run);
+bool limits_table(TableRun& run);
+bool seams_table(TableRun& run);
+bool slips_table(TableRun& run);
+bool tracked_table(TableRun& run);
+bool views_table(TableRun& run);
+
+}  // namespace dotpose::tables
