@@ -21,6 +21,7 @@ dotpose::DeviceMemory memory;
 }  // namespace
 
 int main(int argc, char** argv) try {
+    if (argc < 2) return std::fputs("usage: device_packets IMAGE...\n", stderr), 2;
     dotpose::DeviceLocator locator(memory);
     for (int i = 1; i < argc; ++i) {
         const dotpose::GreyImage image = dotpose::read_image(argv[i]);

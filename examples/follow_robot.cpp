@@ -11,7 +11,7 @@
 
 int main(int argc, char** argv) try {
     using namespace dotpose;
-    if (argc < 3) return 2;
+    if (argc < 3) return std::fputs("usage: follow_robot FRAMES_PER_SECOND IMAGE...\n", stderr), 2;
     Locator locator;
     Tracker tracker;
     Fix seen;  // The newest fix and its sighting.

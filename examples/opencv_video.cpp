@@ -19,7 +19,7 @@ dotpose::ImageView view_of(const cv::Mat& grey) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-    if (argc != 2) return 2;
+    if (argc != 2) return std::fputs("usage: opencv_video CAMERA_OR_VIDEO\n", stderr), 2;
     const std::string source = argv[1];
     const bool is_number = source.size() == 1 && std::isdigit(source[0]) != 0;
     cv::VideoCapture capture;

@@ -76,7 +76,7 @@ Lines captions_of(const CalibrationStatus& status) {
     append_wrapped(taken_text(status) + "; " + status.now, kPanelColumns, lines);
     append_wrapped("next: " + next_text(status), kPanelColumns, lines);
     if (!status.remark.empty()) append_wrapped(status.remark, kPanelColumns, lines);
-    // Always as many lines, so that what is drawn below them stays where it is.
+    // A constant number of lines keeps what is drawn below them in place.
     lines.resize(kCaptions - 1);
     lines.emplace_back("q ends");
     return lines;

@@ -12,10 +12,10 @@ namespace dotpose::cli {
 namespace {
 
 constexpr std::int64_t kWindow_us = 1'000'000;
-/// Fewest frames in a second that allow a judgement; slow cameras deliver no more.
-constexpr std::size_t kLeastFrames = 3;
-/// Most frames that are kept, in case the times of a source do not advance.
-constexpr std::size_t kMostFrames = 2000;
+/// Minimum number of frames in a second for a hint. Slow cameras deliver no more.
+constexpr std::size_t kMinFrames = 3;
+/// Maximum number of frames that are kept, in case the times of a source do not advance.
+constexpr std::size_t kMaxFrames = 2000;
 
 std::string reason_with_advice(Record record, ImageView image, const Options& options,
                                double bits_per_px) {
@@ -41,10 +41,10 @@ void FailureHint::remember(const Record& record, ImageView image, const Options&
     ++frames_;
     if (record.fix.status == Status::ok) return;
     ++failed_;
-    Failures& alike = failures_[record.fix.status];
-    if (std::has_single_bit(static_cast<std::uint64_t>(++alike.count))) {
-        alike.record = record;
-        alike.image = copy_of(image);
+    Failures& same_status = failures_[record.fix.status];
+    if (std::has_single_bit(static_cast<std::uint64_t>(++same_status.count))) {
+        same_status.record = record;
+        same_status.image = copy_of(image);
     }
     options_ = options;
     bits_per_px_ = bits_per_px;
@@ -67,7 +67,7 @@ std::string FailureHint::after(const Reading& reading, ImageView image, const Op
     remember(record, image, options, bits_per_px);
     last_second_.push_back({reading.time_us, record.fix.status != Status::ok});
     // The oldest frame that is kept must be a second old; until then it is too early to judge.
-    while (last_second_.size() > kMostFrames ||
+    while (last_second_.size() > kMaxFrames ||
            (last_second_.size() > 1 && reading.time_us - last_second_[1].time_us >= kWindow_us)) {
         last_second_.pop_front();
     }
@@ -78,7 +78,7 @@ std::string FailureHint::after(const Reading& reading, ImageView image, const Op
         is_told_ = false;
         return {};
     }
-    const bool is_time = is_long_enough && failed >= kLeastFrames && !is_told_;
+    const bool is_time = is_long_enough && failed >= kMinFrames && !is_told_;
     if (!is_time || record.fix.status == Status::ok) return {};
     is_told_ = true;
     return fmt::format("most frames of the last second were not located; the newest: {}",

@@ -129,13 +129,13 @@ void add_fleet(Command& app, int&) {
     command->add_option("--log", arguments->log, "Write every state as a line of CSV")
         ->type_name("FILE");
     arguments->share.add_to(*command);
-    command->add_option("--every", arguments->every_s, "Time between two looks")
+    command->add_option("--every", arguments->every_s, "Time between two updates")
         ->type_name("S")
         ->capture_default_str()
-        ->check(Range(0.05, 3600.0).description(""));
+        ->check(Range(0.05, 3600.0));
     command->add_option("--seconds", arguments->seconds, "End after this time")
         ->type_name("S")
-        ->check(Range(0.1, 1e9).description(""));
+        ->check(Range(0.1, 1e9));
     command->callback([arguments] { run(*arguments); });
 }
 

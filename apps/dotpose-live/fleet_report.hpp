@@ -11,7 +11,7 @@
 namespace dotpose::cli {
 
 /// Whether a fleet gets all states of its robots. If it shares them with others, missing numbers
-/// are no missing states, so these are not told.
+/// are no missing states, so these are not reported.
 enum class Gets { all, share };
 
 /// Returns a table of the robots as text, with a header line, and a line of what was counted.

@@ -23,8 +23,8 @@ std::string check_group(const std::string& name) {
 }
 
 void parse_shard(const std::string& text, Shard& shard) {
-    constexpr std::uint32_t kMost = 1'000'000;
-    const auto numbers = whole_numbers(text, "/", kMost);
+    constexpr std::uint32_t kMax = 1'000'000;
+    const auto numbers = whole_numbers(text, "/", kMax);
     if (!numbers || (*numbers)[0] < 1 || (*numbers)[0] > (*numbers)[1]) {
         throw ValidationError("--shard", "'" + text + "' is not I/N with I from 1 to N");
     }

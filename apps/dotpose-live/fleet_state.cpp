@@ -48,7 +48,7 @@ void FleetState::take_state(std::string_view name, RobotState state, std::int64_
     count_latency(static_cast<float>(now_us - state.sent_us) * 1e-3F);
     const auto arrival = robot.numbers.take(state, robot.shown.counts);
     if (arrival == StateNumbers::Arrival::repeated) return;
-    // A lost robot is still on the map on which it was.
+    // A lost robot stays on its last map.
     if (!state.is_localized) state.map_id = robot.shown.newest.map_id;
     listener_(name, state);
     if (arrival == StateNumbers::Arrival::late) return;
@@ -62,7 +62,7 @@ FleetState::Robot& FleetState::heard(std::string_view name) {
         by_age_.splice(by_age_.end(), by_age_, known->second.place);
         return known->second;
     }
-    if (robots_.size() == kMostRobots) remove_oldest();
+    if (robots_.size() == kMaxRobots) remove_oldest();
     const auto added = robots_.emplace(name, Robot()).first;
     added->second.place = by_age_.insert(by_age_.end(), &added->first);
     return added->second;
@@ -76,7 +76,7 @@ void FleetState::remove_oldest() {
 }
 
 void FleetState::extend_path(Robot& robot) const {
-    constexpr double kStep_mm = 0.1;  // a robot that stands keeps the path on which it came
+    constexpr double kStep_mm = 0.1;  // a robot at rest adds no points to its path
     const std::size_t most = std::min(kPath, kAllPaths / robots_.size());
     const RobotState& newest = robot.shown.newest;
     const draw::Point place{newest.x_m * 1000, newest.y_m * 1000};

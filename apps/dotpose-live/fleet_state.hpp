@@ -32,8 +32,8 @@ struct Latency {
 
 class FleetState {
   public:
-    /// Most robots that are kept; beyond it, those with the oldest messages are removed.
-    static constexpr std::size_t kMostRobots = 10'000;
+    /// Maximum number of robots. Beyond it, those with the oldest messages are removed.
+    static constexpr std::size_t kMaxRobots = 10'000;
 
     using Listener = std::function<void(std::string_view robot, const RobotState& state)>;
 
@@ -60,7 +60,7 @@ class FleetState {
   private:
     static constexpr std::size_t kLatencies = 1 << 17;
     static constexpr std::size_t kPath = 2000;
-    /// Most points of all paths together; with many robots, their paths are shorter.
+    /// Maximum number of points of all paths. With many robots, their paths are shorter.
     static constexpr std::size_t kAllPaths = 1 << 21;
 
     struct Robot {
@@ -81,7 +81,7 @@ class FleetState {
     Listener listener_;
     mutable std::mutex mutex_;
     std::map<std::string, Robot, std::less<>> robots_;
-    std::list<const std::string*> by_age_;  ///< names, first the one that was not heard for longest
+    std::list<const std::string*> by_age_;  ///< names, oldest message first
     StateCounts of_removed_;
     std::vector<float> latencies_ms_;
     std::size_t next_latency_ = 0;

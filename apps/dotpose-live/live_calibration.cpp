@@ -28,8 +28,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Most frames that are taken: more take longer and tell no more.
-constexpr std::size_t kMostLiveFrames = 50;
+/// Maximum number of frames that are taken. More take longer and add nothing.
+constexpr std::size_t kMaxLiveFrames = 50;
 /// A camera that moves less in the image, in px per s, is steady: less than a pixel during an
 /// exposure, or while a rolling shutter passes.
 constexpr double kSteady_px_s = 30;
@@ -40,7 +40,7 @@ constexpr std::int64_t kPatience_us = 3'000'000;
 /// covered.
 constexpr int kNewParts = 3;
 
-/// Tells how fast the image moves, from one located frame to the next.
+/// Measures the speed of the image, from one located frame to the next.
 class Motion {
   public:
     /// Returns the speed since the frame before, in px per s; infinite if it is not known.
@@ -92,7 +92,7 @@ class LiveCalibration {
     void take_all(capture::FrameSource& source) {
         try {
             capture::Frame frame;
-            while (!is_enough() && taken_.size() < kMostLiveFrames && source.next(frame)) {
+            while (!is_enough() && taken_.size() < kMaxLiveFrames && source.next(frame)) {
                 bits_per_px_ = source.bits_per_px();
                 if (!look(frame) || !go_on_calibrating()) break;
             }
@@ -243,7 +243,7 @@ std::optional<Camera> LiveCalibration::lens() const {
     return job_.newest() ? std::optional(job_.newest()->camera) : std::nullopt;
 }
 
-/// Whether a calibration would tell more than the newest one. Each takes longer than the one
+/// Whether another calibration would be better than the newest one. Each takes longer than the one
 /// before, so it is made again for twice as many frames, or for as many as the lens may need:
 /// deviations fall with the root of the number of frames.
 bool LiveCalibration::is_worth_calibrating() const {
@@ -298,7 +298,7 @@ void LiveCalibration::finish_job() {
     }
 }
 
-/// Returns what the frames show too little of.
+/// Returns what is missing in the frames.
 std::string LiveCalibration::shortage() const {
     std::string text = fmt::format(
         "not enough was seen, and no file is written: of {} frames {} were located and {} taken "

@@ -14,7 +14,7 @@ Option* MqttArguments::add_to(Command& command) {
     command.add_option("--qos", qos_, "0: states may be lost, 1: they arrive, perhaps twice")
         ->type_name("N")
         ->capture_default_str()
-        ->check(Range(0, 1).description(""));
+        ->check(Range(0, 1));
     return command
         .add_option("--mqtt", url_,
                     "Broker: mqtt://[USER[:PASSWORD]@]HOST[:PORT], or mqtts:// for TLS; a password "

@@ -31,7 +31,7 @@ void PathMemory::add(const Track& track) {
     if (track.is_lost || frames_++ % stride_ != 0) return;
     marks_.push_back({track.pose.x_mm(), track.pose.y_mm(), is_jump_});
     is_jump_ = false;
-    if (marks_.size() < kMost) return;
+    if (marks_.size() < kMax) return;
     for (std::size_t i = 0; 2 * i < marks_.size(); ++i) {
         const bool is_jump = marks_[2 * i].is_jump || (2 * i > 0 && marks_[2 * i - 1].is_jump);
         marks_[i] = marks_[2 * i];

@@ -24,7 +24,7 @@ class PathMemory {
     std::vector<std::vector<draw::Point>> strokes() const;
 
   private:
-    static constexpr std::size_t kMost = 16384;
+    static constexpr std::size_t kMax = 16384;
 
     std::vector<video::PathMark> marks_;
     std::int64_t stride_ = 1;  ///< one in this many tracked frames is kept

@@ -9,7 +9,7 @@
 
 namespace dotpose::cli {
 
-/// In which plane a robot is tracked: the bare pattern, or the world of a sheet file.
+/// The plane of a track: the pattern, or the world of a sheet file.
 enum class Plane { pattern, sheet_world };
 Plane plane_of(const Follower& follower);
 

@@ -1,4 +1,4 @@
-/// Passes on what `dotpose watch` sees as messages of ROS 2: to an MCAP file, and over DDS.
+/// Sends the readings of `dotpose watch` as messages of ROS 2: to an MCAP file, and over DDS.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct RobotOutputOptions {
     std::optional<dds::PublisherOptions> dds;  ///< none if nothing is published
     std::string robot;
     std::string frame_prefix;      ///< before the names of the robot's frames
-    std::optional<Camera> camera;  ///< tells the mount and the exposure
+    std::optional<Camera> camera;  ///< has the mount and the exposure
 
     bool is_wanted() const { return !mcap.empty() || dds; }
 };

@@ -82,7 +82,7 @@ std::optional<MessageTopic> parse_topic(std::string_view topic) {
     if (!topic.starts_with('/')) return std::nullopt;
     topic.remove_prefix(1);
     const std::size_t slash = topic.find('/');
-    if (slash == 0 || slash == std::string_view::npos || slash > kMostNameBytes) {
+    if (slash == 0 || slash == std::string_view::npos || slash > kMaxNameBytes) {
         return std::nullopt;
     }
     const auto subject = std::ranges::find(kSubjects, topic.substr(slash + 1));

@@ -19,7 +19,7 @@ inline constexpr const char* kTopicRoot = "uagv/v2/dotpose";
 inline constexpr std::string_view kConnectionStates[] = {"ONLINE", "OFFLINE", "CONNECTIONBROKEN"};
 
 /// Longest name of a robot; topics with longer names are ignored.
-inline constexpr std::size_t kMostNameBytes = 128;
+inline constexpr std::size_t kMaxNameBytes = 128;
 
 /// Subject of a message, the last part of its topic.
 enum class Subject {

@@ -29,9 +29,9 @@ StateNumbers::Arrival StateNumbers::take(const RobotState& state, StateCounts& c
     }
     // A lower number means that the robot has started again, which is no gap.
     if (!is_first && sent.number > newest_.number) {
-        constexpr std::uint64_t kMost = 1'000'000'000;
+        constexpr std::uint64_t kMax = 1'000'000'000;
         counts.missed +=
-            static_cast<std::int64_t>(std::min(sent.number - newest_.number - 1, kMost));
+            static_cast<std::int64_t>(std::min(sent.number - newest_.number - 1, kMax));
     }
     newest_ = sent;
     return Arrival::news;

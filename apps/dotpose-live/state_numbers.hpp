@@ -1,5 +1,4 @@
-/// Follows the numbers and times of the states of one robot: which state is news, which are
-/// missing, which came late or twice.
+/// Classifies the states of one robot by their numbers and times: new, missing, late, repeated.
 #pragma once
 
 #include <array>
@@ -37,7 +36,7 @@ class StateNumbers {
     };
     bool is_late(const Sent& sent);
 
-    /// Number of newest states that are recognized if they are repeated.
+    /// Number of newest states whose repetitions are recognized.
     static constexpr std::size_t kRemembered = 64;
 
     bool is_first_ = true;

@@ -21,8 +21,8 @@ namespace {
 
 using simdjson::dom::object;
 
-/// Longest message that is read.
-constexpr std::size_t kMostBytes = 1 << 16;
+/// Maximum size of a message.
+constexpr std::size_t kMaxBytes = 1 << 16;
 
 /// Parses `count` digits of a text that is long enough; returns -1 if they are not digits.
 int digits(std::string_view text, std::size_t first, std::size_t count) {
@@ -74,7 +74,7 @@ std::optional<std::int64_t> parse_timestamp(std::string_view text) {
     return microseconds(time.time_since_epoch()).count() + *fraction_us;
 }
 
-/// A value of a message that cannot be right.
+/// A value of a message is out of range.
 struct Absurd {};
 
 /// Returns a number of a message. Throws simdjson_error if there is none, and Absurd if its
@@ -87,7 +87,7 @@ double bounded(const object& values, std::string_view key, double most) {
 
 std::string name_in(const object& values, std::string_view key) {
     const std::string_view name = values[key].get_string();
-    if (name.size() > kMostNameBytes) throw Absurd();
+    if (name.size() > kMaxNameBytes) throw Absurd();
     return std::string(name);
 }
 
@@ -98,9 +98,9 @@ std::int64_t time_in(const object& message) {
 }
 
 RobotState state_in(const object& message) {
-    constexpr double kMost_m = 1e6;
-    constexpr double kMost_m_s = 1e4;
-    constexpr double kMost_rad = 1e4;
+    constexpr double kMax_m = 1e6;
+    constexpr double kMax_m_s = 1e4;
+    constexpr double kMax_rad = 1e4;
     RobotState state;
     state.sent_us = time_in(message);
     state.header_id = message["headerId"].get_uint64();
@@ -109,14 +109,14 @@ RobotState state_in(const object& message) {
     state.is_localized = message["agvPosition"].get(position) == simdjson::SUCCESS;
     if (!state.is_localized) return state;
     state.map_id = name_in(position, "mapId");
-    state.x_m = bounded(position, "x", kMost_m);
-    state.y_m = bounded(position, "y", kMost_m);
-    state.theta_rad = bounded(position, "theta", kMost_rad);
-    state.deviation_m = bounded(position, "deviationRange", kMost_m);
+    state.x_m = bounded(position, "x", kMax_m);
+    state.y_m = bounded(position, "y", kMax_m);
+    state.theta_rad = bounded(position, "theta", kMax_rad);
+    state.deviation_m = bounded(position, "deviationRange", kMax_m);
     const object velocity = message["velocity"].get_object();
-    state.vx_m_s = bounded(velocity, "vx", kMost_m_s);
-    state.vy_m_s = bounded(velocity, "vy", kMost_m_s);
-    state.omega_rad_s = bounded(velocity, "omega", kMost_rad);
+    state.vx_m_s = bounded(velocity, "vx", kMax_m_s);
+    state.vy_m_s = bounded(velocity, "vy", kMax_m_s);
+    state.omega_rad_s = bounded(velocity, "omega", kMax_rad);
     return state;
 }
 
@@ -133,8 +133,8 @@ RobotConnection connection_in(const object& message) {
 
 /// Returns a parser whose memory is kept from message to message.
 simdjson::dom::parser make_parser() {
-    simdjson::dom::parser parser(kMostBytes);
-    if (parser.allocate(kMostBytes, files::kMostJsonDepth) != simdjson::SUCCESS) {
+    simdjson::dom::parser parser(kMaxBytes);
+    if (parser.allocate(kMaxBytes, files::kMostJsonDepth) != simdjson::SUCCESS) {
         throw std::bad_alloc();
     }
     return parser;

@@ -52,7 +52,7 @@ constexpr const char* kWatchExamples =
     "One line per frame with the raw and the tracked pose (docs/live.md). Of a camera the newest\n"
     "frame is taken and those in between are counted; of all else every frame. Ctrl-C ends.\n";
 
-/// The last domain whose ports exist.
+/// The largest domain of DDS: higher ones have no ports.
 constexpr int kLastDomain = 232;
 
 struct DdsArguments {
@@ -102,10 +102,10 @@ struct WatchArguments {
 
 void report(const WatchOutputs& outputs, std::int64_t dropped) {
     const WatchTally& tally = outputs.tally();
-    fmt::print(stderr,
-               "dotpose: {} frames, {} fixes, {} times lost, {} times kidnapped, {} frames "
-               "dropped, {:.1f} frames/s\n",
-               tally.frames, tally.fixes, tally.lost, tally.kidnapped, dropped, outputs.rate());
+    tell(fmt::format(
+        "{} frames, {} fixes, {} times lost, {} times kidnapped, {} frames dropped, "
+        "{:.1f} frames/s",
+        tally.frames, tally.fixes, tally.lost, tally.kidnapped, dropped, outputs.rate()));
 }
 
 RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
@@ -173,7 +173,7 @@ class Pace {
     std::optional<std::chrono::steady_clock::time_point> begun_;  ///< when time 0 was due
 };
 
-/// Says on standard error which places the tracked poses have, if they are not in the world.
+/// Warns on standard error if the tracked poses are not in the world.
 void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follower) {
     const OutputOptions& outputs = arguments.outputs;
     const bool is_published = outputs.mqtt || outputs.messages.is_wanted();
@@ -310,7 +310,7 @@ int run(WatchArguments& arguments) {
     report(outputs, source->dropped());
     if (saver) tell(fmt::format("{} frames saved in {}", saver->saved(), arguments.save.folder));
     if (const std::string why = hint.at_end(); !why.empty()) tell(why);
-    // Single images that cannot be read are passed over; but none at all is a failure.
+    // Images that cannot be read are skipped, but it is a failure if none was read.
     return is_unreadable && outputs.tally().frames == 0 ? kExitFailed : exit_code;
 }
 
@@ -332,7 +332,7 @@ void add_output_options(Command& command, WatchArguments& arguments) {
         ->type_name("DIR");
     command.add_option("--save-every", arguments.save.every, "Save every N-th frame instead")
         ->type_name("N")
-        ->check(Range(1, 2'000'000'000).description(""));
+        ->check(Range(1, 2'000'000'000));
     command
         .add_option_function<std::string>(
             "--image-format",
@@ -340,7 +340,8 @@ void add_output_options(Command& command, WatchArguments& arguments) {
                 arguments.save.format = kFrameFormats.at(name);
                 arguments.outputs.messages.image_format = arguments.save.format;
             },
-            "Of the frames of --save and --mcap-images: png; jpeg, with small losses, or pgm, "
+            "Format of the frames of --save and --mcap-images: png; jpeg, with small losses, or "
+            "pgm, "
             "uncompressed, for every frame of a fast camera")
         ->type_name("NAME")
         ->default_str("png")
@@ -351,9 +352,9 @@ void add_output_options(Command& command, WatchArguments& arguments) {
                      "Print the cameras of this computer with their sizes and rates, and end");
     command.add_flag("--no-window", arguments.has_no_window,
                      "Show nothing, even where there is a display");
-    command.add_option("--frames", arguments.frames, "End after so many")
+    command.add_option("--frames", arguments.frames, "End after N frames")
         ->type_name("N")
-        ->check(Range(1, 2'000'000'000).description(""));
+        ->check(Range(1, 2'000'000'000));
 }
 
 void add_publish_options(Command& command, OutputOptions& outputs, MqttArguments& mqtt) {
@@ -361,10 +362,12 @@ void add_publish_options(Command& command, OutputOptions& outputs, MqttArguments
     add_robot_option(command, outputs.robot,
                      "Name of the robot on the broker and in topics of ROS");
     add_frame_prefix_option(command, outputs.messages.frame_prefix);
-    command.add_option("--mqtt-rate", outputs.mqtt_rate_hz, "Most states a second; events always")
+    command
+        .add_option("--mqtt-rate", outputs.mqtt_rate_hz,
+                    "Maximum number of states per second; events are always sent")
         ->type_name("HZ")
         ->default_str("all")
-        ->check(Range(0.001, 1e6).description(""));
+        ->check(Range(0.001, 1e6));
 }
 
 void add_dds_options(Command& command, DdsArguments& dds) {
@@ -374,12 +377,12 @@ void add_dds_options(Command& command, DdsArguments& dds) {
     command.add_option("--dds-domain", dds.domain, "Domain of DDS")
         ->type_name("N")
         ->default_str("ROS_DOMAIN_ID, or 0")
-        ->check(Range(0, kLastDomain).description(""));
+        ->check(Range(0, kLastDomain));
 }
 
 void add_track_options(Command& command, TrackOptions& track) {
-    const auto require_positive = Range(1e-3, 1e7).description("");
-    command.add_option("--max-speed", track.max_speed_mm_s, "Of the robot")
+    const auto require_positive = Range(1e-3, 1e7);
+    command.add_option("--max-speed", track.max_speed_mm_s, "Maximum speed of the robot")
         ->type_name("MM/S")
         ->capture_default_str()
         ->check(require_positive);
@@ -398,7 +401,7 @@ void add_track_options(Command& command, TrackOptions& track) {
             "Probability of being wrong above which a position is refused, the prior included")
         ->type_name("P")
         ->default_str("1e-9")
-        ->check(Range(1e-60, 1e-3).description(""));
+        ->check(Range(1e-60, 1e-3));
     command
         .add_option_function<double>(
             "--lost-after",
@@ -406,7 +409,7 @@ void add_track_options(Command& command, TrackOptions& track) {
             "Time without a believed fix after which the robot is lost")
         ->type_name("MS")
         ->default_str("70")
-        ->check(Range(0.0, 1e9).description(""));
+        ->check(Range(0.0, 1e9));
 }
 
 }  // namespace
@@ -418,7 +421,7 @@ void add_watch(Command& app, int& exit_code) {
     command->footer(kWatchExamples);
     arguments->sources.add_to(*command);
     add_follower_options(*command, arguments->follower,
-                         "Sheet file: also tell the sheet, and track the robot in the world");
+                         "Sheet file: also report the sheet, and track the robot in the world");
     add_track_options(*command, arguments->follower.options.track);
     add_output_options(*command, *arguments);
     add_publish_options(*command, arguments->outputs, arguments->mqtt);

@@ -72,8 +72,8 @@ StateOutput::StateOutput(const OutputOptions& options)
 void StateOutput::finish() {
     constexpr auto kPatience = std::chrono::seconds(2);
     publisher_.flush(kPatience);
-    fmt::print(stderr, "dotpose: {} states published, {} dropped\n", publisher_.sent(),
-               publisher_.dropped() + publisher_.unsent());
+    tell(fmt::format("{} states published, {} dropped", publisher_.sent(),
+                     publisher_.dropped() + publisher_.unsent()));
     publisher_.require_reached();
 }
 

@@ -19,7 +19,6 @@
 #include "dotpose/files/camera_file.hpp"
 #include "dotpose/tools/draw.hpp"
 #include "live_calibration.hpp"
-#include "old_spellings.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
@@ -43,7 +42,7 @@ constexpr const char* kCalibrateExamples =
     "frames that show new places are taken; Ctrl-C ends the reading. With --live, a window (or,\n"
     "without a display, the terminal) shows what is still missing while you move the camera;\n"
     "frames are taken until they are enough, and q or Ctrl-C ends earlier. Exit status 1 if\n"
-    "frames do not tell what is asked.\n";
+    "the frames do not determine what is asked.\n";
 
 struct CalibrateArguments {
     SourceArguments sources;
@@ -58,12 +57,11 @@ struct CalibrateArguments {
     CameraArgument camera;
     std::string out;
     std::string picture;
-    std::string spin_picture;
     std::optional<Profile> code;  ///< none if it is found out from the frames
     CalibrateOptions options;
 };
 
-/// The sources of the frames for each part of the work, as far as they are given.
+/// The sources of the frames for each part of the work, if they were given.
 struct Series {
     std::optional<Sources> lens;
     std::optional<Sources> spin;
@@ -110,15 +108,15 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources, const 
         throw;
     } catch (const Error& error) {
         if (interrupted() || !frames.are_mirrored(options)) throw;
-        throw Error(error.what() + std::string(kMirrored));
+        throw Error(kMirrored);
     }
 }
 
 /// Returns the picture of the turn: that of --draw, or if it shows the lens, one beside it, with
 /// "-spin" in its name.
 std::string spin_picture_of(const CalibrateArguments& arguments) {
-    if (!arguments.spin_picture.empty() || arguments.picture.empty()) return arguments.spin_picture;
-    if (arguments.spin.empty() || !arguments.sources.is_given()) return arguments.picture;
+    const bool is_only_picture = arguments.spin.empty() || !arguments.sources.is_given();
+    if (arguments.picture.empty() || is_only_picture) return arguments.picture;
     const std::filesystem::path lens = arguments.picture;
     const std::string name = lens.stem().string() + "-spin" + lens.extension().string();
     return (lens.parent_path() / name).string();
@@ -243,7 +241,7 @@ void keep_camera_of(const std::string& out, CameraArgument& camera) {
     tell(fmt::format("{} exists: what is not calibrated now, such as the mount, is kept", out));
 }
 
-/// Uses the sheets of --sheets: code and spacing of the frames are theirs.
+/// Takes code and spacing of the frames from the sheets of --sheets.
 void use_sheets(CalibrateArguments& arguments) {
     if (arguments.sheets.empty() || arguments.stitch) return;
     arguments.spacing = SpacingSource::sheets;
@@ -290,7 +288,7 @@ int run(CalibrateArguments& arguments) {
     require_apart(arguments, series);
     keep_camera_of(arguments.out, arguments.camera);
     use_sheets(arguments);
-    // Nobody should move a camera for minutes in vain.
+    // Checked before the user moves the camera for minutes.
     if (arguments.is_live && !arguments.out.empty()) base::require_writable(arguments.out);
     catch_interrupts();
     const std::string report =
@@ -306,7 +304,7 @@ int run(CalibrateArguments& arguments) {
 void add_live_options(Command& command, CalibrateArguments& arguments) {
     Option* live = command.add_flag(
         "--live", arguments.is_live,
-        "Take frames by itself while you move the camera, and show what is still missing");
+        "Take frames automatically while you move the camera, and show what is still missing");
     for (const char* other : {"--spin", "--drive", "--stitch"})
         live->excludes(command.get_option(other));
     command
@@ -341,15 +339,6 @@ void add_calibrate(Command& app, int& exit_code) {
         ->add_option("--spin", arguments->spin,
                      "Frames of the robot turning on the spot: find its centre (reference_px)")
         ->type_name("SOURCE");
-    command
-        ->add_option_function<std::string>("--draw-spin",
-                                           [arguments](const std::string& path) {
-                                               tell(spelling_note("--draw-spin", "--draw"));
-                                               arguments->spin_picture = path;
-                                           })
-        ->type_name("FILE")
-        ->group("")
-        ->needs(command->get_option("--spin"));
     command
         ->add_option("--drive", arguments->drive,
                      "Frames of a straight drive ahead, in order: find the heading (theta_offset)")

@@ -49,7 +49,8 @@ void add_view(std::string& text, const Camera& camera) {
     if (camera.focal_px) {
         add(text, "focal       {:.2f}{} px", *camera.focal_px, plus_minus(sigma("focal_px"), 2));
     } else {
-        add(text, "focal       cannot be told from these frames: the camera looks straight down");
+        add(text,
+            "focal       cannot be determined from these frames: the camera looks straight down");
     }
 }
 
@@ -141,7 +142,7 @@ namespace {
 
 std::string print_scale_text(double scale, double sigma) {
     return fmt::format("{:.6f}{}{}", scale, plus_minus(sigma, 6),
-                       is_told(sigma) ? "" : " (NOT TOLD)");
+                       is_known(sigma) ? "" : " (UNKNOWN)");
 }
 
 /// Appends the print scales of the sheets and the reference by which they were measured.
@@ -153,7 +154,7 @@ void add_print_scales(std::string& text, const Stitching& stitching) {
         add(text, "print       {}: {} along x, {} along y", sheet.name,
             print_scale_text(entry->print_scale_x, sheet.sigma_scale_x),
             print_scale_text(entry->print_scale_y, sheet.sigma_scale_y));
-        is_all_told = is_all_told && is_told(sheet.sigma_scale_x) && is_told(sheet.sigma_scale_y);
+        is_all_told = is_all_told && is_known(sheet.sigma_scale_x) && is_known(sheet.sigma_scale_y);
         if (sheet.is_fixed) fixed = sheet.name;
     }
     using By = ScaleReference::By;
@@ -168,12 +169,12 @@ void add_print_scales(std::string& text, const Stitching& stitching) {
         default:
             add(text,
                 "scale       against that of {}, whose mean stays as it is: only --true-scale "
-                "tells true millimetres",
+                "gives true millimetres",
                 fixed);
     }
     if (!is_all_told) {
         add(text,
-            "NOT TOLD:   scales that these frames do not determine: it takes the camera file of a "
+            "UNKNOWN:    scales that these frames do not determine: it takes the camera file of a "
             "mounted camera (with mm_per_px) and frames at several angles");
     }
 }

@@ -18,8 +18,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Most frames of one source. More take longer and tell no more.
-constexpr std::size_t kMostChosen = 50;
+/// Maximum number of frames of one source. More take longer and add nothing.
+constexpr std::size_t kMaxChosen = 50;
 
 Follower follower_for(const CalibrateOptions& calibration) {
     FollowerOptions options;
@@ -52,7 +52,7 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
                                const CalibrateOptions& calibration) {
     const bool is_camera = capture::kind_of(source) == capture::SourceKind::camera;
     if (is_camera) {
-        tell("move the camera over the sheet, until it has shown " + std::to_string(kMostChosen) +
+        tell("move the camera over the sheet, until it has shown " + std::to_string(kMaxChosen) +
              " places or you end it with Ctrl-C");
     }
     std::optional<std::string> name = source;
@@ -65,14 +65,14 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
     std::int64_t mirrored = 0;
     capture::Frame frame;
     ProgressLine line("reading " + source);
-    while (!(is_camera && chosen.size() == kMostChosen) && list.next(frame)) {
+    while (!(is_camera && chosen.size() == kMaxChosen) && list.next(frame)) {
         const Located found = follower.locate(frame.image);
         line.update(++frames, list.length());
         located += found.fix.status == Status::ok;
         mirrored += found.fix.status == Status::mirrored;
         if (found.reduced_by > 1 || !places.take(found.fix, frame.image.view())) continue;
         chosen.push_back(std::move(frame.image));
-        if (chosen.size() <= kMostChosen) continue;
+        if (chosen.size() <= kMaxChosen) continue;
         remove_every_second(chosen);
         places.thin_out();
     }
@@ -80,9 +80,10 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
         tell("no more frames are read; Ctrl-C once more ends without a result");
     }
     if (interrupted()) throw Error("interrupted");
+    if (located == 0 && mirrored > 0) throw Error(source + ": " + kMirrored);
     if (located == 0) {
-        throw Error(fmt::format("{}: none of its {} frames shows a pattern that can be located{}",
-                                source, frames, mirrored > 0 ? kMirrored : ""));
+        throw Error(fmt::format("{}: none of its {} frames shows a pattern that can be located",
+                                source, frames));
     }
     tell(fmt::format("{}: {} of {} frames located; {} that show new places are used", source,
                      located, frames, chosen.size()));

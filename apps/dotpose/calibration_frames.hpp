@@ -9,9 +9,10 @@
 
 namespace dotpose::cli {
 
-/// Advice appended to the error for frames in which the pattern is mirrored.
+/// The error for frames in which the pattern is mirrored.
 inline constexpr const char* kMirrored =
-    "; they show it as in a mirror: use --flip, which the camera file then says as well";
+    "the frames show the pattern as in a mirror: use --flip, which is then written into the camera "
+    "file";
 
 /// All images that are named, and of videos, cameras and raw frames at most 50 that show new
 /// places. Images stay on the disk; the chosen frames are kept in memory.

@@ -36,7 +36,7 @@ constexpr const char* kCheckPrintExamples =
     "  dotpose check-print scan.png --fit --sheets sheets.json\n"
     "  dotpose print --test-page -o test.pdf    (print and scan it, then)\n"
     "  dotpose check-print test-scan.png\n\n"
-    "Scan the whole page at 600 dpi, without sharpening. A photo tells bits and, from near,\n"
+    "Scan the whole page at 600 dpi, without sharpening. A photo shows bits and, from near,\n"
     "missing dots, but no scale: an image is a photo, whatever its resolution, if it shows\n"
     "perspective or a lens, or if its EXIF data have a camera's exposure. --dpi says that the\n"
     "page lies in the image as in a scan.\n"
@@ -273,8 +273,9 @@ void add_check_print(Command& app, int& exit_code) {
         ->capture_default_str()
         ->check(Range(1, 1'000'000));
     command
-        ->add_option("--max-pixels", arguments->max_megapixels,
-                     "Largest scan, in millions; each takes 9 MB of memory")
+        ->add_option(
+            "--max-pixels", arguments->max_megapixels,
+            "Maximum number of pixels of the scan, in millions; each million takes 9 MB of memory")
         ->type_name("N")
         ->capture_default_str()
         ->check(Range(1, kMaxImagePixels / 1'000'000));

@@ -167,7 +167,7 @@ ordered_json json_of(const Pattern& pattern) {
 std::string doubt_of_code(const PrintCheck& check) {
     constexpr double kDoubtful = 0.01;
     if (check.code_p_wrong < kDoubtful) return "";
-    return fmt::format(" (or another one: so few dots do not tell; probability {:.2g})",
+    return fmt::format(" (or another one: too few dots to decide; probability {:.2g})",
                        check.code_p_wrong);
 }
 

@@ -6,15 +6,12 @@
 
 namespace dotpose::cli {
 
-Validator one_of(const std::vector<std::string>& names,
-                 const std::vector<std::string>& earlier_names) {
-    const auto refusal = [names, earlier_names](const std::string& value) -> std::string {
-        for (const auto& accepted : {names, earlier_names}) {
-            if (std::find(accepted.begin(), accepted.end(), value) != accepted.end()) return {};
-        }
+Validator one_of(const std::vector<std::string>& names) {
+    const auto refusal = [names](const std::string& value) -> std::string {
+        if (std::ranges::find(names, value) != names.end()) return {};
         return "'" + value + "' is not " + alternatives(names) + did_you_mean(value, names);
     };
-    return Validator(refusal, "", names);
+    return Validator(refusal, names);
 }
 
 std::string alternatives(const std::vector<std::string>& names) {

@@ -1,4 +1,4 @@
-/// Options whose value is one of a few names, and what these names are.
+/// Options whose value is one of a few names.
 #pragma once
 
 #include <string>
@@ -8,10 +8,9 @@
 
 namespace dotpose::cli {
 
-/// Checks that a value is one of `names`; the message tells them all and the nearest one.
-/// `earlier_names` are accepted too, and told nowhere.
-Validator one_of(const std::vector<std::string>& names,
-                 const std::vector<std::string>& earlier_names = {});
+/// Returns the check that a value is one of `names`. The refusal lists them and suggests the
+/// nearest.
+Validator one_of(const std::vector<std::string>& names);
 
 /// Returns "a, b or c".
 std::string alternatives(const std::vector<std::string>& names);

@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <set>
+#include <sstream>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -9,16 +11,124 @@
 namespace dotpose::cli {
 namespace {
 
+/// Returns the words of `text` in lines that end at column 100 at most and begin at `indent`.
+std::string wrapped(const std::string& text, std::size_t indent) {
+    constexpr std::size_t kColumns = 100;
+    std::string lines(indent, ' ');
+    std::size_t column = indent;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        if (column > indent && column + 1 + word.size() > kColumns) {
+            lines += '\n' + std::string(indent, ' ');
+            column = indent;
+        } else if (column > indent) {
+            lines += ' ';
+            ++column;
+        }
+        lines += word;
+        column += word.size();
+    }
+    return lines + '\n';
+}
+
+std::string joined(const std::vector<std::string>& texts, const char* separator) {
+    std::string all;
+    for (const std::string& text : texts)
+        all += (all.empty() ? "" : separator) + text;
+    return all;
+}
+
+std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : options)
+        names.push_back(option->get_name());
+    return names;
+}
+
+/// Help in two columns: options with their value; and their description, followed in parentheses by
+/// the default, and by the options that they need or exclude.
+class HelpFormatter : public CLI::Formatter {
+  public:
+    HelpFormatter() {
+        label("SUBCOMMAND", "COMMAND");
+        label("Positionals", "Arguments");
+    }
+
+    std::string make_option(const CLI::Option* option, bool is_argument) const override {
+        const std::string left = "  " + name_and_value(*option, is_argument);
+        const std::string right = wrapped(description(*option), get_column_width());
+        if (left.size() >= get_column_width()) return left + '\n' + right;
+        return left + right.substr(left.size());
+    }
+
+  private:
+    static std::string name_and_value(const CLI::Option& option, bool is_argument) {
+        if (is_argument) return option.get_name(true, false);
+        std::string text = CLI::detail::find_and_replace(option.get_name(false, true), ",", ", ");
+        const bool has_value = option.get_items_expected_max() > 0;
+        const bool is_list =
+            option.get_items_expected_max() >= CLI::detail::expected_max_vector_size;
+        if (has_value) text += ' ' + option.get_type_name();
+        return is_list ? text + "..." : text;
+    }
+
+    static std::string description(const CLI::Option& option) {
+        std::vector<std::string> notes;
+        if (option.get_required()) notes.push_back("required");
+        if (!option.get_default_str().empty())
+            notes.push_back("default: " + option.get_default_str());
+        if (!option.get_needs().empty())
+            notes.push_back("only with " + joined(names_of(option.get_needs()), ", "));
+        if (!option.get_excludes().empty())
+            notes.push_back("not with " + joined(names_of(option.get_excludes()), ", "));
+        if (notes.empty()) return option.get_description();
+        return option.get_description() + " (" + joined(notes, "; ") + ")";
+    }
+};
+
 template <typename Number>
 Validator range(Number least, Number most) {
     const CLI::Range range(least, most);
-    // Versions of CLI11 word the refusal differently.
-    const auto refusal = [range, least, most](const std::string& value) -> std::string {
+    return Validator([range, least, most](const std::string& value) -> std::string {
         std::string tried = value;
         if (range(tried).empty()) return {};
-        return fmt::format("Value {} not in range {} to {}", value, least, most);
-    };
-    return Validator(refusal, range.get_description());
+        return fmt::format("'{}' is not a number from {} to {}", value, least, most);
+    });
+}
+
+/// Splits a text at the first `separator`.
+std::pair<std::string, std::string> split(const std::string& text, std::string_view separator) {
+    const std::size_t at = text.find(separator);
+    if (at == std::string::npos) return {text, ""};
+    return {text.substr(0, at), text.substr(at + separator.size())};
+}
+
+/// Returns the message for an error of CLI11, whose own messages name types and counts. Only its
+/// text has the names of options and the values.
+std::string message_of(const CLI::ParseError& error) {
+    const std::string text = error.what();
+    if (text == "A subcommand is required") return "no command given";
+    if (text == "--out is required") return "--out is required: name the file to write, -o FILE";
+    const std::string& kind = error.get_name();
+    if (kind == "ExcludesError") {
+        const auto [option, other] = split(text, " excludes ");
+        return fmt::format("{} and {} cannot be given together", option, other);
+    }
+    if (kind == "ConversionError") {
+        const auto [option, value] = split(split(text, "Could not convert: ").second, " = ");
+        return fmt::format("{}: '{}' is not a number that it takes", option, value);
+    }
+    if (kind == "ArgumentMismatch") {
+        const auto [option, problem] = split(text, ": ");
+        if (problem.ends_with("missing")) return option + " lacks its value";
+        // "At least 2 required but received 1"
+        std::istringstream words(problem);
+        std::string word, wanted, given;
+        words >> word >> word >> wanted >> word >> word >> word >> given;
+        return fmt::format("{} takes {}, not {}", option,
+                           wanted == "1" ? "one value" : wanted + " values", given);
+    }
+    return text;
 }
 
 /// Calls `parse` and turns what CLI11 throws into what Command::parse promises.
@@ -30,15 +140,8 @@ bool parsed(CLI::App& app, const std::function<void()>& parse) {
         app.exit(request);
         return false;
     } catch (const CLI::ParseError& error) {
-        throw UsageError(error.what());
+        throw UsageError(message_of(error));
     }
-}
-
-std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : options)
-        names.push_back(option->get_name());
-    return names;
 }
 
 }  // namespace
@@ -75,11 +178,6 @@ Option* Option::capture_default_str() {
     return this;
 }
 
-Option* Option::group(const std::string& name) {
-    option_->group(name);
-    return this;
-}
-
 Option* Option::required() {
     option_->required();
     return this;
@@ -111,7 +209,7 @@ Option* Option::check(const Check& check) {
 }
 
 Option* Option::check(const Validator& validator) {
-    option_->check(validator.check_, validator.description_);
+    option_->check(validator.check_);
     if (!validator.choices_.empty()) choices_ = validator.choices_;
     return this;
 }
@@ -132,14 +230,6 @@ std::string Option::get_description() const {
     return option_->get_description();
 }
 
-std::string Option::get_default_str() const {
-    return option_->get_default_str();
-}
-
-std::string Option::get_group() const {
-    return option_->get_group();
-}
-
 std::vector<std::string> Option::get_snames() const {
     return option_->get_snames();
 }
@@ -148,33 +238,17 @@ std::vector<std::string> Option::get_lnames() const {
     return option_->get_lnames();
 }
 
-std::vector<std::string> Option::get_needs() const {
-    return names_of(option_->get_needs());
-}
-
-std::vector<std::string> Option::get_excludes() const {
-    return names_of(option_->get_excludes());
-}
-
 bool Option::get_positional() const {
     return option_->get_positional();
-}
-
-bool Option::get_required() const {
-    return option_->get_required();
 }
 
 int Option::get_items_expected_max() const {
     return option_->get_items_expected_max();
 }
 
-bool Option::takes_any_number() const {
-    return option_->get_items_expected_max() >= CLI::detail::expected_max_vector_size;
-}
-
 Command::Command(const std::string& what, const std::string& name)
     : app_(std::make_shared<CLI::App>(what, name)) {
-    app_->get_formatter()->label("SUBCOMMAND", "COMMAND");
+    app_->formatter(std::make_shared<HelpFormatter>());
 }
 
 Command* Command::add_subcommand(const std::string& name, const std::string& what) {
@@ -256,10 +330,6 @@ std::string Command::get_name() const {
 
 std::string Command::get_description() const {
     return app_->get_description();
-}
-
-std::string Command::get_footer() const {
-    return app_->get_footer();
 }
 
 std::size_t Command::count(const std::string& option) const {

@@ -1,4 +1,4 @@
-/// Commands and their options, as CLI11 has them: the member functions mean what they mean there.
+/// Commands and their options: a thin layer over CLI11, whose names it keeps.
 ///
 /// The header of CLI11 takes a compiler ten seconds, in every source that includes it. Here only
 /// command_line.cpp does.
@@ -21,7 +21,7 @@ class Option;
 
 namespace dotpose::cli {
 
-/// The command line is wrong; the message says in what.
+/// An error in the command line.
 class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -37,29 +37,18 @@ class ValidationError : public UsageError {
 bool parse_number(const std::string& text, double& number);
 bool parse_number(const std::string& text, int& number);
 
-/// Tells what is wrong with a value; an empty text if nothing is.
+/// Returns what is wrong with a value, or an empty text if nothing is.
 using Check = std::function<std::string(const std::string& value)>;
 
-/// A check of values with what is told about them.
+/// A check of values, and all values that pass it if these are few.
 class Validator {
   public:
-    /// `description` is added to the type of the value in the help; `choices` are all values, if
-    /// they are few.
-    explicit Validator(Check check, std::string description = "",
-                       std::vector<std::string> choices = {})
-        : check_(std::move(check)),
-          description_(std::move(description)),
-          choices_(std::move(choices)) {}
-
-    /// Returns the validator with another text for the help, which may be empty.
-    Validator description(const std::string& text) const {
-        return Validator(check_, text, choices_);
-    }
+    explicit Validator(Check check, std::vector<std::string> choices = {})
+        : check_(std::move(check)), choices_(std::move(choices)) {}
 
   private:
     friend class Option;
     Check check_;
-    std::string description_;
     std::vector<std::string> choices_;
 };
 
@@ -82,7 +71,6 @@ class Option {
     Option* description(const std::string& help);
     Option* default_str(const std::string& text);
     Option* capture_default_str();
-    Option* group(const std::string& name);
     Option* required();
     Option* needs(Option* other);
     Option* excludes(Option* other);
@@ -91,21 +79,15 @@ class Option {
     Option* check(const Check& check);
     Option* check(const Validator& validator);
 
-    std::size_t count() const;  ///< how often the option was given
+    std::size_t count() const;  ///< number of times the option was given
 
-    std::string get_name() const;       ///< the longest, with the hyphens
-    std::string get_type_name() const;  ///< with what validators add, after a colon
+    std::string get_name() const;  ///< the longest, with the hyphens
+    std::string get_type_name() const;
     std::string get_description() const;
-    std::string get_default_str() const;
-    std::string get_group() const;
     std::vector<std::string> get_snames() const;  ///< names of one letter, without the hyphen
     std::vector<std::string> get_lnames() const;  ///< longer names, without the hyphens
     bool get_positional() const;
-    bool get_required() const;
-    std::vector<std::string> get_needs() const;     ///< names of options
-    std::vector<std::string> get_excludes() const;  ///< names of options
-    int get_items_expected_max() const;             ///< how many values it takes; 0: it is a flag
-    bool takes_any_number() const;                  ///< of values
+    int get_items_expected_max() const;  ///< maximum number of values; 0 for a flag
     /// All values that its validators accept; none if there are others.
     const std::vector<std::string>& choices() const { return choices_; }
 
@@ -145,7 +127,7 @@ class Command {
     Command* group(const std::string& name);
     Command* require_subcommand(int number);
     Command* prefix_command();  ///< whatever follows is accepted
-    Command* set_help_flag();   ///< to none
+    Command* set_help_flag();   ///< removes --help
     Command* set_version_flag(const std::string& name, const std::string& version);
 
     /// Parses the arguments of `main` and runs the callbacks of the commands that are named. Throws
@@ -156,7 +138,6 @@ class Command {
 
     std::string get_name() const;
     std::string get_description() const;
-    std::string get_footer() const;
     std::size_t count(const std::string& option) const;
     Option* get_option(const std::string& name) const;           ///< throws if there is none
     Option* get_option_no_throw(const std::string& name) const;  ///< null if there is none
@@ -170,7 +151,7 @@ class Command {
     Command* command_of(CLI::App* app) const;
 
     std::shared_ptr<CLI::App> app_;
-    // What callers see of the options and commands; made when first asked for.
+    // The layer over options and commands, made on first use.
     mutable std::map<CLI::Option*, Option> options_;
     mutable std::map<CLI::App*, std::unique_ptr<Command>> commands_;
 };

@@ -26,9 +26,8 @@ const std::map<std::string, DotDrawing> kDrawings = {
     {"strokes", DotDrawing::strokes},
 };
 
-/// The values of --code, besides auto, and the name that libdots had in earlier versions.
+/// The values of --code, besides auto.
 const std::vector<std::string> kCodes = {"anoto", "libdots", "microdots"};
-const std::vector<std::string> kEarlierCodes = {"published"};
 
 std::vector<std::string> g_arguments;
 
@@ -62,16 +61,16 @@ std::string require_positive(const std::string& text) {
 }
 
 /// Refuses a spacing that was probably given in micrometres or metres. The smallest one is ten dots
-/// of a printer of 25,000 dpi. With the largest one, 8 x 8 dots, the fewest that tell a position,
-/// fill most of an A0 poster.
+/// of a printer of 25,000 dpi. With the largest one, 8 x 8 dots, the smallest number that
+/// determines a position, fill most of an A0 poster.
 std::string require_spacing(const std::string& text) {
-    constexpr double kLeast_mm = 0.01;
-    constexpr double kMost_mm = 100;
+    constexpr double kMin_mm = 0.01;
+    constexpr double kMax_mm = 100;
     double value_mm = 0;
     if (!parse_number(text, value_mm) || !(value_mm > 0)) return require_positive(text);
-    if (value_mm >= kLeast_mm && value_mm <= kMost_mm) return {};
+    if (value_mm >= kMin_mm && value_mm <= kMax_mm) return {};
     return fmt::format("'{}' is no spacing of dots in mm, {:g} to {:g}; usual is {:g}", text,
-                       kLeast_mm, kMost_mm, kDefaultSpacing_mm);
+                       kMin_mm, kMax_mm, kDefaultSpacing_mm);
 }
 
 }  // namespace
@@ -83,7 +82,7 @@ void add_code_option(Command& command, Profile& profile) {
             "Code profile: " + alternatives(kCodes))
         ->type_name("NAME")
         ->default_str(profile_name(profile))
-        ->check(one_of(kCodes, kEarlierCodes));
+        ->check(one_of(kCodes));
 }
 
 void add_code_option(Command& command, std::optional<Profile>& code) {
@@ -95,7 +94,7 @@ void add_code_option(Command& command, std::optional<Profile>& code) {
             "Code profile that was printed: " + alternatives(kCodes) + "; auto: found out")
         ->type_name("NAME")
         ->default_str("auto")
-        ->check(one_of(names, kEarlierCodes));
+        ->check(one_of(names));
 }
 
 void add_section_option(Command& command, Section& section) {
@@ -174,7 +173,7 @@ Option* add_camera_option(Command& command, CameraArgument& camera, const std::s
 
 void add_attempt_options(Command& command, Options& options) {
     add_named(command, "--decoder", kDecoders, name(options.decoder),
-              "What the position is read from",
+              "Dots that the position is read from",
               [&options](Decoder decoder) { options.decoder = decoder; });
     add_named(command, "--effort", kEfforts, name(options.effort), "How hard to try",
               [&options](Effort effort) { options.effort = effort; });

@@ -102,8 +102,8 @@ class PatternArguments {
     std::optional<double> dot_mm_;
 };
 
-/// Returns the name of a way to draw dots, as --dots takes it, and the way by its name; none if
-/// there is none of this name.
+/// Return the name of a way to draw dots, as in --dots, and the way of a name; none if there is no
+/// such name.
 std::string drawing_name(DotDrawing drawing);
 std::optional<DotDrawing> drawing_by_name(const std::string& name);
 

@@ -131,7 +131,7 @@ int report(const std::vector<Outcome>& outcomes, const ReportArguments& argument
     return exit_code;
 }
 
-/// Evaluates some frames after the other, so that after Ctrl-C those that are done are kept.
+/// Evaluates the frames in batches, to keep those that are done after Ctrl-C.
 std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) {
     const int part = 16 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     std::vector<Outcome> outcomes;
@@ -146,7 +146,7 @@ std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) 
         std::ranges::move(evaluate(run).front(), std::back_inserter(outcomes));
     }
     if (interrupted()) {
-        // Frames of a video that were not read any more have a problem, and were not evaluated.
+        // Frames of a video that were not read have a problem and are not evaluated.
         std::erase_if(outcomes, [](const Outcome& outcome) { return !outcome.problem.empty(); });
         tell(fmt::format("interrupted; the report is about the first {} of {} frames",
                          outcomes.size(), all.frames));
@@ -341,7 +341,8 @@ int run(EvaluateArguments& arguments) {
 void add_jobs(Command& command, const std::shared_ptr<EvaluateArguments>& arguments) {
     arguments->sources.add_to(command);
     command.get_option("--size")->description(
-        "Of simulated frames (default 188x120) and raw ones; of a camera, what it is asked for");
+        "Size of simulated frames (default 188x120) and of raw ones; of a camera, the size to "
+        "request");
     command
         .add_option("--poses", arguments->poses,
                     "True poses of the frames: a CSV file as simulate writes it")
@@ -355,11 +356,11 @@ void add_jobs(Command& command, const std::shared_ptr<EvaluateArguments>& argume
               [arguments](PaperProtocol) { arguments->protocol = true; });
     command
         .add_option("--frames", arguments->frames,
-                    "How many; of a sweep for each value, of the protocol at each place")
+                    "Number of frames; of a sweep, for each value; of the protocol, at each place")
         ->type_name("N")
         ->check(Range(1, 10'000'000))
         ->default_str("1000, 200, 20");
-    command.add_option("--seed", arguments->setup.seed, "Another seed, other frames")
+    command.add_option("--seed", arguments->setup.seed, "Seed of the random numbers")
         ->type_name("N")
         ->capture_default_str();
 }
@@ -391,7 +392,8 @@ void add_evaluate(Command& app, int& exit_code) {
     command->get_option("--code")->default_str("as in truth.csv, or auto");
     command->get_option("--spacing")->default_str("as in truth.csv, or 0.508");
     command
-        ->add_option("--threads", arguments->threads, "Results do not depend on it; 0: all cores")
+        ->add_option("--threads", arguments->threads,
+                     "Number of threads, 0 for all cores; results do not depend on it")
         ->type_name("N")
         ->check(Range(0, 1024))
         ->capture_default_str();

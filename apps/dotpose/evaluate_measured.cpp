@@ -36,7 +36,9 @@ bool require_one_frame(const std::vector<TruthRow>& rows, const std::vector<Shee
         if (!row.place) {
             if (!row.is_in_pattern) continue;
             throw Error(
-                "with --sheets, poses need columns x_sheet_mm and y_sheet_mm, or x_m and y_m");
+                "with --sheets, poses need columns x_sheet_mm and y_sheet_mm, or x_m and y_m; "
+                "those "
+                "of 'dotpose simulate' are in the pattern: evaluate them without --sheets");
         }
         is_in_world = row.place->is_in_world;
         const std::string& name = row.place->sheet;

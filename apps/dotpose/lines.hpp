@@ -9,7 +9,7 @@
 
 namespace dotpose::cli {
 
-/// The value of -o that stands for standard output.
+/// The value of -o for standard output.
 inline constexpr const char* kStandardOutput = "-";
 
 /// Whether `out`, given for -o, is standard output: "-", or empty for no -o at all.

@@ -157,19 +157,19 @@ class LossCounter {
     void count(const PosePacket& packet) {
         // A small step back in the sequence is a packet that arrived twice or late; a large one
         // means that the device was switched on again.
-        constexpr int kMostLate = 16;
+        constexpr int kMaxLate = 16;
         const int step = last_ ? static_cast<std::int16_t>(packet.sequence - *last_) : 1;
         if (step > 1) lost_ += static_cast<std::uint64_t>(step - 1);
-        if (step > 0 || step < -kMostLate) last_ = packet.sequence;
+        if (step > 0 || step < -kMaxLate) last_ = packet.sequence;
         ++arrived_;
     }
     void report(std::uint32_t damaged) const {
         if (arrived_ == 0 || damaged > 0 || lost_ > 0) {
-            fmt::print(stderr, "dotpose: {} packets, {} stretches damaged, {} packets lost{}\n",
-                       arrived_, damaged, lost_,
-                       arrived_ == 0 ? "; is it what a device or 'dotpose watch --packets' sent, "
-                                       "and the --baud of the line right?"
-                                     : "");
+            tell(fmt::format("{} packets, {} stretches damaged, {} packets lost{}", arrived_,
+                             damaged, lost_,
+                             arrived_ == 0 ? "; is it what a device or 'dotpose watch --packets' "
+                                             "sent, and the --baud of the line right?"
+                                           : ""));
         }
     }
 
@@ -216,7 +216,7 @@ void add_baud_option(Command& command, Baud& baud) {
                 throw ValidationError(
                     "--baud", fmt::format("{} is no usual rate, such as 115200 or 921600", rate));
             },
-            "Of a serial device")
+            "Baud rate of a serial device")
         ->type_name("RATE")
         ->default_str(fmt::format("{}", baud.rate));
 }

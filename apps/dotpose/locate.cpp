@@ -69,7 +69,7 @@ class ImageLocator {
 
     bool has_sheets() const { return !follower_.sheets().empty(); }
 
-    /// Throws Error if the image has not the size that the camera file is for. The image must stay
+    /// Throws Error if the image does not have the size in the camera file. The image must exist
     /// until it has been drawn. `bits_per_px` is that of its source.
     Record operator()(const std::string& name, GreyImage& image, double bits_per_px) {
         if (arguments_.follower.is_inverted) invert(image);
@@ -138,7 +138,8 @@ class ImageLocator {
 
     const LocateArguments& arguments_;
     Follower follower_;
-    std::unique_ptr<LargeMemory> scratch_;  ///< for a look at what could not be located
+    std::unique_ptr<LargeMemory>
+        scratch_;  ///< memory for the advice on images that were not located
     std::optional<PictureFolder> pictures_;
 };
 
@@ -338,7 +339,7 @@ void add_locate(Command& app, int& exit_code) {
     command->footer(kLocateExamples);
     arguments->sources.add_to(*command);
     add_follower_options(*command, arguments->follower,
-                         "Sheet file: also tell the sheet, and the place on it and in the world");
+                         "Sheet file: also report the sheet, and the place on it and in the world");
     add_line_options(*command, arguments->lines, true);
     command
         ->add_option_function<std::string>(
@@ -346,7 +347,7 @@ void add_locate(Command& app, int& exit_code) {
             [arguments](const std::string& name) {
                 arguments->columns = name == "all" ? Columns::all : Columns::brief;
             },
-            "Of CSV: brief (pose, standard deviations, p_wrong) or all")
+            "Columns of CSV: brief (pose, standard deviations, p_wrong) or all")
         ->type_name("NAME")
         ->default_str("brief")
         ->check(one_of({"brief", "all"}));
@@ -363,7 +364,7 @@ void add_locate(Command& app, int& exit_code) {
             "order")
         ->type_name("N")
         ->capture_default_str()
-        ->check(Range(0, 256).description(""))
+        ->check(Range(0, 256))
         ->excludes(draw);
     command->callback([arguments, &exit_code] {
         arguments->follower.fit_to(arguments->sources);

@@ -126,7 +126,7 @@ std::string if_judged(const Fix& fix, std::string text) {
     return fix.status == Status::ok && fix.has_covariance() ? std::move(text) : std::string();
 }
 
-/// The fields that say where in the code the fix is, and what speaks for it.
+/// The fields of the place in the code and of the evidence for it.
 std::vector<Field> evidence_fields(const Fix& fix) {
     const bool ok = fix.status == Status::ok;
     const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
@@ -155,7 +155,7 @@ std::vector<Field> deviation_fields(const Record& record) {
     };
 }
 
-/// The fields about the image and the work with it.
+/// The fields of residual, scale and time.
 std::vector<Field> image_fields(const Record& record) {
     const Fix& fix = record.fix;
     const bool ok = fix.status == Status::ok;

@@ -1,4 +1,4 @@
-/// Reads what a log of `dotpose watch --log` tells of the robot, for messages of ROS.
+/// Reads the states of a robot from a log of `dotpose watch --log`, for messages of ROS.
 #pragma once
 
 #include "dotpose/tools/robot_messages.hpp"
@@ -6,7 +6,7 @@
 
 namespace dotpose::cli {
 
-/// Returns what a row tells. Throws Error if it is not valid.
+/// Returns the state in a row. Throws Error if it is not valid.
 ros::RobotUpdate update_of(const LogCells& row);
 
 }  // namespace dotpose::cli

@@ -17,8 +17,8 @@ std::string bare(std::string_view word) {
 
 /// Returns the only name that begins with the word, or an empty string.
 std::string only_continuation(const std::string& word, const std::vector<std::string>& names) {
-    constexpr std::size_t kFewestCharacters = 2;
-    if (word.size() < kFewestCharacters) return {};
+    constexpr std::size_t kMinCharacters = 2;
+    if (word.size() < kMinCharacters) return {};
     std::string found;
     for (const std::string& name : names) {
         if (!bare(name).starts_with(word)) continue;
@@ -54,9 +54,9 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
     const std::string asked = bare(word);
     std::string nearest;
     // Longer words are certainly no names, and their table would take memory.
-    constexpr std::size_t kMostCharacters = 64;
-    if (asked.size() > kMostCharacters) return nearest;
-    int least = static_cast<int>(kMostCharacters);
+    constexpr std::size_t kMaxCharacters = 64;
+    if (asked.size() > kMaxCharacters) return nearest;
+    int least = static_cast<int>(kMaxCharacters);
     for (const std::string& name : names) {
         const std::string known = bare(name);
         const int distance = edit_distance(asked, known);

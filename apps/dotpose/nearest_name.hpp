@@ -1,4 +1,4 @@
-/// Finds out which known name a misspelt word was meant to be.
+/// Finds the known name that is nearest to a misspelt word.
 #pragma once
 
 #include <string>

@@ -12,10 +12,10 @@ bool NewPlaces::take(const Fix& fix, ImageView image) {
     constexpr double kTurn_rad = 15 * std::numbers::pi / 180;
     constexpr double kScale = 0.1;
     // Frames that are less apart than this show the same dots at almost the same pixels.
-    constexpr double kLeast_grid = 2;
+    constexpr double kMin_grid = 2;
     const Place here{fix.x_grid(), fix.y_grid(), fix.theta_rad(), fix.spacing_px(), fix.section};
     const double view_grid = std::min(image.width_px, image.height_px) / here.spacing_px;
-    const double step_grid = far_ * std::max(kLeast_grid, kShareOfView * view_grid);
+    const double step_grid = far_ * std::max(kMin_grid, kShareOfView * view_grid);
     const bool is_known = std::ranges::any_of(places_, [&](const Place& there) {
         const double distance = std::hypot(here.x_grid - there.x_grid, here.y_grid - there.y_grid);
         const double turn = std::remainder(here.theta_rad - there.theta_rad, 2 * std::numbers::pi);

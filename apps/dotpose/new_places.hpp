@@ -1,5 +1,4 @@
-/// Tells frames that show a new place of a sheet from those that look like an earlier one.
-/// Calibration learns little from the latter.
+/// Selects frames that show a new place of a sheet. Calibration gains little from others.
 #pragma once
 
 #include <cstddef>

@@ -58,7 +58,7 @@ void add_line_options(Command& command, LineArguments& arguments, bool has_text)
             [&arguments](const std::string& name) {
                 arguments.units = name == "ros" ? Units::ros : Units::mm;
             },
-            "Of poses: mm (and degrees, y down) or ros (metres and radians, y up: REP 103)")
+            "Units of poses: mm (and degrees, y down) or ros (metres and radians, y up: REP 103)")
         ->type_name("NAME")
         ->default_str("mm")
         ->check(one_of({"mm", "ros"}));
@@ -72,7 +72,7 @@ void add_report_options(Command& command, ReportArguments& arguments, const std:
             .add_option_function<std::string>(
                 "--format",
                 [&arguments](const std::string& name) { arguments.as_json = name == "json"; },
-                "Of the report: text or json (one object)")
+                "Format of the report: text or json (one object)")
             ->type_name("NAME")
             ->default_str("text, or by the name of the output")
             ->check(one_of({"text", "json"}));

@@ -51,7 +51,7 @@ void require_apart(const OverlayArguments& arguments) {
     files.writes("-o", arguments.out, Content::own);
 }
 
-/// Returns how a page gets its dots, for its entry in the sheet file, which is no place for a
+/// Returns the command for the dots of a page, for its entry in the sheet file, without the
 /// password.
 SheetPrint print_of(const OverlayArguments& arguments, int document_page, int pages) {
     std::set<std::string> left_out = SheetEntryArguments::options_of_entering();
@@ -141,7 +141,7 @@ void add_overlay(Command& app, int& /*exit_code*/) {
         ->add_option("--copies", options.copies, "Copies of the document, each with its own cells")
         ->type_name("N")
         ->capture_default_str()
-        ->check(Range(1, kMaxPages).description(""));
+        ->check(Range(1, kMaxPages));
     command
         ->add_option_function<std::string>(
             "--paper",
@@ -149,7 +149,7 @@ void add_overlay(Command& app, int& /*exit_code*/) {
             "Put pages side by side on paper of this size, as cards to cut apart: A4, Letter, "
             "WIDTHxHEIGHT in mm")
         ->type_name("SIZE");
-    command->add_option("--password", options.password, "Of an encrypted document")
+    command->add_option("--password", options.password, "Password of an encrypted document")
         ->type_name("TEXT");
     add_ink_options(*command, options);
     command->add_option("--margin", options.margin_mm, "Kept free of dots on all sides")

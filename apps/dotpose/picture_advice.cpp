@@ -70,7 +70,7 @@ GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
 std::optional<double> too_small_spacing_px(ImageView image, const Options& options,
                                            LargeMemory& scratch) {
     constexpr int kMiddle_px = 320;
-    constexpr double kLeastSpacing_px = 6;
+    constexpr double kMinSpacing_px = 6;
     Options once;
     once.profile = options.profile;
     once.effort = Effort::once;
@@ -79,7 +79,7 @@ std::optional<double> too_small_spacing_px(ImageView image, const Options& optio
         const Fix fix = Locator(scratch, once).locate(large.view());
         if (fix.status != Status::ok) continue;
         const double spacing_px = fix.spacing_px() / by;
-        if (spacing_px < kLeastSpacing_px) return spacing_px;
+        if (spacing_px < kMinSpacing_px) return spacing_px;
     }
     return std::nullopt;
 }
@@ -169,13 +169,13 @@ double bend(ImageView image, int step_px) {
 /// with those over 8 and 16 px: it is at least a sixth of them in a picture in focus, even with a
 /// tilt of 70 degrees, and less than a twentieth if the dots are too blurred to be read.
 bool is_out_of_focus(ImageView image) {
-    constexpr double kLeastDetail = 0.4;
+    constexpr double kMinDetail = 0.4;
     constexpr double kFocused = 0.06;
     constexpr int kFarthest_px = 16;
     if (std::min(image.width_px, image.height_px) <= 2 * kFarthest_px) return false;
     const double noise = bend(image, 1);
     const double detail = std::max(bend(image, 8), bend(image, kFarthest_px)) - noise;
-    return detail > kLeastDetail && bend(image, 2) - noise < kFocused * detail;
+    return detail > kMinDetail && bend(image, 2) - noise < kFocused * detail;
 }
 
 /// Returns the image reduced by a factor: means of squares of pixels.
@@ -195,13 +195,13 @@ GreyImage reduced_by(ImageView image, int by) {
 /// Returns the spacing in the image if its dots lie on a grid once the image is reduced.
 std::optional<double> too_large_spacing_px(ImageView image, const Options& options,
                                            LargeMemory& scratch) {
-    constexpr double kMostSpacing_px = 60;
+    constexpr double kMaxSpacing_px = 60;
     // The camera may be so near that few dots are left in view.
-    constexpr int kFewestDots = 16;
+    constexpr int kMinDots = 16;
     Options once;
     once.profile = options.profile;
     once.effort = Effort::once;
-    once.lattice.min_dots = kFewestDots;
+    once.lattice.min_dots = kMinDots;
     for (const int by : {2, 4, 8, 16}) {
         if (std::min(image.width_px, image.height_px) / by < kMinFrameSide_px) break;
         const GreyImage small = reduced_by(image, by);
@@ -215,7 +215,7 @@ std::optional<double> too_large_spacing_px(ImageView image, const Options& optio
         const double spacing_px = fix.status == Status::ok
                                       ? by * fix.spacing_px()
                                       : by * std::hypot(u_q16.x, u_q16.y) / 65536.0;
-        if (spacing_px > kMostSpacing_px) return spacing_px;
+        if (spacing_px > kMaxSpacing_px) return spacing_px;
     }
     return std::nullopt;
 }
@@ -306,7 +306,6 @@ std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& s
     if (is_inverted(image, options, scratch)) {
         return "the dots are white on black: locate with --inverted";
     }
-    if (status == Status::no_contrast) return {};
     // Blur may reduce the contrast of dots to a quarter, which must still be min_contrast.
     const int darkest_paper = 4 * options.threshold.min_contrast;
     if (const int level = paper_level(image); level < darkest_paper) {
@@ -314,6 +313,10 @@ std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& s
             "the picture is too dark, its paper has grey level {} of 255: more light, "
             "or a longer exposure, helps",
             level);
+    }
+    if (status == Status::no_contrast) {
+        return "dots that are pale, far out of focus or much too small in the picture look so: "
+               "more light, focus, or come closer";
     }
     if (std::string advice = advice_on_distance(image, options, scratch); !advice.empty())
         return advice;

@@ -10,13 +10,12 @@
 
 namespace dotpose::cli {
 
-/// The result for a picture and how it was obtained, as far as advice depends on it.
+/// The result for a picture, and the settings that advice depends on.
 struct PictureFacts {
     Status status = Status::ok;  ///< result of `locate` with `options`
     Options options;
     bool code_is_given = true;  ///< whether only one code was tried
-    /// Bits per pixel that a lossy compression of the video has left (capture/frame_source.hpp).
-    /// 0: not known.
+    /// Bits per pixel of a compressed video (capture/frame_source.hpp); 0 if they are not known.
     double bits_per_px = 0;
 };
 

@@ -73,7 +73,8 @@ bool has_resolution(PrintFormat format) {
     return format != PrintFormat::text && format != PrintFormat::svg;
 }
 
-/// Returns the default margin: labels and rulers of a PDF need more than printers leave white.
+/// Returns the default margin: labels and rulers of a PDF need more than the margin that printers
+/// cannot print.
 double default_margin_mm(PrintFormat format, const Paper& paper) {
     constexpr double kWithLabels_mm = 10;
     constexpr double kSmallPage_mm = 60;
@@ -81,7 +82,7 @@ double default_margin_mm(PrintFormat format, const Paper& paper) {
     return format == PrintFormat::pdf && !is_small ? kWithLabels_mm : SheetOptions{}.margin_mm;
 }
 
-/// Returns what the document calls itself.
+/// Returns the title of the document.
 std::string title_of(const PrintArguments& arguments) {
     if (arguments.entries.given()) return arguments.entries.name();
     if (arguments.out == kStandardOutput) return "sheet";
@@ -198,7 +199,7 @@ void add_print(Command& app, int& /*exit_code*/) {
     command
         ->add_option_function<std::string>(
             "--format", [arguments](const std::string& name) { arguments->ending = '.' + name; },
-            "Of the file: " + alternatives(kFormats))
+            "Format of the file: " + alternatives(kFormats))
         ->type_name("NAME")
         ->default_str("by the ending of its name")
         ->check(one_of(kFormats));

@@ -33,14 +33,14 @@ std::int64_t now_ns() {
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
-/// `timeout` sends its signal twice, to the program and to its group, so a second signal is only a
-/// wish of its own if it does not come at once.
+/// `timeout` sends the signal twice, to the program and to its group, within 500 ms. Only a later
+/// second signal ends the program immediately.
 void on_signal(int signal_number) {
-    constexpr std::int64_t kSameWish_ns = 500'000'000;
+    constexpr std::int64_t kTwice_ns = 500'000'000;
     if (signal_seen == 0) {
         signal_ns = now_ns();
         signal_seen = signal_number;
-    } else if (now_ns() - signal_ns > kSameWish_ns) {
+    } else if (now_ns() - signal_ns > kTwice_ns) {
         std::signal(signal_number, SIG_DFL);
         std::raise(signal_number);
     }
@@ -116,12 +116,11 @@ void ProgressLine::update(std::int64_t done, std::int64_t total) {
         }
     }
     is_line_visible = true;
-    fmt::print(stderr, "{}{}", kEraseLine, text);
-    std::fflush(stderr);
+    write_to_stderr(kEraseLine + text);
 }
 
 void hide_progress() {
-    if (is_line_visible.exchange(false)) std::fputs(kEraseLine, stderr);
+    if (is_line_visible.exchange(false)) write_to_stderr(kEraseLine);
 }
 
 }  // namespace dotpose::cli

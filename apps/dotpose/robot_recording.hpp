@@ -32,7 +32,7 @@ class RobotRecording {
 
     /// Records the messages of a frame. Throws Error.
     void take(const ros::RobotMessages& messages, std::int64_t time_ns);
-    /// Records where the camera sits, or an image.
+    /// Records the mount of the camera, or an image.
     void take_mount(const ros::TransformStamped& mount, std::int64_t time_ns);
     void take_image(const ros::CompressedImage& image, std::int64_t time_ns);
 

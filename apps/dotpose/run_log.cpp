@@ -28,9 +28,9 @@ std::int64_t whole(double value, const char* column) {
     return static_cast<std::int64_t>(value);
 }
 
-/// Most rows that are read: at 100 frames per second the log of half a day, which takes about a
+/// Maximum number of rows: at 100 frames per second the log of half a day, which takes about a
 /// gigabyte of memory.
-constexpr std::size_t kMostLogRows = 5'000'000;
+constexpr std::size_t kMaxLogRows = 5'000'000;
 
 LogRow log_row(const LogCells& row) {
     LogRow result;
@@ -153,8 +153,8 @@ std::vector<LogRow> read_log(const std::filesystem::path& path) {
     std::vector<LogRow> rows;
     LogReader log(path);
     const auto parse = [&rows](const LogCells& row) {
-        if (rows.size() == kMostLogRows) {
-            throw Error(fmt::format("more than {} frames", kMostLogRows));
+        if (rows.size() == kMaxLogRows) {
+            throw Error(fmt::format("more than {} frames", kMaxLogRows));
         }
         return log_row(row);
     };

@@ -38,8 +38,8 @@ std::vector<Point> path_of(const std::vector<LogRow>& rows) {
 /// Returns what is subtracted from the coordinates of an axis: whole millimetres near its middle
 /// where its numbers would differ in their last digits only, as in the pattern, otherwise 0.
 double offset_mm(double middle_mm, double reach_mm) {
-    constexpr double kMostReaches = 1000;
-    return std::abs(middle_mm) > kMostReaches * reach_mm ? std::round(middle_mm) : 0;
+    constexpr double kMaxReaches = 1000;
+    return std::abs(middle_mm) > kMaxReaches * reach_mm ? std::round(middle_mm) : 0;
 }
 
 std::string axis_label(const char* name, double offset_mm) {

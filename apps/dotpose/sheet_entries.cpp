@@ -16,7 +16,9 @@ void SheetEntryArguments::add_to(Command& command) {
     Option* name = command.add_option("--name", name_, "Name in the sheet file");
     name->type_name("NAME")->needs(sheets);
     sheets->needs(name);
-    command.add_option("--wait", wait_s_, "Longest to wait for others who change the sheet file")
+    command
+        .add_option("--wait", wait_s_,
+                    "Maximum time to wait for other programs that change the sheet file")
         ->type_name("SECONDS")
         ->capture_default_str()
         ->needs(sheets)

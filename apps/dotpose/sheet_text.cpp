@@ -48,13 +48,13 @@ const SheetEntry& named_sheet(const std::vector<SheetEntry>& sheets, const std::
                               const std::string& file) {
     const auto found = std::ranges::find(sheets, name, &SheetEntry::name);
     if (found != sheets.end()) return *found;
-    constexpr std::size_t kMostNames = 12;
+    constexpr std::size_t kMaxNames = 12;
     std::string names;
-    for (std::size_t i = 0; i < std::min(sheets.size(), kMostNames); ++i)
+    for (std::size_t i = 0; i < std::min(sheets.size(), kMaxNames); ++i)
         names += (names.empty() ? "" : ", ") + sheets[i].name;
-    if (sheets.size() > kMostNames) {
+    if (sheets.size() > kMaxNames) {
         names += fmt::format(" and {} more, which 'dotpose sheets list' shows",
-                             sheets.size() - kMostNames);
+                             sheets.size() - kMaxNames);
     }
     throw BadArgument(fmt::format("{} has no sheet '{}'; it has {}", file, name,
                                   names.empty() ? "no sheets" : names));

@@ -81,8 +81,8 @@ std::vector<SheetEntry> sheets_of(const SheetsArguments& arguments) {
     return read_sheets(arguments.sheets);
 }
 
-/// Calls `change` with the entry of the sheet that the user named, while nobody else can change the
-/// file, and saves the file.
+/// Calls `change` with the entry of the sheet that the user named, while the file is locked, and
+/// saves the file.
 template <typename Change>
 void change_sheet(const SheetsArguments& arguments, const Change& change) {
     require_there(arguments);
@@ -190,7 +190,7 @@ Command& add_command_of_one(Command& sheets, const Arguments& arguments, const c
 void add_wait_option(Command& command, const Arguments& arguments) {
     command
         .add_option("--wait", arguments->wait_s,
-                    "Longest to wait for others who change the sheet file")
+                    "Maximum time to wait for other programs that change the sheet file")
         ->type_name("SECONDS")
         ->capture_default_str()
         ->check(Range(0.0, 86'400.0));
@@ -205,7 +205,7 @@ void add_scale(Command& sheets, const Arguments& arguments) {
         command.add_option(flag, length_mm, help)
             ->type_name("MM")
             ->required()
-            ->check(Range(1e-3, 1e6).description(""));
+            ->check(Range(1e-3, 1e6));
     };
     add("--measured", arguments->measured_mm, "Length measured on the page");
     add("--of", arguments->nominal_mm, "Length that it should be");

@@ -52,7 +52,8 @@ constexpr NumberOption kNumberOptions[] = {
     {"--ink", "FRACTION", "Reflectance of ink, relative to paper", &Imperfections::ink_reflectance},
     {"--palest-ink", "FRACTION", "Contrast of the palest of four inks, one for each direction",
      &Imperfections::palest_ink},
-    {"--ink-variation", "FRACTION", "Its deviation from dot to dot", &Imperfections::ink_variation},
+    {"--ink-variation", "FRACTION", "Deviation of the ink from dot to dot",
+     &Imperfections::ink_variation},
     {"--vignetting", "FRACTION", "Loss of light in the corners", &Imperfections::vignetting},
     {"--fall", "FRACTION", "Change of light from side to side", &Imperfections::fall},
     {"--blur", "PX", "Sigma of the lens's blur", &Imperfections::blur_sigma_px},
@@ -266,7 +267,7 @@ void run(SimulateArguments& arguments, const Command& command, int& exit_code) {
                name(arguments.setup.preset), arguments.setup.seed,
                printable(output->truth_path().filename().string()));
     if (done < arguments.frames) {
-        fmt::print(stderr, "dotpose: interrupted; the frames so far are complete\n");
+        tell("interrupted; the frames so far are complete");
         exit_code = kExitFailed;
     }
 }
@@ -326,12 +327,12 @@ void add_drive_options(Command& command, SimulateArguments& arguments) {
     drive->needs(sheets);
     sheets->needs(drive);
     const auto add = [&](const char* flag, double& value, const char* unit, const char* help) {
-        command.add_option(flag, value, help)
+        return command.add_option(flag, value, help)
             ->type_name(unit)
             ->capture_default_str()
-            ->check(Range(0.001, 1e6).description(""));
+            ->check(Range(0.001, 1e6));
     };
-    add("--speed", arguments.drive.speed_mm_s, "MM/S", "Of the robot");
+    add("--speed", arguments.drive.speed_mm_s, "MM/S", "Speed of the robot")->needs(drive);
     add("--fps", arguments.drive.fps, "N", "Frames per second of the drive or video");
     for (const char* fixed :
          {"--at", "--angle", "--section", "--code", "--spacing", "--dot", "--displacement",
@@ -352,13 +353,13 @@ void add_simulate(Command& app, int& exit_code) {
                      "Folder for the frames, made if missing, or a video: .mp4 or .avi")
         ->type_name("FILE|-|DIR")
         ->required();
-    command->add_option("--frames", arguments->frames, "How many")
+    command->add_option("--frames", arguments->frames, "Number of frames")
         ->type_name("N")
         ->check(Range(1, 1'000'000))
         ->capture_default_str();
     add_named(*command, "--preset", kPresets, name(arguments->setup.preset),
               "Conditions to draw from", [arguments](Preset p) { arguments->setup.preset = p; });
-    command->add_option("--seed", arguments->setup.seed, "Another seed, other frames")
+    command->add_option("--seed", arguments->setup.seed, "Seed of the random numbers")
         ->type_name("N")
         ->capture_default_str();
     add_camera_options(*command, arguments->setup.camera);
@@ -367,7 +368,9 @@ void add_simulate(Command& app, int& exit_code) {
     add_overrides(*command, *arguments);
     add_named(*command, "--scene", kScenes, "", "Something other than the pattern, to be refused",
               [arguments](Scene s) { arguments->scene = s; });
-    command->add_option("--density", arguments->density, "Of scenes noise and scattered_dots")
+    command
+        ->add_option("--density", arguments->density,
+                     "Density of the scenes noise and scattered_dots")
         ->type_name("FRACTION")
         ->capture_default_str();
     add_drive_options(*command, *arguments);

@@ -55,14 +55,17 @@ void SourceArguments::add_frame_options(Command& command) {
                 options.width_px = size.width_px;
                 options.height_px = size.height_px;
             },
-            "Of raw frames; of a camera, what it is asked for")
+            "Size of raw frames; of a camera, the size to request")
         ->type_name("WxH");
-    command.add_option("--fps", options.fps, "Frames per second, where the frames tell no time")
+    command.add_option("--fps", options.fps, "Frames per second of sources that have no times")
         ->type_name("N")
-        ->check(Range(0.001, 1e6).description(""));
-    command.add_option("--exposure", options.exposure, "Of a camera, in its driver's unit")
+        ->check(Range(0.001, 1e6));
+    command
+        .add_option("--exposure", options.exposure,
+                    "Exposure of a camera, in the unit of its driver")
         ->type_name("N");
-    command.add_option("--gain", options.gain, "Of a camera, in its driver's unit")->type_name("N");
+    command.add_option("--gain", options.gain, "Gain of a camera, in the unit of its driver")
+        ->type_name("N");
     add_flip_option(command, options.flip);
     command
         .add_option_function<std::string>(

@@ -38,8 +38,8 @@ struct SourceArguments {
     /// Flips frames if the camera file says so, and clears its flag: its frames come flipped.
     void flip_as(std::optional<Camera>& camera);
 
-    /// Does that, and with --roi makes the camera of whole frames that of the part. Returns whether
-    /// it did the latter. Throws BadArgument if the part leaves the camera's images.
+    /// Calls `flip_as`. With --roi, also reduces the camera of whole frames to the part, and
+    /// returns true. Throws BadArgument if the part exceeds the images of the camera.
     bool fit_to(std::optional<Camera>& camera);
 };
 

@@ -26,7 +26,7 @@ constexpr std::array kBeginnings = {
     Beginning{"FAULT:", kRed},
     Beginning{"CHANGE:", kRed},
     Beginning{"NOT FOUND:", kRed},
-    Beginning{"NOT TOLD:", kRed},
+    Beginning{"UNKNOWN:", kRed},
     Beginning{"note:", kYellow},
     Beginning{"warning:", kYellow},
     Beginning{"verdict     good", kGreen},
@@ -45,16 +45,21 @@ std::string coloured(std::string_view line) {
 
 }  // namespace
 
+void write_to_stderr(const std::string& text) {
+    std::fflush(stdout);
+    static_cast<void>(std::fputs(text.c_str(), stderr));
+}
+
 void tell(std::string_view message) {
     const std::string text = printable(message);
     hide_progress();
-    fmt::print(stderr, "dotpose: {}\n", wants_colour(stderr) ? coloured(text) : text);
+    write_to_stderr(fmt::format("dotpose: {}\n", wants_colour(stderr) ? coloured(text) : text));
 }
 
 void tell_failure(std::string_view message) {
     if (!wants_colour(stderr)) return tell(message);
     hide_progress();
-    fmt::print(stderr, "{}dotpose:{} {}\n", kRed, kPlain, printable(message));
+    write_to_stderr(fmt::format("{}dotpose:{} {}\n", kRed, kPlain, printable(message)));
 }
 
 bool wants_colour(std::FILE* stream) {

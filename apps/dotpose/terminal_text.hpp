@@ -12,6 +12,10 @@ namespace dotpose::cli {
 using base::printable;
 using base::with_escaped_controls;
 
+/// Writes to standard error, after what standard output still holds. Unlike fmt::print, it does not
+/// throw if the stream is closed.
+void write_to_stderr(const std::string& text);
+
 /// Writes "dotpose: MESSAGE" to standard error, as one printable line.
 void tell(std::string_view message);
 
@@ -22,8 +26,8 @@ void tell_failure(std::string_view message);
 /// no NO_COLOR (no-color.org), and TERM is not "dumb".
 bool wants_colour(std::FILE* stream);
 
-/// Returns the report with the beginnings of lines coloured that tell what is wrong, what is worth
-/// a note, and that all is well.
+/// Returns the report with colour at the beginning of the lines that report a fault, a note or a
+/// good result.
 std::string in_colour(const std::string& report);
 
 /// Returns `in_colour(report)` if standard output wants colour, else the report.

@@ -4,20 +4,29 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "choices.hpp"
 #include "common.hpp"
+#include "completion.hpp"
 #include "dotpose/files/error.hpp"
 #include "exit_codes.hpp"
-#include "old_spellings.hpp"
 #include "terminal_text.hpp"
 #include "usage_errors.hpp"
 
 namespace dotpose::cli {
 namespace {
+
+constexpr const char* kVersion = "dotpose " DOTPOSE_VERSION;
+
+/// The commands that the help suggests to a new user.
+constexpr const char* kFirstDay =
+    "  dotpose print -o sheet.pdf   a sheet of dots; print it at 100 %\n"
+    "  dotpose locate photo.jpg     where on it a picture was taken\n"
+    "  dotpose watch 0              where on it a camera is, live\n";
 
 /// Returns where the documents are, which are installed beside the tool.
 std::string places_of_documents() {
@@ -38,7 +47,7 @@ void add_help_and_version(Command& app, std::vector<std::string>& help_words) {
         names.push_back(command->get_name());
     const auto topic = std::make_shared<std::string>();
     Command* help = app.add_subcommand(kHelpCommand, "Show the options of a command");
-    help->add_option("command", *topic, "The command, none for a list of all")
+    help->add_option("command", *topic, "The command; without it, all commands are listed")
         ->type_name("NAME")
         ->check(one_of(names));
     help->callback([topic, &help_words] {
@@ -52,9 +61,20 @@ void add_help_and_version(Command& app, std::vector<std::string>& help_words) {
 
 int run(int argc, char** argv, const AddCommands& add) {
     remember_command_line(argc, argv);
-    CommandLine line(add);
-    Command& app = line.app;
+    Command app("Locates a camera on a sheet printed with a dot position code.", "dotpose");
+    app.set_version_flag("--version", kVersion);
+    app.require_subcommand(1);
+    int exit_code = 0;
+    add(app, exit_code);
+    refuse_non_finite_numbers(app);
+    std::vector<std::string> help_words;
+    add_help_and_version(app, help_words);
+    if (argc > 1 && std::string_view(argv[1]) == kComplete) {
+        print_completions(app, {argv + 2, argv + argc});
+        return 0;
+    }
     for (Command* command : app.get_all_subcommands()) {
+        command->group("Commands");
         std::vector<Command*> with_options = command->get_all_subcommands();
         with_options.push_back(command);
         for (Command* each : with_options) {
@@ -67,40 +87,22 @@ int run(int argc, char** argv, const AddCommands& add) {
         kFirstDay, places_of_documents()));
     try {
         app.parse(argc, argv);
-        if (!line.help_words.empty()) app.parse(line.help_words);
-        return line.exit_code;
+        if (!help_words.empty()) app.parse(help_words);
+        return exit_code;
     } catch (const UsageError& error) {
         tell_failure(usage_error(app, error));
     } catch (const BadArgument& error) {
         tell_failure(error.what());
     }
-    fmt::print(stderr, "Try: {}\n", help_command(app));
+    write_to_stderr("Try: " + help_command(app) + "\n");
     return kExitUsage;
 }
 
 }  // namespace
 
-CommandLine::CommandLine(const AddCommands& add)
-    : app("Locates a camera on a sheet printed with a dot position code.", "dotpose") {
-    app.set_version_flag("--version", kVersion);
-    app.require_subcommand(1);
-    add(app, exit_code);
-    refuse_non_finite_numbers(app);
-    add_help_and_version(app, help_words);
-    for (Command* command : app.get_all_subcommands())
-        command->group("Commands");
-}
-
 int tool_main(int argc, char** argv, const AddCommands& add) noexcept {
     try {
-        Respelt line = in_new_spelling({argv + 1, argv + argc});
-        for (const std::string& note : line.notes)
-            tell(note);
-        std::vector<char*> words = {argv[0]};
-        for (std::string& word : line.words)
-            words.push_back(word.data());
-        words.push_back(nullptr);
-        return run(static_cast<int>(words.size()) - 1, words.data(), add);
+        return run(argc, argv, add);
     } catch (const std::exception& error) {
         tell_failure(error.what());
         return kExitFailed;

@@ -78,28 +78,6 @@ std::string unknown_before_command(const Command& app, const Command& parent,
                        without_value(word), parsed_commands(app), without_value(word));
 }
 
-/// Returns the text between two others, or an empty string if they do not enclose `text`.
-std::string enclosed(const std::string& text, std::string_view before, std::string_view after) {
-    if (!text.starts_with(before) || !text.ends_with(after)) return {};
-    return text.substr(before.size(), text.size() - before.size() - after.size());
-}
-
-/// Puts an error of CLI11 into words that name the next step.
-std::string in_plain_words(const UsageError& error) {
-    const std::string text = error.what();
-    if (text == "A subcommand is required") return "no command given";
-    if (text == "--out is required") return "--out is required: name the file to write, -o FILE";
-    const std::string not_converted = enclosed(text, "Could not convert: ", "");
-    if (const std::size_t at = not_converted.find(" = "); at != std::string::npos) {
-        return fmt::format("{}: '{}' is not a number that it takes", not_converted.substr(0, at),
-                           not_converted.substr(at + 3));
-    }
-    const std::string lacks = enclosed(text, "", " missing");
-    if (const std::size_t at = lacks.find(": 1 required "); at != std::string::npos)
-        return fmt::format("{} lacks its value", lacks.substr(0, at));
-    return text;
-}
-
 }  // namespace
 
 std::string usage_error(const Command& app, const UsageError& error) {
@@ -112,7 +90,7 @@ std::string usage_error(const Command& app, const UsageError& error) {
         const std::vector<Command*> parsed = command->get_parsed_subcommands();
         command = parsed.empty() ? nullptr : parsed.front();
     }
-    return in_plain_words(error);
+    return error.what();
 }
 
 void require_two_hyphens(const Command& command, int argc, const char* const* argv) {

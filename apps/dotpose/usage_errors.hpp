@@ -10,9 +10,8 @@ namespace dotpose::cli {
 /// The command that prints the help of another one.
 inline constexpr const char* kHelpCommand = "help";
 
-/// Returns the message for an error that `app` threw while it parsed. A word that no command
-/// understands is told before whatever else the error says: a misspelt `--out` would otherwise be
-/// "--out is required".
+/// Returns the message for an error that `app` threw while it parsed. Unknown words are reported
+/// first: a misspelt `--out` would otherwise be "--out is required".
 std::string usage_error(const Command& app, const UsageError& error);
 
 /// Throws UsageError if an option that has a short form is written with one hyphen, as in

@@ -1,5 +1,4 @@
-// What is the same in all commands: -o - is standard output, --format, --draw, and that earlier
-// spellings go on working.
+// What is the same in all commands: -o - is standard output, --format, --draw.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -118,37 +117,6 @@ TEST_F(Conventions, OnlyOIsStandardOutput) {
     EXPECT_EQ(run("simulate -o -"), 2);
     EXPECT_EQ(run("evaluate --sweep noise -o -"), 2);
     expect_files("run.csv ");
-}
-
-TEST_F(Conventions, EarlierSpellingsGoOnWorking) {
-    put_frame();
-    ASSERT_EQ(run("locate --format jsonl a.pgm"), 0);
-    EXPECT_THAT(output_, StartsWith("{\"schema\":1,\"file\":\"a.pgm\",\"status\":\"ok\","));
-    EXPECT_EQ(errors_,
-              "dotpose: note: --format jsonl is now --format json; the earlier spelling works "
-              "until the next release\n");
-    ASSERT_EQ(run("replay run.csv --json -o run.svg"), 0);
-    EXPECT_EQ(json::parse(output_)["frames"], 2);
-    EXPECT_THAT(file("run.svg"), HasSubstr("</svg>"));
-    EXPECT_THAT(errors_, HasSubstr("note: --json is now --format json"));
-    EXPECT_THAT(errors_, HasSubstr("note: -o PICTURE.svg is now --draw PICTURE.svg"));
-    ASSERT_EQ(run("optics --paper"), 0);
-    EXPECT_THAT(output_, HasSubstr("where it rounds"));
-    // This one is executed by the other program, which does not repeat the note.
-    ASSERT_EQ(run("watch a.pgm --no-window --map path.svg"), 0) << errors_;
-    EXPECT_THAT(file("path.svg"), HasSubstr("</svg>"));
-    const std::string note = "note: --map is now --draw";
-    EXPECT_THAT(errors_, HasSubstr(note));
-    EXPECT_EQ(errors_.find(note), errors_.rfind(note));
-}
-
-TEST_F(Conventions, HelpShowsThePresentSpellings) {
-    for (const std::string command : {"locate", "watch", "listen", "print", "check-print",
-                                      "evaluate", "replay", "calibrate", "optics", "fleet"}) {
-        ASSERT_EQ(run(command + " --help"), 0);
-        for (const std::string earlier : {"--json", "--map ", "--draw-spin", "jsonl"})
-            EXPECT_THAT(output_, Not(HasSubstr(earlier))) << command;
-    }
 }
 
 }  // namespace

@@ -214,6 +214,9 @@ TEST_F(EvaluateMeasured, OnTheSheetByARuler) {
     EXPECT_LT(result()["angle_deg"]["max"], 0.15);
     EXPECT_EQ(run("evaluate . --poses ruler.csv"), 1);
     EXPECT_THAT(errors_, HasSubstr("name the sheet file, --sheets"));
+    std::ofstream(directory_ / "pattern.csv") << "file,x_mm,y_mm,theta_deg\nf0.pgm,1,2,3\n";
+    EXPECT_EQ(run("evaluate . --sheets sheets.json --poses pattern.csv"), 1);
+    EXPECT_THAT(errors_, HasSubstr("evaluate them without --sheets"));
     EXPECT_EQ(run("evaluate f0.pgm --poses ruler.csv --residuals r.csv"), 2);
     EXPECT_THAT(errors_, HasSubstr("--residuals needs --sheets"));
 }

@@ -112,6 +112,14 @@ TEST_F(Examples, EndWithAMessageIfAFileIsMissing) {
     }
 }
 
+TEST_F(Examples, SayHowTheyAreUsed) {
+    for (const char* name :
+         {"locate_one", "follow_robot", "follow_sheets", "device_packets", "opencv_video"}) {
+        EXPECT_EQ(run_example(name), 2) << name;
+        EXPECT_THAT(errors_, HasSubstr("usage: ")) << name;
+    }
+}
+
 TEST_F(Examples, DevicePacketsAreThoseThatListenReads) {
     for (int i = 0; i < 3; ++i) {
         write_pgm(directory_ / ("f" + std::to_string(i) + ".pgm"),

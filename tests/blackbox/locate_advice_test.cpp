@@ -67,6 +67,19 @@ TEST_F(LocateCommand, a_picture_that_is_too_coarse_or_too_dark_says_so) {
     EXPECT_THAT(records().at(0)["message"], HasSubstr("too dark"));
 }
 
+TEST_F(LocateCommand, a_picture_without_dark_marks_says_what_helps) {
+    dotpose::GreyImage flat{std::vector<std::uint8_t>(200 * 150, 5), 200, 150};
+    write_pgm(directory_ / "black.pgm", flat.view());
+    run("black.pgm");
+    EXPECT_EQ(records().at(0)["status"], "no_contrast");
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("too dark"));
+    flat.pixels.assign(flat.pixels.size(), 200);
+    write_pgm(directory_ / "white.pgm", flat.view());
+    run("white.pgm");
+    EXPECT_EQ(records().at(0)["status"], "no_contrast");
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("focus, or come closer"));
+}
+
 TEST_F(LocateCommand, a_picture_that_is_tilted_out_of_focus_or_shaken_says_so) {
     Shot tilted = clean_shot(14);
     tilted.camera.width_px = 480;

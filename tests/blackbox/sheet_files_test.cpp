@@ -168,7 +168,7 @@ TEST_F(SheetFiles, may_mix_codes_and_spacings) {
     ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --code microdots "
                     "--spacing 0.6 --section 9,61"),
               0);
-    ASSERT_EQ(print("-o c.svg --paper 40x40 --sheets sheets.json --name c --code published "
+    ASSERT_EQ(print("-o c.svg --paper 40x40 --sheets sheets.json --name c --code libdots "
                     "--spacing 0.45"),
               0);
     const json file = sheets();
@@ -185,7 +185,7 @@ TEST_F(SheetFiles, may_mix_codes_and_spacings) {
         }
     }
     // Off all sheets no spacing is known, and nothing is given in millimetres.
-    run("frame.pgm --code published");
+    run("frame.pgm --code libdots");
     json elsewhere = file[0];
     elsewhere["origin_x"] = 300'000'000;
     const json record = locate_with_sheets(frame_of(elsewhere, 20, 20, 0, 5));

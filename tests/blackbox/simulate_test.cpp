@@ -62,7 +62,7 @@ TEST_F(SimulateCommand, EqualOptionsGiveEqualBytesAndAFrameDoesNotDependOnTheOth
 
 TEST_F(SimulateCommand, OptionsFixWhatIsOtherwiseDrawn) {
     ASSERT_EQ(run("-o frames --frames 3 --at 5000.25,7000.5 --angle 200 --section 3,4 --size 64x80 "
-                  "--code published --spacing 0.6 --mm-per-px 0.05"),
+                  "--code libdots --spacing 0.6 --mm-per-px 0.05"),
               0)
         << errors_;
     const std::string expected =

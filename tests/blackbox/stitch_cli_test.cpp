@@ -86,8 +86,8 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_THAT(output_, HasSubstr("frames      12 of 12 show two sheets"));
     EXPECT_THAT(output_, HasSubstr("sheet       left: stays where it is"));
     // Without a camera file, whose mm per px are known.
-    EXPECT_THAT(output_, HasSubstr("(NOT TOLD) along x"));
-    EXPECT_THAT(output_, HasSubstr("NOT TOLD:   scales that these frames do not determine"));
+    EXPECT_THAT(output_, HasSubstr("(UNKNOWN) along x"));
+    EXPECT_THAT(output_, HasSubstr("UNKNOWN:    scales that these frames do not determine"));
     const auto sheets = read_sheets(directory_ / "sheets.json");
     EXPECT_EQ(sheets[0].world->x_m, 2);
     EXPECT_NEAR(sheets[1].world->x_m, 2 + kRight_mm / 1000, 3e-5);
@@ -110,7 +110,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     const std::string stitch = "calibrate --stitch --sheets sheets.json --camera camera.yaml ";
     ASSERT_EQ(run(stitch + "--true-scale camera --draw sheets.svg seam*.pgm"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("scale       by the camera's mm per px"));
-    EXPECT_THAT(output_, Not(HasSubstr("NOT TOLD")));
+    EXPECT_THAT(output_, Not(HasSubstr("UNKNOWN")));
     EXPECT_THAT(file("sheets.svg"), HasSubstr("</svg>"));
     // To a tenth of a millimetre in 200.
     for (const SheetEntry& entry : read_sheets(directory_ / "sheets.json")) {

@@ -1,4 +1,5 @@
 // Help, and what the tool says to command lines that it does not understand.
+#include <sstream>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@ namespace dotpose::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 class Usage : public ToolCommand {
@@ -91,8 +93,27 @@ TEST_F(Usage, ValuesThatAreMissingOrNoNumbers) {
     expect_refusal("print -o", "--out lacks its value", "dotpose print --help");
     expect_refusal("print -o a.pdf --pages few", "--pages: 'few' is not a number that it takes",
                    "dotpose print --help");
+    expect_refusal("simulate -o a --at 5", "--at takes 2 values, not 1", "dotpose simulate --help");
+    expect_refusal("simulate -o a --at 5,6,7", "--at takes 2 values, not 3",
+                   "dotpose simulate --help");
+    expect_refusal("simulate -o a --frames 0", "--frames: '0' is not a number from 1 to 1000000",
+                   "dotpose simulate --help");
     expect_refusal("print -o a.pdf --pages 2.5", "--pages: '2.5' is not a number that it takes",
                    "dotpose print --help");
+}
+
+TEST_F(Usage, OptionsThatNeedOrExcludeOthers) {
+    expect_refusal("simulate -o a --speed 50", "--speed requires --drive",
+                   "dotpose simulate --help");
+    expect_refusal("locate --sheets a.json --code anoto a.png",
+                   "--code and --sheets cannot be given together", "dotpose locate --help");
+    expect_refusal("locate --code anoto --code libdots a.png", "--code takes one value, not 2",
+                   "dotpose locate --help");
+}
+
+TEST_F(Usage, AReaderOfMessagesMayLeave) {
+    shell("{ sleep 0.1; \"$T\" watch missing.png 2>&1; echo $? >status; } | true");
+    EXPECT_EQ(file("status"), "1\n");
 }
 
 TEST_F(Usage, MistakesFoundAfterParsingNameTheHelpToo) {
@@ -116,6 +137,19 @@ TEST_F(Usage, HelpOfACommandIsThatOfItsOption) {
     }
     EXPECT_EQ(run("help lokate"), 2);
     EXPECT_THAT(errors_, HasSubstr("did you mean 'locate'?"));
+}
+
+TEST_F(Usage, HelpHasAtMostAHundredColumnsAndNothingOfTheParser) {
+    for (const std::string command :
+         {"", "locate", "print", "overlay", "sheets place", "simulate", "evaluate", "check-print",
+          "calibrate", "optics", "listen", "replay", "watch", "fleet"}) {
+        ASSERT_EQ(run(command + " --help"), 0);
+        std::istringstream lines(output_);
+        for (std::string line; std::getline(lines, line);)
+            EXPECT_LE(line.size(), 100U) << command << ": " << line;
+        for (const char* word : {" in [", "FLOAT", "INT ", "Excludes", "Needs:", "REQUIRED"})
+            EXPECT_THAT(output_, Not(HasSubstr(word))) << command;
+    }
 }
 
 TEST_F(Usage, HelpShowsAFirstDay) {

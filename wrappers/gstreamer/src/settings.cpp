@@ -104,7 +104,7 @@ void add_track_numbers(GObjectClass* element_class) {
 
 void install_properties(GObjectClass* element_class) {
     add_file(element_class, kSheets, "sheets",
-             "Sheet file: also tell the sheet, and track the robot in the world");
+             "Sheet file: also report the sheet, and track the robot in the world");
     add_file(element_class, kCamera, "camera",
              "Camera file, of 'dotpose calibrate' or ROS: lens, reference point, heading");
     g_object_class_install_property(

@@ -57,6 +57,11 @@ TEST(RosParameters, NumbersMayBeWhole) {
     EXPECT_EQ(with("exposure_us", std::int64_t{300}).half_exposure_ns, 150'000);
 }
 
+TEST(RosParameters, ACameraMayMirror) {
+    EXPECT_FALSE(settings_of(standards()).follower.flip);
+    EXPECT_TRUE(with("flip", true).follower.flip);
+}
+
 TEST(RosParameters, RefusesNumbersThatMeanNothing) {
     for (const char* name : {"max_speed_m_s", "acceleration_m_s2", "spacing_mm", "exposure_us"}) {
         for (const double number : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})

@@ -70,6 +70,7 @@ std::span<const Parameter> parameters() {
         {"sheets", "", "sheet file; without it, poses are given in the pattern"},
         {"camera", "", "camera file of dotpose calibrate; without it, camera_info has the lens"},
         {"spacing_mm", dotpose::kDefaultSpacing_mm, "spacing of the pattern without a sheet file"},
+        {"flip", false, "whether images are flipped left to right first, as the camera mirrors"},
         {"max_speed_m_s", double{track.max_speed_mm_s} / 1000, "of the robot"},
         {"acceleration_m_s2", double{track.acceleration_mm_s2} / 1000, "of the robot, usually"},
         {"exposure_us",
@@ -94,6 +95,7 @@ Settings settings_of(const std::map<std::string, Value>& parameter_values) {
     settings.frames = frames_of(values);
     settings.is_reliable = values.flag("reliable");
     settings.publishes_tf = values.flag("publish_tf");
+    follower.flip = values.flag("flip");
     follower.spacing_mm = values.number("spacing_mm", 0.01, 100).value_or(follower.spacing_mm);
     const auto in_mm = [&values](const char* name, float standard) {
         const auto metres = values.number(name, 1e-6, 1e4);

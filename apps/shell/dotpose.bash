@@ -1,0 +1,5 @@
+# Completions of dotpose for bash. The tool prints them, a line for each with its description after a tab.
+_dotpose() {
+    mapfile -t COMPREPLY < <("$1" __complete "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null | cut -f 1)
+}
+complete -o default -F _dotpose dotpose
