@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "dotpose/version.hpp"
 
 namespace dotpose::cli {
 
