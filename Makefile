@@ -12,7 +12,7 @@ BUILD = env -u MAKEFLAGS cmake --build --preset
 RELEASE = build/release
 
 .DEFAULT_GOAL := release
-.PHONY: release setup demo test quick asan fuzz bench parsers accuracy budget portable python wasm web format lint check install clean
+.PHONY: release setup demo test quick asan fuzz bench parsers accuracy budget portable python wasm web api format lint check install clean
 
 # The groups of scripts/setup that a target needs.
 release: GROUPS = live
@@ -25,6 +25,7 @@ accuracy: GROUPS = tools
 budget portable: GROUPS = firmware
 wasm web: GROUPS = wasm tests
 python: GROUPS = python
+api: GROUPS = api
 lint format: GROUPS = format
 check: GROUPS = format tools
 parsers: GROUPS = tests
@@ -123,6 +124,12 @@ python: $(RELEASE)/build.ninja
 	build/python/venv/bin/python wrappers/python/examples/first.py
 	@echo 'Begin: . build/python/venv/bin/activate'
 
+# Pages of the public headers in build/api. Fails at a warning.
+api: setup
+	mkdir -p build
+	DOTPOSE_VERSION=$$(sed -n 's/^#define DOTPOSE_VERSION "\(.*\)"/\1/p' include/dotpose/version.hpp) \
+	    doxygen cmake/Doxyfile
+
 format: setup
 	scripts/format
 
@@ -132,6 +139,8 @@ lint: setup
 	scripts/check-layers
 	scripts/check-names
 	scripts/check-design
+	scripts/generate-fields --check
+	if command -v doxygen >/dev/null; then $(MAKE) api SETUP=true; fi
 
 check: lint $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose dotpose_tables

@@ -29,7 +29,7 @@ endif()
 if(NOT DOTPOSE_HAS_TOOL)
     list(APPEND without PATTERN tools EXCLUDE)
 endif()
-install(DIRECTORY include/dotpose TYPE INCLUDE FILES_MATCHING PATTERN "*.hpp" ${without})
+install(DIRECTORY include/dotpose TYPE INCLUDE FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" ${without})
 
 if(TARGET dotpose_c)
     install(FILES wrappers/c/dotpose.h TYPE INCLUDE)
@@ -65,7 +65,7 @@ if(TARGET dotpose_live_cli)
 endif()
 
 # The documents link to each other, so they lie there as in the source.
-install(FILES README.md CONTRIBUTING.md LICENSE TYPE DOC)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE TYPE DOC)
 install(DIRECTORY docs TYPE DOC)
 install(DIRECTORY examples TYPE DOC FILES_MATCHING PATTERN "*.cpp")
 install(FILES wrappers/c/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/wrappers/c)

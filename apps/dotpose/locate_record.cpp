@@ -8,6 +8,7 @@
 #include <iterator>
 #include <numbers>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include <fmt/core.h>
@@ -126,6 +127,19 @@ std::string if_judged(const Fix& fix, std::string text) {
     return fix.status == Status::ok && fix.has_covariance() ? std::move(text) : std::string();
 }
 
+template <typename Value>
+Field evidence(bool is_known, const char* key, Value value) {
+    constexpr bool kIsName = std::is_enum_v<Value>;
+    std::string text;
+    if constexpr (kIsName)
+        text = name(value);
+    else if constexpr (std::is_floating_point_v<Value>)
+        text = decimal(static_cast<double>(value), 4);
+    else
+        text = fmt::format("{}", value);
+    return {key, is_known ? text : "", kIsName};
+}
+
 /// The fields of the place in the code and of the evidence for it.
 std::vector<Field> evidence_fields(const Fix& fix) {
     const bool ok = fix.status == Status::ok;
@@ -135,11 +149,8 @@ std::vector<Field> evidence_fields(const Fix& fix) {
         {"y_grid", if_ok(decimal(fix.y_grid(), 6))},
         {"section_u", if_ok(fmt::format("{}", fix.section.u)), false, "section"},
         {"section_v", if_ok(fmt::format("{}", fix.section.v)), false, "section"},
-        {"dots_seen", fmt::format("{}", fix.dots_seen)},
-        {"dots_used", if_ok(fmt::format("{}", fix.dots_used))},
-        {"attempt", if_ok(name(fix.attempt)), true},
-        {"surface", if_judged(fix, name(fix.surface)), true},
-        {"bit_errors", if_ok(fmt::format("{}", fix.bit_errors))},
+#define FIX_EVIDENCE(type, name, is_known, doc) evidence(is_known, #name, fix.name),
+#include "dotpose/fix_fields.def"
         {"p_wrong", if_ok(p_wrong_text(fix.p_wrong()))},
     };
 }
@@ -160,7 +171,6 @@ std::vector<Field> image_fields(const Record& record) {
     const Fix& fix = record.fix;
     const bool ok = fix.status == Status::ok;
     return {
-        {"residual_px", if_judged(fix, decimal(static_cast<double>(fix.residual_px), 4))},
         {"spacing_px", ok ? decimal(fix.spacing_px(), 4) : ""},
         {"elapsed_us", decimal(record.elapsed_us, 1)},
     };

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "command_line.hpp"
+#include "dotpose/version.hpp"
 
 namespace dotpose::cli {
 

@@ -9,40 +9,47 @@
 
 namespace dotpose {
 
-/// The result of a call; `message` gives a sentence for each value. Values keep their numbers.
+/// The result of a call. The comment of each value is its `message`. Values keep their numbers,
+/// which pose packets carry. scripts/generate-fields writes names and messages from here to C, the
+/// other languages and the documents.
 enum class [[nodiscard]] Status : std::uint8_t{
-    ok,
+    ok,  ///< located
     // Faults of the arguments.
-    bad_argument,
-    image_too_small,
-    image_too_large,
+    bad_argument,     ///< an option is out of its range, or the image view has no pixels
+    image_too_small,  ///< the image is too small to show 8 x 8 dots
+    image_too_large,  ///< the image is larger than the memory is for
     // Found in src/core/detect.
-    no_contrast,
-    too_few_dots,
+    no_contrast,   ///< the image has no dark marks on a lighter ground
+    too_few_dots,  ///< too few dots
     // Found in src/core/lattice.
-    no_grid,
-    no_displacement,
+    no_grid,          ///< the dots do not lie on a regular grid
+    no_displacement,  ///< the dots lie on the grid intersections and carry no symbols
     // Found in src/core/decode.
-    grid_too_small,
-    // State before a frame is located. It stands here because pose packets carry the numbers.
-    not_run,
+    grid_too_small,  ///< fewer than 8 x 8 dots of one grid are in view
+    // State before a frame is located.
+    not_run,  ///< no frame has been looked at
     // Found in src/core/decode.
-    mirrored,
+    mirrored,  ///< the pattern is mirrored
     // Found in src/code.
-    bad_window,
-    not_in_code,
-    ambiguous,
+    bad_window,   ///< a window has 6 to 32 columns and rows
+    not_in_code,  ///< the symbols stand nowhere in the position code
+    ambiguous,    ///< the symbols stand at several places of the position code
     // Found in src/core/integrity.
-    not_certain,
+    not_certain,  ///< a position was found, but it may be wrong with more than the allowed
+                  ///< probability
     // Found in src/device and src/locate.
-    not_tracked,
-    ambiguous_code,
+    not_tracked,     ///< the pattern is not where it was predicted
+    ambiguous_code,  ///< places of two codes explain the dots about equally well; name the code, or
+                     ///< show more dots
+    // Read from packets.
+    other = 255,  ///< a newer version of dotpose has added this status
 };
 
-/// Number of values of Status.
-inline constexpr int kStatusCount = 17;
+/// Number of values of Status, without `other`.
+inline constexpr int kStatusCount = static_cast<int>(Status::ambiguous_code) + 1;
 
-/// Returns the identifier of a status as written in output lines, for example "too_few_dots".
+/// Returns the identifier of a status as written in output lines, for example "too_few_dots";
+/// "other" for every number that is not a Status of this version.
 const char* name(Status status) noexcept;
 
 /// Returns one plain sentence for the user, without a full stop, that holds for every frame of this

@@ -15,41 +15,64 @@ struct Text {
     const char* message;
 };
 
-constexpr std::array<Text, kStatusCount> kTexts{{
-    {Status::ok, "ok", "located"},
+// Written by scripts/generate-fields from dotpose/status.hpp.
+// clang-format off
+constexpr std::array<Text, kStatusCount + 1> kTexts{{
+    {Status::ok, "ok",
+     "located"},
     {Status::bad_argument, "bad_argument",
      "an option is out of its range, or the image view has no pixels"},
-    {Status::image_too_small, "image_too_small", "the image is too small to show 8 x 8 dots"},
-    {Status::image_too_large, "image_too_large", "the image is larger than the memory is for"},
-    {Status::no_contrast, "no_contrast", "the image has no dark marks on a lighter ground"},
-    {Status::too_few_dots, "too_few_dots", "too few dots"},
-    {Status::no_grid, "no_grid", "the dots do not lie on a regular grid"},
+    {Status::image_too_small, "image_too_small",
+     "the image is too small to show 8 x 8 dots"},
+    {Status::image_too_large, "image_too_large",
+     "the image is larger than the memory is for"},
+    {Status::no_contrast, "no_contrast",
+     "the image has no dark marks on a lighter ground"},
+    {Status::too_few_dots, "too_few_dots",
+     "too few dots"},
+    {Status::no_grid, "no_grid",
+     "the dots do not lie on a regular grid"},
     {Status::no_displacement, "no_displacement",
      "the dots lie on the grid intersections and carry no symbols"},
-    {Status::grid_too_small, "grid_too_small", "fewer than 8 x 8 dots of one grid are in view"},
-    {Status::not_run, "not_run", "no frame has been looked at"},
-    {Status::mirrored, "mirrored", "the pattern is mirrored"},
-    {Status::bad_window, "bad_window", "a window has 6 to 32 columns and rows"},
-    {Status::not_in_code, "not_in_code", "the symbols stand nowhere in the position code"},
-    {Status::ambiguous, "ambiguous", "the symbols stand at several places of the position code"},
+    {Status::grid_too_small, "grid_too_small",
+     "fewer than 8 x 8 dots of one grid are in view"},
+    {Status::not_run, "not_run",
+     "no frame has been looked at"},
+    {Status::mirrored, "mirrored",
+     "the pattern is mirrored"},
+    {Status::bad_window, "bad_window",
+     "a window has 6 to 32 columns and rows"},
+    {Status::not_in_code, "not_in_code",
+     "the symbols stand nowhere in the position code"},
+    {Status::ambiguous, "ambiguous",
+     "the symbols stand at several places of the position code"},
     {Status::not_certain, "not_certain",
      "a position was found, but it may be wrong with more than the allowed probability"},
-    {Status::not_tracked, "not_tracked", "the pattern is not where it was predicted"},
+    {Status::not_tracked, "not_tracked",
+     "the pattern is not where it was predicted"},
     {Status::ambiguous_code, "ambiguous_code",
      "places of two codes explain the dots about equally well; name the code, or show more dots"},
+    {Status::other, "other",
+     "a newer version of dotpose has added this status"},
 }};
+// clang-format on
 
 constexpr bool in_order() {
-    for (std::size_t i = 0; i < kTexts.size(); ++i) {
+    for (std::size_t i = 0; i < kStatusCount; ++i) {
         if (static_cast<std::size_t>(kTexts[i].status) != i) return false;
     }
-    return true;
+    return kTexts.back().status == Status::other;
 }
 static_assert(in_order(), "one row for each Status, in its order");
 
+/// Returns the row of a status: the last one for `other` and for what is no Status.
+constexpr std::size_t row_of(Status status) {
+    return std::min<std::size_t>(static_cast<std::size_t>(status), kStatusCount);
+}
+
 /// The names alone, so that a device that prints no message does not store the messages.
 constexpr auto kNames = [] {
-    std::array<std::array<char, 16>, kStatusCount> names{};
+    std::array<std::array<char, 16>, kTexts.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::string_view name = kTexts[i].name;
         std::copy_n(name.data(), name.size() + 1, names[i].begin());  // with the terminating zero
@@ -60,12 +83,10 @@ constexpr auto kNames = [] {
 }  // namespace
 
 const char* name(Status status) noexcept {
-    const auto i = static_cast<std::size_t>(status);
-    return i < kNames.size() ? kNames[i].data() : "unknown";
+    return kNames[row_of(status)].data();
 }
 const char* message(Status status) noexcept {
-    const auto i = static_cast<std::size_t>(status);
-    return i < kTexts.size() ? kTexts[i].message : "not a status of this version";
+    return kTexts[row_of(status)].message;
 }
 
 }  // namespace dotpose

@@ -82,12 +82,12 @@ bool unpack(const Plain& plain, PosePacket& packet) {
     read.section = {reader.get8(), reader.get8()};
     read.certainty = reader.get8();
     read.deviation_q12 = reader.get8();
-    if (status >= kStatusCount || profile > static_cast<std::uint8_t>(Profile::microdots) ||
+    if (profile > static_cast<std::uint8_t>(Profile::microdots) ||
         read.cell.x >= kPositionsPerAxis || read.cell.y >= kPositionsPerAxis ||
         read.section.u >= kSections || read.section.v >= kSections) {
         return false;
     }
-    read.status = static_cast<Status>(status);
+    read.status = status < kStatusCount ? static_cast<Status>(status) : Status::other;
     read.profile = static_cast<Profile>(profile);
     packet = read;
     return true;

@@ -12,6 +12,7 @@ int main(void) {
     dotpose_locator* locator = NULL;
     dotpose_fix fix;
     int v;
+    dotpose_fix_init(&fix, sizeof fix);
     if (dotpose_device_160x120_init(little, sizeof little, NULL, &locator) != DOTPOSE_OK) return 6;
     if (dotpose_begin(locator, 161, 120, NULL) != DOTPOSE_IMAGE_TOO_LARGE) return 7;
     if (dotpose_device_320x240_init(much, sizeof much, NULL, &locator) != DOTPOSE_OK) return 8;

@@ -65,8 +65,9 @@ dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* 
                                        const dotpose_prediction* prediction,
                                        dotpose_code_evidence* evidence,
                                        dotpose_code_reading* reading, dotpose_fix* fix) {
-    if (fix == nullptr) return DOTPOSE_NULL_POINTER;
-    dotpose_status status = check_desktop(locator);
+    dotpose_status status = c::check(fix);
+    if (status != DOTPOSE_OK) return status;
+    status = check_desktop(locator);
     c::Frame frame;
     CodeEvidence before;
     if (status == DOTPOSE_OK)
@@ -86,8 +87,9 @@ dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* 
 dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* pixels,
                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                       dotpose_code_reading* reading, dotpose_fix* fix) {
-    if (fix == nullptr) return DOTPOSE_NULL_POINTER;
-    dotpose_status status = check_desktop(locator);
+    dotpose_status status = c::check(fix);
+    if (status != DOTPOSE_OK) return status;
+    status = check_desktop(locator);
     c::Frame frame;
     if (status == DOTPOSE_OK)
         status = c::read_image(pixels, width_px, height_px, stride_bytes, frame);

@@ -25,16 +25,39 @@ dotpose_plane to_c(const PlaneFromImage& p) {
             p.perspective_q30.x, p.perspective_q30.y, p.lens_q40};
 }
 
-/// Sets the covariance in mm and rad from that in spacings and rad.
-void set_covariance(const Fix& fix, dotpose_fix& result) {
-    const std::array<double, 3> factors{fix.spacing_mm(), fix.spacing_mm(), 1};
+/// Sets nine numbers: the covariance, whose x and y are in spacings, times a unit in spacings.
+void set_covariance(const Fix& fix, double unit, float (&result)[9]) {
+    const std::array<double, 3> factors{unit, unit, 1};
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
-            result.covariance_grid[3 * i + j] = fix.covariance[i][j];
-            result.covariance[3 * i + j] = static_cast<float>(
-                factors[i] * factors[j] * static_cast<double>(fix.covariance[i][j]));
+            result[3 * i + j] = static_cast<float>(factors[i] * factors[j] *
+                                                   static_cast<double>(fix.covariance[i][j]));
         }
     }
+}
+
+/// Sets a member of one struct from that of the other one.
+template <typename From, typename To>
+void assign(const From& from, To& to) {
+    to = static_cast<To>(from);
+}
+void assign(const Place& from, dotpose_place& to) {
+    c::to_c(from, to);
+}
+void assign(const dotpose_place& from, Place& to) {
+    to = c::to_core(from);
+}
+void assign(const PlaneFromImage& from, dotpose_plane& to) {
+    to = to_c(from);
+}
+void assign(const dotpose_plane& from, PlaneFromImage& to) {
+    to = to_core(from);
+}
+
+constexpr std::size_t kFirstFixBytes = 240;  ///< size of a fix in the first version
+
+bool is_size_of_fix(std::size_t bytes) {
+    return bytes >= kFirstFixBytes && bytes <= sizeof(dotpose_fix) && bytes % 8 == 0;
 }
 
 }  // namespace
@@ -69,42 +92,35 @@ dotpose_status to_core(const dotpose_prediction& given, Prediction& prediction) 
     return DOTPOSE_OK;
 }
 
-dotpose_status to_core(const dotpose_fix& given, Fix& fix) {
-    const dotpose_place read{given.cell_x, given.cell_y, given.section_u, given.section_v};
+dotpose_status check(const dotpose_fix* fix) {
+    if (fix == nullptr) return DOTPOSE_NULL_POINTER;
+    return is_size_of_fix(fix->size) ? DOTPOSE_OK : DOTPOSE_BAD_SIZE;
+}
+
+dotpose_status to_core(const dotpose_fix* read, Fix& fix) {
+    const dotpose_status status = check(read);
+    if (status != DOTPOSE_OK) return status;
+    dotpose_fix given{};
+    std::memcpy(&given, read, read->size);
+    const dotpose_place place{given.cell_x, given.cell_y, given.section_u, given.section_v};
     if (!is_one_of(given.status, kStatusCount - 1) || !is_one_of(given.attempt, Attempt::device) ||
-        !is_one_of(given.surface, Surface::uneven) || !is_place(read) || !is_place(given.place) ||
+        !is_one_of(given.surface, Surface::uneven) || !is_place(place) || !is_place(given.place) ||
         given.fraction_x_q16 > UINT16_MAX || given.fraction_y_q16 > UINT16_MAX) {
         return DOTPOSE_BAD_VALUE;
     }
-    fix.status = static_cast<Status>(given.status);
-    fix.attempt = static_cast<Attempt>(given.attempt);
-    fix.surface = static_cast<Surface>(given.surface);
-    fix.cell = to_core(read).cell;
-    fix.section = to_core(read).section;
-    fix.fraction_x_q16 = static_cast<std::uint16_t>(given.fraction_x_q16);
-    fix.fraction_y_q16 = static_cast<std::uint16_t>(given.fraction_y_q16);
-    fix.theta_bam = given.theta_bam;
-    fix.spacing_px_q16 = given.spacing_px_q16;
-    fix.spacing_nm = given.spacing_nm;
-    fix.dots_seen = given.dots_seen;
-    fix.dots_used = given.dots_used;
-    fix.bit_errors = given.bit_errors;
-    fix.p_wrong_log2 = given.p_wrong_log2;
-    fix.residual_px = given.residual_px;
-    fix.pattern_from_image = to_core(given.pattern_from_image);
-    fix.place = to_core(given.place);
-    fix.displacement_q16 = given.displacement_q16;
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j)
-            fix.covariance[i][j] = given.covariance_grid[3 * i + j];
-    }
+#define FIX_STATUS(type, name, member, doc) assign(given.name, fix.member);
+#define FIX_NUMBER(type, name, member, doc) assign(given.name, fix.member);
+#define FIX_EVIDENCE(type, name, is_known, doc) assign(given.name, fix.name);
+#include "dotpose/fix_fields.def"
+    for (std::size_t i = 0; i < 9; ++i)
+        fix.covariance[i / 3][i % 3] = given.covariance_grid[i];
     return DOTPOSE_OK;
 }
 
 dotpose_status to_core_ok(const dotpose_fix* given, Fix& fix) {
-    if (given == nullptr) return DOTPOSE_NULL_POINTER;
-    if (given->status != DOTPOSE_OK) return DOTPOSE_NO_FIX;
-    return to_core(*given, fix);
+    const dotpose_status status = check(given);
+    if (status != DOTPOSE_OK) return status;
+    return given->status == DOTPOSE_OK ? to_core(given, fix) : DOTPOSE_NO_FIX;
 }
 
 void to_c(const Place& place, dotpose_place& result) {
@@ -114,32 +130,17 @@ void to_c(const Place& place, dotpose_place& result) {
 void to_c(const Fix& fix, dotpose_fix& result) {
     const bool is_ok = fix.status == Status::ok;
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    result.status = static_cast<dotpose_status>(fix.status);
-    result.attempt = static_cast<std::int32_t>(fix.attempt);
-    result.surface = static_cast<std::int32_t>(fix.surface);
-    result.p_wrong_log2 = fix.p_wrong_log2;
-    result.x_mm = is_ok ? fix.x_mm() : kNone;
-    result.y_mm = is_ok ? fix.y_mm() : kNone;
-    result.theta_rad = is_ok ? fix.theta_rad() : kNone;
-    result.p_wrong = fix.p_wrong();
-    set_covariance(fix, result);
-    result.residual_px = fix.residual_px;
-    result.section_u = fix.section.u;
-    result.section_v = fix.section.v;
-    result.dots_seen = fix.dots_seen;
-    result.dots_used = fix.dots_used;
-    result.bit_errors = fix.bit_errors;
-    result.spacing_nm = fix.spacing_nm;
-    result.cell_x = fix.cell.x;
-    result.cell_y = fix.cell.y;
-    result.fraction_x_q16 = fix.fraction_x_q16;
-    result.fraction_y_q16 = fix.fraction_y_q16;
-    result.theta_bam = fix.theta_bam;
-    result.spacing_px_q16 = fix.spacing_px_q16;
-    to_c(fix.place, result.place);
-    result.pattern_from_image = to_c(fix.pattern_from_image);
-    result.displacement_q16 = fix.displacement_q16;
-    result.reserved = 0;
+    const double mm = fix.spacing_mm();
+    constexpr double spacings = 1;
+    dotpose_fix all{};
+    all.size = result.size;
+#define FIX_STATUS(type, name, member, doc) assign(fix.member, all.name);
+#define FIX_NUMBER(type, name, member, doc) assign(fix.member, all.name);
+#define FIX_EVIDENCE(type, name, is_known, doc) assign(fix.name, all.name);
+#define FIX_VALUE(type, name, value, none, doc) all.name = is_ok ? fix.value : none;
+#define FIX_MATRIX(unit, name, doc) set_covariance(fix, unit, all.name);
+#include "dotpose/fix_fields.def"
+    std::memcpy(&result, &all, all.size);
 }
 
 void to_c(const Prediction& prediction, dotpose_prediction& result) {
@@ -157,3 +158,12 @@ dotpose_status refuse(dotpose_status status, dotpose_fix& result) {
 }
 
 }  // namespace dotpose::c
+
+extern "C" dotpose_status dotpose_fix_init(dotpose_fix* fix, std::size_t bytes) {
+    using namespace dotpose;
+    if (fix == nullptr) return DOTPOSE_NULL_POINTER;
+    if (!c::is_size_of_fix(bytes)) return DOTPOSE_BAD_SIZE;
+    fix->size = static_cast<std::uint32_t>(bytes);
+    c::to_c(Fix{}, *fix);
+    return DOTPOSE_OK;
+}

@@ -59,14 +59,19 @@ dotpose_status to_core(const dotpose_options* given, Options& options);
 /// Reads a prediction. BAD_VALUE: it names no place of the code.
 dotpose_status to_core(const dotpose_prediction& given, Prediction& prediction);
 
-/// Reads a fix, whatever its status. BAD_VALUE: no function of this library has written it.
-dotpose_status to_core(const dotpose_fix& given, Fix& fix);
+/// Whether there is a fix that can be written and read: NULL_POINTER, BAD_SIZE.
+dotpose_status check(const dotpose_fix* fix);
+
+/// Reads a fix, whatever its status. Errors: those of `check`; BAD_VALUE if no function of this
+/// library has written it.
+dotpose_status to_core(const dotpose_fix* given, Fix& fix);
 /// Reads a fix that must be ok, otherwise NO_FIX.
 dotpose_status to_core_ok(const dotpose_fix* given, Fix& fix);
 
 /// Whether a prediction can be moved without an overflow; those of fixes can.
 bool can_move(const Prediction& prediction);
 
+/// Writes a fix, whose size was checked.
 void to_c(const Fix& fix, dotpose_fix& result);
 void to_c(const Place& place, dotpose_place& result);
 void to_c(const Prediction& prediction, dotpose_prediction& result);

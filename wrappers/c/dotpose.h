@@ -3,6 +3,7 @@
  *     dotpose_locator* locator = NULL;
  *     if (dotpose_locator_create(DOTPOSE_KIND_LARGE, NULL, &locator) != DOTPOSE_OK) return 1;
  *     dotpose_fix fix;
+ *     dotpose_fix_init(&fix, sizeof fix);
  *     if (dotpose_locate(locator, pixels, width, height, width, NULL, &fix) == DOTPOSE_OK)
  *         printf("x %.3f mm, y %.3f mm, angle %.4f rad\n", fix.x_mm, fix.y_mm, fix.theta_rad);
  *     else
@@ -42,32 +43,49 @@ extern "C" {
 /* Why a call gave a result or why it did not. Values keep their numbers. */
 typedef int32_t dotpose_status;
 enum {
+    /* Located. */
     DOTPOSE_OK = 0,
-    /* Faults of the image or of the options. */
+    /* An option is out of its range, or the image view has no pixels. */
     DOTPOSE_BAD_ARGUMENT = 1,
+    /* The image is too small to show 8 x 8 dots. */
     DOTPOSE_IMAGE_TOO_SMALL = 2,
+    /* The image is larger than the memory is for. */
     DOTPOSE_IMAGE_TOO_LARGE = 3,
-    /* What a frame lacks: normal results. */
+    /* The image has no dark marks on a lighter ground. */
     DOTPOSE_NO_CONTRAST = 4,
+    /* Too few dots. */
     DOTPOSE_TOO_FEW_DOTS = 5,
+    /* The dots do not lie on a regular grid. */
     DOTPOSE_NO_GRID = 6,
+    /* The dots lie on the grid intersections and carry no symbols. */
     DOTPOSE_NO_DISPLACEMENT = 7,
+    /* Fewer than 8 x 8 dots of one grid are in view. */
     DOTPOSE_GRID_TOO_SMALL = 8,
+    /* No frame has been looked at. */
     DOTPOSE_NOT_RUN = 9,
+    /* The pattern is mirrored. */
     DOTPOSE_MIRRORED = 10,
+    /* A window has 6 to 32 columns and rows. */
     DOTPOSE_BAD_WINDOW = 11,
+    /* The symbols stand nowhere in the position code. */
     DOTPOSE_NOT_IN_CODE = 12,
+    /* The symbols stand at several places of the position code. */
     DOTPOSE_AMBIGUOUS = 13,
+    /* A position was found, but it may be wrong with more than the allowed probability. */
     DOTPOSE_NOT_CERTAIN = 14,
+    /* The pattern is not where it was predicted. */
     DOTPOSE_NOT_TRACKED = 15,
+    /* Places of two codes explain the dots about equally well; name the code, or show more dots. */
     DOTPOSE_AMBIGUOUS_CODE = 16,
+    /* A newer version of dotpose has added this status. */
+    DOTPOSE_OTHER = 255,
     /* Misuse of the functions of this header. */
     DOTPOSE_NULL_POINTER = 1000,
     DOTPOSE_NOT_ALIGNED = 1001, /* memory does not begin at a multiple of 8 */
     DOTPOSE_TOO_LITTLE_MEMORY = 1002,
     DOTPOSE_OUT_OF_MEMORY = 1003,   /* the system gave none */
     DOTPOSE_NOT_INITIALIZED = 1004, /* the object was not set up, or is destroyed */
-    DOTPOSE_BAD_SIZE = 1005,        /* the member `size` of options is not that of any version */
+    DOTPOSE_BAD_SIZE = 1005,        /* the member `size` is that of no version: set up the struct */
     DOTPOSE_BAD_VALUE = 1006,       /* an argument is out of its range */
     DOTPOSE_BAD_STRIDE = 1007,      /* rows overlap */
     DOTPOSE_WRONG_KIND = 1008,      /* this kind of locator cannot do that */
@@ -81,7 +99,11 @@ const char* dotpose_status_name(dotpose_status status);
 /* Returns one plain sentence, without a full stop; never null. */
 const char* dotpose_status_message(dotpose_status status);
 
-/* Returns the version of the library, for example "0.1.0". */
+/* Version of this header, for the preprocessor too. DOTPOSE_VERSION_NUMBER grows. */
+#define DOTPOSE_VERSION "0.2.0"
+#define DOTPOSE_VERSION_NUMBER 200
+
+/* Returns the version of the library, such as "0.2.0". */
 const char* dotpose_version(void);
 
 /* ---- The position code ---------------------------------------------------------------------- */
@@ -143,55 +165,96 @@ typedef struct dotpose_plane {
 
 /* What made a fix: see `attempt`. */
 enum {
-    DOTPOSE_ATTEMPT_TRACKED = 0, /* dots were measured where a prediction expected them */
-    DOTPOSE_ATTEMPT_FIRST = 1,   /* without a prediction */
-    DOTPOSE_ATTEMPT_SECOND = 2,  /* on the filtered image, after the first attempt failed */
-    DOTPOSE_ATTEMPT_DEVICE = 3   /* in integers, as on a microcontroller */
+    /* Dots were measured where a prediction expected them. */
+    DOTPOSE_ATTEMPT_TRACKED = 0,
+    /* Without a prediction, from patches of the image. */
+    DOTPOSE_ATTEMPT_FIRST = 1,
+    /* On the filtered image, after the first attempt failed. */
+    DOTPOSE_ATTEMPT_SECOND = 2,
+    /* In integers, as on a microcontroller. */
+    DOTPOSE_ATTEMPT_DEVICE = 3
 };
 
 /* Whether the paper in view is one plane: see `surface`. */
 enum {
+    /* One plane explains all dots. */
     DOTPOSE_SURFACE_EVEN = 0,
-    DOTPOSE_SURFACE_DIVIDED =
-        1,                     /* a part is displaced; the pose is that of the reference point's */
-    DOTPOSE_SURFACE_UNEVEN = 2 /* as on wrinkled paper; the covariance is widened */
+    /* A part of the paper is displaced; the pose is that of the part with the reference point. */
+    DOTPOSE_SURFACE_DIVIDED = 1,
+    /* Neighbouring dots are displaced alike, as on wrinkled paper; the covariance is widened. */
+    DOTPOSE_SURFACE_UNEVEN = 2
 };
 
-/* The pose that one frame shows, with its evidence: 240 bytes.
+/* The pose that one frame shows, with its evidence: 240 bytes. Its members are those that
+ * include/dotpose/fix_fields.def lists.
  *
  * The pose is that of the pattern under the reference point of the image, by default its centre.
  * Unless `status` is DOTPOSE_OK, x_mm, y_mm and theta_rad are not numbers, and only `status`,
  * `dots_seen` and the counts of what the frame reached are valid. */
 typedef struct dotpose_fix {
-    dotpose_status status; /*   0 */
-    int32_t attempt;       /*   4: DOTPOSE_ATTEMPT_ */
-    int32_t surface;       /*   8: DOTPOSE_SURFACE_; devices: always even */
-    int32_t p_wrong_log2;  /*  12: the position is wrong with a probability of at most 2^this */
-    double x_mm;           /*  16: not a number if the spacing of the sheet is not known */
-    double y_mm;           /*  24: the same */
-    double theta_rad;      /*  32: angle of the image x axis from +x towards +y (clockwise) */
-    double p_wrong;        /*  40: 2^p_wrong_log2 */
-    float covariance[9];   /*  48: of x, y and theta, row by row, in mm and rad; devices: zeros */
-    float residual_px;  /*  84: root mean square distance of the dots from where they should be */
-    uint32_t section_u; /*  88: section in which the position was read */
-    uint32_t section_v; /*  92 */
-    int32_t dots_seen;  /*  96: blobs that have the size of a dot */
-    int32_t dots_used;  /* 100: dots that the pose was fitted to */
-    int32_t bit_errors; /* 104: bits, two for each dot, that contradict the position */
-    int32_t spacing_nm; /* 108: of the printed grid, from the options; 0: not known */
-    /* The same pose in exact integers, and what predictions, trackers and packets need. */
-    uint32_t cell_x;         /* 112: intersection to the upper left of the reference point */
-    uint32_t cell_y;         /* 116 */
-    uint32_t fraction_x_q16; /* 120: from there, in spacings */
+    /* Size of this struct; dotpose_fix_init sets it. */
+    uint32_t size; /* 0 */
+    /* Why there is a pose or why not. */
+    dotpose_status status; /* 4 */
+    /* Pattern point under the reference point, to the right, in mm; not a number if the spacing of
+     * the sheet is not known. */
+    double x_mm; /* 8 */
+    /* The same DOWN the page, in mm. */
+    double y_mm; /* 16 */
+    /* Angle of the image x axis in the pattern, from +x towards +y: clockwise as seen on the
+     * paper, in [-pi, pi). */
+    double theta_rad; /* 24 */
+    /* The position is wrong with a probability of at most this. */
+    double p_wrong; /* 32 */
+    /* The same bound as its binary logarithm. */
+    int32_t p_wrong_log2; /* 40 */
+    /* Blobs of the size of a dot. */
+    int32_t dots_seen; /* 44 */
+    /* Dots that the pose was fitted to. */
+    int32_t dots_used; /* 48 */
+    /* The attempt that made the fix: DOTPOSE_ATTEMPT_. */
+    int32_t attempt; /* 52 */
+    /* Whether the paper in view is one plane: DOTPOSE_SURFACE_. */
+    int32_t surface; /* 56 */
+    /* Bits, two for each cell read, that contradict the position. */
+    int32_t bit_errors; /* 60 */
+    /* Root mean square distance of the dots from their fitted places, per axis, in px. */
+    float residual_px; /* 64 */
+    /* Covariance of x, y and theta, row by row, in mm and rad; zeros if it is not known, as on
+     * devices. */
+    float covariance[9]; /* 68 */
+    /* Section in which the position was read, along x, 0 to 62. */
+    uint32_t section_u; /* 104 */
+    /* The same along y. */
+    uint32_t section_v; /* 108 */
+    /* Column of the intersection to the upper left of the reference point. */
+    uint32_t cell_x; /* 112 */
+    /* Row of that intersection. */
+    uint32_t cell_y; /* 116 */
+    /* From there to the right, in 2^-16 spacing. */
+    uint32_t fraction_x_q16; /* 120 */
+    /* From there down, in 2^-16 spacing. */
     uint32_t fraction_y_q16; /* 124 */
-    int32_t theta_bam;       /* 128 */
-    int32_t spacing_px_q16;  /* 132: grid spacing in the image */
-    dotpose_place place;     /* 136: where pattern_from_image counts from */
-    dotpose_plane pattern_from_image; /* 152 */
-    int32_t displacement_q16;         /* 196: typical distance of a dot from its intersection */
-    float covariance_grid[9];         /* 200: as `covariance`, in spacings and rad */
-    int32_t reserved;                 /* 236: zero */
+    /* theta_rad as a binary angle: 2^31 is half a turn. */
+    int32_t theta_bam; /* 128 */
+    /* Grid spacing in the image, in 2^-16 px. */
+    int32_t spacing_px_q16; /* 132 */
+    /* Spacing of the printed grid, from the options; 0: not known. */
+    int32_t spacing_nm; /* 136 */
+    /* Cell from which pattern_from_image counts. */
+    dotpose_place place; /* 140 */
+    /* Map from the image to the pattern. */
+    dotpose_plane pattern_from_image; /* 156 */
+    /* Typical distance of a dot from its intersection, in 2^-16 spacing. */
+    int32_t displacement_q16; /* 200 */
+    /* The covariance in spacings and rad. */
+    float covariance_grid[9]; /* 204 */
 } dotpose_fix;
+
+/* Sets up a fix before the first call that writes it; `bytes` is sizeof(dotpose_fix) of the caller.
+ * Functions that write or read a fix return BAD_SIZE, and leave it alone, if its size is that of no
+ * version. */
+dotpose_status dotpose_fix_init(dotpose_fix* fix, size_t bytes);
 
 /* Where the pattern is expected in the next frame: 72 bytes. */
 typedef struct dotpose_prediction {

@@ -56,8 +56,9 @@ dotpose_status dotpose_set_options(dotpose_locator* locator, const dotpose_optio
 dotpose_status dotpose_locate(dotpose_locator* locator, const uint8_t* pixels, int32_t width_px,
                               int32_t height_px, ptrdiff_t stride_bytes,
                               const dotpose_prediction* prediction, dotpose_fix* fix) {
-    if (fix == nullptr) return DOTPOSE_NULL_POINTER;
-    dotpose_status status = c::check(locator);
+    dotpose_status status = c::check(fix);
+    if (status != DOTPOSE_OK) return status;
+    status = c::check(locator);
     if (status != DOTPOSE_OK) return c::refuse(status, *fix);
     c::drop_frame(*locator);
     c::Frame frame;
@@ -94,8 +95,9 @@ dotpose_status dotpose_push_row(dotpose_locator* locator, const uint8_t* pixels)
 }
 
 dotpose_status dotpose_finish(dotpose_locator* locator, dotpose_fix* fix) {
-    if (fix == nullptr) return DOTPOSE_NULL_POINTER;
-    const dotpose_status status = c::check(locator);
+    dotpose_status status = c::check(fix);
+    if (status != DOTPOSE_OK) return status;
+    status = c::check(locator);
     if (status != DOTPOSE_OK) return c::refuse(status, *fix);
     if (!locator->has_begun) return c::refuse(DOTPOSE_NO_FRAME, *fix);
     c::drop_frame(*locator);

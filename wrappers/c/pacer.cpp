@@ -58,12 +58,12 @@ dotpose_status dotpose_pacer_init(dotpose_pacer* pacer, const dotpose_pacer_opti
 
 dotpose_status dotpose_pacer_next_frame(dotpose_pacer* pacer, const dotpose_fix* fix,
                                         int64_t time_us, int64_t* next_us, int32_t* is_moving) {
-    if (fix == nullptr || next_us == nullptr) return DOTPOSE_NULL_POINTER;
+    if (next_us == nullptr) return DOTPOSE_NULL_POINTER;
     FramePacer* found = nullptr;
     dotpose_status status = Pacer::find(pacer, found);
     if (status != DOTPOSE_OK) return status;
     Fix read;
-    status = c::to_core(*fix, read);
+    status = c::to_core(fix, read);
     if (status != DOTPOSE_OK) return status;
     if (!c::is_within_range(time_us, kLatest_us)) return DOTPOSE_BAD_VALUE;
     *next_us = found->next_frame_us(read, time_us);

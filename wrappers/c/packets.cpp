@@ -31,8 +31,10 @@ dotpose_packet to_c(const PosePacket& p) {
 /// Reads a packet. BAD_VALUE: a member has a value that packets cannot carry.
 dotpose_status to_core(const dotpose_packet& given, PosePacket& packet) {
     const dotpose_place place{given.cell_x, given.cell_y, given.section_u, given.section_v};
-    if (given.sequence > UINT16_MAX || !c::is_one_of(given.status, kStatusCount - 1) ||
-        !c::is_profile(given.profile) || !c::is_place(place) || given.fraction_x_q16 > UINT16_MAX ||
+    const bool is_status =
+        given.status == DOTPOSE_OTHER || c::is_one_of(given.status, kStatusCount - 1);
+    if (given.sequence > UINT16_MAX || !is_status || !c::is_profile(given.profile) ||
+        !c::is_place(place) || given.fraction_x_q16 > UINT16_MAX ||
         given.fraction_y_q16 > UINT16_MAX || given.theta_bam16 < INT16_MIN ||
         given.theta_bam16 > INT16_MAX || given.certainty > UINT8_MAX ||
         given.deviation_q12 > UINT8_MAX) {
@@ -58,9 +60,9 @@ extern "C" {
 
 dotpose_status dotpose_packet_of(const dotpose_fix* fix, int32_t profile, uint32_t sequence,
                                  uint32_t time_us, dotpose_packet* packet) {
-    if (fix == nullptr || packet == nullptr) return DOTPOSE_NULL_POINTER;
+    if (packet == nullptr) return DOTPOSE_NULL_POINTER;
     Fix read;
-    const dotpose_status status = c::to_core(*fix, read);
+    const dotpose_status status = c::to_core(fix, read);
     if (status != DOTPOSE_OK) return status;
     if (!c::is_profile(profile)) return DOTPOSE_BAD_VALUE;
     *packet = to_c(make_packet(read, static_cast<Profile>(profile),

@@ -3,10 +3,7 @@
 #include <array>
 
 #include "dotpose.h"
-
-#ifndef DOTPOSE_VERSION
-#include "c/version.hpp"  // scripts/export-device writes it, for builds that define nothing
-#endif
+#include "dotpose/version.hpp"
 
 namespace {
 
@@ -24,7 +21,7 @@ constexpr std::array<Text, DOTPOSE_NO_PACKET - kFirst + 1> kTexts{{
     {"too_little_memory", "the memory is smaller than what is needed"},
     {"out_of_memory", "the system has no memory left"},
     {"not_initialized", "the object was not initialized, or is destroyed"},
-    {"bad_size", "the size of the options is that of no version: initialize them first"},
+    {"bad_size", "the size of the struct is that of no version: initialize it first"},
     {"bad_value", "an argument is out of its range"},
     {"bad_stride", "the rows of the image overlap"},
     {"wrong_kind", "this kind of locator cannot do that"},
@@ -37,10 +34,10 @@ constexpr bool is_of_c(dotpose_status status) {
     return status >= kFirst && status <= DOTPOSE_NO_PACKET;
 }
 
-/// Returns the status of the core; statuses that it does not have become one that has no text.
+/// Returns the status of the core: `other` for those that it does not have.
 dotpose::Status of_core(dotpose_status status) {
-    return static_cast<dotpose::Status>(status >= 0 && status < dotpose::kStatusCount ? status
-                                                                                      : UINT8_MAX);
+    const bool is_known = status >= 0 && status < dotpose::kStatusCount;
+    return is_known ? static_cast<dotpose::Status>(status) : dotpose::Status::other;
 }
 
 constexpr const Text& of_c(dotpose_status status) {
@@ -63,9 +60,3 @@ const char* dotpose_version(void) {
     return DOTPOSE_VERSION;
 }
 }
-
-static_assert(static_cast<int>(dotpose::Status::ok) == DOTPOSE_OK);
-static_assert(static_cast<int>(dotpose::Status::not_run) == DOTPOSE_NOT_RUN);
-static_assert(static_cast<int>(dotpose::Status::ambiguous_code) == DOTPOSE_AMBIGUOUS_CODE);
-static_assert(dotpose::kStatusCount == DOTPOSE_AMBIGUOUS_CODE + 1,
-              "dotpose.h names every status of the core");

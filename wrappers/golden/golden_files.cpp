@@ -10,13 +10,14 @@
 //
 // The frames are those of accuracy/golden.cpp.
 #include <bit>
-#include <cinttypes>
+#include <concepts>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <fmt/core.h>
@@ -62,47 +63,61 @@ void write(const GreyImage& image, std::FILE* file) {
     std::fwrite(image.pixels.data(), 1, image.pixels.size(), file);
 }
 
-/// Returns all numbers of an ok fix in the order of the columns, floating-point numbers as their
-/// bits.
-std::vector<std::string> numbers_of(const Fix& fix) {
-    std::vector<std::string> all;
-    const auto put = [&all](std::int64_t value) { all.push_back(fmt::format("{}", value)); };
-    const auto put_float = [&all](float value) {
-        all.push_back(fmt::format("{:08x}", std::bit_cast<std::uint32_t>(value)));
-    };
-    const auto put_double = [&all](double value) {
-        all.push_back(fmt::format("{:016x}", std::bit_cast<std::uint64_t>(value)));
-    };
-    put(static_cast<int>(fix.attempt));
-    put(static_cast<int>(fix.surface));
-    for (const int value : {fix.dots_used, fix.bit_errors, fix.p_wrong_log2})
-        put(value);
-    for (const std::uint32_t value :
-         {std::uint32_t{fix.section.u}, std::uint32_t{fix.section.v}, fix.cell.x, fix.cell.y,
-          std::uint32_t{fix.fraction_x_q16}, std::uint32_t{fix.fraction_y_q16}})
-        put(value);
-    for (const std::int32_t value :
-         {fix.theta_bam, fix.spacing_px_q16, fix.spacing_nm, fix.displacement_q16})
-        put(value);
-    for (const std::uint32_t value :
-         {fix.place.cell.x, fix.place.cell.y, std::uint32_t{fix.place.section.u},
-          std::uint32_t{fix.place.section.v}})
-        put(value);
-    const PlaneFromImage& plane = fix.pattern_from_image;
-    for (const Vec vec : {plane.centre_q8, plane.at_centre_q16, plane.du_q24, plane.dv_q24,
-                          plane.perspective_q30}) {
-        put(vec.x);
-        put(vec.y);
+/// Numbers in the order of the columns, floating-point numbers as their bits.
+class Numbers {
+  public:
+    template <std::integral Int>
+    void put(Int value) {
+        all_.push_back(fmt::format("{}", std::int64_t{value}));
     }
-    put(plane.lens_q40);
-    for (const double value : {fix.x_mm(), fix.y_mm(), fix.theta_rad()})
-        put_double(value);
-    put_float(fix.residual_px);
-    for (const auto& row : fix.covariance) {
-        for (const float value : row)
-            put_float(value);
+    template <typename Enum>
+    requires std::is_enum_v<Enum>
+    void put(Enum value) { put(static_cast<int>(value)); }
+    void put(float value) {
+        all_.push_back(fmt::format("{:08x}", std::bit_cast<std::uint32_t>(value)));
     }
-    return all;
+    void put(double value) {
+        all_.push_back(fmt::format("{:016x}", std::bit_cast<std::uint64_t>(value)));
+    }
+    void put(const Place& place) {
+        put(place.cell.x);
+        put(place.cell.y);
+        put(place.section.u);
+        put(place.section.v);
+    }
+    void put(const PlaneFromImage& plane) {
+        for (const Vec vec : {plane.centre_q8, plane.at_centre_q16, plane.du_q24, plane.dv_q24,
+                              plane.perspective_q30}) {
+            put(vec.x);
+            put(vec.y);
+        }
+        put(plane.lens_q40);
+    }
+    /// The covariance with lengths in a unit, given in spacings.
+    void put_covariance(const Fix& fix, double unit) {
+        const double units[] = {unit, unit, 1};
+        for (int i = 0; i < 9; ++i) {
+            const auto value = static_cast<double>(fix.covariance[i / 3][i % 3]);
+            put(static_cast<float>(units[i / 3] * units[i % 3] * value));
+        }
+    }
+    std::string joined() const { return fmt::format("{}", fmt::join(all_, ",")); }
+
+  private:
+    std::vector<std::string> all_;
+};
+
+/// Returns all numbers of an ok fix.
+std::string numbers_of(const Fix& fix) {
+    Numbers all;
+    const double mm = fix.spacing_mm();
+    constexpr double spacings = 1;
+#define FIX_NUMBER(type, name, member, doc) all.put(fix.member);
+#define FIX_EVIDENCE(type, name, is_known, doc) all.put(fix.name);
+#define FIX_VALUE(type, name, value, none, doc) all.put(fix.value);
+#define FIX_MATRIX(unit, name, doc) all.put_covariance(fix, unit);
+#include "dotpose/fix_fields.def"
+    return all.joined();
 }
 
 /// Writes the lines of one frame.
@@ -112,7 +127,7 @@ class Lines {
 
     void add(const char* way, const Fix& fix) {
         fmt::print(file_, "{},{},{},{}", index_, way, static_cast<int>(fix.status), fix.dots_seen);
-        if (fix.status == Status::ok) fmt::print(file_, ",{}", fmt::join(numbers_of(fix), ","));
+        if (fix.status == Status::ok) fmt::print(file_, ",{}", numbers_of(fix));
         fmt::print(file_, "\n");
     }
 

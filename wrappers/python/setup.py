@@ -18,7 +18,7 @@ HERE = Path(__file__).resolve().parent
 # A source distribution carries the sources of dotpose along.
 PACKED = HERE / "source"
 ROOT = PACKED if PACKED.exists() else HERE.parents[1]
-NEEDED = ["CMakeLists.txt", "LICENSE", "README.md", "CONTRIBUTING.md"]
+NEEDED = ["CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "CONTRIBUTING.md"]
 NEEDED += ["apps", "cmake", "docs", "examples", "include", "src", "wrappers"]
 # What is made there, the tree of the source distribution itself too.
 UNWANTED = ["build", "dist", "dotpose-[0-9]*", "node_modules", "*.egg-info", "__pycache__"]
@@ -57,7 +57,7 @@ class PackSources(sdist):
 
 
 setup(
-    version=re.search(r"dotpose VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1],
+    version=re.search(r'DOTPOSE_VERSION "(.*)"', (ROOT / "include/dotpose/version.hpp").read_text())[1],
     ext_modules=[Extension("dotpose._dotpose", sources=[])],
     cmdclass={"build_ext": BuildWithCMake, "sdist": PackSources},
 )

@@ -37,9 +37,10 @@ constexpr std::pair<Status, const char*> kNames[] = {
     NAMED(not_certain),
     NAMED(not_tracked),
     NAMED(ambiguous_code),
+    NAMED(other),
 };
 #undef NAMED
-static_assert(std::size(kNames) == kStatusCount, "a status without a name in this test");
+static_assert(std::size(kNames) == kStatusCount + 1, "a status without a name in this test");
 
 TEST(Status, NameIsTheIdentifier) {
     for (const auto& [status, identifier] : kNames)
@@ -47,7 +48,7 @@ TEST(Status, NameIsTheIdentifier) {
 }
 
 TEST(Status, ValuesCountFromZero) {
-    for (std::size_t i = 0; i < std::size(kNames); ++i) {
+    for (std::size_t i = 0; i < kStatusCount; ++i) {
         EXPECT_EQ(static_cast<std::size_t>(kNames[i].first), i) << kNames[i].second;
     }
 }
@@ -69,6 +70,14 @@ TEST(Status, NumbersAreThoseOfTheFirstVersion) {
     EXPECT_EQ(static_cast<int>(Status::grid_too_small), 8);
     EXPECT_EQ(static_cast<int>(Status::mirrored), 10);
     EXPECT_EQ(static_cast<int>(Status::ambiguous_code), 16);
+    EXPECT_EQ(static_cast<int>(Status::other), 255);
+}
+
+TEST(Status, NumbersOfNewerVersionsAreOther) {
+    for (const int number : {kStatusCount, 100, 254}) {
+        EXPECT_STREQ(name(static_cast<Status>(number)), "other");
+        EXPECT_STREQ(message(static_cast<Status>(number)), message(Status::other));
+    }
 }
 
 TEST(Status, NothingIsKnownOfAFrameBeforeItIsLocated) {

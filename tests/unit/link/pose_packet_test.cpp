@@ -242,8 +242,19 @@ TEST(PosePacket, RefusesValuesThatNoPoseHas) {
     EXPECT_TRUE(is_refused([](PosePacket& p) { p.cell.y = kPositionsPerAxis; }));
     EXPECT_TRUE(is_refused([](PosePacket& p) { p.section.u = 63; }));
     EXPECT_TRUE(is_refused([](PosePacket& p) { p.section.v = 63; }));
-    EXPECT_TRUE(is_refused([](PosePacket& p) { p.status = static_cast<Status>(kStatusCount); }));
     EXPECT_TRUE(is_refused([](PosePacket& p) { p.profile = static_cast<Profile>(3); }));
+}
+
+// A receiver need not be newer than its senders.
+TEST(PosePacket, StatusesOfNewerVersionsAreOther) {
+    for (const int number : {kStatusCount, 100, 254, 255}) {
+        PosePacket packet = typical();
+        packet.status = static_cast<Status>(number);
+        const std::vector<PosePacket> read = received(stream_of({packet}));
+        ASSERT_EQ(read.size(), 1U) << number;
+        packet.status = Status::other;
+        EXPECT_EQ(read[0], packet) << number;
+    }
 }
 
 TEST(PosePacket, CarriesAFix) {

@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "../../golden/columns.h"
 #include "host.h"
 
 enum { MAX_WIDTH_PX = 188 };
@@ -44,44 +45,34 @@ static void print_bits(const void* number, size_t size) {
     host_print(text);
 }
 
-static void print_all(const int32_t* values, size_t count) {
-    for (; count > 0; --count) {
-        host_print(",");
-        print_signed(*values++);
+/* Prints a number at an address. */
+static void print_number(char kind, const uint8_t* at) {
+    uint32_t value = 0;
+    memcpy(&value, at, sizeof value);
+    if (kind == 'f' || kind == 'd') {
+        print_bits(at, kind == 'd' ? 8 : 4);
+        return;
     }
-}
-
-static void print_all_unsigned(const uint32_t* values, size_t count) {
-    for (; count > 0; --count) {
-        host_print(",");
-        print_unsigned(*values++);
-    }
+    host_print(",");
+    if (kind == 'i')
+        print_signed((int32_t)value);
+    else
+        print_unsigned(value);
 }
 
 static void print_fix(uint32_t index) {
+    const size_t count = sizeof golden_columns / sizeof golden_columns[0];
     size_t i = 0;
+    size_t n = 0;
     print_unsigned(index);
     host_print(",device");
-    print_all(&fix.status, 1);
-    print_all(&fix.dots_seen, 1);
-    if (fix.status == DOTPOSE_OK) {
-        const int32_t counts[] = {fix.attempt, fix.surface, fix.dots_used, fix.bit_errors,
-                                  fix.p_wrong_log2};
-        const uint32_t place[] = {fix.section_u, fix.section_v,      fix.cell_x,
-                                  fix.cell_y,    fix.fraction_x_q16, fix.fraction_y_q16};
-        const int32_t more[] = {fix.theta_bam, fix.spacing_px_q16, fix.spacing_nm,
-                                fix.displacement_q16};
-        print_all(counts, sizeof counts / sizeof counts[0]);
-        print_all_unsigned(place, sizeof place / sizeof place[0]);
-        print_all(more, sizeof more / sizeof more[0]);
-        print_all_unsigned(&fix.place.x, sizeof fix.place / 4);
-        print_all(&fix.pattern_from_image.centre_u_q8, sizeof fix.pattern_from_image / 4);
-        print_bits(&fix.x_mm, sizeof fix.x_mm);
-        print_bits(&fix.y_mm, sizeof fix.y_mm);
-        print_bits(&fix.theta_rad, sizeof fix.theta_rad);
-        print_bits(&fix.residual_px, sizeof fix.residual_px);
-        for (i = 0; i < 9; ++i)
-            print_bits(&fix.covariance_grid[i], sizeof fix.covariance_grid[i]);
+    print_number('i', (const uint8_t*)&fix.status);
+    print_number('i', (const uint8_t*)&fix.dots_seen);
+    for (i = 0; i < count && fix.status == DOTPOSE_OK; ++i) {
+        const golden_column column = golden_columns[i];
+        const size_t size = column.kind == 'd' ? 8 : 4;
+        for (n = 0; n < column.count; ++n)
+            print_number(column.kind, (const uint8_t*)&fix + column.offset + n * size);
     }
     host_print("\n");
 }
@@ -121,6 +112,7 @@ int locate_frames(const char* path) {
     dotpose_locator* locator = NULL;
     const dotpose_status status = dotpose_device_init(memory, sizeof memory, NULL, &locator);
     uint32_t index = 0;
+    dotpose_fix_init(&fix, sizeof fix);
     if (status != DOTPOSE_OK || !host_open(path)) {
         host_print(status != DOTPOSE_OK ? dotpose_status_message(status) : "no file of frames");
         host_print("\n");

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     frame = read_pgm(argv[1]);
     if (frame.pixels == NULL) return 2;
     if (dotpose_device_init(memory, sizeof memory, NULL, &locator) != DOTPOSE_OK) return 1;
+    dotpose_fix_init(&fix, sizeof fix);
     dotpose_begin(locator, frame.width_px, frame.height_px, NULL);
     for (v = 0; v < frame.height_px; ++v)
         dotpose_push_row(locator, frame.pixels + v * frame.width_px);

@@ -21,7 +21,9 @@ static dotpose_track follow(dotpose_locator* locator, const pgm_image* frame, in
     dotpose_fix fix;
     dotpose_sighting sighting;
     dotpose_track track;
-    const int is_ok =
+    int is_ok = 0;
+    dotpose_fix_init(&fix, sizeof fix);
+    is_ok =
         dotpose_locate(locator, frame->pixels, frame->width_px, frame->height_px, frame->width_px,
                        has_prediction ? &prediction : NULL, &fix) == DOTPOSE_OK &&
         dotpose_sighting_of(&fix, time_us, &sighting) == DOTPOSE_OK;

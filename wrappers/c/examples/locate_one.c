@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
     if (argc != 2) return fputs("usage: locate_one FRAME.pgm\n", stderr), 2;
     frame = read_pgm(argv[1]);
     if (frame.pixels == NULL) return 2;
+    dotpose_fix_init(&fix, sizeof fix);
     status = dotpose_locator_create(DOTPOSE_KIND_LARGE, NULL, &locator);
     if (status == DOTPOSE_OK) {
         status = dotpose_locate(locator, frame.pixels, frame.width_px, frame.height_px,

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../golden/columns.h"
+
 typedef struct image {
     int width_px;
     int height_px;
@@ -29,56 +31,31 @@ static int read_image(FILE* file, image* result) {
     return 1;
 }
 
-static void print_float(float value) {
+/* Prints a number at an address; a floating-point one as its bits. */
+static void print_number(char kind, const unsigned char* at) {
+    int32_t integer = 0;
     uint32_t bits = 0;
-    memcpy(&bits, &value, sizeof bits);
-    printf(",%08" PRIx32, bits);
-}
-
-static void print_double(double value) {
-    uint64_t bits = 0;
-    memcpy(&bits, &value, sizeof bits);
-    printf(",%016" PRIx64, bits);
-}
-
-static void print_place(const dotpose_place* p) {
-    printf(",%" PRIu32 ",%" PRIu32 ",%" PRIu32 ",%" PRIu32, p->x, p->y, p->u, p->v);
-}
-
-static void print_plane(const dotpose_plane* p) {
-    const int32_t all[] = {p->centre_u_q8,       p->centre_v_q8, p->at_centre_x_q16,
-                           p->at_centre_y_q16,   p->du_x_q24,    p->du_y_q24,
-                           p->dv_x_q24,          p->dv_y_q24,    p->perspective_u_q30,
-                           p->perspective_v_q30, p->lens_q40};
-    size_t i = 0;
-    for (i = 0; i < sizeof all / sizeof all[0]; ++i)
-        printf(",%" PRId32, all[i]);
+    uint64_t bits_of_double = 0;
+    memcpy(&integer, at, sizeof integer);
+    memcpy(&bits, at, sizeof bits);
+    if (kind == 'i') printf(",%" PRId32, integer);
+    if (kind == 'u') printf(",%" PRIu32, bits);
+    if (kind == 'f') printf(",%08" PRIx32, bits);
+    if (kind != 'd') return;
+    memcpy(&bits_of_double, at, sizeof bits_of_double);
+    printf(",%016" PRIx64, bits_of_double);
 }
 
 static void print_fix(int index, const char* way, const dotpose_fix* fix) {
-    const int32_t counts[] = {fix->attempt, fix->surface, fix->dots_used, fix->bit_errors,
-                              fix->p_wrong_log2};
-    const uint32_t place[] = {fix->section_u, fix->section_v,      fix->cell_x,
-                              fix->cell_y,    fix->fraction_x_q16, fix->fraction_y_q16};
-    const int32_t more[] = {fix->theta_bam, fix->spacing_px_q16, fix->spacing_nm,
-                            fix->displacement_q16};
+    const size_t count = sizeof golden_columns / sizeof golden_columns[0];
     size_t i = 0;
+    size_t n = 0;
     printf("%d,%s,%" PRId32 ",%" PRId32, index, way, fix->status, fix->dots_seen);
-    if (fix->status == DOTPOSE_OK) {
-        for (i = 0; i < sizeof counts / sizeof counts[0]; ++i)
-            printf(",%" PRId32, counts[i]);
-        for (i = 0; i < sizeof place / sizeof place[0]; ++i)
-            printf(",%" PRIu32, place[i]);
-        for (i = 0; i < sizeof more / sizeof more[0]; ++i)
-            printf(",%" PRId32, more[i]);
-        print_place(&fix->place);
-        print_plane(&fix->pattern_from_image);
-        print_double(fix->x_mm);
-        print_double(fix->y_mm);
-        print_double(fix->theta_rad);
-        print_float(fix->residual_px);
-        for (i = 0; i < 9; ++i)
-            print_float(fix->covariance_grid[i]);
+    for (i = 0; i < count && fix->status == DOTPOSE_OK; ++i) {
+        const golden_column column = golden_columns[i];
+        const size_t size = column.kind == 'd' ? 8 : 4;
+        for (n = 0; n < column.count; ++n)
+            print_number(column.kind, (const unsigned char*)fix + column.offset + n * size);
     }
     printf("\n");
 }
@@ -101,6 +78,7 @@ static void locate(int index, const image* frame, const image* next, dotpose_loc
     dotpose_options options;
     dotpose_prediction prediction;
     dotpose_fix fix;
+    dotpose_fix_init(&fix, sizeof fix);
     /* Reading in any code leaves the code that was read. */
     dotpose_options_init(&options, sizeof options);
     dotpose_set_options(large, &options);

@@ -33,8 +33,9 @@ static void statuses(void) {
     CHECK(strcmp(dotpose_status_name(DOTPOSE_AMBIGUOUS_CODE), "ambiguous_code") == 0);
     CHECK(strcmp(dotpose_status_name(DOTPOSE_NULL_POINTER), "null_pointer") == 0);
     CHECK(strcmp(dotpose_status_name(DOTPOSE_NO_PACKET), "no_packet") == 0);
-    CHECK(strcmp(dotpose_status_name(17), "unknown") == 0);
-    CHECK(strcmp(dotpose_status_name(DOTPOSE_NO_PACKET + 1), "unknown") == 0);
+    CHECK(strcmp(dotpose_status_name(17), "other") == 0);
+    CHECK(strcmp(dotpose_status_name(DOTPOSE_OTHER), "other") == 0);
+    CHECK(strcmp(dotpose_status_name(DOTPOSE_NO_PACKET + 1), "other") == 0);
     for (status = -3; status < DOTPOSE_NO_PACKET + 3; ++status)
         CHECK(dotpose_status_name(status)[0] != 0 && dotpose_status_message(status)[0] != 0);
     CHECK(dotpose_status_name(INT32_MIN)[0] != 0 && dotpose_status_message(INT32_MAX)[0] != 0);
@@ -77,6 +78,7 @@ static void options(void) {
         dotpose_options known;
         uint32_t more;
     } newer;
+    dotpose_fix_init(&fix, sizeof fix);
     EXPECT(NULL_POINTER, dotpose_options_init(NULL, sizeof good));
     EXPECT(BAD_SIZE, dotpose_options_init(&good, 0));
     EXPECT(BAD_SIZE, dotpose_options_init(&good, sizeof good + 4));
@@ -119,6 +121,7 @@ static void making(void) {
     dotpose_locator* locator = NULL;
     dotpose_fix fix;
     uint64_t zeros[16] = {0};
+    dotpose_fix_init(&fix, sizeof fix);
     CHECK(dotpose_locator_bytes(DOTPOSE_KIND_DEVICE) <= DOTPOSE_DEVICE_BYTES);
     CHECK(dotpose_locator_bytes(DOTPOSE_KIND_DEVICE_160X120) <= DOTPOSE_DEVICE_160X120_BYTES);
     CHECK(dotpose_locator_bytes(DOTPOSE_KIND_DEVICE_320X240) <= DOTPOSE_DEVICE_320X240_BYTES);
@@ -162,6 +165,7 @@ static void locating(dotpose_locator* locator) {
     dotpose_fix fix;
     dotpose_prediction prediction;
     memset(&prediction, 0, sizeof prediction);
+    dotpose_fix_init(&fix, sizeof fix);
     EXPECT(NULL_POINTER, dotpose_locate(NULL, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL, &fix));
     CHECK(fix.status == DOTPOSE_NULL_POINTER && fix.x_mm != fix.x_mm && fix.p_wrong == 1);
     EXPECT(NULL_POINTER, dotpose_locate(locator, NULL, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL, &fix));
@@ -195,6 +199,7 @@ static void locating(dotpose_locator* locator) {
 static void pushing(dotpose_locator* locator) {
     dotpose_fix fix;
     int v = 0;
+    dotpose_fix_init(&fix, sizeof fix);
     EXPECT(NO_FRAME, dotpose_push_row(locator, pixels));
     EXPECT(NO_FRAME, dotpose_finish(locator, &fix));
     CHECK(fix.status == DOTPOSE_NO_FRAME);
@@ -228,10 +233,42 @@ static void pushing(dotpose_locator* locator) {
 /* A fix with this status that no frame has shown. */
 static dotpose_fix made_up(dotpose_status status) {
     dotpose_fix fix;
-    memset(&fix, 0, sizeof fix);
+    dotpose_fix_init(&fix, sizeof fix);
     fix.status = status;
     fix.spacing_nm = 508000;
     return fix;
+}
+
+/* A fix whose size is that of no version is neither written nor read. */
+static void sizes(dotpose_locator* large, dotpose_locator* device) {
+    static dotpose_pacer pacer;
+    dotpose_fix fix = made_up(DOTPOSE_OK);
+    dotpose_prediction prediction;
+    dotpose_sighting sighting;
+    dotpose_packet packet;
+    const uint32_t bad[] = {0, sizeof fix - 8, sizeof fix + 4, sizeof fix + 8, UINT32_MAX};
+    int64_t next_us = 0;
+    size_t i = 0;
+    EXPECT(NULL_POINTER, dotpose_fix_init(NULL, sizeof fix));
+    EXPECT(OK, dotpose_pacer_init(&pacer, NULL));
+    for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        EXPECT(BAD_SIZE, dotpose_fix_init(&fix, bad[i]));
+        fix = made_up(DOTPOSE_OK);
+        fix.size = bad[i];
+        EXPECT(BAD_SIZE, dotpose_locate(large, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL, &fix));
+        EXPECT(BAD_SIZE, dotpose_finish(device, &fix));
+        EXPECT(BAD_SIZE, dotpose_locate_any_code(large, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL,
+                                                 NULL, NULL, &fix));
+        EXPECT(BAD_SIZE,
+               dotpose_locate_in_code(large, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL, &fix));
+        EXPECT(BAD_SIZE, dotpose_prediction_like(&fix, &prediction));
+        EXPECT(BAD_SIZE, dotpose_sighting_of(&fix, 0, &sighting));
+        EXPECT(BAD_SIZE, dotpose_packet_of(&fix, 0, 1, 2, &packet));
+        EXPECT(BAD_SIZE, dotpose_pacer_next_frame(&pacer, &fix, 0, &next_us, NULL));
+        CHECK(fix.size == bad[i] && fix.status == DOTPOSE_OK);
+    }
+    EXPECT(OK, dotpose_fix_init(&fix, sizeof fix));
+    CHECK(fix.size == sizeof fix && fix.status == DOTPOSE_NOT_RUN && fix.x_mm != fix.x_mm);
 }
 
 static void predictions(void) {
@@ -263,6 +300,7 @@ static void any_code(dotpose_locator* large, dotpose_locator* device) {
     int32_t profile = -1;
     int32_t count = -1;
     float p_wrong = -1;
+    dotpose_fix_init(&fix, sizeof fix);
     EXPECT(WRONG_KIND, dotpose_locate_any_code(device, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL,
                                                &evidence, &reading, &fix));
     EXPECT(WRONG_KIND,
@@ -386,6 +424,11 @@ static void packets(void) {
     EXPECT(NULL_POINTER, dotpose_packet_reader_damaged(NULL, &damaged));
     EXPECT(OK, dotpose_packet_reader_damaged(&reader, &damaged));
     CHECK(damaged == 1);
+    packet.status = DOTPOSE_OTHER; /* as read from a newer sender */
+    EXPECT(OK, dotpose_packet_encode(&packet, bytes, sizeof bytes));
+    packet.status = DOTPOSE_OTHER - 1;
+    EXPECT(BAD_VALUE, dotpose_packet_encode(&packet, bytes, sizeof bytes));
+    packet.status = DOTPOSE_OK;
     packet.sequence = 65536;
     EXPECT(BAD_VALUE, dotpose_packet_encode(&packet, bytes, sizeof bytes));
     packet.sequence = 0;
@@ -431,6 +474,7 @@ int main(void) {
     locating(large);
     pushing(device);
     pushing(large);
+    sizes(large, device);
     predictions();
     any_code(large, device);
     trackers(large);

@@ -34,6 +34,7 @@ CLocator make_locator(const dotpose_options* options = nullptr) {
 dotpose_fix locate(dotpose_locator* locator, const GreyImage& image,
                    const dotpose_prediction* prediction = nullptr) {
     dotpose_fix fix;
+    EXPECT_EQ(dotpose_fix_init(&fix, sizeof fix), DOTPOSE_OK);
     dotpose_locate(locator, image.pixels.data(), image.width_px, image.height_px, image.width_px,
                    prediction, &fix);
     return fix;
@@ -41,6 +42,7 @@ dotpose_fix locate(dotpose_locator* locator, const GreyImage& image,
 
 dotpose_fix as_c(const Fix& fix) {
     dotpose_fix result;
+    EXPECT_EQ(dotpose_fix_init(&result, sizeof result), DOTPOSE_OK);
     c::to_c(fix, result);
     return result;
 }
@@ -93,6 +95,7 @@ void expect_same_device(int kind, dotpose_status (*init)(void*, std::size_t, con
     ASSERT_EQ(init(memory.data(), 8 * memory.size(), nullptr, &locator), DOTPOSE_OK);
     EXPECT_TRUE(same(locate(locator, image), as_c(expected)));
     dotpose_fix fix;
+    ASSERT_EQ(dotpose_fix_init(&fix, sizeof fix), DOTPOSE_OK);
     EXPECT_EQ(dotpose_locate(locator, image.pixels.data(), Width + 1, 64, Width + 1, nullptr, &fix),
               DOTPOSE_IMAGE_TOO_LARGE);
     dotpose_locator_destroy(locator);
@@ -217,7 +220,7 @@ TEST(C, KeepsAFixWhole) {
     for (const GreyImage& image : drive(4)) {
         const dotpose_fix fix = as_c(Locator(*memory).locate(image.view()));
         Fix back;
-        ASSERT_EQ(c::to_core(fix, back), DOTPOSE_OK);
+        ASSERT_EQ(c::to_core(&fix, back), DOTPOSE_OK);
         EXPECT_TRUE(same(as_c(back), fix) || fix.status != DOTPOSE_OK);
     }
 }
@@ -358,6 +361,7 @@ TEST(C, FindsTheCodeOfASheet) {
         core_evidence = expected.evidence;
         dotpose_code_reading reading;
         dotpose_fix fix;
+        ASSERT_EQ(dotpose_fix_init(&fix, sizeof fix), DOTPOSE_OK);
         const dotpose_status status = dotpose_locate_any_code(
             locator.get(), image.pixels.data(), image.width_px, image.height_px, image.width_px,
             nullptr, &evidence, &reading, &fix);

@@ -3,6 +3,7 @@
 
 #include <gst/gst.h>
 
+#include "dotpose/version.hpp"
 #include "element.hpp"
 #include "pose_structure.hpp"
 

@@ -33,6 +33,12 @@ class Fields {
             gst_structure_set(structure_, name, G_TYPE_DOUBLE, value, nullptr);
         }
     }
+    void evidence(const char* name, int value) const { count(name, value); }
+    void evidence(const char* name, float value) const { number(name, static_cast<double>(value)); }
+    template <typename Enum>
+    void evidence(const char* key, Enum value) const {
+        text(key, name(value));
+    }
     /// An angle in degrees, in (-180, 180].
     void angle(const char* name, double value_rad) const {
         const double value_deg = value_rad * kDegrees;
@@ -94,18 +100,15 @@ void put_pattern_pose(const Fields& fields, const Located& located) {
     }
 }
 
-void put_evidence(const Fields& fields, const Located& located) {
-    const Fix& fix = located.fix;
-    // Smaller probabilities are not told: the model of paper, ink and camera does not justify them.
-    constexpr double kLeast_p_wrong = 1e-30;
-    fields.count("dots_used", fix.dots_used);
-    fields.text("attempt", name(fix.attempt));
-    fields.count("bit_errors", fix.bit_errors);
-    fields.number("p_wrong", std::max(fix.p_wrong(), kLeast_p_wrong));
+void put_evidence(const Fields& fields, const Fix& fix) {
+#define FIX_EVIDENCE(type, name, is_known, doc) \
+    if (is_known) fields.evidence(#name, fix.name);
+#include "dotpose/fix_fields.def"
+    if (!fix) return;
+    // Smaller probabilities are left out: the model of paper, ink and camera does not justify them.
+    constexpr double kMin_p_wrong = 1e-30;
+    fields.number("p_wrong", std::max(fix.p_wrong(), kMin_p_wrong));
     fields.number("spacing_px", fix.spacing_px());
-    if (!fix.has_covariance()) return;
-    fields.text("surface", name(fix.surface));
-    fields.number("residual_px", static_cast<double>(fix.residual_px));
 }
 
 /// Whose code the sheet has, and which other one explains the frame too.
@@ -167,11 +170,10 @@ void put_reading(GstStructure* structure, const Reading& reading) {
     const Located& located = reading.located;
     gst_structure_set(structure, "frame", G_TYPE_UINT64, guint64{reading.frame}, nullptr);
     fields.text("status", name(located.fix.status));
-    fields.count("dots_seen", located.fix.dots_seen);
+    put_evidence(fields, located.fix);
     if (located.fix.status == Status::ok) {
         put_pattern_pose(fields, located);
         put_section(structure, located.fix.section);
-        put_evidence(fields, located);
     } else {
         fields.text("message", message(located.fix.status));
     }

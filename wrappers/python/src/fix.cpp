@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include <fmt/core.h>
 
@@ -65,34 +66,77 @@ std::string text_of_fix(const SeenFix& self) {
                        fix.x_mm(), fix.y_mm(), fix.theta_rad(), fix.p_wrong());
 }
 
-/// Returns the numbers of a fix as the core computed them, in the order of wrappers/golden, for
-/// tests that compare bits.
+/// Appends numbers to a list as the lines of wrappers/golden have them.
+class Bits {
+  public:
+    template <typename Value>
+    void put(const Value& value) {
+        if constexpr (std::is_enum_v<Value>)
+            list_.append(static_cast<int>(value));
+        else
+            list_.append(value);
+    }
+    void put(const Place& place) {
+        for (const std::uint32_t value : {place.cell.x, place.cell.y})
+            put(value);
+        for (const int value : {int{place.section.u}, int{place.section.v}})
+            put(value);
+    }
+    void put(const PlaneFromImage& plane) {
+        for (const Vec vec : {plane.centre_q8, plane.at_centre_q16, plane.du_q24, plane.dv_q24,
+                              plane.perspective_q30}) {
+            put(vec.x);
+            put(vec.y);
+        }
+        put(plane.lens_q40);
+    }
+    /// The type of the value in C, so that its bits can be compared.
+    template <typename Value>
+    void put_bits(Value value) {
+        list_.append(py::bytes(reinterpret_cast<const char*>(&value), sizeof value));
+    }
+    void put(float value) { put_bits(value); }
+    void put(double value) { put_bits(value); }
+    void put_covariance(const Fix& fix, double unit) {
+        const double units[] = {unit, unit, 1};
+        for (int i = 0; i < 9; ++i) {
+            const auto value = static_cast<double>(fix.covariance[i / 3][i % 3]);
+            put(static_cast<float>(units[i / 3] * units[i % 3] * value));
+        }
+    }
+    const py::list& list() const { return list_; }
+
+  private:
+    py::list list_;
+};
+
+/// Returns the numbers of a line of wrappers/golden, floating-point ones as bytes, for tests that
+/// compare bits.
 py::list bits(const SeenFix& self) {
     const Fix& fix = self.fix;
-    py::list all;
-    for (const std::int64_t value :
-         {std::int64_t{static_cast<int>(fix.attempt)}, std::int64_t{static_cast<int>(fix.surface)},
-          std::int64_t{fix.dots_used}, std::int64_t{fix.bit_errors}, std::int64_t{fix.p_wrong_log2},
-          std::int64_t{fix.section.u}, std::int64_t{fix.section.v}, std::int64_t{fix.cell.x},
-          std::int64_t{fix.cell.y}, std::int64_t{fix.fraction_x_q16},
-          std::int64_t{fix.fraction_y_q16}, std::int64_t{fix.theta_bam},
-          std::int64_t{fix.spacing_px_q16}, std::int64_t{fix.spacing_nm},
-          std::int64_t{fix.displacement_q16}, std::int64_t{fix.place.cell.x},
-          std::int64_t{fix.place.cell.y}, std::int64_t{fix.place.section.u},
-          std::int64_t{fix.place.section.v}})
-        all.append(value);
-    const PlaneFromImage& plane = fix.pattern_from_image;
-    for (const Vec vec : {plane.centre_q8, plane.at_centre_q16, plane.du_q24, plane.dv_q24,
-                          plane.perspective_q30}) {
-        all.append(vec.x);
-        all.append(vec.y);
-    }
-    all.append(plane.lens_q40);
-    all.append(double{fix.residual_px});
-    for (const auto& row : fix.covariance)
-        for (const float value : row)
-            all.append(double{value});
-    return all;
+    Bits all;
+    all.put(fix.status);
+    all.put(fix.dots_seen);
+    if (!self.is_ok()) return all.list();
+    const double mm = fix.spacing_mm();
+    constexpr double spacings = 1;
+#define FIX_NUMBER(type, name, member, doc) all.put(fix.member);
+#define FIX_EVIDENCE(type, name, is_known, doc) all.put(fix.name);
+#define FIX_VALUE(type, name, value, none, doc) all.put(fix.value);
+#define FIX_MATRIX(unit, name, doc) all.put_covariance(fix, unit);
+#include "dotpose/fix_fields.def"
+    return all.list();
+}
+
+/// Returns a field of the evidence as Python has it; without a pose, numbers are 0 or not a number.
+template <typename Value>
+py::object evidence(bool is_known, Value value) {
+    if constexpr (std::is_enum_v<Value>)
+        return py::str(name(value));
+    else if constexpr (std::is_floating_point_v<Value>)
+        return py::float_(is_known ? double{value} : kNaN);
+    else
+        return py::int_(is_known ? value : 0);
 }
 
 void define_pose(py::class_<SeenFix>& fix) {
@@ -142,6 +186,19 @@ void define_pose(py::class_<SeenFix>& fix) {
                                "As y_mm, in spacings of the grid.");
 }
 
+/// Defines the fields of FIX_EVIDENCE.
+void define_fields(py::class_<SeenFix>& seen_fix) {
+#define FIX_EVIDENCE(type, name, is_known, doc)         \
+    seen_fix.def_property_readonly(                     \
+        #name,                                          \
+        [](const SeenFix& self) {                       \
+            [[maybe_unused]] const Fix& fix = self.fix; \
+            return evidence(is_known, self.fix.name);   \
+        },                                              \
+        doc ".");
+#include "dotpose/fix_fields.def"
+}
+
 void define_evidence(py::class_<SeenFix>& fix) {
     fix.def_property_readonly(
            "code", [](const SeenFix& self) { return name(self.code); },
@@ -149,32 +206,10 @@ void define_evidence(py::class_<SeenFix>& fix) {
         .def_property_readonly(
             "other", &other,
             "Another place that explains the frame as well, as (code, cell, section); else None.")
-        .def_property_readonly(
-            "attempt", [](const SeenFix& self) { return name(self.fix.attempt); },
-            "What made the fix: \"first\", \"second\", \"tracked\" (by a prediction) or "
-            "\"device\".")
-        .def_property_readonly(
-            "surface", [](const SeenFix& self) { return name(self.fix.surface); },
-            "\"even\" if the paper is one plane as far as the dots show it, \"divided\" or "
-            "\"uneven\" if not.")
         .def_property_readonly("spacing_mm", if_ok([](const Fix& f) { return f.spacing_mm(); }),
                                "Spacing of the printed grid, in mm; nan if it is not known.")
         .def_property_readonly("spacing_px", if_ok([](const Fix& f) { return f.spacing_px(); }),
                                "Spacing of the grid in the image, in px.")
-        .def_property_readonly("residual_px",
-                               if_ok([](const Fix& f) { return double{f.residual_px}; }),
-                               "Root mean square distance of the dots from their fitted places, "
-                               "per axis, in px.")
-        .def_property_readonly(
-            "dots_seen", [](const SeenFix& self) { return self.fix.dots_seen; },
-            "Number of dark blobs that have the size of a dot.")
-        .def_property_readonly(
-            "dots_used", [](const SeenFix& self) { return self.is_ok() ? self.fix.dots_used : 0; },
-            "Number of dots that the pose was fitted to.")
-        .def_property_readonly(
-            "bit_errors",
-            [](const SeenFix& self) { return self.is_ok() ? self.fix.bit_errors : 0; },
-            "Number of bits, two for each dot, that contradict the position.")
         .def_property_readonly("_bits", &bits);
 }
 
@@ -267,6 +302,7 @@ void define_fix(py::module_& module) {
         "pattern point under the reference point (by default the image centre).");
     define_pose(fix);
     define_evidence(fix);
+    define_fields(fix);
     fix.def_property_readonly(
            "dots", &dots,
            "Pixels (u, v) where dots were found, n x 2; the centre of the first pixel is (0, 0). "

@@ -1,5 +1,6 @@
 // The module dotpose._dotpose. The package dotpose shows what it defines.
 #include "binding.hpp"
+#include "dotpose/version.hpp"
 
 PYBIND11_MODULE(_dotpose, module) {
     using namespace dotpose::python;

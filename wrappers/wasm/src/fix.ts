@@ -1,8 +1,6 @@
 // The pose that one frame shows, read from a dotpose_fix of wrappers/c/dotpose.h.
-import { kAttempts, kCodes, kSurfaces, type Attempt, type Cell, type Code, type Section, type Surface } from "./names.js";
-
-/** Size of a dotpose_fix. */
-export const kFixBytes = 240;
+import { fieldsOf, kAt, type FixFields } from "./fix_fields.js";
+import { kCodes, type Cell, type Code, type Section } from "./names.js";
 
 /**
  * The pose that one frame shows, with its evidence; plain data, which workers can send.
@@ -11,37 +9,24 @@ export const kFixBytes = 240;
  * under the centre of the image. Unless `ok`, pose and covariance are not numbers, and only `status`,
  * `message` and `dots_seen` count.
  */
-export interface Fix {
+export interface Fix extends FixFields {
     /** Whether there is a pose. A frame without one is a normal result; `message` says why. */
     ok: boolean;
     /** Identifier, for example "ok" or "too_few_dots". */
     status: string;
     /** One plain sentence for the user, without a full stop. */
     message: string;
-    x_mm: number;
-    y_mm: number;
-    /** Angle of the image's x axis in the pattern, from +x towards +y: clockwise as seen on the paper. */
-    theta_rad: number;
     /** Covariance of x, y and theta, in mm and rad: nine numbers, row by row. */
     covariance: Float32Array;
-    /** The position is wrong with at most this probability. */
-    p_wrong: number;
     section: Section;
     /** Intersection to the upper left of the pose. */
     cell: Cell;
     /** Table of the code in which the frame was read. */
     code: Code;
-    attempt: Attempt;
-    surface: Surface;
     /** Spacing of the printed grid. */
     spacing_mm: number;
     /** Spacing of the grid in the image. */
     spacing_px: number;
-    /** Root mean square distance of the dots from where they should be. */
-    residual_px: number;
-    dots_seen: number;
-    dots_used: number;
-    bit_errors: number;
     /** Centres of the dots found, u and v in px from the first pixel's centre; null unless asked for. */
     dots: Float32Array | null;
     /** The same fix to the last bit: a dotpose_fix, as wrappers/c/dotpose.h lays it out. */
@@ -63,27 +48,17 @@ export function fixOf(bytes: Uint8Array<ArrayBuffer>, context: Context): Fix {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const int = (offset: number) => view.getInt32(offset, true);
     const natural = (offset: number) => view.getUint32(offset, true);
-    const double = (offset: number) => view.getFloat64(offset, true);
     return {
-        ok: int(0) === 0,
+        ...fieldsOf(view),
+        ok: int(kAt.status) === 0,
         status: context.status,
         message: context.message,
-        x_mm: double(16),
-        y_mm: double(24),
-        theta_rad: double(32),
-        covariance: Float32Array.from({ length: 9 }, (_, i) => view.getFloat32(48 + 4 * i, true)),
-        p_wrong: double(40),
-        section: { u: natural(88), v: natural(92) },
-        cell: { x: natural(112), y: natural(116) },
+        covariance: Float32Array.from({ length: 9 }, (_, i) => view.getFloat32(kAt.covariance + 4 * i, true)),
+        section: { u: natural(kAt.section_u), v: natural(kAt.section_v) },
+        cell: { x: natural(kAt.cell_x), y: natural(kAt.cell_y) },
         code: kCodes[context.code]!,
-        attempt: kAttempts[int(4)]!,
-        surface: kSurfaces[int(8)]!,
-        spacing_mm: int(108) / 1e6,
-        spacing_px: int(132) / kGrid_q16,
-        residual_px: view.getFloat32(84, true),
-        dots_seen: int(96),
-        dots_used: int(100),
-        bit_errors: int(104),
+        spacing_mm: int(kAt.spacing_nm) / 1e6,
+        spacing_px: int(kAt.spacing_px_q16) / kGrid_q16,
         dots: context.dots,
         bytes,
     };
@@ -102,18 +77,17 @@ interface Plane {
 
 function planeOf(fix: Fix): Plane {
     const view = new DataView(fix.bytes.buffer, fix.bytes.byteOffset);
-    const pair = (offset: number, unit: number): [number, number] => [
-        view.getInt32(offset, true) / unit,
-        view.getInt32(offset + 4, true) / unit,
-    ];
+    const place = (offset: number) => view.getUint32(kAt.place + offset, true);
+    const int = (offset: number) => view.getInt32(kAt.pattern_from_image + offset, true);
+    const pair = (offset: number, unit: number): [number, number] => [int(offset) / unit, int(offset + 4) / unit];
     return {
-        place: { x: view.getUint32(136, true), y: view.getUint32(140, true) },
-        centre: pair(152, 2 ** 8),
-        at_centre: pair(160, 2 ** 16),
-        du: pair(168, 2 ** 24),
-        dv: pair(176, 2 ** 24),
-        perspective: pair(184, 2 ** 30),
-        lens: view.getInt32(192, true) / 2 ** 40,
+        place: { x: place(0), y: place(4) },
+        centre: pair(0, 2 ** 8),
+        at_centre: pair(8, 2 ** 16),
+        du: pair(16, 2 ** 24),
+        dv: pair(24, 2 ** 24),
+        perspective: pair(32, 2 ** 30),
+        lens: int(40) / 2 ** 40,
     };
 }
 

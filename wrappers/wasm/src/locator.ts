@@ -1,6 +1,7 @@
 // Locator: finds where the pattern is seen in an image.
 import { coreModule } from "./core.js";
-import { fixOf, kFixBytes, type Fix } from "./fix.js";
+import { fixOf, type Fix } from "./fix.js";
+import { kAt, kFixBytes } from "./fix_fields.js";
 import { Instance, type WasmSource } from "./instance.js";
 import { codeNumber, type Code } from "./names.js";
 
@@ -93,6 +94,7 @@ export class Locator {
     private constructor(core: Instance, options: LocatorOptions) {
         this.#core = core;
         this.#fix = core.reserve(kFixBytes);
+        this.#require(core.call("dotpose_fix_init", this.#fix, kFixBytes));
         this.#prediction = core.reserve(kPredictionBytes);
         const { code = "auto" } = options;
         this.#code = code === "auto" ? 0 : codeNumber(code);
@@ -188,7 +190,7 @@ export class Locator {
     #read(): Fix {
         const core = this.#core;
         const bytes = core.bytes(this.#fix, kFixBytes).slice();
-        const status = core.view(this.#fix, kFixBytes).getInt32(0, true);
+        const status = core.view(this.#fix, kFixBytes).getInt32(kAt.status, true);
         return fixOf(bytes, {
             ...this.#textsOf(status),
             code: this.#code,

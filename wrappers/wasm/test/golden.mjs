@@ -14,15 +14,33 @@ export function* imagesOf(buffer) {
     }
 }
 
-/** Offsets in a dotpose_fix (wrappers/c/dotpose.h) of the columns, and how their numbers are written. */
+/** Types, numbers and offsets in a dotpose_fix (wrappers/c/dotpose.h) of the columns. */
 const kColumns = [
-    ...["int", [4, 8, 100, 104, 12]], // attempt, surface, dots used, bit errors, p_wrong_log2
-    ...["natural", [88, 92, 112, 116, 120, 124]], // section, cell, fraction
-    ...["int", [128, 132, 108, 196]], // theta, spacings, displacement
-    ...["natural", [136, 140, 144, 148]], // place
-    ...["int", Array.from({ length: 11 }, (_, i) => 152 + 4 * i)], // pattern_from_image
-    ...["double", [16, 24, 32]], // x, y, theta
-    ...["float", [84, ...Array.from({ length: 9 }, (_, i) => 200 + 4 * i)]], // residual, covariance
+    ["double", 1, 8], // x_mm
+    ["double", 1, 16], // y_mm
+    ["double", 1, 24], // theta_rad
+    ["double", 1, 32], // p_wrong
+    ["int", 1, 40], // p_wrong_log2
+    ["int", 1, 44], // dots_seen
+    ["int", 1, 48], // dots_used
+    ["int", 1, 52], // attempt
+    ["int", 1, 56], // surface
+    ["int", 1, 60], // bit_errors
+    ["float", 1, 64], // residual_px
+    ["float", 9, 68], // covariance
+    ["natural", 1, 104], // section_u
+    ["natural", 1, 108], // section_v
+    ["natural", 1, 112], // cell_x
+    ["natural", 1, 116], // cell_y
+    ["natural", 1, 120], // fraction_x_q16
+    ["natural", 1, 124], // fraction_y_q16
+    ["int", 1, 128], // theta_bam
+    ["int", 1, 132], // spacing_px_q16
+    ["int", 1, 136], // spacing_nm
+    ["natural", 4, 140], // place
+    ["int", 11, 156], // pattern_from_image
+    ["int", 1, 200], // displacement_q16
+    ["float", 9, 204], // covariance_grid
 ];
 
 /** Returns the numbers of a fix as the lines of the golden files have them. */
@@ -35,9 +53,9 @@ function lineOf(fix) {
         double: (at) => hex(view.getBigUint64(at, true), 16),
         float: (at) => hex(view.getUint32(at, true), 8),
     };
-    const numbers = [view.getInt32(0, true), fix.dots_seen];
-    for (let i = 0; fix.ok && i < kColumns.length; i += 2)
-        numbers.push(...kColumns[i + 1].map((at) => read[kColumns[i]](at)));
+    const numbers = [view.getInt32(4, true), fix.dots_seen];
+    for (const [type, count, at] of fix.ok ? kColumns : [])
+        for (let i = 0; i < count; ++i) numbers.push(read[type](at + i * (type === "double" ? 8 : 4)));
     return numbers.join(",");
 }
 
