@@ -19,14 +19,12 @@
 #include "core/integrity/verify.hpp"
 #include "core/lattice/axes.hpp"
 #include "core/lattice/neighbours.hpp"
-#include "core/pose/covariance.hpp"
-#include "core/pose/refine_pose.hpp"
 #include "core/pose/subgrid.hpp"
 #include "device/affine_pose.hpp"
 #include "device/grow.hpp"
 #include "device/origin.hpp"
 #include "frames.hpp"
-#include "locate/locate.hpp"
+#include "device/locate.hpp"
 #include "locate/workspace.hpp"
 
 namespace dotpose::bench {
@@ -157,11 +155,6 @@ bool decode(Located& l) {
     return status == Status::ok && l.w.decoding.place.cell == before;
 }
 
-bool verify(Located& l) {
-    return core::verify(l.w.grid, kProfile, l.w.decoding, kOptions.integrity, l.w.line_scores,
-                        l.w.fix) == Status::ok;
-}
-
 bool verify_quickly(Located& l) {
     return core::verify_quickly(l.w.grid, kProfile, l.w.decoding, kOptions.integrity,
                                 l.w.line_scores, l.w.fix) == Status::ok;
@@ -177,24 +170,10 @@ bool fit_affine_pose(Located& l) {
     return used > 0;
 }
 
-bool refine_pose(Located& l) {
-    const core::Nominal nominal(l.w.grid, kProfile, l.w.decoding);
-    PlaneFromImage plane = core::upright_plane(l.w.grid_from_image, l.w.decoding.pattern_from_grid);
-    const core::Observations observations(l.w.found_dots(), l.w.grid, nominal);
-    core::PoseFit fit;
-    const bool is_fitted = core::refine_pose(observations, plane, fit);
-    core::write_pose(plane, l.centre_q8(), kProfile, l.w.decoding.place, l.w.fix);
-    core::estimate_covariance(fit, plane, l.centre_q8(), l.w.fix);
-    return is_fitted && l.w.fix.has_covariance();
-}
-
-/// The path through the pipeline to which a stage belongs.
-enum class Path : std::uint8_t { both, full, device };
 
 struct NamedStage {
     const char* name;
     Stage run;
-    Path path = Path::both;
     bool is_part = false;  ///< whether it is a part of the stage `position`
 };
 constexpr std::array kStages = {
@@ -209,13 +188,11 @@ constexpr std::array kStages = {
     NamedStage{"likelihood", assign_likelihoods},
     NamedStage{"window", choose_windows},
     NamedStage{"position", decode},
-    NamedStage{"orientation", rank_turns, Path::both, true},
-    NamedStage{"correlation", correlate, Path::both, true},
-    NamedStage{"search", search, Path::both, true},
-    NamedStage{"verify", verify, Path::full},
-    NamedStage{"verify, quickly", verify_quickly, Path::device},
-    NamedStage{"refined pose and covariance", refine_pose, Path::full},
-    NamedStage{"affine pose", fit_affine_pose, Path::device},
+    NamedStage{"orientation", rank_turns, true},
+    NamedStage{"correlation", correlate, true},
+    NamedStage{"search", search, true},
+    NamedStage{"verify", verify_quickly},
+    NamedStage{"affine pose", fit_affine_pose},
 };
 
 std::string name_of(const NamedStage& stage) {
@@ -224,13 +201,11 @@ std::string name_of(const NamedStage& stage) {
 
 /// Locates the frame again and keeps the results that later stages change. Returns false if this
 /// fails.
-bool prepare(const KnownFrame& frame, Path path, Located& l) {
+bool prepare(const KnownFrame& frame, Located& l) {
     l.image = &frame.image;
     if (!push_rows(frame.image, l.w)) return false;
     l.blobs.assign(l.w.found_dots().begin(), l.w.found_dots().end());
-    const Fix fix =
-        path == Path::device ? core::finish_as_device(kOptions, l.w) : core::finish(kOptions, l.w);
-    return is_right(fix, frame.truth);
+    return is_right(core::finish_as_device(kOptions, l.w), frame.truth);
 }
 
 void run_stage(benchmark::State& state, const NamedStage& stage) {
@@ -239,7 +214,7 @@ void run_stage(benchmark::State& state, const NamedStage& stage) {
     while (all.size() < frames.size())
         all.push_back(std::make_unique<Located>());
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        if (!prepare(frames[i], stage.path, *all[i]) || !stage.run(*all[i])) {
+        if (!prepare(frames[i], *all[i]) || !stage.run(*all[i])) {
             return state.SkipWithError("a frame is not located as in the pipeline");
         }
     }
@@ -261,25 +236,17 @@ void add_stage_benchmarks() {
 }
 
 std::string stage_table(const Results& results) {
-    std::string table = "| stage | rows pushed, µs | `--effort device`, µs |\n|---|--:|--:|\n";
-    double full_us = 0;
-    double device_us = 0;
+    std::string table = "| stage | µs |\n|---|--:|\n";
+    double all_us = 0;
     for (const NamedStage& stage : kStages) {
         double us = results.of(name_of(stage)).us;
         // Blobs and light alternate from band to band, so the benchmark of blobs runs both; the
         // time of light is subtracted.
         if (stage.run == find_blobs) us -= results.of(name_of(kStages.front())).us;
-        const auto cell = [&](Path other) {
-            if (stage.path == other) return std::string();
-            return fmt::format("{}{:.2f}", stage.is_part ? "of which " : "", us);
-        };
-        table +=
-            fmt::format("| {} | {} | {} |\n", stage.name, cell(Path::device), cell(Path::full));
-        if (stage.is_part) continue;
-        if (stage.path != Path::device) full_us += us;
-        if (stage.path != Path::full) device_us += us;
+        table += fmt::format("| {} | {}{:.2f} |\n", stage.name, stage.is_part ? "of which " : "", us);
+        if (!stage.is_part) all_us += us;
     }
-    return table + fmt::format("| **all** | {:.2f} | {:.2f} |\n", full_us, device_us);
+    return table + fmt::format("| **all** | {:.2f} |\n", all_us);
 }
 
 }  // namespace dotpose::bench
