@@ -22,9 +22,9 @@
 #include "core/pose/subgrid.hpp"
 #include "device/affine_pose.hpp"
 #include "device/grow.hpp"
+#include "device/locate.hpp"
 #include "device/origin.hpp"
 #include "frames.hpp"
-#include "device/locate.hpp"
 #include "locate/workspace.hpp"
 
 namespace dotpose::bench {
@@ -170,7 +170,6 @@ bool fit_affine_pose(Located& l) {
     return used > 0;
 }
 
-
 struct NamedStage {
     const char* name;
     Stage run;
@@ -243,7 +242,8 @@ std::string stage_table(const Results& results) {
         // Blobs and light alternate from band to band, so the benchmark of blobs runs both; the
         // time of light is subtracted.
         if (stage.run == find_blobs) us -= results.of(name_of(kStages.front())).us;
-        table += fmt::format("| {} | {}{:.2f} |\n", stage.name, stage.is_part ? "of which " : "", us);
+        table +=
+            fmt::format("| {} | {}{:.2f} |\n", stage.name, stage.is_part ? "of which " : "", us);
         if (!stage.is_part) all_us += us;
     }
     return table + fmt::format("| **all** | {:.2f} |\n", all_us);

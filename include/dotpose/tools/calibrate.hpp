@@ -181,7 +181,7 @@ struct ScaleReference {
 /// Prior standard deviation of a print scale, relative to the value in the sheet file.
 inline constexpr double kUsualPrintError = 0.003;
 /// Whether the frames determined a print scale, beyond the value in the sheet file.
-inline constexpr bool is_told(double sigma_scale) {
+inline constexpr bool is_scale_known(double sigma_scale) {
     return sigma_scale < kUsualPrintError / 2;
 }
 

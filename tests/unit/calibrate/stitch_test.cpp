@@ -204,8 +204,8 @@ TEST(StitchSheets, SaysWhichScalesTheFramesDoNotTell) {
     ASSERT_EQ(stitching.stitched.size(), 2U);
     // No frame shows how much longer the first sheet is along one axis than along the other.
     for (const StitchedSheet& sheet : stitching.stitched) {
-        EXPECT_FALSE(is_told(sheet.sigma_scale_x)) << sheet.name;
-        EXPECT_FALSE(is_told(sheet.sigma_scale_y)) << sheet.name;
+        EXPECT_FALSE(is_scale_known(sheet.sigma_scale_x)) << sheet.name;
+        EXPECT_FALSE(is_scale_known(sheet.sigma_scale_y)) << sheet.name;
     }
     EXPECT_NEAR(stitching.sheets[0].print_scale_x, 1, 1e-5);
     EXPECT_NEAR(stitching.sheets[0].print_scale_y, 1, 1e-5);
