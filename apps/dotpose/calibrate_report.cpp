@@ -142,7 +142,7 @@ namespace {
 
 std::string print_scale_text(double scale, double sigma) {
     return fmt::format("{:.6f}{}{}", scale, plus_minus(sigma, 6),
-                       is_known(sigma) ? "" : " (UNKNOWN)");
+                       is_told(sigma) ? "" : " (UNKNOWN)");
 }
 
 /// Appends the print scales of the sheets and the reference by which they were measured.
@@ -154,7 +154,7 @@ void add_print_scales(std::string& text, const Stitching& stitching) {
         add(text, "print       {}: {} along x, {} along y", sheet.name,
             print_scale_text(entry->print_scale_x, sheet.sigma_scale_x),
             print_scale_text(entry->print_scale_y, sheet.sigma_scale_y));
-        is_all_told = is_all_told && is_known(sheet.sigma_scale_x) && is_known(sheet.sigma_scale_y);
+        is_all_told = is_all_told && is_told(sheet.sigma_scale_x) && is_told(sheet.sigma_scale_y);
         if (sheet.is_fixed) fixed = sheet.name;
     }
     using By = ScaleReference::By;
