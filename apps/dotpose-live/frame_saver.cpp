@@ -23,13 +23,13 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPrefix = "frame_";
 
-const char* ending_of(capture::FrameFormat format) {
+const char* ending_of(ImageEncoding format) {
     switch (format) {
-        case capture::FrameFormat::jpeg:
+        case ImageEncoding::jpeg:
             return ".jpg";
-        case capture::FrameFormat::pgm:
+        case ImageEncoding::pgm:
             return ".pgm";
-        case capture::FrameFormat::png:
+        case ImageEncoding::png:
             break;
     }
     return ".png";
@@ -89,7 +89,7 @@ bool FrameSaver::is_wanted(ImageView image, const Fix& fix) {
 
 void FrameSaver::take(ImageView image, const Fix& fix) {
     if (image.width_px == 0 || !is_wanted(image, fix)) return;
-    const std::vector<std::uint8_t> bytes = capture::encode(options_.format, image);
+    const std::vector<std::uint8_t> bytes = encode_image(options_.format, image);
     const auto path = [this] {
         return fs::path(options_.folder) /
                fmt::format("{}{:06}{}", kPrefix, next_number_, ending_of(options_.format));

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <string>
 
-#include "capture/image_codec.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/image.hpp"
+#include "dotpose/tools/image_file.hpp"
 #include "new_places.hpp"
 
 namespace dotpose::cli {
@@ -15,7 +15,7 @@ namespace dotpose::cli {
 struct SaveOptions {
     std::string folder;      ///< empty: nothing is saved
     std::int64_t every = 0;  ///< one in this many frames; 0: those that show a new place
-    capture::FrameFormat format = capture::FrameFormat::png;
+    ImageEncoding format = ImageEncoding::png;
 };
 
 class FrameSaver {

@@ -56,8 +56,8 @@ void RobotOutput::take(const capture::Frame& frame, const Reading& reading) {
     recording_->take(messages, stamp_ns);
     if (!options_.has_images || frame.image.pixels.empty()) return;
     recording_->take_image({{ros::ros_time(stamp_ns), messenger_.frames().camera},
-                            options_.image_format == capture::FrameFormat::jpeg ? "jpeg" : "png",
-                            capture::encode(options_.image_format, frame.image.view())},
+                            options_.image_format == ImageEncoding::jpeg ? "jpeg" : "png",
+                            encode_image(options_.image_format, frame.image.view())},
                            stamp_ns);
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "capture/frame_source.hpp"
-#include "capture/image_codec.hpp"
 #include "dds/publisher.hpp"
+#include "dotpose/tools/image_file.hpp"
 #include "reading.hpp"
 #include "robot_recording.hpp"
 
@@ -17,7 +17,7 @@ namespace dotpose::cli {
 struct RobotOutputOptions {
     std::string mcap;         ///< file to record; empty for none
     bool has_images = false;  ///< whether the frames are recorded too
-    capture::FrameFormat image_format = capture::FrameFormat::png;
+    ImageEncoding image_format = ImageEncoding::png;
     std::optional<dds::PublisherOptions> dds;  ///< none if nothing is published
     std::string robot;
     std::string frame_prefix;      ///< before the names of the robot's frames

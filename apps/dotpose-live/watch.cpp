@@ -81,10 +81,10 @@ struct DdsArguments {
     }
 };
 
-const std::map<std::string, capture::FrameFormat> kFrameFormats = {
-    {"png", capture::FrameFormat::png},
-    {"jpeg", capture::FrameFormat::jpeg},
-    {"pgm", capture::FrameFormat::pgm},
+const std::map<std::string, ImageEncoding> kFrameFormats = {
+    {"png", ImageEncoding::png},
+    {"jpeg", ImageEncoding::jpeg},
+    {"pgm", ImageEncoding::pgm},
 };
 
 struct WatchArguments {
@@ -265,8 +265,7 @@ int run(WatchArguments& arguments) {
     if (arguments.outputs.messages.has_images && arguments.outputs.messages.mcap.empty()) {
         throw BadArgument("--mcap-images needs a file: --mcap FILE");
     }
-    if (arguments.outputs.messages.has_images &&
-        arguments.save.format == capture::FrameFormat::pgm) {
+    if (arguments.outputs.messages.has_images && arguments.save.format == ImageEncoding::pgm) {
         throw BadArgument("--mcap-images records png or jpeg: --image-format jpeg is the faster");
     }
     Sources sources(arguments.sources);

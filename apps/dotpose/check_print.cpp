@@ -11,7 +11,6 @@
 
 #include <fmt/core.h>
 
-#include "capture/noted_image.hpp"
 #include "check_print_report.hpp"
 #include "commands.hpp"
 #include "common.hpp"
@@ -211,8 +210,8 @@ std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution
 GreyImage read_scan(const CheckPrintArguments& arguments, const CheckPrintOptions& options) {
     std::string note;
     try {
-        GreyImage scan = capture::read_image(arguments.scan, arguments.max_megapixels * 1'000'000,
-                                             note, arguments.page);
+        GreyImage scan =
+            read_image(arguments.scan, arguments.max_megapixels * 1'000'000, note, arguments.page);
         if (!note.empty()) tell(note);
         if (arguments.flip) flip(scan);
         return scan;

@@ -24,6 +24,7 @@
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {

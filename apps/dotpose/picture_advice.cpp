@@ -198,14 +198,14 @@ std::optional<double> too_large_spacing_px(ImageView image, const Options& optio
     constexpr double kMaxSpacing_px = 60;
     // The camera may be so near that few dots are left in view.
     constexpr int kMinDots = 16;
-    Options once;
-    once.profile = options.profile;
-    once.effort = Effort::once;
-    once.lattice.min_dots = kMinDots;
+    Options blobs;
+    blobs.profile = options.profile;
+    blobs.effort = Effort::device;  // It leaves the grid of its blobs in the trace.
+    blobs.lattice.min_dots = kMinDots;
     for (const int by : {2, 4, 8, 16}) {
         if (std::min(image.width_px, image.height_px) / by < kMinFrameSide_px) break;
         const GreyImage small = reduced_by(image, by);
-        Locator locator(scratch, once);
+        Locator locator(scratch, blobs);
         const Fix fix = locator.locate(small.view());
         const bool has_grid = fix.status == Status::ok || fix.status == Status::grid_too_small ||
                               fix.status == Status::not_in_code ||

@@ -18,8 +18,6 @@ std::optional<Profile> profile_by_name(std::string_view asked) {
     for (const Profile profile : {Profile::anoto, Profile::libdots, Profile::microdots}) {
         if (asked == name(profile)) return profile;
     }
-    // The name of earlier versions, which sheet files and scripts may contain.
-    if (asked == "published") return Profile::libdots;
     return std::nullopt;
 }
 

@@ -47,16 +47,4 @@ int pages_of(ImageFormat format, Bytes file) {
     return format == ImageFormat::tiff ? std::max(tiff_pages(file), 1) : 1;
 }
 
-std::vector<std::uint8_t> encode(FrameFormat format, ImageView image) {
-    switch (format) {
-        case FrameFormat::png:
-            return encode_png(image);
-        case FrameFormat::jpeg:
-            return encode_jpeg(image);
-        case FrameFormat::pgm:
-            break;
-    }
-    return encode_pgm(image);
-}
-
 }  // namespace dotpose::capture

@@ -1,11 +1,9 @@
-/// Converts between the contents of image files and grey images. image_file.hpp describes the
-/// conversions and limits.
+/// Decodes the contents of image files to grey images. image_file.hpp describes the conversions and
+/// limits.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "capture/bytes.hpp"
 #include "capture/image_format.hpp"
@@ -25,15 +23,5 @@ std::optional<Resolution> decode_resolution(ImageFormat format, Bytes file, int 
 
 /// Returns the number of pages, which is 1 except for TIFF. Throws Error with only the reason.
 int pages_of(ImageFormat format, Bytes file);
-
-/// Formats in which frames are saved.
-enum class FrameFormat : std::uint8_t {
-    png,   ///< without loss
-    jpeg,  ///< with a quality of 95
-    pgm,   ///< without loss and compression
-};
-
-/// Encodes an image, which must not be empty. Throws Error if the encoder fails.
-std::vector<std::uint8_t> encode(FrameFormat format, ImageView image);
 
 }  // namespace dotpose::capture

@@ -14,7 +14,9 @@
 #include "capture/exif.hpp"
 #include "capture/image_codec.hpp"
 #include "capture/image_format.hpp"
-#include "capture/noted_image.hpp"
+#include "capture/jpeg_codec.hpp"
+#include "capture/png_codec.hpp"
+#include "capture/pnm.hpp"
 
 namespace dotpose {
 namespace {
@@ -152,16 +154,16 @@ bool is_of_screen(const Resolution& resolution) {
 
 GreyImage read_image(const std::filesystem::path& path, int max_pixels, int page) {
     std::string note;
-    return capture::read_image(path, max_pixels, note, page);
+    return read_image(path, max_pixels, note, page);
 }
 
-GreyImage capture::read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
-                              int page) {
+GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
+                     int page) {
     note.clear();
     GreyImage image = with_name("read", path, [&] {
         const Content content = read_file(path, max_pixels);
         require_page(content, page);
-        return decode_image(content.format, content.bytes, max_pixels, note, page);
+        return capture::decode_image(content.format, content.bytes, max_pixels, note, page);
     });
     if (!note.empty()) note = path.string() + ": " + note;
     return image;
@@ -186,18 +188,25 @@ ImageOrigin read_origin(const std::filesystem::path& path, int page) {
     });
 }
 
+std::vector<std::uint8_t> encode_image(ImageEncoding encoding, ImageView image) {
+    require_pixels(image);
+    switch (encoding) {
+        case ImageEncoding::png:
+            return capture::encode_png(image);
+        case ImageEncoding::jpeg:
+            return capture::encode_jpeg(image);
+        case ImageEncoding::pgm:
+            break;
+    }
+    return capture::encode_pgm(image);
+}
+
 void write_pgm(const std::filesystem::path& path, ImageView image) {
-    with_name("write", path, [&] {
-        require_pixels(image);
-        write_file(path, capture::encode(capture::FrameFormat::pgm, image));
-    });
+    with_name("write", path, [&] { write_file(path, encode_image(ImageEncoding::pgm, image)); });
 }
 
 void write_png(const std::filesystem::path& path, ImageView image) {
-    with_name("write", path, [&] {
-        require_pixels(image);
-        write_file(path, capture::encode(capture::FrameFormat::png, image));
-    });
+    with_name("write", path, [&] { write_file(path, encode_image(ImageEncoding::png, image)); });
 }
 
 }  // namespace dotpose

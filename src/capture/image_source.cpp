@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 
 #include "capture/frame_source.hpp"
-#include "capture/noted_image.hpp"
 #include "dotpose/tools/image_file.hpp"
 
 namespace dotpose::capture {

@@ -117,7 +117,7 @@ class TruthReader {
         const std::string cell = text("profile");
         if (cell.empty()) return std::nullopt;
         if (cell == "anoto") return Profile::anoto;
-        if (cell == "libdots" || cell == "published") return Profile::libdots;
+        if (cell == "libdots") return Profile::libdots;
         if (cell == "microdots") return Profile::microdots;
         fail(fmt::format("profile is '{}', not anoto, libdots or microdots", cell));
     }

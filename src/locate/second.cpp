@@ -43,11 +43,18 @@ void detect_filtered(const ImageView& image, const Options& filtered, DesktopWor
 /// `find_grid`.
 Status find_grid_thoroughly(const Options& options, DesktopWorkspace& w) {
     const Vec centre_q8 = image_centre_q8(w.light);
-    const Status status = find_axes(centre_q8, kMaxSeeds, w);
+    Status status = find_axes(centre_q8, kMaxSeeds, w);
     if (status != Status::ok) return status;
-    search_periodogram(w.found_dots(), first(w.seeds, w.seed_count), centre_q8, tuned::kMaxTurn_deg,
-                       w.lattice);
-    return refine_grid(w.found_dots(), options.lattice, centre_q8, w.lattice, w.grid_from_image);
+    const Lattice estimate = w.lattice;
+    for (const int max_turn_deg : tuned::kMaxTurns_deg) {
+        w.lattice = estimate;
+        search_periodogram(w.found_dots(), first(w.seeds, w.seed_count), centre_q8, max_turn_deg,
+                           w.lattice);
+        status =
+            refine_grid(w.found_dots(), options.lattice, centre_q8, w.lattice, w.grid_from_image);
+        if (status != Status::no_grid) break;
+    }
+    return status;
 }
 
 /// Samples the bits from the image through the grid. Returns false if it shows two overlapping

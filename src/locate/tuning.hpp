@@ -135,8 +135,9 @@ inline constexpr int kHigh_10ths = 9;
 /// noise is a third in a filtered image. Dots 6 grey levels darker than paper are found by it
 /// (`dotpose_tables alike --spacings 8 --dots 0.10 --blurs 1.5`).
 inline constexpr int kPaleParts = 3;
-/// Maximum turn of the periodogram search from the first estimate, in degrees.
-inline constexpr int kMaxTurn_deg = 12;
+/// Maximum turns of the periodogram search from the first estimate, in degrees, one try after the
+/// other. Words can turn the first estimate by 26 degrees.
+inline constexpr int kMaxTurns_deg[] = {12, 45};
 }  // namespace second
 
 /// Numbers of the choice of attempts and codes (locate/locate, locate/other_place).

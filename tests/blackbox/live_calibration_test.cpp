@@ -194,7 +194,7 @@ TEST_F(LiveCalibration, RefusesWhatItCannotDo) {
     simulate("--frames 2");
     for (const std::string other : {"--spin frames", "--drive frames"}) {
         EXPECT_EQ(run("calibrate --live frames " + other), 2) << other;
-        EXPECT_THAT(errors_, HasSubstr("excludes")) << other;
+        EXPECT_THAT(errors_, HasSubstr("cannot be given together")) << other;
     }
     EXPECT_EQ(run("calibrate --no-window frames"), 2);
     // Before a camera is moved in vain.

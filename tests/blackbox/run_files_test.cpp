@@ -137,7 +137,6 @@ TEST_F(RunFiles, other_names_are_taken_as_before) {
     EXPECT_EQ(run("locate --list - -o /dev/null <l"), 0) << errors_;
     EXPECT_EQ(run("watch g --no-window -o /dev/null --log /dev/null --packets /dev/null"), 0)
         << errors_;
-    EXPECT_EQ(run("replay run.csv -o run.svg"), 0) << errors_;
     EXPECT_EQ(run("print -o page.svg --paper 40x40 --sheets soft.json --name b"), 0) << errors_;
 }
 

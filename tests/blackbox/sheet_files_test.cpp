@@ -304,7 +304,7 @@ TEST_F(SheetFiles, locate_refuses_wrong_usage_and_bad_files) {
     for (const char* option : {"--spacing 0.508", "--code anoto"}) {
         run(std::string("--sheets sheets.json a.pgm ") + option);
         EXPECT_EQ(exit_code_, 2);
-        EXPECT_THAT(errors_, HasSubstr("excludes"));
+        EXPECT_THAT(errors_, HasSubstr("cannot be given together"));
         EXPECT_THAT(output_, IsEmpty());
     }
     edit_sheet(0, [](json& a) { a.erase("rows"); });

@@ -13,8 +13,7 @@ namespace dotpose {
 /// Returns the name of a profile: anoto, libdots, microdots.
 const char* name(Profile profile);
 
-/// Returns the profile of a name; `published` is the earlier name of libdots. None if the name is
-/// not known.
+/// Returns the profile of a name, or none if there is no such profile.
 std::optional<Profile> profile_by_name(std::string_view name);
 
 }  // namespace dotpose

@@ -18,6 +18,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "dotpose/files/error.hpp"
 #include "dotpose/tools/grey_image.hpp"
@@ -49,6 +51,11 @@ struct ImageTooLarge : Error {
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
 
+/// Reads one image in the same way. Sets `note` to a sentence about the file for the user, such as
+/// that its end marker is missing, or to an empty text.
+GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
+                     int page = 1);
+
 /// Returns the number of pages in a file, which is 1 except for TIFF. A file that is not regular,
 /// such as a pipe, is not read and counts as one page. Throws Error as `read_image`.
 int count_pages(const std::filesystem::path& path);
@@ -71,6 +78,16 @@ struct ImageOrigin {
 
 /// Returns the origin of an image, without decoding its pixels. Throws Error as `read_image`.
 ImageOrigin read_origin(const std::filesystem::path& path, int page = 1);
+
+/// Formats in which grey images are encoded.
+enum class ImageEncoding : std::uint8_t {
+    png,   ///< lossless
+    jpeg,  ///< lossy, with a quality of 95
+    pgm,   ///< lossless and uncompressed
+};
+
+/// Returns the contents of an image file. Throws Error if the image is empty or the encoder fails.
+std::vector<std::uint8_t> encode_image(ImageEncoding encoding, ImageView image);
 
 /// Writes binary PGM (P5), replacing the file. Throws Error if the image is empty or the file
 /// cannot be written.

@@ -14,7 +14,6 @@
 #include <unistd.h>
 
 #include "../../tiff_pages.hpp"
-#include "capture/noted_image.hpp"
 #include "encoders.hpp"
 
 namespace dotpose::test {
@@ -308,12 +307,12 @@ TEST_F(ImageFileTest, refuses_files_cut_short) {
 TEST_F(ImageFileTest, reads_a_jpeg_without_its_end_marker_and_says_so) {
     const Bytes whole = encode_jpeg(kGrey);
     std::string note = "of another image";
-    capture::read_image(write(whole), kDefaultImagePixels, note);
+    read_image(write(whole), kDefaultImagePixels, note);
     EXPECT_EQ(note, "");
     for (const std::size_t missing : {1U, 2U}) {
         const Bytes cut(whole.begin(), whole.end() - static_cast<std::ptrdiff_t>(missing));
         const auto path = write(cut);
-        EXPECT_EQ(block_levels(capture::read_image(path, kDefaultImagePixels, note)), kGreyLevels);
+        EXPECT_EQ(block_levels(read_image(path, kDefaultImagePixels, note)), kGreyLevels);
         EXPECT_EQ(note, path.string() +
                             ": the JPEG image lacks its end marker; its pixels are "
                             "complete");

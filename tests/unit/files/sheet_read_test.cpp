@@ -223,7 +223,7 @@ TEST(read_sheets, says_why_a_file_cannot_be_read) {
 TEST(profile_by_name, is_the_way_back) {
     for (const Profile profile : {Profile::anoto, Profile::libdots, Profile::microdots})
         EXPECT_EQ(profile_by_name(name(profile)), profile);
-    EXPECT_EQ(profile_by_name("published"), Profile::libdots);
+    EXPECT_EQ(profile_by_name("published"), std::nullopt);
     EXPECT_EQ(profile_by_name(""), std::nullopt);
     EXPECT_EQ(profile_by_name("Anoto"), std::nullopt);
 }
