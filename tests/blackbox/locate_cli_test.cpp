@@ -263,7 +263,8 @@ TEST_F(LocateCommand, draws_one_image_into_a_file) {
     run("--draw picture.svg flat.pgm");
     EXPECT_THAT(file("picture.svg"), HasSubstr("no fix: no_contrast"));
     // The picture names the advice of the line.
-    EXPECT_THAT(file("picture.svg"), HasSubstr(records().at(0)["message"].get<std::string>()));
+    const std::string message = records().at(0)["message"];
+    EXPECT_THAT(file("picture.svg"), HasSubstr(message.substr(0, 40)));
     run("--draw picture.svg a.pgm flat.pgm");
     EXPECT_EQ(exit_code_, 2);
     EXPECT_THAT(errors_, HasSubstr("is the picture of a single image: name a folder"));
@@ -454,7 +455,7 @@ TEST_F(LocateCommand, help_shows_an_example_and_all_options) {
     EXPECT_EQ(exit_code_, 0);
     EXPECT_THAT(output_, HasSubstr("dotpose locate --format csv frames/*.pgm > poses.csv"));
     for (const char* option : {"--list", "--spacing", "--code", "--k", "--reference", "--format",
-                               "--out", "--draw", "--sheets", "--inverted", "SOURCE"}) {
+                               "--out", "--draw", "--sheets", "--inverted", "sources"}) {
         EXPECT_THAT(output_, HasSubstr(option));
     }
 }
