@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <fmt/core.h>
@@ -177,14 +176,7 @@ bool accuracy_table(TableRun& run) {
     print_frame_tables(options, run);
     print_protocol(options, run);
     print_sweeps(options, run);
-    const fs::path path = options.out / "tables.md";
-    std::ofstream tables(path);
-    for (const Block& block : run.blocks())
-        tables << block.text << '\n';
-    tables.close();
-    if (!tables) throw Error("cannot write " + path.string());
-    run.update_document();
-    if (!run.document().empty()) update_pictures(run.document(), options.out);
+    write_tables(options.out, run.blocks(), run.document());
     return true;
 }
 

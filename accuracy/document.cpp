@@ -7,8 +7,19 @@
 
 #include <dotpose/files/error.hpp>
 
+namespace dotpose {
+namespace {
+
 namespace fs = std::filesystem;
-using dotpose::Error;
+
+void write_text(const fs::path& path, const std::string& text) {
+    std::ofstream stream(path, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) throw Error("cannot write " + path.string());
+}
+
+}  // namespace
 
 std::string read_document(const fs::path& path) {
     std::ifstream stream(path, std::ios::binary);
@@ -29,14 +40,17 @@ void update_document(const fs::path& path, const Blocks& blocks) {
         const std::size_t start = from + begin.size();
         text.replace(start, to - start, block.text);
     }
-    std::ofstream stream(path, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) throw Error("cannot write " + path.string());
+    write_text(path, text);
 }
 
-void update_pictures(const fs::path& path, const fs::path& folder) {
-    const fs::path pictures = path.parent_path() / path.stem();
+void write_tables(const fs::path& folder, const Blocks& blocks, const fs::path& document) {
+    std::string tables;
+    for (const Block& block : blocks)
+        tables += block.text + '\n';
+    write_text(folder / "tables.md", tables);
+    if (document.empty()) return;
+    update_document(document, blocks);
+    const fs::path pictures = document.parent_path() / document.stem();
     fs::create_directories(pictures);
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         if (entry.path().extension() != ".svg") continue;
@@ -44,3 +58,5 @@ void update_pictures(const fs::path& path, const fs::path& folder) {
                       fs::copy_options::overwrite_existing);
     }
 }
+
+}  // namespace dotpose

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+namespace dotpose {
+
 struct Block {
     std::string name;
     std::string text;
@@ -19,5 +21,9 @@ std::string read_document(const std::filesystem::path& path);
 /// written.
 void update_document(const std::filesystem::path& path, const Blocks& blocks);
 
-/// Copies all SVG pictures of `folder` to the folder beside the document that has its name.
-void update_pictures(const std::filesystem::path& path, const std::filesystem::path& folder);
+/// Writes the blocks to tables.md in `folder`. If a document is named, replaces its blocks too, and
+/// copies all SVG pictures of `folder` to the folder beside the document that has its name.
+void write_tables(const std::filesystem::path& folder, const Blocks& blocks,
+                  const std::filesystem::path& document);
+
+}  // namespace dotpose

@@ -94,7 +94,7 @@ void TableRun::print_block(const std::string& name, const std::string& text) {
 }
 
 void TableRun::update_document() const {
-    if (!document_.empty()) ::update_document(document_, blocks_);
+    if (!document_.empty()) dotpose::update_document(document_, blocks_);
 }
 
 Progress shown_on(cli::ProgressLine& line) {

@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -175,15 +174,9 @@ void run(const Arguments& arguments) {
                      [&](std::ostream& out) { draw_pixels(out, sizes); });
     draw::write_file(arguments.out / "dots.svg",
                      [&](std::ostream& out) { draw_dots(out, by_dots); });
-    draw::write_file(arguments.out / "tables.md", [&](std::ostream& out) {
-        for (const Block& block : blocks)
-            out << block.text << '\n';
-    });
     for (const Block& block : blocks)
         fmt::print("\n{}", block.text);
-    if (arguments.document.empty()) return;
-    update_document(arguments.document, blocks);
-    update_pictures(arguments.document, arguments.out);
+    write_tables(arguments.out, blocks, arguments.document);
 }
 
 }  // namespace
