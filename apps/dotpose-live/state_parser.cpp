@@ -134,7 +134,7 @@ RobotConnection connection_in(const object& message) {
 /// Returns a parser whose memory is kept from message to message.
 simdjson::dom::parser make_parser() {
     simdjson::dom::parser parser(kMaxBytes);
-    if (parser.allocate(kMaxBytes, files::kMostJsonDepth) != simdjson::SUCCESS) {
+    if (parser.allocate(kMaxBytes, files::kMaxJsonDepth) != simdjson::SUCCESS) {
         throw std::bad_alloc();
     }
     return parser;

@@ -49,8 +49,8 @@ bool next_line(std::istream& stream, std::string& line) {
 nlohmann::json parse_json(const std::string& text) {
     using nlohmann::json;
     const auto refuse_depth = [](int depth, json::parse_event_t, const json&) {
-        if (depth > kMostJsonDepth) {
-            throw Error(fmt::format("it is nested deeper than {} levels", kMostJsonDepth));
+        if (depth > kMaxJsonDepth) {
+            throw Error(fmt::format("it is nested deeper than {} levels", kMaxJsonDepth));
         }
         return true;
     };

@@ -25,7 +25,7 @@ bool next_line(std::istream& stream, std::string& line);
 
 /// Maximum nesting of JSON. Files of this project need less, and the stack is large enough for
 /// recursive functions.
-inline constexpr int kMostJsonDepth = 64;
+inline constexpr int kMaxJsonDepth = 64;
 
 /// Parses JSON. Throws Error with the place where the text is not JSON, or if it is nested too
 /// deeply.
