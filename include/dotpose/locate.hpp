@@ -102,7 +102,7 @@ class Locator : public RowLocator {
 
     /// Starts an image that arrives row by row, with a prediction or without. The locator keeps the
     /// rows. Errors: bad_argument; image_too_small; image_too_large (more pixels than the memory
-    /// keeps: 188 x 188 for a SmallMemory, 4096 x 4096 for a LargeMemory).
+    /// keeps: 188 x 188 for a SmallMemory, 1280 x 1024 for a LargeMemory).
     Status begin(int width_px, int height_px);
     Status begin(int width_px, int height_px, const Prediction& prediction);
     /// Takes the next row of `width_px` pixels. Further rows than the image has are ignored.

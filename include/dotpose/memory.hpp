@@ -71,8 +71,7 @@ class SmallMemory {
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory of a Locator for images up to 4096 x 4096 px: about 1.7 MB, and 16 MB that are touched
-/// only where images are pushed row by row.
+/// Memory of a Locator for images up to 4096 x 4096 px: about 3 MB.
 class LargeMemory {
   public:
     LargeMemory();
@@ -81,7 +80,7 @@ class LargeMemory {
 
   private:
     friend class Locator;
-    static constexpr std::size_t kBytes = (1720 + 16 * 1024) * 1024;
+    static constexpr std::size_t kBytes = 3000 * 1024;
     core::DesktopWorkspace* workspace_;
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };

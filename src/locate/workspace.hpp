@@ -131,6 +131,9 @@ class WorkspaceOf : public DesktopWorkspace {
     // Every second pixel may begin a run, and every run a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
 
+    // Largest image whose rows are pushed: the sensor's, or one of 1280 x 1024 px.
+    static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
+
     // Number of lines that cross an image turned by any angle.
     static constexpr std::size_t kRolls = 1024;
 
@@ -162,8 +165,7 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::uint8_t, 36 * std::min(MaxWidth, 376)> tracked_rows_{};
     std::array<TrackedLine, 2 * kMostTracked> tracked_lines_{};
     std::array<TrackedRow, kMostTracked> grid_rows_{};
-    // Left as it is, so that a system gives no memory for an image that is never pushed.
-    std::array<std::uint8_t, static_cast<std::size_t>(MaxWidth) * MaxWidth> pushed_;
+    std::array<std::uint8_t, kPushed_px> pushed_;
 };
 
 /// Workspace for the paper's 188 x 120 px sensor.
