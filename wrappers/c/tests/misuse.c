@@ -92,7 +92,6 @@ static void options(void) {
     bad = good;
     bad.size = 0;
     EXPECT(BAD_SIZE, dotpose_set_options(locator, &bad));
-    bad = good;
     CHECK(strcmp(dotpose_bad_option(&bad), "size") == 0 && dotpose_bad_option(NULL) == NULL);
     CHECK(dotpose_bad_option(&good) == NULL);
     bad = good;

@@ -387,14 +387,15 @@ TEST(C, DetectsTheCodeByDefault) {
     const auto memory = std::make_unique<LargeMemory>();
     Locator core(*memory, Options{});
     CodeEvidence evidence;
-    for (const GreyImage& image : libdots_frames(6)) {
+    for (const GreyImage& image : libdots_frames(12)) {
         const CodeReading expected = core.locate_in_any_code(image.view(), evidence);
         evidence = expected.evidence;
         EXPECT_TRUE(same(locate(locator.get(), image), as_c(expected.fix)));
+        std::int32_t code = -1;
+        ASSERT_EQ(dotpose_code_of(locator.get(), &code), DOTPOSE_OK);
+        EXPECT_EQ(code, static_cast<std::int32_t>(expected.code));
     }
-    std::int32_t code = -1;
-    ASSERT_EQ(dotpose_code_of(locator.get(), &code), DOTPOSE_OK);
-    EXPECT_EQ(code, DOTPOSE_CODE_LIBDOTS);
+    EXPECT_EQ(evidence.likeliest(), Profile::libdots);
 }
 
 TEST(C, GivesTheDots) {
