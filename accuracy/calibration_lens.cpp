@@ -173,7 +173,7 @@ void measure_parameters(const Series& series, const LensCalibration& found,
 
 void measure_residual(const LensCalibration& found, const std::vector<Shot>& shots,
                       const std::vector<TrueDot>& dots, LensTally& tally) {
-    Locator locator;
+    Locator locator{Options{}};
     // In the unit of the calibration: px at the middle of each frame.
     std::vector<double> mm_per_px(shots.size(), NAN);
     for (std::size_t i = 0; i < shots.size(); ++i) {
@@ -196,8 +196,8 @@ void measure_residual(const LensCalibration& found, const std::vector<Shot>& sho
 
 /// Locates more frames with the calibrated camera, and frames of a lens without distortion.
 void measure_positions(const Series& series, const Camera& camera, LensTally& tally) {
-    Locator locator;
-    Locator undistorted;
+    Locator locator{Options{}};
+    Locator undistorted{Options{}};
     for (int i = kLensFrames; i < 2 * kLensFrames; ++i) {
         Shot shot = series.shot(i);
         const Truth truth = truth_of(shot);

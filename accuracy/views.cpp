@@ -195,9 +195,9 @@ class ViewReader {
     }
 
     const Profile profile_;
-    Locator given_;
-    Locator any_;
-    Locator stream_;
+    Locator given_{Options{}};
+    Locator any_{Options{}};
+    Locator stream_{Options{}};
     CodeEvidence evidence_;
 };
 

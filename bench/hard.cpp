@@ -25,9 +25,9 @@ HardTimes time_hard_frames(int frames) {
     std::vector<double> us;
     for (int first = 0; first < frames; first += kMaxRendered) {
         const int count = std::min(kMaxRendered, frames - first);
-        const TimedFrames part =
-            time_frames(render_frames(count, [&](int i) { return frame_at(first + i); }), kPasses,
-                        [&](const ImageView& image) { return Locator(*memory).locate(image); });
+        const TimedFrames part = time_frames(
+            render_frames(count, [&](int i) { return frame_at(first + i); }), kPasses,
+            [&](const ImageView& image) { return Locator(*memory, Options{}).locate(image); });
         times.located += part.located;
         times.at_once += part.at_once;
         us.insert(us.end(), part.fastest_us.begin(), part.fastest_us.end());

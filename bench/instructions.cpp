@@ -62,7 +62,7 @@ int main() {
     Setup setup;
     setup.seed = kSeed;
     const auto memory = std::make_unique<SmallMemory>();
-    Locator locator(*memory);
+    Locator locator(*memory, Options{});
     int in_any_code = 0;
     for (int i = 0; i < kFrames; ++i) {
         const GreyImage image = render(draw_shot(setup, static_cast<std::uint64_t>(i)));

@@ -62,8 +62,8 @@ std::string name_of(const char* what, const CameraModel& camera) {
 Locator& locator_for(const CameraModel& camera, Effort effort) {
     static const auto small = std::make_unique<SmallMemory>();
     static const auto large = std::make_unique<LargeMemory>();
-    static Locator for_small(*small);
-    static Locator for_large(*large);
+    static Locator for_small(*small, Options{});
+    static Locator for_large(*large, Options{});
     constexpr int kSmall_px = 188;
     Locator& locator = camera.width_px <= kSmall_px ? for_small : for_large;
     Options options;

@@ -29,9 +29,9 @@ TiltTimes time_tilt(const CameraModel& camera, int tilt_deg, int count, int pass
     setup.seed = kSeed + static_cast<std::uint64_t>(tilt_deg);
     setup.camera = camera;
     const auto memory = std::make_unique<LargeMemory>();
-    TimedFrames timed =
-        time_frames(render_frames(count, [&](int i) { return tilted_frame(setup, tilt_deg, i); }),
-                    passes, [&](const ImageView& image) { return Locator(*memory).locate(image); });
+    TimedFrames timed = time_frames(
+        render_frames(count, [&](int i) { return tilted_frame(setup, tilt_deg, i); }), passes,
+        [&](const ImageView& image) { return Locator(*memory, Options{}).locate(image); });
     std::ranges::nth_element(timed.fastest_us, timed.fastest_us.begin() + count / 2);
     return {camera, tilt_deg, count, timed.at_once,
             timed.fastest_us[static_cast<std::size_t>(count / 2)]};

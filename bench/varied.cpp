@@ -76,7 +76,7 @@ Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
 
 /// Returns the prediction from the frame's own fix, displaced by a random offset.
 Prediction prediction_for(const KnownFrame& frame, Rng& rng, SmallMemory& memory) {
-    const Fix fix = Locator(memory).locate(frame.image.view());
+    const Fix fix = Locator(memory, Options{}).locate(frame.image.view());
     const double direction_rad = rng.uniform(0, 2 * std::numbers::pi);
     const double way = rng.uniform(0, 0.35);
     constexpr double kTurn = 4294967296.0;
@@ -93,10 +93,10 @@ Subject tracking(const std::vector<KnownFrame>& frames, SmallMemory& memory) {
     for (const KnownFrame& frame : frames)
         predictions.push_back(prediction_for(frame, rng, memory));
     Subject subject = subject_on(frames, [predictions, &memory](std::size_t i, GreyImage& image) {
-        benchmark::DoNotOptimize(Locator(memory).locate(image.view(), predictions[i]));
+        benchmark::DoNotOptimize(Locator(memory, Options{}).locate(image.view(), predictions[i]));
     });
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        const Fix fix = Locator(memory).locate(frames[i].image.view(), predictions[i]);
+        const Fix fix = Locator(memory, Options{}).locate(frames[i].image.view(), predictions[i]);
         if (fix.status != Status::ok) continue;
         if (!is_right(fix, frames[i].truth)) throw Error("a frame was located wrongly");
         subject.found += fix.attempt == Attempt::tracked ? 1 : 0;

@@ -8,6 +8,7 @@
 #include "dotpose/geometry.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/locator_options.hpp"
 #include "dotpose/memory.hpp"
 #include "dotpose/option_fault.hpp"
 #include "dotpose/options.hpp"
@@ -16,3 +17,4 @@
 #include "dotpose/status.hpp"
 #include "dotpose/trace.hpp"
 #include "dotpose/track.hpp"
+#include "dotpose/version.hpp"

@@ -15,9 +15,12 @@
 /// work at the same time.
 #pragma once
 
+#include <concepts>
+
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/image.hpp"
+#include "dotpose/locator_options.hpp"
 #include "dotpose/memory.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/prediction.hpp"
@@ -69,19 +72,46 @@ class RowLocator {
 class Locator : public RowLocator {
   public:
     /// Owns a LargeMemory on the heap. Options outside of their ranges give every frame the status
-    /// bad_argument.
-    explicit Locator(const Options& options = {}) : Locator(new LargeMemory, options) {}
+    /// bad_argument; `bad_option` names the option.
+    explicit Locator(const LocatorOptions& options = {}) : Locator(new LargeMemory, options) {}
     /// The memory must outlive the locator, and no other locator may use it meanwhile.
-    explicit Locator(SmallMemory& memory, const Options& options = {});
-    explicit Locator(LargeMemory& memory, const Options& options = {});
+    explicit Locator(SmallMemory& memory, const LocatorOptions& options = {})
+        : Locator(memory.workspace_, options) {
+        detects_code_ = !options.code;
+    }
+    explicit Locator(LargeMemory& memory, const LocatorOptions& options = {})
+        : Locator(memory.workspace_, options) {
+        detects_code_ = !options.code;
+    }
+    // The same with options in fixed point, which name the code. Templates, so that braces mean
+    // LocatorOptions.
+    template <std::same_as<Options> Fixed>
+    explicit Locator(const Fixed& options) : Locator(new LargeMemory, options) {}
+    template <std::same_as<Options> Fixed>
+    Locator(SmallMemory& memory, const Fixed& options) : Locator(memory.workspace_, options) {}
+    template <std::same_as<Options> Fixed>
+    Locator(LargeMemory& memory, const Fixed& options) : Locator(memory.workspace_, options) {}
     ~Locator() { delete owned_; }
 
-    /// Returns the pose of an image; see Fix. The same image gives the same bits on every
-    /// processor, except in the covariance and the residual.
+    /// Sets the options of the frames to come. A frame that was begun and not finished is dropped,
+    /// and the code is detected anew unless it is given.
+    void set_options(const LocatorOptions& options) {
+        set_fixed_options(options);
+        detects_code_ = !options.code;
+    }
+    template <std::same_as<Options> Fixed>
+    void set_options(const Fixed& options) {
+        set_fixed_options(options);
+    }
+
+    /// Returns the pose of an image; see Fix. If the options do not name the code, it is detected
+    /// from all images so far, and `options().profile` is the one that was read. The same image
+    /// gives the same bits on every processor, except in the covariance and the residual.
     Fix locate(const ImageView& image);
 
     /// Looks for the pattern where the prediction expects it. A frame that does not confirm the
-    /// prediction is located without it; `Fix::attempt` says which.
+    /// prediction is located without it; `Fix::attempt` says which. The prediction must have been
+    /// made in `options().profile`.
     Fix locate(const ImageView& image, const Prediction& prediction);
 
     /// Locates an image whose profile is not known. Places in all profiles are alternatives,
@@ -112,14 +142,21 @@ class Locator : public RowLocator {
     Fix finish();
 
   private:
-    explicit Locator(LargeMemory* owned, const Options& options) : Locator(*owned, options) {
+    Locator(core::DesktopWorkspace* workspace, const Options& options);
+    template <typename AnyOptions>
+    Locator(LargeMemory* owned, const AnyOptions& options) : Locator(*owned, options) {
         owned_ = owned;
     }
+    void set_fixed_options(const Options& options);
     core::DesktopWorkspace& workspace();
     CodeReading finished(CodeReading reading);
+    /// Keeps the evidence of a reading and returns its fix.
+    Fix detected(const CodeReading& reading);
     using RowLocator::finished;
 
     LargeMemory* owned_ = nullptr;
+    bool detects_code_ = false;
+    CodeEvidence evidence_;  ///< of all images so far, if the code is detected
 };
 
 /// A locator for microcontrollers, for a camera that looks straight at the paper: integers only, in

@@ -1,5 +1,6 @@
-/// Options of a Locator; the defaults suit any camera. Ranges stand in [brackets]; a value outside
-/// gives Status::bad_argument.
+/// Options: options in fixed point, as a DeviceLocator takes them. On desktops, LocatorOptions has
+/// them in millimetres, pixels and ratios. Ranges are in [brackets]; a value outside gives
+/// Status::bad_argument.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +27,8 @@ struct Lens {
     }
 };
 
-/// Options of the thresholds between paper and dots (paper section II-B.1).
+/// Options of the thresholds between paper and dots (paper section II-B.1), of devices and of
+/// the second attempt.
 struct ThresholdOptions {
     /// Share of the local contrast, in 1/256, by which a pixel of a blob is darker than the paper:
     /// the low threshold. A smaller one joins neighbouring dots, a larger
@@ -35,11 +37,12 @@ struct ThresholdOptions {
     /// Share of the local contrast, in 1/256, by which some pixel of a blob must be darker: the
     /// high threshold. A larger one drops more noise. [1 to 256]
     int high_q8 = 155;
-    /// Grey levels of contrast below which an area is blank. Raise it for noisy cameras. [1 to 255]
+    /// Grey levels of contrast below which an area is blank; raised by `Options::min_contrast`. [1
+    /// to 255]
     int min_contrast = 8;
 };
 
-/// Options of the choice of dots among dark blobs (paper section II-B.1).
+/// Options of the choice of dots among dark blobs (paper section II-B.1), in the same attempts.
 struct BlobOptions {
     /// Fewest pixels of a dot. 1 keeps salt and pepper noise. [0 to 2^20]
     int min_area_px = 2;
@@ -50,7 +53,8 @@ struct BlobOptions {
     int max_area_ratio = 5;
 };
 
-/// Options of the search for the grid (paper sections II-B.2 and II-B.3).
+/// Options of the search for the grid (paper sections II-B.2 and II-B.3). `max_offset_q16` is used
+/// in the same attempts.
 struct LatticeOptions {
     /// Fewest dots from which a grid is searched; 6 x 6 is the least that can carry a position. [0
     /// to 2^20]
@@ -94,9 +98,14 @@ struct Options {
     LatticeOptions lattice;
     IntegrityOptions integrity;
 
-    /// Greatest number of dots that the pose is fitted to, spread evenly over the frame: accuracy
-    /// grows with the square root of the number, time with the number. Default: all dots of a VGA
-    /// frame at 8 px per spacing. [any; values are limited to between 64 and what the memory holds]
+    /// Contrast between paper and dots, in grey levels, below which every attempt gives up with
+    /// no_contrast. 0: dots as pale as can be read. [0 to 255]
+    int min_contrast = 0;
+
+    /// Greatest number of dots that the first and the tracked attempt fit the pose to, spread
+    /// evenly over the frame: accuracy grows with the square root of the number, time with the
+    /// number. Default: all dots of a VGA frame at 8 px per spacing. [any; values are limited to
+    /// between 64 and what the memory holds]
     int most_dots = 4096;
 
     /// Spacing of the printed grid in nm, by which a fix is converted to millimetres. Default: that

@@ -58,7 +58,7 @@ class FrameReader {
     CodeReader reader_;
     Lens lens_;
     bool is_known_ = false;
-    Locator locator_;
+    Locator locator_{Options{}};
 };
 
 }  // namespace dotpose::calibrate

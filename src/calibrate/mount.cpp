@@ -86,7 +86,7 @@ void require_spacing(const std::vector<double>& measured_mm, double spacing_mm) 
 Stations locate_stations(int frames, const FrameAt& frame_at, const std::optional<Camera>& camera,
                          const CalibrateOptions& options) {
     Stations result;
-    Locator locator;
+    Locator locator{Options{}};
     CodeReader reader(given_code(options));
     std::vector<Fix> fixes;
     std::vector<Place> places;

@@ -47,7 +47,7 @@ class CropLocator {
     ImageView scan_;
     CodeReader reader_;
     int zoom_ = 1;
-    Locator locator_;
+    Locator locator_{Options{}};
     std::vector<std::uint8_t> magnified_;
 };
 

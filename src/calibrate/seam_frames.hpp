@@ -63,7 +63,7 @@ class SeamLocator {
     const std::vector<SheetEntry>& sheets_;
     std::optional<Camera> camera_;
     std::vector<Profile> profiles_;
-    Locator locator_;
+    Locator locator_{Options{}};
 };
 
 }  // namespace dotpose::calibrate

@@ -31,6 +31,7 @@ constexpr bool all_options(const Options& options, IsGood is_good) {
            is_good("blobs.min_area_px", options.blobs.min_area_px, 0, kMost) &&
            is_good("blobs.min_mass_q8", options.blobs.min_mass_q8, 0, 256) &&
            is_good("blobs.max_area_ratio", options.blobs.max_area_ratio, 1, 1024) &&
+           is_good("min_contrast", options.min_contrast, 0, 255) &&
            is_good("lattice.min_dots", options.lattice.min_dots, 0, kMost) &&
            is_good("lattice.max_offset_q16", options.lattice.max_offset_q16, 0, 32768) &&
            is_good("integrity.max_p_wrong_log2", options.integrity.max_p_wrong_log2, -kMost, 0) &&

@@ -216,6 +216,7 @@ struct TrackedView {
 struct Tracking {
     bool is_on = false;  ///< whether the frame that was begun is tracked
     Status status = Status::not_tracked;
+    std::uint8_t min_contrast = 0;  ///< see Options
     // Small processors reach the first members soonest, so those needed for every dot come first.
     int width_px = 0;
     int height_px = 0;

@@ -66,13 +66,15 @@ void begin_frame(int width_px, int height_px, Workspace& w) {
 }
 
 void threshold_bands(int ready, const Options& options, Workspace& w) {
+    ThresholdOptions threshold = options.threshold;
+    threshold.min_contrast = std::max(threshold.min_contrast, options.min_contrast);
     const int newest = (w.light.rows_taken - 1) >> w.light.band_shift;
     const bool is_last = w.light.rows_taken == w.light.height_px;
     for (int band = newest - ready + (is_last ? 1 : 0); ready > 0; --ready, ++band) {
         const int before = w.light.greatest_contrast;
-        measure_levels(band, options.threshold, w.light);
+        measure_levels(band, threshold, w.light);
         // No row above showed dots: what was taken for some was noise.
-        if (before < least_contrast(options.threshold, w.light)) w.dot_count = 0;
+        if (before < least_contrast(threshold, w.light)) w.dot_count = 0;
         for (int v = band_begin(w.light, band); v < band_end(w.light, band); ++v) {
             grow_blobs(v, w.light, w.open, dot_list(w));
         }

@@ -26,7 +26,8 @@ Status settle(Tracking& tracking) {
     const Vec predicted_q16 = tracking.cells.origin_q16;
     for (int tried = 0; tried < kMostShifts; ++tried) {
         Vec shift_q8;
-        if (!shifts.next(shift_q8)) return Status::not_tracked;
+        if (!shifts.next(shift_q8) || shifts.depth() < tracking.min_contrast)
+            return Status::not_tracked;
         tracking.cells.origin_q16 = predicted_q16 + Vec{shift_q8.x * 256, shift_q8.y * 256};
         // Until the size of dots is known, any blob half way between paper and ink may be a dot.
         tracking.cut_q8 = 128 * shifts.depth() / paper;
@@ -80,6 +81,7 @@ Status begin_device_tracked(int width_px, int height_px, const Options& options,
     t.width_px = width_px;
     t.height_px = height_px;
     t.first_kept = 0;
+    t.min_contrast = static_cast<std::uint8_t>(options.min_contrast);
     t.dots_measured = 0;
     t.off_q8 = {};
     // Frames of a bent lens are not tracked, but located without a prediction.

@@ -23,7 +23,7 @@ class Crew {
         : run_(run), outcomes_(outcomes), errors_(static_cast<std::size_t>(run.frames)) {}
 
     void work(bool reports) {
-        Locator locator;
+        Locator locator{Options{}};
         for (int index = next_++; index < run_.frames && !stopped_; index = next_++) {
             try {
                 locate_frame(index, locator);

@@ -23,6 +23,7 @@
 #include "locate/confirm.hpp"
 #include "locate/first.hpp"
 #include "locate/other_place.hpp"
+#include "locate/pale.hpp"
 #include "locate/second.hpp"
 #include "locate/tracked.hpp"
 #include "locate/tuning.hpp"
@@ -229,6 +230,14 @@ CodeReading locate_checked(const ImageView& image, const Options& options,
     // reasons.
     if (reading.fix.status != Status::ok && w.is_mirrored)
         reading.fix.status = w.fix.status = Status::mirrored;
+    Options read = options;
+    read.profile = reading.code;
+    if (reading.fix.status == Status::ok && is_pale(image, read, reading.fix)) {
+        const int dots_seen = reading.fix.dots_seen;
+        refuse(Status::no_contrast, w);
+        w.fix.dots_seen = dots_seen;
+        reading.fix = w.fix;
+    }
     return reading;
 }
 
@@ -297,24 +306,34 @@ namespace dotpose {
 SmallMemory::SmallMemory() : workspace_(core::make_workspace<core::SmallWorkspace>(bytes_)) {}
 LargeMemory::LargeMemory() : workspace_(core::make_workspace<core::LargeWorkspace>(bytes_)) {}
 
-Locator::Locator(SmallMemory& memory, const Options& options)
-    : RowLocator(memory.workspace_, options) {}
+Locator::Locator(core::DesktopWorkspace* workspace, const Options& options)
+    : RowLocator(workspace, options) {}
 
-Locator::Locator(LargeMemory& memory, const Options& options)
-    : RowLocator(memory.workspace_, options) {}
+void Locator::set_fixed_options(const Options& options) {
+    RowLocator::set_options(options);
+    detects_code_ = false;
+    evidence_ = {};
+}
 
 core::DesktopWorkspace& Locator::workspace() {
     return static_cast<core::DesktopWorkspace&>(*workspace_);
 }
 
 Fix Locator::locate(const ImageView& image) {
+    if (detects_code_) return detected(locate_in_any_code(image, evidence_));
     core::locate(image, options_, nullptr, workspace());
     return finished();
 }
 
 Fix Locator::locate(const ImageView& image, const Prediction& prediction) {
+    if (detects_code_) return detected(locate_in_any_code(image, prediction, evidence_));
     core::locate(image, options_, &prediction, workspace());
     return finished();
+}
+
+Fix Locator::detected(const CodeReading& reading) {
+    evidence_ = reading.evidence;
+    return reading.fix;
 }
 
 CodeReading Locator::finished(CodeReading reading) {

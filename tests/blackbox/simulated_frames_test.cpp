@@ -109,7 +109,7 @@ TEST(SimulatedFrames, FramesInDoubtAreLookedAtOnceMore) {
     for (const std::uint64_t index :
          {599u, 2270u, 3006u, 3468u, 4166u, 5006u, 5317u, 5590u, 5840u}) {
         const Shot shot = draw_shot(setup_of(Preset::hard, 777), index);
-        judge(Locator(*memory).locate(render(shot).view()), shot, tally);
+        judge(Locator(*memory, Options{}).locate(render(shot).view()), shot, tally);
     }
     EXPECT_EQ(tally.located, tally.frames);
 }
@@ -149,7 +149,7 @@ TEST(SimulatedFrames, BothEndsOfTheCodeAreReadAsTheMiddle) {
                                 Cell{kFar, kFar}, Cell{kFar, kPositionsPerAxis / 2}}) {
             Shot shot = draw_shot(setup_of(Preset::nominal, kFramesSeed + 3), index++);
             shot.pose.cell = cell;
-            judge(Locator(*memory).locate(render(shot).view()), shot, tally);
+            judge(Locator(*memory, Options{}).locate(render(shot).view()), shot, tally);
         }
     }
     EXPECT_GE(tally.located_share(), 0.98) << "seed " << kFramesSeed + 3;
@@ -163,7 +163,7 @@ TEST(SimulatedFrames, EveryDirectionIsRead) {
         Shot shot = draw_shot(setup_of(Preset::clean, kFramesSeed + 4),
                               static_cast<std::uint64_t>(degrees + 180));
         shot.pose.theta_rad = degrees * std::numbers::pi / 180;
-        judge(Locator(*memory).locate(render(shot).view()), shot, tally);
+        judge(Locator(*memory, Options{}).locate(render(shot).view()), shot, tally);
     }
     EXPECT_EQ(tally.located, tally.frames) << "seed " << kFramesSeed + 4;
     EXPECT_EQ(tally.wrong, 0u);

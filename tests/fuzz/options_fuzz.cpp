@@ -75,7 +75,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::memcpy(&change.value, data + at + 1, sizeof change.value);
         apply(change, options);
     }
-    const Fix usual = Locator(*kMemory).locate(image);
+    const Fix usual = Locator(*kMemory, Options{}).locate(image);
     Locator locator(*kMemory, options);
     fuzz::check(locator.locate(image), options);
     fuzz::check(locator.locate(image, Prediction::like(usual)), options);

@@ -1,4 +1,4 @@
-// Sheets whose profile is not known, and the dots of the last frame: what devices do not have.
+// Sheets whose code is not known, and the dots of the last frame: what devices do not have.
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
@@ -101,14 +101,13 @@ dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* p
     return fix->status;
 }
 
-dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* profile,
+dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* code,
                                       float* p_wrong) {
-    if (evidence == nullptr || profile == nullptr || p_wrong == nullptr)
-        return DOTPOSE_NULL_POINTER;
+    if (evidence == nullptr || code == nullptr || p_wrong == nullptr) return DOTPOSE_NULL_POINTER;
     CodeEvidence read;
     const dotpose_status status = read_evidence(evidence, read);
     if (status != DOTPOSE_OK) return status;
-    *profile = static_cast<std::int32_t>(read.likeliest());
+    *code = static_cast<std::int32_t>(read.likeliest());
     *p_wrong = read.p_wrong(read.likeliest());
     return DOTPOSE_OK;
 }

@@ -39,21 +39,21 @@ void write_block(Profile profile, const dotpose_place& first, std::uint32_t colu
 
 extern "C" {
 
-dotpose_status dotpose_displacement(int32_t profile, const dotpose_place* place, int32_t* x,
+dotpose_status dotpose_displacement(int32_t code, const dotpose_place* place, int32_t* x,
                                     int32_t* y) {
     if (place == nullptr || x == nullptr || y == nullptr) return DOTPOSE_NULL_POINTER;
-    if (!c::is_profile(profile) || !c::is_place(*place)) return DOTPOSE_BAD_VALUE;
+    if (!c::is_profile(code) || !c::is_place(*place)) return DOTPOSE_BAD_VALUE;
     const Place at = c::to_core(*place);
-    const Symbol symbol = symbol_at(static_cast<Profile>(profile), at.cell, at.section);
+    const Symbol symbol = symbol_at(static_cast<Profile>(code), at.cell, at.section);
     *x = dx(symbol);
     *y = dy(symbol);
     return DOTPOSE_OK;
 }
 
-dotpose_status dotpose_symbols(int32_t profile, const dotpose_place* top_left, int32_t columns,
+dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int32_t columns,
                                int32_t rows, uint8_t* symbols, size_t bytes) {
     if (top_left == nullptr || symbols == nullptr) return DOTPOSE_NULL_POINTER;
-    if (!c::is_profile(profile) || !c::is_place(*top_left) || !are_sides(columns, rows))
+    if (!c::is_profile(code) || !c::is_place(*top_left) || !are_sides(columns, rows))
         return DOTPOSE_BAD_VALUE;
     const auto width = static_cast<std::uint32_t>(columns);
     const auto height = static_cast<std::uint32_t>(rows);
@@ -62,8 +62,8 @@ dotpose_status dotpose_symbols(int32_t profile, const dotpose_place* top_left, i
     dotpose_place first = *top_left;
     for (std::uint32_t i = 0; i < width; i += kBlock_columns) {
         first.x = top_left->x + i;
-        write_block(static_cast<Profile>(profile), first, std::min(kBlock_columns, width - i),
-                    height, symbols + i, width);
+        write_block(static_cast<Profile>(code), first, std::min(kBlock_columns, width - i), height,
+                    symbols + i, width);
     }
     return DOTPOSE_OK;
 }

@@ -120,7 +120,8 @@ dotpose_status to_core(const dotpose_fix* read, Fix& fix) {
 dotpose_status to_core_ok(const dotpose_fix* given, Fix& fix) {
     const dotpose_status status = check(given);
     if (status != DOTPOSE_OK) return status;
-    return given->status == DOTPOSE_OK ? to_core(given, fix) : DOTPOSE_NO_FIX;
+    if (given->status != DOTPOSE_OK) return DOTPOSE_NO_FIX;
+    return to_core(given, fix);
 }
 
 void to_c(const Place& place, dotpose_place& result) {

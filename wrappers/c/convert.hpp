@@ -7,7 +7,7 @@
 
 #include "dotpose.h"
 #include "dotpose/fix.hpp"
-#include "dotpose/options.hpp"
+#include "dotpose/locator_options.hpp"
 #include "dotpose/prediction.hpp"
 
 namespace dotpose::c {
@@ -52,9 +52,8 @@ constexpr bool is_within_range(std::int64_t value, int bits) {
 bool is_place(const dotpose_place& place);
 Place to_core(const dotpose_place& place);
 
-/// Reads options, or the defaults from null. Ranges are left to the core, except where a value
-/// would not fit.
-dotpose_status to_core(const dotpose_options* given, Options& options);
+/// Reads options, or the defaults from null. BAD_ARGUMENT: one is outside of its range.
+dotpose_status to_core(const dotpose_options* given, LocatorOptions& options);
 
 /// Reads a prediction. BAD_VALUE: it names no place of the code.
 dotpose_status to_core(const dotpose_prediction& given, Prediction& prediction);

@@ -110,9 +110,10 @@ const char* dotpose_version(void);
 
 /* Which table of the code a sheet is printed with. */
 enum {
-    DOTPOSE_PROFILE_ANOTO = 0,    /* for everything new */
-    DOTPOSE_PROFILE_LIBDOTS = 1,  /* as libdots and other open tools print it */
-    DOTPOSE_PROFILE_MICRODOTS = 2 /* as py-microdots prints it */
+    DOTPOSE_CODE_DETECT = -1,  /* in options: the frames show it */
+    DOTPOSE_CODE_ANOTO = 0,    /* for everything new */
+    DOTPOSE_CODE_LIBDOTS = 1,  /* as libdots and other open tools print it */
+    DOTPOSE_CODE_MICRODOTS = 2 /* as py-microdots prints it */
 };
 
 #define DOTPOSE_POSITIONS_PER_AXIS 410815348u
@@ -136,13 +137,13 @@ enum {
 
 /* Gives the displacement of the dot at a place, in units of the displacement length (a sixth of the
  * spacing on usual sheets): of `dx` and `dy`, down, one is -1 or 1, the other 0. */
-dotpose_status dotpose_displacement(int32_t profile, const dotpose_place* place, int32_t* dx,
+dotpose_status dotpose_displacement(int32_t code, const dotpose_place* place, int32_t* dx,
                                     int32_t* dy);
 
 /* Gives columns x rows symbols, row by row, of which the first stands at `top_left`: what a sheet
  * of this size is printed from. Past the end of an axis the pattern continues at its other end, as
  * locators read it. 1 to 65535 columns and rows. */
-dotpose_status dotpose_symbols(int32_t profile, const dotpose_place* top_left, int32_t columns,
+dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int32_t columns,
                                int32_t rows, uint8_t* symbols, size_t bytes);
 
 /* ---- Results -------------------------------------------------------------------------------- */
@@ -271,7 +272,7 @@ dotpose_status dotpose_prediction_like(const dotpose_fix* fix, dotpose_predictio
 
 /* Moves a prediction by `by_x_q16` and `by_y_q16` spacings in the pattern frame, and turns it by
  * `turn_bam` about the image point `pivot_u_q8`, `pivot_v_q8`; by at most 4096 spacings. */
-dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t profile,
+dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t code,
                                        int32_t by_x_q16, int32_t by_y_q16, int32_t turn_bam,
                                        int32_t pivot_u_q8, int32_t pivot_v_q8);
 
@@ -299,34 +300,34 @@ enum {
     DOTPOSE_DECODER_ALL = 1     /* all in view */
 };
 
-/* Options of a locator. include/dotpose/options.hpp says what each does and when to change it. */
+/* Options of a locator: 96 bytes. include/dotpose/locator_options.hpp says what each does and when
+ * to change it. */
 typedef struct dotpose_options {
-    uint32_t size;             /*  0: set by dotpose_options_init */
-    int32_t profile;           /*  4: DOTPOSE_PROFILE_ of the sheet; default anoto */
-    int32_t effort;            /*  8: DOTPOSE_EFFORT_; default twice */
-    int32_t decoder;           /* 12: DOTPOSE_DECODER_; default all */
-    int32_t spacing_nm;        /* 16: of the printed grid; default 508000, 0: not known */
-    int32_t reference_dx_q8;   /* 20: point whose pose is wanted, px from the image centre */
-    int32_t reference_dy_q8;   /* 24 */
-    int32_t lens_k_q40;        /* 28: radial distortion per px^2, negative for barrels */
-    int32_t lens_centre_dx_q8; /* 32: its centre, px from the image centre */
-    int32_t lens_centre_dy_q8; /* 36 */
-    int32_t max_p_wrong_log2;  /* 40: positions that may be wrong by more are refused; -30 */
-    int32_t max_bit_error_q8;  /* 44: greatest share of contradicting bits, 46 */
-    int32_t most_dots;         /* 48: that the pose is fitted to, 4096 */
-    int32_t threshold_low_q8;  /* 52: 120 */
-    int32_t threshold_high_q8; /* 56: 155 */
-    int32_t min_contrast;      /* 60: 8 grey levels */
-    int32_t min_area_px;       /* 64: 2 */
-    int32_t min_mass_q8;       /* 68: 64 */
-    int32_t max_area_ratio;    /* 72: 5 */
-    int32_t min_dots;          /* 76: 40 */
-    int32_t max_offset_q16;    /* 80: 24000 */
-    int32_t show_stages;       /* 84: 1 keeps all dots for dotpose_dots, which takes time; 0 */
+    uint32_t size; /* 0: set by dotpose_options_init */
+    /* DOTPOSE_CODE_ of the sheet; default DETECT, from all whole images so far. Devices and rows
+     * read anoto, or the code that the last image showed. */
+    int32_t code;             /*  4 */
+    int32_t effort;           /*  8: DOTPOSE_EFFORT_; default twice */
+    int32_t decoder;          /* 12: DOTPOSE_DECODER_; default all */
+    double spacing_mm;        /* 16: of the printed grid; default 0.508, 0: not known */
+    double lens_k_per_px2;    /* 24: radial distortion, negative for barrels */
+    double lens_centre_dx_px; /* 32: its centre, from the image centre */
+    double lens_centre_dy_px; /* 40 */
+    double reference_dx_px;   /* 48: point whose pose is wanted, from the image centre */
+    double reference_dy_px;   /* 56 */
+    double max_p_wrong;       /* 64: positions that may be wrong by more are refused; 1e-9 */
+    double max_bit_errors;    /* 72: largest ratio of contradicting bits; 0.18 */
+    int32_t min_contrast;     /* 80: grey levels; paler frames are refused; 0 */
+    int32_t min_dots;         /* 84: 40 */
+    int32_t show_stages;      /* 88: 1 keeps all dots for dotpose_dots, which takes time; 0 */
+    int32_t reserved;         /* 92: zero */
 } dotpose_options;
 
 /* Sets the defaults; `bytes` is sizeof(dotpose_options) of the caller. */
 dotpose_status dotpose_options_init(dotpose_options* options, size_t bytes);
+/* Returns the name of the first member that is outside of its range, for which functions return
+ * BAD_ARGUMENT; null if there is none. */
+const char* dotpose_bad_option(const dotpose_options* options);
 
 /* A locator; its content is private. One thread at a time may use it. */
 typedef struct dotpose_locator dotpose_locator;
@@ -373,6 +374,10 @@ dotpose_status dotpose_locate(dotpose_locator* locator, const uint8_t* pixels, i
                               int32_t height_px, ptrdiff_t stride_bytes,
                               const dotpose_prediction* prediction, dotpose_fix* fix);
 
+/* Gives the code of the options or, if it is detected, of the last image: predictions of its fix
+ * are moved in it, and packets name it. */
+dotpose_status dotpose_code_of(const dotpose_locator* locator, int32_t* code);
+
 /* Locates an image that comes row by row: dotpose_begin, then dotpose_push_row for each row from
  * the top, then dotpose_finish. Rows need not stay valid. `prediction` may be null; a frame that
  * does not confirm it gets the status not_tracked. */
@@ -394,25 +399,25 @@ typedef struct dotpose_dot {
 dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, int32_t capacity,
                             int32_t* count);
 
-/* ---- Sheets whose profile is not known ------------------------------------------------------ */
+/* ---- Sheets whose code is not known --------------------------------------------------------- */
 
-/* How likely each profile is for one sheet, by all its frames so far; zeros: no frame yet.
+/* How likely each code is for one sheet, by all its frames so far; zeros: no frame yet.
  *     dotpose_code_evidence evidence = {{0}}; */
 typedef struct dotpose_code_evidence {
     int32_t state[9];
 } dotpose_code_evidence;
 
-/* In which profile a frame was read, and what else it may be: 28 bytes. */
+/* In which code a frame was read, and what else it may be: 28 bytes. */
 typedef struct dotpose_code_reading {
-    int32_t code;       /*  0: DOTPOSE_PROFILE_ in which the fix was read */
-    int32_t has_other;  /*  4: 1 if a place in another profile explains the frame as well, else 0 */
-    int32_t other_code; /*  8: that profile */
+    int32_t code;        /*  0: DOTPOSE_CODE_ in which the fix was read */
+    int32_t has_other;   /*  4: 1 if a place in another code explains the frame as well, else 0 */
+    int32_t other_code;  /*  8: that code */
     dotpose_place other; /* 12: that place, of the fix's cell */
 } dotpose_code_reading;
 
-/* Locates an image whose profile is not known and adds it to the evidence. A frame that two
- * profiles explain about equally well gets the status ambiguous_code. Afterwards the locator has
- * the profile that was read, in which a prediction must have been made. `prediction`, `evidence`
+/* Locates an image whose code is not known and adds it to the evidence. A frame that two codes
+ * explain about equally well gets the status ambiguous_code. Afterwards the locator has the code
+ * that was read, in which a prediction must have been made. `prediction`, `evidence`
  * (one frame alone) and `reading` may be null. Not for devices: WRONG_KIND. */
 dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* pixels,
                                        int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
@@ -420,14 +425,14 @@ dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* 
                                        dotpose_code_evidence* evidence,
                                        dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Locates an image in the profile of the options, as dotpose_locate does, and says whether another
- * profile explains it as well. `reading` may be null. Not for devices: WRONG_KIND. */
+/* Locates an image in the code of the options, and says whether another code explains it as well.
+ * `reading` may be null. Not for devices: WRONG_KIND. */
 dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* pixels,
                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                       dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Gives the likeliest profile, and a bound of the probability that it is another one. */
-dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* profile,
+/* Gives the likeliest code, and a bound of the probability that it is another one. */
+dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* code,
                                       float* p_wrong);
 
 /* ---- Trackers ------------------------------------------------------------------------------- */
@@ -556,7 +561,7 @@ typedef struct dotpose_packet {
     uint32_t sequence;       /*  0: counts frames, 16 bits; a gap shows lost packets */
     uint32_t time_us;        /*  4: on the sender's clock */
     dotpose_status status;   /*  8 */
-    int32_t profile;         /* 12: DOTPOSE_PROFILE_ */
+    int32_t code;            /* 12: DOTPOSE_CODE_ */
     uint32_t cell_x;         /* 16: x in spacings is cell_x + fraction_x_q16 / 65536.0 */
     uint32_t cell_y;         /* 20 */
     uint32_t fraction_x_q16; /* 24 */
@@ -569,7 +574,7 @@ typedef struct dotpose_packet {
 } dotpose_packet;
 
 /* Gives the packet of a fix, of any status. */
-dotpose_status dotpose_packet_of(const dotpose_fix* fix, int32_t profile, uint32_t sequence,
+dotpose_status dotpose_packet_of(const dotpose_fix* fix, int32_t code, uint32_t sequence,
                                  uint32_t time_us, dotpose_packet* packet);
 
 /* Gives the bytes of a packet, ready to be sent; `bytes` has room for DOTPOSE_PACKET_BYTES. */

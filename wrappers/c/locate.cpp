@@ -42,15 +42,12 @@ extern "C" {
 dotpose_status dotpose_set_options(dotpose_locator* locator, const dotpose_options* given) {
     dotpose_status status = c::check(locator);
     if (status != DOTPOSE_OK) return status;
-    Options options;
+    LocatorOptions options;
     status = c::to_core(given, options);
     if (status != DOTPOSE_OK) return status;
-    const Options before = locator->locator->options();
     c::drop_frame(*locator);
-    locator->locator->set_options(options);
-    if (c::are_good_options(*locator)) return DOTPOSE_OK;
-    locator->locator->set_options(before);
-    return DOTPOSE_BAD_ARGUMENT;
+    locator->actions->set_options(*locator->locator, options);
+    return DOTPOSE_OK;
 }
 
 dotpose_status dotpose_locate(dotpose_locator* locator, const uint8_t* pixels, int32_t width_px,
@@ -67,6 +64,14 @@ dotpose_status dotpose_locate(dotpose_locator* locator, const uint8_t* pixels, i
     if (status != DOTPOSE_OK) return c::refuse(status, *fix);
     c::to_c(locator->actions->locate(*locator->locator, frame.image, frame.expected), *fix);
     return fix->status;
+}
+
+dotpose_status dotpose_code_of(const dotpose_locator* locator, int32_t* code) {
+    if (code == nullptr) return DOTPOSE_NULL_POINTER;
+    const dotpose_status status = c::check(locator);
+    if (status != DOTPOSE_OK) return status;
+    *code = static_cast<std::int32_t>(locator->locator->options().profile);
+    return DOTPOSE_OK;
 }
 
 dotpose_status dotpose_begin(dotpose_locator* locator, int32_t width_px, int32_t height_px,

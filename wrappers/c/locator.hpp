@@ -15,6 +15,7 @@ namespace dotpose::c {
 /// What kinds of locators do differently. Pointers, so that a program contains only the kinds that
 /// it makes. Devices do not have the last two.
 struct Actions {
+    void (*set_options)(RowLocator& locator, const LocatorOptions& options);
     Fix (*locate)(RowLocator& locator, const ImageView& image, const Prediction* prediction);
     Status (*begin)(RowLocator& locator, int width_px, int height_px, const Prediction* prediction);
     void (*push_row)(RowLocator& locator, const std::uint8_t* pixels);
@@ -28,6 +29,9 @@ struct Actions {
 template <typename Kind>
 constexpr Actions actions_of() {
     Actions actions{};
+    actions.set_options = [](RowLocator& locator, const LocatorOptions& options) {
+        static_cast<Kind&>(locator).set_options(options);
+    };
     actions.locate = [](RowLocator& locator, const ImageView& image, const Prediction* prediction) {
         auto& it = static_cast<Kind&>(locator);
         return prediction == nullptr ? it.locate(image) : it.locate(image, *prediction);
@@ -99,7 +103,7 @@ inline constexpr std::size_t kAlignment = 8;
 /// A locator of one kind, with its memory.
 template <typename Memory, typename Kind>
 struct LocatorOf : dotpose_locator {
-    explicit LocatorOf(const Options& options) : kind(memory, options) {
+    explicit LocatorOf(const LocatorOptions& options) : kind(memory, options) {
         mark = kLocatorMark;
         actions = &kActionsOf<Kind>;
         locator = &kind;
@@ -122,14 +126,6 @@ inline dotpose_status check_memory(const void* memory, std::size_t bytes, std::s
     return bytes < needed ? DOTPOSE_TOO_LITTLE_MEMORY : DOTPOSE_OK;
 }
 
-/// Whether no option is out of its range, which the core says when a frame begins.
-inline bool are_good_options(dotpose_locator& locator) {
-    RowLocator& it = *locator.locator;
-    const Status begun = locator.actions->begin(it, kMinFrameSide_px, kMinFrameSide_px, nullptr);
-    it.set_options(Options{it.options()});  // drops the frame
-    return begun == Status::ok;
-}
-
 /// Makes a T, which is a LocatorOf, in memory that a caller gives.
 template <typename T>
 dotpose_status init(void* memory, std::size_t bytes, const dotpose_options* given,
@@ -138,13 +134,11 @@ dotpose_status init(void* memory, std::size_t bytes, const dotpose_options* give
     *result = nullptr;
     dotpose_status status = check_memory(memory, bytes, bytes_of<T>());
     if (status != DOTPOSE_OK) return status;
-    Options options;
+    LocatorOptions options;
     status = to_core(given, options);
     if (status != DOTPOSE_OK) return status;
     const std::size_t skipped = (0 - reinterpret_cast<std::uintptr_t>(memory)) % alignof(T);
-    T* made = ::new (static_cast<void*>(static_cast<std::byte*>(memory) + skipped)) T(options);
-    if (!are_good_options(*made)) return DOTPOSE_BAD_ARGUMENT;
-    *result = made;
+    *result = ::new (static_cast<void*>(static_cast<std::byte*>(memory) + skipped)) T(options);
     return DOTPOSE_OK;
 }
 

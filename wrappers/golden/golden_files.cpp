@@ -139,7 +139,7 @@ class Lines {
 /// Locates a frame in every way, and the frame after it with the prediction of the first.
 void locate(const GreyImage& image, const GreyImage& next, Lines lines) {
     const auto memory = std::make_unique<LargeMemory>();
-    Locator locator(*memory);
+    Locator locator(*memory, Options{});
     const Fix fix = locator.locate(image.view());
     lines.add("locate", fix);
     if (fix.status == Status::ok)

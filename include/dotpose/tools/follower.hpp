@@ -142,7 +142,7 @@ class Follower {
     ImageView image_;
     GreyImage flipped_;
     GreyImage reduced_;
-    Locator locator_;
+    Locator locator_{Options{}};
     Tracker tracker_;
     std::optional<Seen> seen_;  ///< none if it is too old for a prediction
 };

@@ -92,7 +92,7 @@ struct RobotError {
 };
 inline constexpr int kRobotStands = 24;
 inline RobotError robot_error(const Camera& camera, const CameraModel& model, std::uint64_t seed) {
-    Locator locator;
+    Locator locator{Options{}};
     constexpr double kStand_x_mm = kPivot_x_mm + 500;
     constexpr double kStand_y_mm = kPivot_y_mm + 300;
     RobotError sum;

@@ -66,7 +66,7 @@ TEST(CalibrateSpin, TheReferenceStaysPutAfterwards) {
         return robot_frame(model, 55, i, kPivot_x_mm, kPivot_y_mm, 30 * i * kDegree_rad);
     };
     const Camera camera = calibrate_spin(12, frame_at, true_camera(model), {}).camera;
-    Locator locator;
+    Locator locator{Options{}};
     for (int i = 20; i < 26; ++i) {
         const GreyImage image =
             robot_frame(model, 55, i, kPivot_x_mm, kPivot_y_mm, 55 * i * kDegree_rad);
@@ -152,7 +152,7 @@ TEST(CalibrateDrive, FindsTheHeading) {
     EXPECT_NEAR(drive.camera.theta_offset_rad, kOffset_rad, 4 * drive.sigma_rad);
     EXPECT_NEAR(drive.length_mm, 45, 0.01);
 
-    Locator locator;
+    Locator locator{Options{}};
     const GreyImage image = frame_at(30);
     Options options;
     use_camera(drive.camera, image.width_px, image.height_px, options);

@@ -72,7 +72,7 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
         EXPECT_LT(seam.residual_mm, 0.02) << seam.first << seam.second;
 
     // All places are in one world: on both sides of a seam, and as far from it as possible.
-    Locator locator;
+    Locator locator{Options{}};
     Camera camera = true_camera(model);
     // The reference is 20 mm to the right of the image, so that a wrong scale would show.
     camera.reference_px =

@@ -97,7 +97,7 @@ TEST(Allocation, IsSeenWhereItHappens) {
 
 TEST(Allocation, NoneInSmallFrames) {
     const auto memory = std::make_unique<SmallMemory>();
-    Locator locator(*memory);
+    Locator locator(*memory, Options{});
     int fixes = 0;
     EXPECT_EQ(allocations_of(frames_of(188, 120), locator, fixes), 0);
     EXPECT_GT(fixes, 50);
@@ -105,7 +105,7 @@ TEST(Allocation, NoneInSmallFrames) {
 
 TEST(Allocation, NoneInLargeFrames) {
     const auto memory = std::make_unique<LargeMemory>();
-    Locator locator(*memory);
+    Locator locator(*memory, Options{});
     int fixes = 0;
     EXPECT_EQ(allocations_of(frames_of(320, 240), locator, fixes), 0);
     EXPECT_GT(fixes, 50);

@@ -32,14 +32,23 @@ struct Range {
 #define FIELD(path) #path, [](Options & options, int value) { options.path = value; }
 
 const Range kRanges[] = {
-    {FIELD(lens.k_q40), INT_MIN, INT_MAX},       {FIELD(lens.centre_dx_q8), -262144, 262144},
-    {FIELD(lens.centre_dy_q8), -262144, 262144}, {FIELD(threshold.low_q8), 1, 256},
-    {FIELD(threshold.high_q8), 1, 256},          {FIELD(threshold.min_contrast), 1, 255},
-    {FIELD(blobs.min_area_px), 0, 1048576},      {FIELD(blobs.min_mass_q8), 0, 256},
-    {FIELD(blobs.max_area_ratio), 1, 1024},      {FIELD(lattice.min_dots), 0, 1048576},
-    {FIELD(lattice.max_offset_q16), 0, 32768},   {FIELD(integrity.max_p_wrong_log2), -1048576, 0},
-    {FIELD(integrity.max_bit_error_q8), 0, 256}, {FIELD(most_dots), INT_MIN, INT_MAX},
-    {FIELD(spacing_nm), INT_MIN, INT_MAX},       {FIELD(reference_dx_q8), -4194304, 4194304},
+    {FIELD(lens.k_q40), INT_MIN, INT_MAX},
+    {FIELD(lens.centre_dx_q8), -262144, 262144},
+    {FIELD(lens.centre_dy_q8), -262144, 262144},
+    {FIELD(threshold.low_q8), 1, 256},
+    {FIELD(threshold.high_q8), 1, 256},
+    {FIELD(threshold.min_contrast), 1, 255},
+    {FIELD(blobs.min_area_px), 0, 1048576},
+    {FIELD(blobs.min_mass_q8), 0, 256},
+    {FIELD(blobs.max_area_ratio), 1, 1024},
+    {FIELD(lattice.min_dots), 0, 1048576},
+    {FIELD(min_contrast), 0, 255},
+    {FIELD(lattice.max_offset_q16), 0, 32768},
+    {FIELD(integrity.max_p_wrong_log2), -1048576, 0},
+    {FIELD(integrity.max_bit_error_q8), 0, 256},
+    {FIELD(most_dots), INT_MIN, INT_MAX},
+    {FIELD(spacing_nm), INT_MIN, INT_MAX},
+    {FIELD(reference_dx_q8), -4194304, 4194304},
     {FIELD(reference_dy_q8), -4194304, 4194304},
 };
 
@@ -48,7 +57,7 @@ const Range kRanges[] = {
 /// Does not compile if Options has a new field, which must then be added to the tests below.
 [[maybe_unused]] void has_all_fields(const Options& o) {
     [[maybe_unused]] const auto& [profile, effort, decoder, lens, threshold, blobs, lattice,
-                                  integrity, most_dots, spacing, show_stages, dx, dy] = o;
+                                  integrity, contrast, most_dots, spacing, show_stages, dx, dy] = o;
     [[maybe_unused]] const auto& [k, centre_dx, centre_dy] = lens;
     [[maybe_unused]] const auto& [low, high, min_contrast] = threshold;
     [[maybe_unused]] const auto& [min_area, min_mass, max_area] = blobs;
@@ -67,7 +76,8 @@ void expect_refusal(const Options& options, bool is_refused, const char* field, 
     const OptionFault fault = option_fault(options);
     EXPECT_STREQ(fault.name, is_refused ? field : nullptr) << value;
     EXPECT_EQ(fault.value, is_refused ? value : 0) << field;
-    const Prediction prediction = Prediction::like(Locator(*kMemory).locate(kFrame.view()));
+    const Prediction prediction =
+        Prediction::like(Locator(*kMemory, Options{}).locate(kFrame.view()));
     expect(Locator(*kMemory, options).locate(kFrame.view()).status, "locate");
     expect(Locator(*kMemory, options).locate(kFrame.view(), prediction).status, "tracked");
     expect(Locator(*kMemory, options).begin(kFrame.width_px, kFrame.height_px), "begin");

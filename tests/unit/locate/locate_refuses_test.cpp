@@ -21,16 +21,17 @@ TEST(LocateRefuses, SizesOutOfRangeAreRefused) {
     const auto large = std::make_unique<LargeMemory>();
     const auto status_of = [](int width, int height, auto& memory) {
         const GreyImage image = blank(width, height);
-        return Locator(memory).locate(image.view()).status;
+        return Locator(memory, Options{}).locate(image.view()).status;
     };
     EXPECT_EQ(status_of(63, 120, small), Status::image_too_small);
     EXPECT_EQ(status_of(120, 63, small), Status::image_too_small);
     EXPECT_EQ(status_of(1, 1, small), Status::image_too_small);
-    EXPECT_EQ(Locator(small).locate({}).status, Status::image_too_small);
-    EXPECT_EQ(Locator(small).locate({nullptr, -5, -5, 0}).status, Status::image_too_small);
+    EXPECT_EQ(Locator(small, Options{}).locate({}).status, Status::image_too_small);
+    EXPECT_EQ(Locator(small, Options{}).locate({nullptr, -5, -5, 0}).status,
+              Status::image_too_small);
     EXPECT_EQ(status_of(189, 120, small), Status::image_too_large);
     EXPECT_EQ(status_of(64, 4097, *large), Status::image_too_large);
-    EXPECT_EQ(Locator(*large).begin(4097, 64), Status::image_too_large);
+    EXPECT_EQ(Locator(*large, Options{}).begin(4097, 64), Status::image_too_large);
     for (const auto& [width, height] :
          {std::pair{64, 64}, std::pair{188, 120}, std::pair{64, 4096}}) {
         EXPECT_EQ(status_of(width, height, small), Status::no_contrast) << width;
@@ -57,7 +58,7 @@ TEST(LocateRefuses, AFrameWithoutAPositionTellsWhy) {
         for (std::uint64_t i = 0; i < 20; ++i) {
             const GreyImage frame =
                 render_scene(scene, shot_of({.preset = Preset::clean}, kSeed, i), 0.8);
-            const Status status = Locator(memory).locate(frame.view()).status;
+            const Status status = Locator(memory, Options{}).locate(frame.view()).status;
             EXPECT_TRUE(allowed.at(scene).contains(status))
                 << name(scene) << " gave " << name(status) << ", shot " << i << ", seed " << kSeed;
         }
@@ -69,9 +70,9 @@ TEST(LocateRefuses, AFrameWithoutDotsIsNotNamedByTheDotsOfTheFrameBefore) {
     dotpose::Setup setup;
     setup.seed = kSeed;
     const GreyImage frame = render(draw_shot(setup, 1));
-    ASSERT_EQ(Locator(*memory).locate(frame.view()).status, Status::ok);
+    ASSERT_EQ(Locator(*memory, Options{}).locate(frame.view()).status, Status::ok);
     const GreyImage black = blank(188, 120);
-    EXPECT_EQ(Locator(*memory).locate(black.view()).status, Status::no_contrast);
+    EXPECT_EQ(Locator(*memory, Options{}).locate(black.view()).status, Status::no_contrast);
 }
 
 // With such displacements, the grid of a mirror image is beyond the steps that come last.
@@ -86,11 +87,12 @@ TEST(LocateRefuses, AMirrorImageIsNamedWhateverTheDisplacement) {
         for (std::uint64_t i = 0; i < 5; ++i) {
             const GreyImage frame = render(draw_shot(setup, i));
             SCOPED_TRACE(testing::Message() << displacement << ", shot " << i);
-            EXPECT_EQ(Locator(*memory).locate(frame.view()).status, Status::ok);
+            EXPECT_EQ(Locator(*memory, Options{}).locate(frame.view()).status, Status::ok);
             const GreyImage mirrored = flipped(frame.view());
-            EXPECT_EQ(Locator(*memory).locate(mirrored.view()).status, Status::mirrored);
-            EXPECT_EQ(Locator(*memory).locate_in_any_code(mirrored.view(), {}).fix.status,
-                      Status::mirrored);
+            EXPECT_EQ(Locator(*memory, Options{}).locate(mirrored.view()).status, Status::mirrored);
+            EXPECT_EQ(
+                Locator(*memory, Options{}).locate_in_any_code(mirrored.view(), {}).fix.status,
+                Status::mirrored);
         }
     }
 }
@@ -135,7 +137,7 @@ TEST(LocateRefuses, EveryStageCanRefuse) {
     shot.page.columns = 5;
     shot.page.rows = 60;
     shot.pose.theta_rad = radians(90);
-    const Status narrow = Locator(memory).locate(render(shot).view()).status;
+    const Status narrow = Locator(memory, Options{}).locate(render(shot).view()).status;
     EXPECT_EQ(narrow, Status::grid_too_small) << name(narrow);
 }
 

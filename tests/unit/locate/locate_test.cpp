@@ -90,7 +90,7 @@ TEST(Locate, RowsThatAreMissingAreWhite) {
     SmallMemory memory;
     GreyImage frame = render(shot_of({.preset = Preset::nominal}, kSeed, 3));
     const int half = frame.height_px / 2;
-    Locator locator(memory);
+    Locator locator(memory, Options{});
     ASSERT_EQ(locator.begin(frame.width_px, frame.height_px), Status::ok);
     for (int v = 0; v < half; ++v)
         locator.push_row(frame.view().row(v));
@@ -102,7 +102,7 @@ TEST(Locate, RowsThatAreMissingAreWhite) {
 
 TEST(Locate, RowsThatTheMemoryCannotKeepAreRefused) {
     SmallMemory memory;
-    Locator locator(memory);
+    Locator locator(memory, Options{});
     EXPECT_EQ(locator.begin(188, 188), Status::ok);
     EXPECT_EQ(locator.begin(188, 189), Status::image_too_large);
     EXPECT_EQ(locator.finish().status, Status::image_too_large);
@@ -204,19 +204,20 @@ TEST(Locate, SmallAndLargeMemoryGiveTheSameFix) {
     SmallMemory small;
     const auto large = std::make_unique<LargeMemory>();
     for (const GreyImage& frame : mixed_frames()) {
-        expect_same(Locator(small).locate(frame.view()), Locator(*large).locate(frame.view()));
+        expect_same(Locator(small, Options{}).locate(frame.view()),
+                    Locator(*large, Options{}).locate(frame.view()));
     }
 }
 
 TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
     // Frames of other sizes and failures in between leave no trace.
     const auto used_memory = std::make_unique<LargeMemory>();
-    Locator used(*used_memory);
+    Locator used(*used_memory, Options{});
     const GreyImage big = render(shot_of({.width_px = 640, .height_px = 480}, kSeed, 3));
     const GreyImage tiny = blank(10, 10);
     for (const GreyImage& frame : mixed_frames()) {
         const auto fresh_memory = std::make_unique<LargeMemory>();
-        const Fix fresh = Locator(*fresh_memory).locate(frame.view());
+        const Fix fresh = Locator(*fresh_memory, Options{}).locate(frame.view());
         expect_same(used.locate(frame.view()), fresh);
         EXPECT_EQ(used.locate(big.view()).status, Status::ok);
         expect_same(used.locate(frame.view()), fresh);
@@ -246,7 +247,7 @@ TEST(Locate, TheTraceKeepsTheFix) {
 TEST(Locate, RowsCountOnlyInAFrameThatWasBegun) {
     SmallMemory memory;
     const GreyImage frame = render(shot_of({.preset = Preset::nominal}, kSeed, 0));
-    Locator locator(memory);
+    Locator locator(memory, Options{});
     locator.push_row(frame.pixels.data());
     EXPECT_EQ(locator.finish().status, Status::bad_argument);
     EXPECT_EQ(locator.begin(63, 120), Status::image_too_small);
@@ -281,7 +282,7 @@ TEST(Locate, MillimetresComeFromTheSpacingInTheOptions) {
 TEST(Locate, RowsMayLieApartOrUpsideDown) {
     SmallMemory memory;
     const GreyImage frame = render(shot_of({.preset = Preset::nominal}, kSeed, 1));
-    const Fix fix = Locator(memory).locate(frame.view());
+    const Fix fix = Locator(memory, Options{}).locate(frame.view());
     ASSERT_EQ(fix.status, Status::ok);
     for (const int stride : {188, 189, 256, 1000, -188, -300}) {
         const int step = std::abs(stride);
@@ -289,7 +290,7 @@ TEST(Locate, RowsMayLieApartOrUpsideDown) {
         const auto row = [&](int v) { return pixels.data() + (stride > 0 ? v : 119 - v) * step; };
         for (int v = 0; v < 120; ++v)
             std::copy_n(frame.view().row(v), 188, row(v));
-        expect_same(Locator(memory).locate({row(0), 188, 120, stride}), fix);
+        expect_same(Locator(memory, Options{}).locate({row(0), 188, 120, stride}), fix);
     }
 }
 
@@ -298,7 +299,7 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
     for (std::uint64_t i = 0; i < 10; ++i) {
         const Shot shot = shot_of({.preset = Preset::clean}, kSeed, i);
         const GreyImage frame = render(shot);
-        const Fix at_centre = Locator(memory).locate(frame.view());
+        const Fix at_centre = Locator(memory, Options{}).locate(frame.view());
         ASSERT_EQ(at_centre.status, Status::ok);
         for (const Vec2 offset :
              {Vec2{0, 0}, Vec2{40.5, -20.25}, Vec2{-93.5, 59.5}, Vec2{500, 300}}) {
@@ -351,8 +352,8 @@ TEST(Locate, UsesNoMoreDotsThanItSaw) {
     SmallMemory memory;
     int by_second = 0;
     for (std::uint64_t i = 0; i < 20; ++i) {
-        const Fix fix =
-            Locator(memory).locate(render(shot_of({.preset = Preset::hard}, kSeed, i)).view());
+        const Fix fix = Locator(memory, Options{})
+                            .locate(render(shot_of({.preset = Preset::hard}, kSeed, i)).view());
         if (fix.status != Status::ok) continue;
         by_second += fix.attempt == Attempt::second;
         EXPECT_LE(fix.dots_used, fix.dots_seen) << "shot " << i << ", seed " << kSeed;

@@ -134,7 +134,7 @@ TEST(LocateTracked, FollowsTheFixOfTheFrameBefore) {
     for (std::uint64_t i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
         Shot shot = shot_of({}, kSeed, i);
-        Fix fix = Locator(large_memory()).locate(render(shot).view());
+        Fix fix = Locator(large_memory(), Options{}).locate(render(shot).view());
         ASSERT_EQ(fix.status, Status::ok);
         // The light is halved, and the camera moves on a little.
         shot.imperfections.paper_level *= 0.5;
@@ -195,7 +195,8 @@ TEST(LocateTracked, WhatShowsNoPatternGivesNoFix) {
             const Shot shot = shot_of({}, kSeed, i);
             const GreyImage image = render_scene(scene, shot, 0.3 + 0.1 * static_cast<double>(i));
             EXPECT_EQ(tracked(image, true_prediction(shot)).status, Status::not_tracked);
-            const Fix fix = Locator(large_memory()).locate(image.view(), true_prediction(shot));
+            const Fix fix =
+                Locator(large_memory(), Options{}).locate(image.view(), true_prediction(shot));
             EXPECT_NE(fix.status, Status::ok);
         }
     }
@@ -288,7 +289,7 @@ TEST(LocateTracked, NonsenseNeitherBreaksNorDeceives) {
             const Fix fix = tracked(image, nonsense, options);
             ASSERT_TRUE(fix.status != Status::ok || is_right(fix, shot));
             if (k % 40 != 0) continue;
-            const Fix located = Locator(large_memory()).locate(image.view(), nonsense);
+            const Fix located = Locator(large_memory(), Options{}).locate(image.view(), nonsense);
             ASSERT_TRUE(located.status != Status::ok || is_right(located, shot));
         }
     }

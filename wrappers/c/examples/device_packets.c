@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
     dotpose_finish(locator, &fix); /* also tells why a frame could not be begun */
     free(frame.pixels);
 
-    if (dotpose_packet_of(&fix, DOTPOSE_PROFILE_ANOTO, 1, 0, &packet) != DOTPOSE_OK ||
+    if (dotpose_packet_of(&fix, DOTPOSE_CODE_ANOTO, 1, 0, &packet) != DOTPOSE_OK ||
         dotpose_packet_encode(&packet, bytes, sizeof bytes) != DOTPOSE_OK) {
         fprintf(stderr, "%s\n", dotpose_status_message(fix.status));
         return 1;

@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
             dotpose_status status = DOTPOSE_OK;
             place.x = (uint32_t)strtoul(argv[1], NULL, 10) + column;
             place.y = (uint32_t)strtoul(argv[2], NULL, 10) + row;
-            status = dotpose_displacement(DOTPOSE_PROFILE_ANOTO, &place, &dx, &dy);
+            status = dotpose_displacement(DOTPOSE_CODE_ANOTO, &place, &dx, &dy);
             if (status != DOTPOSE_OK) {
                 fprintf(stderr, "%s\n", dotpose_status_message(status));
                 return 1;

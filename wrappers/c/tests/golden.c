@@ -79,8 +79,8 @@ static void locate(int index, const image* frame, const image* next, dotpose_loc
     dotpose_prediction prediction;
     dotpose_fix fix;
     dotpose_fix_init(&fix, sizeof fix);
-    /* Reading in any code leaves the code that was read. */
     dotpose_options_init(&options, sizeof options);
+    options.code = DOTPOSE_CODE_ANOTO;
     dotpose_set_options(large, &options);
     dotpose_locate(large, frame->pixels, width_px, frame->height_px, width_px, NULL, &fix);
     print_fix(index, "locate", &fix);

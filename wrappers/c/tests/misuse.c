@@ -76,14 +76,14 @@ static void options(void) {
     dotpose_fix fix;
     struct {
         dotpose_options known;
-        uint32_t more;
+        uint64_t more;
     } newer;
     dotpose_fix_init(&fix, sizeof fix);
     EXPECT(NULL_POINTER, dotpose_options_init(NULL, sizeof good));
     EXPECT(BAD_SIZE, dotpose_options_init(&good, 0));
-    EXPECT(BAD_SIZE, dotpose_options_init(&good, sizeof good + 4));
+    EXPECT(BAD_SIZE, dotpose_options_init(&good, sizeof good + 8));
     EXPECT(OK, dotpose_options_init(&good, sizeof good));
-    CHECK(good.size == sizeof good && good.spacing_nm == 508000 && good.effort == 2);
+    CHECK(good.size == sizeof good && good.spacing_mm == 0.508 && good.effort == 2);
     EXPECT(OK, dotpose_locator_create(DOTPOSE_KIND_SMALL, &good, &locator));
     memset(&newer, 0, sizeof newer);
     newer.known = good;
@@ -92,15 +92,22 @@ static void options(void) {
     bad = good;
     bad.size = 0;
     EXPECT(BAD_SIZE, dotpose_set_options(locator, &bad));
+    CHECK(strcmp(dotpose_bad_option(&bad), "size") == 0 && dotpose_bad_option(NULL) == NULL);
+    CHECK(dotpose_bad_option(&good) == NULL);
     bad = good;
-    bad.profile = 256; /* would be anoto in 8 bits */
+    bad.code = 256; /* would be anoto in 8 bits */
     EXPECT(BAD_ARGUMENT, dotpose_set_options(locator, &bad));
     bad = good;
     bad.effort = -1;
     EXPECT(BAD_ARGUMENT, dotpose_set_options(locator, &bad));
     bad = good;
-    bad.min_contrast = 0;
+    bad.min_contrast = 256;
     EXPECT(BAD_ARGUMENT, dotpose_set_options(locator, &bad));
+    CHECK(strcmp(dotpose_bad_option(&bad), "min_contrast") == 0);
+    bad = good;
+    bad.spacing_mm = (double)NAN;
+    EXPECT(BAD_ARGUMENT, dotpose_set_options(locator, &bad));
+    CHECK(strcmp(dotpose_bad_option(&bad), "spacing_mm") == 0);
     bad = good;
     bad.show_stages = 2;
     EXPECT(BAD_ARGUMENT, dotpose_set_options(locator, &bad));
@@ -110,7 +117,7 @@ static void options(void) {
     EXPECT(NULL_POINTER, dotpose_set_options(NULL, &good));
     dotpose_locator_destroy(locator);
     bad = good;
-    bad.max_area_ratio = 0;
+    bad.max_p_wrong = 0;
     EXPECT(BAD_ARGUMENT, dotpose_locator_create(DOTPOSE_KIND_LARGE, &bad, &locator));
     CHECK(locator == NULL);
     EXPECT(BAD_ARGUMENT, dotpose_device_init(memory, sizeof memory, &bad, &locator));
@@ -306,6 +313,10 @@ static void any_code(dotpose_locator* large, dotpose_locator* device) {
     EXPECT(WRONG_KIND,
            dotpose_locate_in_code(device, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, &reading, &fix));
     EXPECT(WRONG_KIND, dotpose_dots(device, NULL, 0, &count));
+    EXPECT(NULL_POINTER, dotpose_code_of(NULL, &profile));
+    EXPECT(NULL_POINTER, dotpose_code_of(large, NULL));
+    EXPECT(OK, dotpose_code_of(device, &profile));
+    CHECK(profile == DOTPOSE_CODE_ANOTO);
     EXPECT(NO_CONTRAST, dotpose_locate_any_code(large, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL,
                                                 NULL, NULL, &fix));
     EXPECT(NULL_POINTER, dotpose_locate_any_code(large, NULL, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL,
@@ -317,7 +328,7 @@ static void any_code(dotpose_locator* large, dotpose_locator* device) {
     EXPECT(NO_CONTRAST,
            dotpose_locate_in_code(large, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL, &fix));
     EXPECT(OK, dotpose_code_likeliest(&evidence, &profile, &p_wrong));
-    CHECK(profile == DOTPOSE_PROFILE_ANOTO && p_wrong > 0.6F && p_wrong < 0.7F);
+    CHECK(profile == DOTPOSE_CODE_ANOTO && p_wrong > 0.6F && p_wrong < 0.7F);
     memset(&evidence, 0x55, sizeof evidence);
     EXPECT(BAD_VALUE, dotpose_code_likeliest(&evidence, &profile, &p_wrong));
     EXPECT(BAD_VALUE, dotpose_locate_any_code(large, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL,

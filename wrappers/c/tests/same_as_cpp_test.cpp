@@ -26,8 +26,12 @@ struct Destroy {
 using CLocator = std::unique_ptr<dotpose_locator, Destroy>;
 
 CLocator make_locator(const dotpose_options* options = nullptr) {
+    dotpose_options anoto;
+    EXPECT_EQ(dotpose_options_init(&anoto, sizeof anoto), DOTPOSE_OK);
+    if (options != nullptr) anoto = *options;
+    anoto.code = DOTPOSE_CODE_ANOTO;
     dotpose_locator* locator = nullptr;
-    EXPECT_EQ(dotpose_locator_create(DOTPOSE_KIND_LARGE, options, &locator), DOTPOSE_OK);
+    EXPECT_EQ(dotpose_locator_create(DOTPOSE_KIND_LARGE, &anoto, &locator), DOTPOSE_OK);
     return CLocator(locator);
 }
 
@@ -149,54 +153,44 @@ TEST(C, GivesTheSymbolsOfTheCodePastTheEndsOfItsAxes) {
 TEST(C, PassesEveryOption) {
     dotpose_options given;
     dotpose_options_init(&given, sizeof given);
-    given = {given.size, 1,  0,  0,  600'000, 11, -12, 13, 14, -15, -16,
-             17,         18, 19, 20, 21,      22, 23,  24, 25, 26,  1};
-    Options read;
+    given = {given.size, 1, 0, 0, 0.6, -1e-5, 11, -12, 13, -14, 1e-6, 0.2, 200, 50, 1, 0};
+    LocatorOptions read;
     ASSERT_EQ(c::to_core(&given, read), DOTPOSE_OK);
-    EXPECT_EQ(read.profile, Profile::libdots);
+    EXPECT_EQ(read.code, Profile::libdots);
     EXPECT_EQ(read.effort, Effort::device);
     EXPECT_EQ(read.decoder, Decoder::window);
-    EXPECT_EQ(read.spacing_nm, 600'000);
-    EXPECT_EQ(read.reference_dx_q8, 11);
-    EXPECT_EQ(read.reference_dy_q8, -12);
-    EXPECT_EQ(read.lens.k_q40, 13);
-    EXPECT_EQ(read.lens.centre_dx_q8, 14);
-    EXPECT_EQ(read.lens.centre_dy_q8, -15);
-    EXPECT_EQ(read.integrity.max_p_wrong_log2, -16);
-    EXPECT_EQ(read.integrity.max_bit_error_q8, 17);
-    EXPECT_EQ(read.most_dots, 18);
-    EXPECT_EQ(read.threshold.low_q8, 19);
-    EXPECT_EQ(read.threshold.high_q8, 20);
-    EXPECT_EQ(read.threshold.min_contrast, 21);
-    EXPECT_EQ(read.blobs.min_area_px, 22);
-    EXPECT_EQ(read.blobs.min_mass_q8, 23);
-    EXPECT_EQ(read.blobs.max_area_ratio, 24);
-    EXPECT_EQ(read.lattice.min_dots, 25);
-    EXPECT_EQ(read.lattice.max_offset_q16, 26);
+    EXPECT_EQ(read.spacing_mm, 0.6);
+    EXPECT_EQ(read.lens_k_per_px2, -1e-5);
+    EXPECT_EQ(read.lens_centre_dx_px, 11);
+    EXPECT_EQ(read.lens_centre_dy_px, -12);
+    EXPECT_EQ(read.reference_dx_px, 13);
+    EXPECT_EQ(read.reference_dy_px, -14);
+    EXPECT_EQ(read.max_p_wrong, 1e-6);
+    EXPECT_EQ(read.max_bit_errors, 0.2);
+    EXPECT_EQ(read.min_contrast, 200);
+    EXPECT_EQ(read.min_dots, 50);
     EXPECT_TRUE(read.show_stages);
 }
 
 TEST(C, HasTheDefaultsOfTheCore) {
     dotpose_options given;
     dotpose_options_init(&given, sizeof given);
-    const Options core;
+    const LocatorOptions core;
+    EXPECT_EQ(given.code, DOTPOSE_CODE_DETECT);
     EXPECT_EQ(given.effort, static_cast<std::int32_t>(core.effort));
     EXPECT_EQ(given.decoder, static_cast<std::int32_t>(core.decoder));
-    EXPECT_EQ(given.spacing_nm, core.spacing_nm);
-    EXPECT_EQ(given.max_p_wrong_log2, core.integrity.max_p_wrong_log2);
-    EXPECT_EQ(given.max_bit_error_q8, core.integrity.max_bit_error_q8);
-    EXPECT_EQ(given.most_dots, core.most_dots);
-    EXPECT_EQ(given.threshold_low_q8, core.threshold.low_q8);
-    EXPECT_EQ(given.threshold_high_q8, core.threshold.high_q8);
-    EXPECT_EQ(given.max_area_ratio, core.blobs.max_area_ratio);
-    EXPECT_EQ(given.max_offset_q16, core.lattice.max_offset_q16);
+    EXPECT_EQ(given.spacing_mm, core.spacing_mm);
+    EXPECT_EQ(given.max_p_wrong, core.max_p_wrong);
+    EXPECT_EQ(given.max_bit_errors, core.max_bit_errors);
+    EXPECT_EQ(given.min_contrast, core.min_contrast);
+    EXPECT_EQ(given.min_dots, core.min_dots);
     EXPECT_EQ(given.show_stages, 0);
 }
 
 TEST(C, TellsMillimetres) {
     dotpose_options options;
     dotpose_options_init(&options, sizeof options);
-    options.spacing_nm = 600'000;
+    options.spacing_mm = 0.6;
     const CLocator locator = make_locator(&options);
     const GreyImage image = drive(3)[0];
     const dotpose_fix fix = locate(locator.get(), image);
@@ -208,7 +202,7 @@ TEST(C, TellsMillimetres) {
     EXPECT_FLOAT_EQ(fix.covariance[5], 0.6F * fix.covariance_grid[5]);
     EXPECT_FLOAT_EQ(fix.covariance[8], fix.covariance_grid[8]);
     EXPECT_DOUBLE_EQ(fix.p_wrong, std::ldexp(1, fix.p_wrong_log2));
-    options.spacing_nm = 0;
+    options.spacing_mm = 0;
     dotpose_set_options(locator.get(), &options);
     const dotpose_fix unknown = locate(locator.get(), image);
     EXPECT_TRUE(std::isnan(unknown.x_mm) && std::isnan(unknown.covariance[0]));
@@ -218,7 +212,7 @@ TEST(C, TellsMillimetres) {
 TEST(C, KeepsAFixWhole) {
     const auto memory = std::make_unique<LargeMemory>();
     for (const GreyImage& image : drive(4)) {
-        const dotpose_fix fix = as_c(Locator(*memory).locate(image.view()));
+        const dotpose_fix fix = as_c(Locator(*memory, Options{}).locate(image.view()));
         Fix back;
         ASSERT_EQ(c::to_core(&fix, back), DOTPOSE_OK);
         EXPECT_TRUE(same(as_c(back), fix) || fix.status != DOTPOSE_OK);
@@ -227,7 +221,7 @@ TEST(C, KeepsAFixWhole) {
 
 TEST(C, FollowsARobotAsTheTrackerDoes) {
     const auto memory = std::make_unique<LargeMemory>();
-    Locator core(*memory);
+    Locator core(*memory, Options{});
     Tracker core_tracker;
     const CLocator locator = make_locator();
     dotpose_tracker tracker;
@@ -282,14 +276,14 @@ TEST(C, FollowsARobotAsTheTrackerDoes) {
 
 TEST(C, MovesPredictions) {
     const auto memory = std::make_unique<LargeMemory>();
-    const Fix fix = Locator(*memory).locate(drive(3)[0].view());
+    const Fix fix = Locator(*memory, Options{}).locate(drive(3)[0].view());
     const Prediction expected = moved(Prediction::like(fix), Profile::libdots, {70'000, -90'000},
                                       1 << 24, {24'000, 15'000});
     const dotpose_fix given = as_c(fix);
     dotpose_prediction prediction;
     ASSERT_EQ(dotpose_prediction_like(&given, &prediction), DOTPOSE_OK);
-    ASSERT_EQ(dotpose_prediction_move(&prediction, DOTPOSE_PROFILE_LIBDOTS, 70'000, -90'000,
-                                      1 << 24, 24'000, 15'000),
+    ASSERT_EQ(dotpose_prediction_move(&prediction, DOTPOSE_CODE_LIBDOTS, 70'000, -90'000, 1 << 24,
+                                      24'000, 15'000),
               DOTPOSE_OK);
     dotpose_prediction core_prediction;
     c::to_c(expected, core_prediction);
@@ -304,11 +298,11 @@ TEST(C, SendsAndReadsPackets) {
     std::uint16_t sequence = 65534;
     int completed = 0;
     for (const GreyImage& image : drive(5)) {
-        const Fix fix = Locator(*memory).locate(image.view());
+        const Fix fix = Locator(*memory, Options{}).locate(image.view());
         const PacketBytes expected = encode(make_packet(fix, Profile::microdots, ++sequence, 99));
         const dotpose_fix given = as_c(fix);
         dotpose_packet packet;
-        ASSERT_EQ(dotpose_packet_of(&given, DOTPOSE_PROFILE_MICRODOTS, sequence, 99, &packet),
+        ASSERT_EQ(dotpose_packet_of(&given, DOTPOSE_CODE_MICRODOTS, sequence, 99, &packet),
                   DOTPOSE_OK);
         PacketBytes bytes;
         ASSERT_EQ(dotpose_packet_encode(&packet, bytes.data(), bytes.size()), DOTPOSE_OK);
@@ -329,7 +323,7 @@ TEST(C, SendsAndReadsPackets) {
 TEST(C, PacesFramesAsThePacerDoes) {
     const auto memory = std::make_unique<LargeMemory>();
     const GreyImage image = drive(3)[0];
-    const Fix fix = Locator(*memory).locate(image.view());
+    const Fix fix = Locator(*memory, Options{}).locate(image.view());
     const dotpose_fix given = as_c(fix);
     dotpose_pacer_options options;
     dotpose_pacer_options_init(&options, sizeof options);
@@ -352,7 +346,7 @@ TEST(C, PacesFramesAsThePacerDoes) {
 
 TEST(C, FindsTheCodeOfASheet) {
     const auto memory = std::make_unique<LargeMemory>();
-    Locator core(*memory);
+    Locator core(*memory, Options{});
     CodeEvidence core_evidence;
     const CLocator locator = make_locator();
     dotpose_code_evidence evidence = {{0}};
@@ -386,6 +380,24 @@ TEST(C, FindsTheCodeOfASheet) {
     EXPECT_EQ(core_evidence.likeliest(), Profile::libdots);
 }
 
+TEST(C, DetectsTheCodeByDefault) {
+    dotpose_locator* created = nullptr;
+    ASSERT_EQ(dotpose_locator_create(DOTPOSE_KIND_LARGE, nullptr, &created), DOTPOSE_OK);
+    const CLocator locator(created);
+    const auto memory = std::make_unique<LargeMemory>();
+    Locator core(*memory, Options{});
+    CodeEvidence evidence;
+    for (const GreyImage& image : libdots_frames(12)) {
+        const CodeReading expected = core.locate_in_any_code(image.view(), evidence);
+        evidence = expected.evidence;
+        EXPECT_TRUE(same(locate(locator.get(), image), as_c(expected.fix)));
+        std::int32_t code = -1;
+        ASSERT_EQ(dotpose_code_of(locator.get(), &code), DOTPOSE_OK);
+        EXPECT_EQ(code, static_cast<std::int32_t>(expected.code));
+    }
+    EXPECT_EQ(evidence.likeliest(), Profile::libdots);
+}
+
 TEST(C, GivesTheDots) {
     dotpose_options options;
     dotpose_options_init(&options, sizeof options);
@@ -393,7 +405,7 @@ TEST(C, GivesTheDots) {
     const CLocator locator = make_locator(&options);
     const GreyImage image = drive(3)[0];
     locate(locator.get(), image);
-    Options core_options;
+    LocatorOptions core_options;
     core_options.show_stages = true;
     const auto memory = std::make_unique<LargeMemory>();
     Locator core(*memory, core_options);

@@ -58,33 +58,19 @@ class Options:
         *,
         effort: Literal["device", "once", "twice"] = ...,
         decoder: Literal["window", "all"] = ...,
-        threshold_low_q8: int = ...,
-        threshold_high_q8: int = ...,
         min_contrast: int = ...,
-        min_area_px: int = ...,
-        min_mass_q8: int = ...,
-        max_area_ratio: int = ...,
         min_dots: int = ...,
-        max_offset_q16: int = ...,
-        max_p_wrong_log2: int = ...,
-        max_bit_error_q8: int = ...,
-        most_dots: int = ...,
+        max_p_wrong: float = ...,
+        max_bit_errors: float = ...,
         lens_k_per_px2: float = ...,
         lens_centre_offset_px: Pixel = ...,
     ) -> None: ...
     effort: Literal["device", "once", "twice"]
     decoder: Literal["window", "all"]
-    threshold_low_q8: int
-    threshold_high_q8: int
     min_contrast: int
-    min_area_px: int
-    min_mass_q8: int
-    max_area_ratio: int
     min_dots: int
-    max_offset_q16: int
-    max_p_wrong_log2: int
-    max_bit_error_q8: int
-    most_dots: int
+    max_p_wrong: float
+    max_bit_errors: float
     lens_k_per_px2: float
     lens_centre_offset_px: Pixel
 

@@ -11,6 +11,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "dotpose/code.hpp"
+#include "dotpose/locator_options.hpp"
 
 namespace dotpose::python {
 
@@ -32,6 +33,9 @@ void define_check(py::module_& module);
 void define_calibrate(py::module_& module);
 void define_simulate(py::module_& module);
 void define_protocol(py::module_& module);
+
+/// Returns options in fixed point. Throws BadArgument if one is outside of its range.
+Options checked(const LocatorOptions& options);
 
 /// Returns the profile of a name, none for "auto". Throws BadArgument for any other text.
 std::optional<Profile> code_or_auto(const std::string& name);

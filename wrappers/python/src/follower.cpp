@@ -70,9 +70,9 @@ class FollowerOfPython {
 std::unique_ptr<FollowerOfPython> new_follower(
     const std::vector<SheetEntry>& sheets, const std::string& code, double spacing_mm,
     const std::optional<Camera>& camera, const std::optional<std::array<double, 2>>& reference,
-    const Options& options, bool keep_stages, const py::kwargs& track) {
+    const LocatorOptions& options, bool keep_stages, const py::kwargs& track) {
     FollowerOptions all;
-    all.locate = options;
+    all.locate = checked(options);
     all.locate.show_stages |= keep_stages;
     all.locate.spacing_nm = rounded(spacing_mm * 1e6);
     all.sheets = sheets;
@@ -114,7 +114,7 @@ void define_follower(py::module_& module) {
         "        print(now.place.name, now.place.x_mm, now.place.y_mm)")
         .def(py::init(&new_follower), "sheets"_a = py::list(), "code"_a = "auto",
              "spacing_mm"_a = kDefaultSpacing_mm, py::kw_only(), "camera"_a = py::none(),
-             "reference_px"_a = py::none(), py::arg_v("options", Options{}, "Options()"),
+             "reference_px"_a = py::none(), py::arg_v("options", LocatorOptions{}, "Options()"),
              "keep_stages"_a = false,
              "Make a follower.\n\n"
              "sheets: entries of the pages that may be seen; without, poses are those of the "

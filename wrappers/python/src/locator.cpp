@@ -156,13 +156,13 @@ namespace {
 std::shared_ptr<LocatorOfPython> new_locator(const std::string& code, double spacing_mm,
                                              const std::optional<Camera>& camera,
                                              const std::optional<std::array<double, 2>>& reference,
-                                             const Options& options, bool keep_stages) {
+                                             const LocatorOptions& options, bool keep_stages) {
     LocatorSetup setup;
     setup.code = code_or_auto(code);
     setup.camera = camera;
     if (camera) validate(*camera);
     if (reference) setup.reference_px = PixelPoint{(*reference)[0], (*reference)[1]};
-    setup.options = options;
+    setup.options = checked(options);
     if (!(spacing_mm > 0 && spacing_mm < 2000)) {
         throw BadArgument("spacing_mm: must be above 0 and below 2000");
     }
@@ -181,7 +181,7 @@ void define_locator(py::module_& module) {
         "for each other.")
         .def(py::init(&new_locator), "code"_a = "auto", "spacing_mm"_a = kDefaultSpacing_mm,
              py::kw_only(), "camera"_a = py::none(), "reference_px"_a = py::none(),
-             py::arg_v("options", Options{}, "Options()"), "keep_stages"_a = false,
+             py::arg_v("options", LocatorOptions{}, "Options()"), "keep_stages"_a = false,
              "Make a locator.\n\n"
              "code: of the sheet: \"anoto\", \"libdots\", \"microdots\", or \"auto\" to find it "
              "from all frames.\n"

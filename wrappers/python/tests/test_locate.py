@@ -207,8 +207,8 @@ def test_reference_point_moves_the_pose(frames):
 
 def test_options_have_the_defaults_of_cpp_and_are_checked(frames):
     options = dotpose.Options()
-    assert (options.min_dots, options.most_dots, options.max_p_wrong_log2) == (40, 4096, -30)
-    assert (options.threshold_low_q8, options.threshold_high_q8, options.min_contrast) == (120, 155, 8)
+    assert (options.min_dots, options.min_contrast) == (40, 0)
+    assert (options.max_p_wrong, options.max_bit_errors) == (1e-9, 0.18)
     assert (options.effort, options.decoder) == ("twice", "all")
     assert dotpose.Options(min_dots=60).min_dots == 60
     with pytest.raises(TypeError, match="min_dot"):
@@ -216,9 +216,12 @@ def test_options_have_the_defaults_of_cpp_and_are_checked(frames):
     with pytest.raises(dotpose.BadArgument, match="device, once, twice"):
         dotpose.Options(effort="thrice")
     image = frames[0].image
-    strict = dotpose.Locator(options=dotpose.Options(max_p_wrong_log2=-200))
+    strict = dotpose.Locator(options=dotpose.Options(max_p_wrong=1e-60))
     assert strict.locate(image).status == "not_certain"
-    assert dotpose.Locator(options=dotpose.Options(min_contrast=0)).locate(image).status == "bad_argument"
+    pale = dotpose.Locator(options=dotpose.Options(min_contrast=250))
+    assert pale.locate(image).status == "no_contrast"
+    with pytest.raises(dotpose.BadArgument, match="min_contrast"):
+        dotpose.Locator(options=dotpose.Options(min_contrast=256))
 
 
 def test_errors_are_a_family():

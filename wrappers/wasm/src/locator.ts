@@ -27,7 +27,7 @@ export interface LocatorOptions {
     lens_k_per_px2?: number;
     /** Number of attempts: 2 reads a frame again, filtered, that could not be read; default 2. */
     attempts?: 1 | 2;
-    /** Greatest probability of being wrong with which a position is given; default 2^-30. */
+    /** Greatest probability of being wrong with which a position is given; default 1e-9. */
     max_p_wrong?: number;
     /** Whether a fix has the centres of its dots, which takes time; default false. */
     dots?: boolean;
@@ -45,15 +45,9 @@ export interface FrameOptions {
 }
 
 /** Places in a dotpose_options of wrappers/c/dotpose.h. */
-const kOptionsBytes = 88;
-const kOptionOffsets = {
-    profile: 4,
-    effort: 8,
-    spacing_nm: 16,
-    lens_k_q40: 28,
-    max_p_wrong_log2: 40,
-    show_stages: 84,
-};
+const kOptionsBytes = 96;
+const kOptionOffsets = { code: 4, effort: 8, show_stages: 88 };
+const kDoubleOffsets = { spacing_mm: 16, lens_k_per_px2: 24, max_p_wrong: 64 };
 /** Sizes of the other structs of that header. */
 const kPredictionBytes = 72;
 const kEvidenceBytes = 36;
@@ -132,14 +126,13 @@ export class Locator {
         const view = core.view(given, kOptionsBytes);
         const set = (name: keyof typeof kOptionOffsets, value: number) =>
             view.setInt32(kOptionOffsets[name], value, true);
-        set("profile", this.#code);
+        set("code", this.#code);
         set("show_stages", options.dots ? 1 : 0);
         set("effort", attempts);
-        if (options.spacing_mm !== undefined) set("spacing_nm", Math.round(options.spacing_mm * 1e6));
-        if (options.lens_k_per_px2 !== undefined)
-            set("lens_k_q40", Math.trunc(options.lens_k_per_px2 * 2 ** 40));
-        if (options.max_p_wrong !== undefined)
-            set("max_p_wrong_log2", Math.floor(Math.log2(options.max_p_wrong)));
+        for (const name of Object.keys(kDoubleOffsets) as (keyof typeof kDoubleOffsets)[]) {
+            const value = options[name];
+            if (value !== undefined) view.setFloat64(kDoubleOffsets[name], value, true);
+        }
         const bytes = core.call("dotpose_large_bytes");
         const memory = core.reserve(bytes);
         const pointer = core.reserve(kPointerBytes);

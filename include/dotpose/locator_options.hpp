@@ -1,0 +1,115 @@
+/// LocatorOptions: options of a Locator in millimetres, pixels and ratios. The defaults suit any
+/// camera. Ranges are in [brackets]; a value outside gives every frame Status::bad_argument, and
+/// `bad_option` names it.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "dotpose/code.hpp"
+#include "dotpose/options.hpp"
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+/// Options of a Locator. Each acts on every attempt, and on rows that are pushed.
+struct LocatorOptions {
+    /// Table of the code that the sheet is printed with. Default: detected, from all frames so far.
+    /// A frame that two tables explain about equally well gets the status ambiguous_code.
+    std::optional<Profile> code;
+    /// Spacing of the printed grid, by which a fix is converted to millimetres. Default: that of
+    /// the paper. 0: not known. [0 to 1000 mm]
+    double spacing_mm = 0.508;
+
+    /// Radial distortion k in p_u = m + r_d / (1 + k |r_d|^2) (paper eq. 1-2), per px^2. Negative
+    /// for barrel distortion. [above -2^-9, below 2^-9]
+    double lens_k_per_px2 = 0;
+    /// Distortion centre m, from the image centre. [-1024 to 1024 px]
+    double lens_centre_dx_px = 0;
+    double lens_centre_dy_px = 0;
+    /// Point whose pose is wanted, from the image centre. [-16384 to 16384 px]
+    double reference_dx_px = 0;
+    double reference_dy_px = 0;
+
+    /// Upper bound of the probability of being wrong. A position that exceeds it is refused as
+    /// not_certain. Rounded down to a power of two. [1e-300 to 1]
+    double max_p_wrong = 1e-9;
+    /// Largest ratio of the bits read on either axis that may contradict the position. More
+    /// contradictions mean that the frame shows two patterns. [0 to 1]
+    double max_bit_errors = 0.18;
+    /// Contrast between paper and dots, in grey levels, below which a frame gets the status
+    /// no_contrast. Default 0: dots as pale as can be read. Raise it for noisy cameras. [0 to 255]
+    int min_contrast = 0;
+    /// Minimum number of dots from which a grid is searched. 6 x 6 is the least that can carry a
+    /// position. [0 to 2^20]
+    int min_dots = 40;
+
+    Effort effort = Effort::twice;
+    Decoder decoder = Decoder::all;
+    /// Whether every attempt leaves dots, grid and bits in the trace, for drawing and calibration.
+    /// That takes time.
+    bool show_stages = false;
+
+    /// Returns the same options in fixed point; if one is outside of its range, so is one of these.
+    operator Options() const;
+};
+
+/// Returns the name of the first option outside of its range; null if all are in range.
+inline const char* bad_option(const LocatorOptions& options) {
+    const auto is_in = [](double value, double low, double high) {
+        return value >= low && value <= high;  // not if it is not a number
+    };
+    constexpr double kMaxLens_per_px2 = 0x1p-9 - 0x1p-40;
+    constexpr double kMaxLensCentre_px = 1024;
+    constexpr double kMaxReference_px = 16384;
+    if (options.code.value_or(Profile::anoto) > Profile::microdots) return "code";
+    if (!is_in(options.spacing_mm, 0, 1000)) return "spacing_mm";
+    if (!is_in(options.lens_k_per_px2, -kMaxLens_per_px2, kMaxLens_per_px2))
+        return "lens_k_per_px2";
+    if (!is_in(options.lens_centre_dx_px, -kMaxLensCentre_px, kMaxLensCentre_px))
+        return "lens_centre_dx_px";
+    if (!is_in(options.lens_centre_dy_px, -kMaxLensCentre_px, kMaxLensCentre_px))
+        return "lens_centre_dy_px";
+    if (!is_in(options.reference_dx_px, -kMaxReference_px, kMaxReference_px))
+        return "reference_dx_px";
+    if (!is_in(options.reference_dy_px, -kMaxReference_px, kMaxReference_px))
+        return "reference_dy_px";
+    if (!is_in(options.max_p_wrong, 1e-300, 1)) return "max_p_wrong";
+    if (!is_in(options.max_bit_errors, 0, 1)) return "max_bit_errors";
+    if (!is_in(options.min_contrast, 0, 255)) return "min_contrast";
+    if (!is_in(options.min_dots, 0, 1 << 20)) return "min_dots";
+    if (options.effort > Effort::twice) return "effort";
+    if (options.decoder > Decoder::all) return "decoder";
+    return nullptr;
+}
+
+// Double precision is used only in headers, which are not part of the core's object code.
+inline LocatorOptions::operator Options() const {
+    Options fixed;
+    if (bad_option(*this) != nullptr) {
+        fixed.min_contrast = -1;
+        return fixed;
+    }
+    const auto rounded = [](double value) { return static_cast<std::int32_t>(std::lround(value)); };
+    fixed.profile = code.value_or(Profile::anoto);
+    fixed.effort = effort;
+    fixed.decoder = decoder;
+    fixed.lens = Lens::from_k(lens_k_per_px2);
+    fixed.lens.centre_dx_q8 = rounded(lens_centre_dx_px * 256);
+    fixed.lens.centre_dy_q8 = rounded(lens_centre_dy_px * 256);
+    fixed.min_contrast = min_contrast;
+    fixed.lattice.min_dots = min_dots;
+    fixed.integrity.max_p_wrong_log2 = std::ilogb(max_p_wrong);
+    fixed.integrity.max_bit_error_q8 = rounded(max_bit_errors * 256);
+    fixed.spacing_nm = rounded(spacing_mm * 1e6);
+    fixed.show_stages = show_stages;
+    fixed.reference_dx_q8 = rounded(reference_dx_px * 256);
+    fixed.reference_dy_q8 = rounded(reference_dy_px * 256);
+    return fixed;
+}
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop
