@@ -38,7 +38,7 @@ bool is_similar(const code::Secondary& a, std::uint32_t own, std::uint32_t place
         is_counted = parts > 0 && differs && !is_counted;
         if (is_counted) lost += parts;
     }
-    return lost < kEnough;
+    return lost < kLimitParts;
 }
 
 TEST(SimilarPlaces, AreThoseThatLoseLessThanEnough) {
