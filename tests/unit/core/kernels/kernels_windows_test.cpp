@@ -83,7 +83,7 @@ struct OneDot {
     CellsInView cells;
     DotTable table{8};
 
-    /// Draws a Gaussian dot at (u, v), believed to be `off_px` to the right of that and below.
+    /// Draws a Gaussian dot at (u, v), predicted `off_px` to the right of that and below.
     OneDot(double u, double v, double sigma_px, double off_px) {
         for (int y = 0; y < kSide_px; ++y) {
             for (int x = 0; x < kSide_px; ++x) {
@@ -184,7 +184,7 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
     });
 }
 
-/// Sixteen Gaussian dots in a square on paper whose level is level(x, y), each believed to be a
+/// Sixteen Gaussian dots in a square on paper whose level is level(x, y), each predicted a
 /// tenth of a pixel off.
 struct LitDots {
     static constexpr int kSide_px = 80;
