@@ -261,6 +261,22 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane) {
 
 namespace {
 
+/// Corrects biases, tests for uneven paper, and writes the fix.
+Confirmation finish(const Kernels& kernels, const ImageView& image, const Options& options,
+                    const DotReader& reader, const CellsInView& view, const BitsRead& bits,
+                    Hypothesis& hypothesis, PoseFit& fit, DesktopWorkspace& w) {
+    FloatPlane& plane = hypothesis.pattern_from_image;
+    const FloatVec bias_px2 = fit_without_bias(kernels, reader, view, image, hypothesis, fit);
+    fit_uneven(kernels, w.measured, reference_px(options, hypothesis), plane, fit);
+    add_variance(bias_px2, plane, fit);
+    if (!is_plausible(image, plane)) return Confirmation::implausible;
+    if (is_implausible(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
+        return Confirmation::uncertain;
+    write_fix(image, options, hypothesis, bits, fit, w);
+    if (options.show_stages) show(hypothesis, w);
+    return Confirmation::ok;
+}
+
 /// Measures and compares the dots of the hypothesis and fits the pose. An exact hypothesis is
 /// implausible if its bits are not clean, or if kMaxLooks rounds do not bring it to its dots.
 Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
@@ -273,9 +289,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
     OtherCodes* const codes = hypothesis.is_certain ? nullptr : wanted_codes(w);
     DotReader reader(kernels, image, spacing, dots);
     PoseFit fit;
-    BitsRead bits;
     int looks = 0;
-    FloatVec bias_px2;  // remaining variance of the pixel bias along u and v
     for (Reach reach(image, hypothesis, spacing);;) {
         const bool decides = reach.decides();
         if (!is_plausible(image, plane)) return Confirmation::implausible;
@@ -286,8 +300,8 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
         kernels.list_cells(view, dots);
         const bool is_last = reach.now >= reach.full;
         BitBlock block;
-        bits = reader.read(view, hypothesis,
-                           decides || (is_last && codes != nullptr) ? &block : nullptr);
+        BitsRead bits = reader.read(view, hypothesis,
+                                    decides || (is_last && codes != nullptr) ? &block : nullptr);
         if (!is_plausible(bits, dots, options, hypothesis.is_partial_view))
             return Confirmation::implausible;
         if (!is_clean(bits)) {
@@ -314,20 +328,9 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
             weigh_codes_in_view(kernels, options.profile, hypothesis.place, block,
                                 confidences_in(bits), !decides, w.line_scores, *codes);
         }
-        if (is_last) {
-            bias_px2 = fit_without_bias(kernels, reader, view, image, hypothesis, fit);
-            break;
-        }
+        if (is_last) return finish(kernels, image, options, reader, view, bits, hypothesis, fit, w);
         reach.grow();
     }
-    fit_uneven(kernels, dots, reference_px(options, hypothesis), plane, fit);
-    add_variance(bias_px2, plane, fit);
-    if (!is_plausible(image, plane)) return Confirmation::implausible;
-    if (is_implausible(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
-        return Confirmation::uncertain;
-    write_fix(image, options, hypothesis, bits, fit, w);
-    if (options.show_stages) show(hypothesis, w);
-    return Confirmation::ok;
 }
 
 }  // namespace
