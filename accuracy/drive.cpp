@@ -63,7 +63,7 @@ DriveReading reading_of(const Followed& now) {
     }
     const Track& track = now.track;
     const TrackedPose& pose = track.pose;
-    reading.is_believed = track.verdict == Verdict::believed;
+    reading.is_accepted = track.verdict == Verdict::accepted;
     reading.events = event_names(track.events);
     reading.filtered = {pose.x_mm(), pose.y_mm(), pose.theta_rad()};
     reading.vx_mm_s = static_cast<double>(pose.vx_mm_s);
@@ -151,7 +151,7 @@ void draw_drive(const DriveSamples& run, const std::string& title, const std::st
         for (const auto& [colour, value] : panel.curves) {
             std::vector<Point> data;
             for (const Sample& sample : run.samples) {
-                const bool is_shown = sample.reading.is_believed || value == speed;
+                const bool is_shown = sample.reading.is_accepted || value == speed;
                 data.push_back(
                     {sample.t_s, is_shown ? std::min(value(sample), panel.max) : std::nan("")});
             }

@@ -20,7 +20,7 @@ struct DrivePose {
 struct DriveReading {
     bool has_fix = false;
     DrivePose raw;
-    bool is_believed = false;
+    bool is_accepted = false;
     std::string events;
     DrivePose filtered;
     double vx_mm_s = 0;
@@ -42,7 +42,7 @@ class DriveErrors {
             truth.is_lifted) {
             ++wrong_;
         }
-        if (!reading.is_believed || settling_ < 3) return;
+        if (!reading.is_accepted || settling_ < 3) return;
         const DrivePose filtered = difference(reading.filtered, truth);
         ++settled_;
         raw_mm2_ += (squared(raw.x_mm) + squared(raw.y_mm)) / 2;

@@ -405,7 +405,7 @@ void add_track_options(Command& command, TrackOptions& track) {
         .add_option_function<double>(
             "--lost-after",
             [&track](double ms) { track.lost_after_us = static_cast<std::int64_t>(ms * 1000); },
-            "Time without a believed fix after which the robot is lost")
+            "Time without a accepted fix after which the robot is lost")
         ->type_name("MS")
         ->default_str("70")
         ->check(Range(0.0, 1e9));

@@ -124,8 +124,8 @@ struct TrackedPose {
 /// The tracker's verdict on the sighting of a frame.
 enum class Verdict : std::uint8_t {
     none,        ///< there was no sighting
-    believed,    ///< accepted: certain enough alone, and physically possible
-    with_prior,  ///< accepted: weak, but certain enough together with the prior
+    accepted,    ///< certain enough alone, and physically possible
+    with_prior,  ///< accepted although weak: certain enough together with the prior
     gated,       ///< physically impossible, and not confirmed yet
     too_weak,    ///< weak, and the prior does not help
 };

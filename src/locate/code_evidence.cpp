@@ -8,21 +8,22 @@
 namespace dotpose {
 namespace {
 
-/// Frames closer to each other than this may show some of the same dots.
+/// Distance within which two frames may show some of the same dots.
 constexpr std::uint32_t kSamePlace_cells = 64;
-/// Frames of one place that are counted; floats add up so many.
-constexpr std::uint32_t kMostFrames = 1U << 23;
+/// Maximum number of frames counted at one place: floats add up this many exactly.
+constexpr std::uint32_t kMaxFrames = 1U << 23;
 
 bool is_near(std::uint32_t a, std::uint32_t b) {
     const std::uint32_t apart = a > b ? a - b : b - a;
     return std::min(apart, kPositionsPerAxis - apart) < kSamePlace_cells;
 }
 
-/// Returns each log odds against the likeliest one, limited to at least -most_log2; 2^-8 of log2.
-CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int32_t most_log2) {
+/// Returns each log odds relative to the likeliest one, limited to at least -max_log2; log2 in
+/// 2^-8.
+CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int32_t max_log2) {
     const std::int32_t likeliest = *std::max_element(log2_q8.begin(), log2_q8.end());
     for (std::int32_t& log2 : log2_q8)
-        log2 = std::max(log2 - likeliest, -256 * most_log2);
+        log2 = std::max(log2 - likeliest, -256 * max_log2);
     return log2_q8;
 }
 
@@ -31,8 +32,8 @@ CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int3
 CodeEvidence::LogOdds CodeEvidence::sum() const {
     LogOdds sum = before_log2_q8_;
     if (frames_here_ == 0) return sum;
-    // However frames depend on each other, the mean of their factors is m or more against the true
-    // profile in at most one case of m.
+    // Whatever the dependence between frames, the mean of their factors is m or more against the
+    // true code in at most one case of m (Markov).
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const float mean = factors_here_[i] / static_cast<float>(frames_here_);
         sum[i] +=
@@ -69,7 +70,7 @@ void CodeEvidence::add(Cell cell, const LogOdds& log2_q8) {
         here_ = cell;
         frames_here_ = 0;
     }
-    if (frames_here_ == kMostFrames) return;
+    if (frames_here_ == kMaxFrames) return;
     ++frames_here_;
     for (std::size_t i = 0; i < frame.size(); ++i)
         factors_here_[i] += core::power_of_two(-frame[i]);

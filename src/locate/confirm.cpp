@@ -27,25 +27,25 @@ float half_side_px(const ImageView& image) {
     return std::max(static_cast<float>(image.width_px), static_cast<float>(image.height_px)) / 2;
 }
 
-/// Whether the dots measured agree with the expected bits on the whole.
+/// Returns true if most measured dots agree with the expected bits.
 bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options& options,
-                  bool shows_part) {
-    const bool is_full = 4 * bits.seen >= dots.count || shows_part;
-    const auto share_is_wrong = [&](int wrong) {
+                  bool is_partial_view) {
+    const bool is_full = 4 * bits.seen >= dots.count || is_partial_view;
+    const auto exceeds_error_rate = [&](int wrong) {
         return 256 * wrong > bits.read * options.integrity.max_bit_error_q8;
     };
     return bits.read >= options.lattice.min_dots && is_full && 2 * bits.read >= bits.seen &&
-           !share_is_wrong(bits.wrong_x) && !share_is_wrong(bits.wrong_y);
+           !exceeds_error_rate(bits.wrong_x) && !exceeds_error_rate(bits.wrong_y);
 }
 
-/// Whether nearly all dots are clear and hardly a bit is wrong.
+/// Returns true if nearly all dots are clear and hardly any bit is wrong.
 bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
            bits.wrong_x + bits.wrong_y <=
-               std::max(tuned::kMostWrong, bits.read / tuned::kDotsPerWrong);
+               std::max(tuned::kMaxWrong, bits.read / tuned::kDotsPerWrong);
 }
 
-/// Returns the confidence in one axis of which `bits` bits were read, `wrong` of them wrongly.
+/// Returns the confidence of one axis with `bits` bits, `wrong` of them wrong.
 Confidence confidence_in(int bits, int wrong) {
     constexpr int kWeight = 127;
     Confidence confidence;
@@ -62,7 +62,7 @@ bool is_rough(float residual_px, float spacing_px) {
     return residual_px >= std::max(tuned::kRough_px, tuned::kRough * spacing_px);
 }
 
-/// Judges the place by the bits of all dots near the centre: ok, uncertain or rough.
+/// Judges the place from the bits of all dots near the centre: ok, uncertain or rough.
 Confirmation confirm_place(const Kernels& kernels, const Options& options,
                            const Hypothesis& hypothesis, const CellsInView& view,
                            const BitBlock& block, const BitsRead& bits, const PoseFit& fit,
@@ -71,7 +71,7 @@ Confirmation confirm_place(const Kernels& kernels, const Options& options,
     const auto confidences = confidences_in(bits);
     OtherCodes* others = wanted_codes(w);
     const CodedBlock coded(options.profile, hypothesis.place, view, block);
-    if (is_plainly_certain(
+    if (passes_hard_bit_test(
             kernels, {coded.axis(Axis::x, confidences[0]), coded.axis(Axis::y, confidences[1])},
             options.profile, options.integrity, w.fix, others)) {
         return Confirmation::ok;
@@ -86,12 +86,12 @@ Confirmation confirm_place(const Kernels& kernels, const Options& options,
                : Confirmation::uncertain;
 }
 
-/// Writes the dots and the bits read from them into the workspace, for the trace.
+/// Writes the dots and their bits into the workspace, for the trace.
 void show(const Hypothesis& hypothesis, DesktopWorkspace& w) {
     const MeasuredDots& dots = w.measured;
     const auto side = std::min(w.grid.side, kMaxGridSide);
-    Vec least{INT32_MAX, INT32_MAX};
-    Vec most{INT32_MIN, INT32_MIN};
+    Vec first{INT32_MAX, INT32_MAX};
+    Vec last{INT32_MIN, INT32_MIN};
     w.dot_count = 0;
     const auto cell_of = [&](std::size_t k) {
         return Vec{static_cast<std::int32_t>(dots.column[k]),
@@ -101,14 +101,14 @@ void show(const Hypothesis& hypothesis, DesktopWorkspace& w) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
         const Vec cell = cell_of(k);
         if (!is_near(cell) || dots.x[k] >= kNoDot_px) continue;
-        least = {std::min(least.x, cell.x), std::min(least.y, cell.y)};
-        most = {std::max(most.x, cell.x), std::max(most.y, cell.y)};
+        first = {std::min(first.x, cell.x), std::min(first.y, cell.y)};
+        last = {std::max(last.x, cell.x), std::max(last.y, cell.y)};
     }
     Grid& grid = w.grid;
-    grid.i0 = least.x;
-    grid.j0 = least.y;
-    grid.columns = most.x - least.x + 1;
-    grid.rows = most.y - least.y + 1;
+    grid.i0 = first.x;
+    grid.j0 = first.y;
+    grid.columns = last.x - first.x + 1;
+    grid.rows = last.y - first.y + 1;
     std::fill_n(grid.storage.begin(), grid.columns * grid.rows, GridCell{});
     const Vec centre_q8 = w.pattern_from_image.centre_q8;
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
@@ -140,7 +140,7 @@ void show(const Hypothesis& hypothesis, DesktopWorkspace& w) {
     w.grid_from_image = w.pattern_from_image;
 }
 
-/// Fits the plane together with the displacement.
+/// Fits the plane and the displacement.
 bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRead& bits,
                  const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
     if (bits.right == 0) return false;
@@ -151,16 +151,16 @@ bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRea
                      hypothesis.displacement, hypothesis.pattern_from_image, fit);
 }
 
-/// Fits the plane and the displacement once more if the dots' centres are biased alike, or drawn
-/// together. Returns the variance that is left of the bias along u and v, px^2.
+/// Fits the plane and the displacement again after correcting pixel bias and neighbour bias.
+/// Returns the variance of the pixel bias that remains along u and v, px^2.
 FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const CellsInView& view,
                           const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
-    FloatVec left_px2;
-    const bool was_biased = reader.take_bias(view, hypothesis, fit, left_px2);
-    if (!reader.take_pull(hypothesis, fit) && !was_biased) return {};
+    FloatVec remaining_px2;
+    const bool has_pixel_bias = reader.correct_pixel_bias(view, hypothesis, fit, remaining_px2);
+    if (!reader.correct_neighbour_bias(hypothesis, fit) && !has_pixel_bias) return {};
     FloatPlane better = hypothesis.pattern_from_image;
     PoseFit better_fit;
-    // Too few dots may be left without those at the border.
+    // Without the dots at the border, too few may remain.
     if (!fit_plane(kernels, reader.dots(), static_cast<int>(half_side_px(image)) + 1,
                    tuning::fit::kOutlier * fit.variance, fit.displacement, better, better_fit)) {
         return {};
@@ -168,7 +168,7 @@ FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const
     hypothesis.pattern_from_image = better;
     hypothesis.displacement = fit.displacement;
     fit = better_fit;
-    return left_px2;
+    return remaining_px2;
 }
 
 /// Adds a variance of the place in the image, along u and v, to the covariance.
@@ -197,15 +197,15 @@ void write_fix(const ImageView& image, const Options& options, const Hypothesis&
     write_pose(w.pattern_from_image, reference, options.profile, hypothesis.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     if (!(from_q8 == Vec{})) {
-        // The next prediction is made from the fix, and counts from the image centre.
+        // The next prediction is made from the fix and is relative to the image centre.
         w.fix.pattern_from_image =
             fixed_plane(recentred(hypothesis.pattern_from_image, {-from.x, -from.y}), centre_q8);
     }
     w.fix.status = Status::ok;
 }
 
-/// Whether the fitted plane is so far, within reach, from where dots were looked for that quick
-/// bells miss a part of that distance.
+/// Returns true if the fitted plane is so far, within reach, from the places where dots were
+/// measured that the small centroid windows missed part of the distance.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
@@ -219,17 +219,18 @@ bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageVie
     return false;
 }
 
-/// Returns the point whose pose is wanted, in px from the hypothesis's `from_centre`.
+/// Returns the reference point, in px from `from_centre` of the hypothesis.
 FloatVec reference_px(const Options& options, const Hypothesis& hypothesis) {
     return {static_cast<float>(options.reference_dx_q8) / 256 - hypothesis.from_centre.x,
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
 }
 
-/// Distance in px within which dots are read; it grows from round to round.
+/// Distance from the centre, in px, within which dots are read. It grows from round to round.
 struct Reach {
-    float full;      ///< reaches over the whole image
-    float deciding;  ///< bits within it must make the position certain; farther ones add nothing
-    float now;       ///< distance of this round
+    float full;      ///< covers the whole image
+    float deciding;  ///< distance within which bits must make the position certain; farther bits
+                     ///< add nothing
+    float now;       ///< distance of the current round
 
     Reach(const ImageView& image, const Hypothesis& hypothesis, float spacing_px)
         : full(half_side_px(image) +
@@ -237,9 +238,9 @@ struct Reach {
                1),
           deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
           now(deciding) {
-        if (!hypothesis.shows_part) return;
+        if (!hypothesis.is_partial_view) return;
         // The first round is smaller than usual, because the pattern may end anywhere. The deciding
-        // reach is larger, because one island may not make the position certain.
+        // distance is larger, because one island may not make the position certain.
         deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
         now = std::min(full, tuned::kDenseOfPart * spacing_px);
     }
@@ -260,8 +261,24 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane) {
 
 namespace {
 
+/// Corrects biases, tests for uneven paper, and writes the fix.
+Confirmation finish(const Kernels& kernels, const ImageView& image, const Options& options,
+                    const DotReader& reader, const CellsInView& view, const BitsRead& bits,
+                    Hypothesis& hypothesis, PoseFit& fit, DesktopWorkspace& w) {
+    FloatPlane& plane = hypothesis.pattern_from_image;
+    const FloatVec bias_px2 = fit_without_bias(kernels, reader, view, image, hypothesis, fit);
+    fit_uneven(kernels, w.measured, reference_px(options, hypothesis), plane, fit);
+    add_variance(bias_px2, plane, fit);
+    if (!is_plausible(image, plane)) return Confirmation::implausible;
+    if (is_implausible(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
+        return Confirmation::uncertain;
+    write_fix(image, options, hypothesis, bits, fit, w);
+    if (options.show_stages) show(hypothesis, w);
+    return Confirmation::ok;
+}
+
 /// Measures and compares the dots of the hypothesis and fits the pose. An exact hypothesis is
-/// implausible if its bits are not clean, or if kMostLooks looks do not bring it to its dots.
+/// implausible if its bits are not clean, or if kMaxLooks rounds do not bring it to its dots.
 Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
                                  const Options& options, Hypothesis hypothesis,
                                  DesktopWorkspace& w) {
@@ -272,9 +289,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
     OtherCodes* const codes = hypothesis.is_certain ? nullptr : wanted_codes(w);
     DotReader reader(kernels, image, spacing, dots);
     PoseFit fit;
-    BitsRead bits;
     int looks = 0;
-    FloatVec bias_px2;  // Variance of the pixel bias that is left, along u and v.
     for (Reach reach(image, hypothesis, spacing);;) {
         const bool decides = reach.decides();
         if (!is_plausible(image, plane)) return Confirmation::implausible;
@@ -285,9 +300,9 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
         kernels.list_cells(view, dots);
         const bool is_last = reach.now >= reach.full;
         BitBlock block;
-        bits = reader.read(view, hypothesis,
-                           decides || (is_last && codes != nullptr) ? &block : nullptr);
-        if (!is_plausible(bits, dots, options, hypothesis.shows_part))
+        BitsRead bits = reader.read(view, hypothesis,
+                                    decides || (is_last && codes != nullptr) ? &block : nullptr);
+        if (!is_plausible(bits, dots, options, hypothesis.is_partial_view))
             return Confirmation::implausible;
         if (!is_clean(bits)) {
             if (hypothesis.is_exact) return Confirmation::implausible;
@@ -301,7 +316,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
         if (!fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
             return Confirmation::implausible;
         if (hypothesis.is_exact && is_far_from(before, plane, image, reach.now)) {
-            if (++looks == tuned::kMostLooks) return Confirmation::implausible;
+            if (++looks == tuned::kMaxLooks) return Confirmation::implausible;
             continue;
         }
         if (decides && !hypothesis.is_certain) {
@@ -313,27 +328,16 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
             weigh_codes_in_view(kernels, options.profile, hypothesis.place, block,
                                 confidences_in(bits), !decides, w.line_scores, *codes);
         }
-        if (is_last) {
-            bias_px2 = fit_without_bias(kernels, reader, view, image, hypothesis, fit);
-            break;
-        }
+        if (is_last) return finish(kernels, image, options, reader, view, bits, hypothesis, fit, w);
         reach.grow();
     }
-    fit_uneven(kernels, dots, reference_px(options, hypothesis), plane, fit);
-    add_variance(bias_px2, plane, fit);
-    if (!is_plausible(image, plane)) return Confirmation::implausible;
-    if (is_implausible(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
-        return Confirmation::uncertain;
-    write_fix(image, options, hypothesis, bits, fit, w);
-    if (options.show_stages) show(hypothesis, w);
-    return Confirmation::ok;
 }
 
 }  // namespace
 
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
                      Hypothesis hypothesis, DesktopWorkspace& w) {
-    if (hypothesis.is_predicted && suits_one_pass(hypothesis)) {
+    if (hypothesis.is_predicted && can_sample_directly(hypothesis)) {
         OtherCodes* const codes = wanted_codes(w);
         const OtherCodes before = codes != nullptr ? *codes : OtherCodes{};
         hypothesis.is_exact = true;
@@ -341,8 +345,7 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
             return Confirmation::ok;
         hypothesis.is_exact = false;
         if (codes != nullptr)
-            *codes = before;  // A look that did not count gives no evidence about
-                              // other codes.
+            *codes = before;  // a rejected attempt gives no evidence about other codes
     }
     return measure_and_compare(kernels, image, options, hypothesis, w);
 }

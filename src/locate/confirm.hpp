@@ -1,5 +1,5 @@
-// Confirm: shared by the attempts of desktops. Given where the pattern is thought to be, it
-// measures the dots there, compares their bits with the code, and fits the pose.
+// Confirm: the common part of the first and the tracked attempt. Given a hypothesis, measures its
+// dots, compares their bits with the code, and fits the pose.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -11,19 +11,20 @@
 
 namespace dotpose::core {
 
-/// Whether the grid may lie so in an image; the following steps rely on it.
+/// Returns true if a grid in an image may have this plane. The following steps rely on it.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
 /// Result of `confirm`.
 enum class Confirmation : std::uint8_t {
     ok,
-    implausible,  ///< the dots are not where they were expected
-    uncertain,    ///< they are, but their bits leave doubts
-    rough,        ///< they are, but far from their fitted places: see Hypothesis::defers_if_rough
+    implausible,  ///< the dots are not at their expected places
+    uncertain,    ///< the dots are there, but their bits leave doubts
+    rough,        ///< the dots are there, but far from their fitted places: see
+                  ///< Hypothesis::defers_if_rough
 };
 
-/// Measures, compares and fits; a predicted hypothesis gets one look at each dot if that is enough.
-/// Sets the workspace's fix and, if asked for, its trace.
+/// Measures, compares and fits. If the hypothesis is predicted, each dot is sampled directly first,
+/// where that is possible. Sets the fix of the workspace and, if requested, its trace.
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
                      Hypothesis hypothesis, DesktopWorkspace& w);
 

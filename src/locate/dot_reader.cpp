@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::confirm;
 
-/// Asks for the pixels in view before the first dot needs them: an image that a camera has written
-/// is in no cache, and dots are read in an order that no processor foresees.
+/// Prefetches the pixels in view: a new camera image is in no cache, and the order in which dots
+/// are read defeats hardware prefetching.
 void fetch_pixels(const ImageView& image, const CellsInView& view) {
     constexpr std::ptrdiff_t kLine_bytes = 64;
     const auto range = [&](float centre, int size_px) {
@@ -26,7 +26,7 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
     const auto [left, right] = range(view.centre_x, image.width_px);
     const auto [top, bottom] = range(view.centre_y, image.height_px);
     const std::ptrdiff_t bytes = (right - left) * (bottom - top);
-    if (bytes < tuned::kFewestFetched_bytes || bytes > tuned::kMostFetched_bytes) return;
+    if (bytes < tuned::kMinFetched_bytes || bytes > tuned::kMaxFetched_bytes) return;
     for (std::ptrdiff_t v = top; v < bottom; ++v) {
         const std::uint8_t* row = image.row(static_cast<int>(v));
         for (std::ptrdiff_t u = left; u < right; u += kLine_bytes)
@@ -34,9 +34,9 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
     }
 }
 
-/// Drops windows that are much darker than paper, because they show the table beyond the sheet,
-/// where noise is as dark as dots. `paper` is the mean level around dots, once it is known.
-void leave_out_table(MeasuredDots& dots, float& paper) {
+/// Drops windows that are much darker than paper: they show the table beyond the sheet, where noise
+/// is as dark as dots. `paper` is the mean level around dots and is set by the first call.
+void drop_table(MeasuredDots& dots, float& paper) {
     float sum = 0;
     float count = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
@@ -56,20 +56,21 @@ float dot_radius_px(const Hypothesis& hypothesis) {
     return std::sqrt(hypothesis.typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
 }
 
-/// Returns the reach in px of the bell that weights the pixels of a dot: small, against noise, but
-/// as far as the edge of a dot is seen.
-float bell_reach_px(const Hypothesis& hypothesis) {
-    const bool is_quick = spacing_px(hypothesis.pattern_from_image) < tuned::kQuickBells_px;
-    return std::clamp(tuned::kBellRadii * dot_radius_px(hypothesis), tuned::kLeastBell_px,
-                      is_quick ? kQuickBellReach_px : kMostBellReach_px);
+/// Returns the radius of the centroid window, in px. Small enough to limit noise, large enough to
+/// include the edge of the dot.
+float window_radius_px(const Hypothesis& hypothesis) {
+    const bool is_fine =
+        spacing_px(hypothesis.pattern_from_image) < tuned::kMaxSpacingForSmallWindow_px;
+    return std::clamp(tuned::kWindowRadii * dot_radius_px(hypothesis), tuned::kMinWindowRadius_px,
+                      is_fine ? kSmallCentroidRadius_px : kMaxCentroidRadius_px);
 }
 
-/// Whether dots fall on the pixels alike because a step of the grid is a whole number of pixels, to
-/// `most_off_px`, along u and along v.
-bool falls_on_pixels_alike(const FloatPlane& p, float most_off_px) {
+/// Returns true if all dots have the same sub-pixel phase: a step of the grid, along u and along v,
+/// differs from a whole number of pixels by less than `max_off_px`.
+bool has_common_phase(const FloatPlane& p, float max_off_px) {
     const float by = 1 / (p.du_x * p.dv_y - p.dv_x * p.du_y);
     const auto is_whole = [&](float px) {
-        return std::abs(px - std::floor(px + 0.5F)) < most_off_px;
+        return std::abs(px - std::floor(px + 0.5F)) < max_off_px;
     };
     return (is_whole(by * p.dv_y) && is_whole(by * p.dv_x)) ||
            (is_whole(by * p.du_y) && is_whole(by * p.du_x));
@@ -77,16 +78,17 @@ bool falls_on_pixels_alike(const FloatPlane& p, float most_off_px) {
 
 }  // namespace
 
-bool suits_one_pass(const Hypothesis& hypothesis) {
+bool can_sample_directly(const Hypothesis& hypothesis) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
-    return spacing >= tuned::kFinestOnePass_px && spacing < tuned::kQuickBells_px &&
-           !falls_on_pixels_alike(hypothesis.pattern_from_image, tuned::kDrift_px);
+    return spacing >= tuned::kMinSpacingForDirectSampling_px &&
+           spacing < tuned::kMaxSpacingForSmallWindow_px &&
+           !has_common_phase(hypothesis.pattern_from_image, tuned::kDrift_px);
 }
 
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
-    if (variance_px2 > tuned::kMostVariance_px2) return false;
+    if (variance_px2 > tuned::kMaxVariance_px2) return false;
     const float drift_px = tuned::kDriftInView_px * spacing_px(plane) / static_cast<float>(side_px);
-    return falls_on_pixels_alike(plane, drift_px);  // in a step of the grid
+    return has_common_phase(plane, drift_px);  // per step of the grid
 }
 
 WindowOptions DotReader::window_options(const Hypothesis& hypothesis) const {
@@ -100,10 +102,11 @@ BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlo
     if (hypothesis.is_exact)
         return kernels_.read_levels(image_, view, hypothesis.depth_q8, dots_, columns, rows);
     WindowOptions window = window_options(hypothesis);
-    // Away from the centre most windows may be empty, so their own typical mass is not used.
-    if (hypothesis.shows_part) window.typical_mass = typical_mass_;
+    // Away from the centre most windows may be empty, so the typical mass is that of the first
+    // call.
+    if (hypothesis.is_partial_view) window.typical_mass = typical_mass_;
     typical_mass_ = hypothesis.typical_mass = kernels_.measure_windows(image_, view, window, dots_);
-    if (hypothesis.shows_part) leave_out_table(dots_, paper_);
+    if (hypothesis.is_partial_view) drop_table(dots_, paper_);
     return kernels_.read_bits(dots_, hypothesis.pattern_from_image, hypothesis.displacement,
                               columns, rows);
 }
@@ -118,13 +121,12 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
                              BitsRead& bits) const {
     if (hypothesis.is_exact) {
         bits.right = 0;
-        const DotOffsets found = kernels_.find_centres(image_, view, tuned::kMostOff_px, 0, dots_);
-        if (found.points < tuned::kFewestFound) return;
+        const DotOffsets found = kernels_.find_centres(image_, view, tuned::kMaxOff_px, 0, dots_);
+        if (found.points < tuned::kMinFound) return;
         FloatPlane& plane = hypothesis.pattern_from_image;
         const auto points = static_cast<float>(found.points);
         bits.right = found.points;
-        // A dot farther out along its displacement: offsets through the plane, which turns px to
-        // spacings.
+        // The offsets through the plane, which converts px to spacings, change the displacement.
         bits.projected = points * hypothesis.displacement + plane.du_x * found.of_x[0] +
                          plane.dv_x * found.of_x[1] + plane.du_y * found.of_y[0] +
                          plane.dv_y * found.of_y[1];
@@ -133,13 +135,13 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
             motion.squares_px2 * std::abs(plane.du_x * plane.dv_y - plane.dv_x * plane.du_y);
         plane = moved(plane, motion);
     } else if (is_last) {
-        kernels_.refine_centres(image_, view, bell_reach_px(hypothesis), dots_);
+        kernels_.refine_centres(image_, view, window_radius_px(hypothesis), dots_);
     }
 }
 
-bool DotReader::take_bias(const CellsInView& view, const Hypothesis& hypothesis, const PoseFit& fit,
-                          FloatVec& left_px2) const {
-    // Where a lens bends the grid, or one look is enough, dots fall on the pixels in many ways.
+bool DotReader::correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
+                                   const PoseFit& fit, FloatVec& remaining_px2) const {
+    // With lens distortion or after direct sampling, the dots have many phases.
     if (hypothesis.is_exact || view.lens.k != 0) return false;
     const float variance_px2 =
         fit.variance * spacing_px_ * spacing_px_ / static_cast<float>(fit.dots);
@@ -147,18 +149,19 @@ bool DotReader::take_bias(const CellsInView& view, const Hypothesis& hypothesis,
                        std::max(image_.width_px, image_.height_px))) {
         return false;
     }
-    const Bells bells{
-        bell_reach_px(hypothesis), dot_radius_px(hypothesis), {view.centre_x, view.centre_y}};
-    put_bells_on_centres(image_, bells, dots_);
-    kernels_.refine_centres(image_, view, bells.reach_px, dots_);
-    left_px2 = take_pixel_bias(image_, bells, hypothesis.pattern_from_image, fit, dots_);
+    const CentroidWindow window{
+        window_radius_px(hypothesis), dot_radius_px(hypothesis), {view.centre_x, view.centre_y}};
+    recentre_windows(image_, window, dots_);
+    kernels_.refine_centres(image_, view, window.radius_px, dots_);
+    remaining_px2 =
+        core::correct_pixel_bias(image_, window, hypothesis.pattern_from_image, fit, dots_);
     return true;
 }
 
-bool DotReader::take_pull(const Hypothesis& hypothesis, const PoseFit& fit) const {
+bool DotReader::correct_neighbour_bias(const Hypothesis& hypothesis, const PoseFit& fit) const {
     const float between_px = spacing_px_ * (1 - 2 * fit.displacement);
-    return !hypothesis.is_exact && bell_reach_px(hypothesis) > tuned::kFacing * between_px &&
-           core::take_pull(hypothesis.pattern_from_image, fit, dots_);
+    return !hypothesis.is_exact && window_radius_px(hypothesis) > tuned::kFacing * between_px &&
+           core::correct_neighbour_bias(hypothesis.pattern_from_image, fit, dots_);
 }
 
 }  // namespace dotpose::core

@@ -20,8 +20,8 @@ namespace tuned = tuning::first;
 constexpr int kPatchWidth_px = tuned::kPatchWidth_px;
 constexpr int kPatchHeight_px = tuned::kPatchHeight_px;
 
-/// Moves dots to where a camera without distortion would see them.
-void straighten(const Lens& lens, FloatVec middle, PatchDots& dots) {
+/// Moves dots to their places in a camera without distortion.
+void undistort(const Lens& lens, FloatVec middle, PatchDots& dots) {
     const FloatLens l = float_lens(lens);
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
         const float x = dots.x[i] + middle.x - l.centre_x;
@@ -39,7 +39,7 @@ FloatVec middle_of(const Patch& patch, const ImageView& image) {
 }
 
 /// Finds the dots of the patch. Returns false if it has no contrast. Sets the status of a frame
-/// whose patches show no grid.
+/// whose patches have no grid.
 bool find_patch_dots(const Kernels& kernels, const ImageView& image, const Options& options,
                      DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -54,7 +54,7 @@ bool find_patch_dots(const Kernels& kernels, const ImageView& image, const Optio
     return true;
 }
 
-/// Finds a place in the code from the dots of a patch, counted from `from_centre`. Returns false if
+/// Finds a place in the code from the dots of a patch, relative to `from_centre`. Returns false if
 /// there is none.
 bool read_hypothesis(const Kernels& kernels, const Options& options, const PatchView& view,
                      FloatVec from_centre, DesktopWorkspace& w, Hypothesis& hypothesis) {
@@ -78,9 +78,9 @@ bool read_hypothesis(const Kernels& kernels, const Options& options, const Patch
     return true;
 }
 
-/// Looks for the code as a mirror shows it, in the dots of a patch around the image centre. It
-/// counts only if lines in a row have no wrong bit. The dots are left mirrored.
-void look_for_mirror_image(const Kernels& kernels, const Options& options, DesktopWorkspace& w) {
+/// Searches for the mirrored code in the dots of a patch around the image centre. It counts only if
+/// adjacent lines have no wrong bit. The dots remain mirrored.
+void find_mirror_image(const Kernels& kernels, const Options& options, DesktopWorkspace& w) {
     if (w.is_mirrored) return;
     Patch& patch = *w.patch;
     for (std::size_t i = 0; i < static_cast<std::size_t>(patch.dots.count); ++i)
@@ -95,31 +95,32 @@ void look_for_mirror_image(const Kernels& kernels, const Options& options, Deskt
         find_place_exactly(options.profile, turned(likeliest_turn(kernels, block), block), place);
 }
 
-/// Whether one look at each dot may be enough: where the patch shows the whole image, the grid
-/// predicts all dots to a fraction of a pixel, as it has been fitted to them.
-bool may_need_one_look(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
+/// Returns true if the grid of the patch predicts all dots of the image to a fraction of a pixel,
+/// because it was fitted to them: the patch is the whole image.
+bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px &&
-           spacing_px(plane) >= tuned::kFinestOneLook_px;
+           spacing_px(plane) >= tuned::kMinSpacingForPrediction_px;
 }
 
-/// Finds a hypothesis in the patch at the image centre. Returns false if it shows no place in the
+/// Finds a hypothesis in the patch at the image centre. Returns false if it has no place in the
 /// code.
 bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Options& options,
                      DesktopWorkspace& w, Hypothesis& hypothesis) {
     Patch& patch = *w.patch;
     if (!find_patch_dots(kernels, image, options, w)) return false;
     const FloatVec middle = middle_of(patch, image);
-    if (options.lens.k_q40 != 0) straighten(options.lens, middle, patch.dots);
+    if (options.lens.k_q40 != 0) undistort(options.lens, middle, patch.dots);
     if (!read_hypothesis(kernels, options, whole_view(patch), middle, w, hypothesis)) return false;
     hypothesis.pattern_from_image =
         recentred(hypothesis.pattern_from_image, {-middle.x, -middle.y});
     hypothesis.from_centre = {};
-    hypothesis.is_predicted = may_need_one_look(image, patch, hypothesis.pattern_from_image);
+    hypothesis.is_predicted = predicts_dots(image, patch, hypothesis.pattern_from_image);
     return true;
 }
 
-/// Finds a hypothesis in a patch around a point of the image, in px, counted from where its dots
-/// are densest, which is returned in `densest_px`. Returns false if it shows no place in the code.
+/// Finds a hypothesis in a patch around a point of the image, in px. Its origin is the point where
+/// the dots are densest, which is returned in `densest_px`. Returns false if the patch has no place
+/// in the code.
 bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, const Options& options,
                             Vec around_px, int scale, DesktopWorkspace& w, Vec& densest_px,
                             Hypothesis& hypothesis) {
@@ -137,8 +138,8 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, cons
                   static_cast<std::int32_t>(middle_v_px(patch) + from_middle.y)};
     const FloatVec middle = middle_of(patch, image);
     const FloatVec from_centre{middle.x + from_middle.x, middle.y + from_middle.y};
-    if (options.lens.k_q40 != 0) straighten(options.lens, from_centre, patch.dots);
-    hypothesis.shows_part = true;
+    if (options.lens.k_q40 != 0) undistort(options.lens, from_centre, patch.dots);
+    hypothesis.is_partial_view = true;
     for (const float central_dots : tuned::kCentralDots) {
         for (const float by : tuned::kSpacings) {
             const PatchView other{by * view.spacing_px, view.full_reach_px, central_dots};
@@ -148,14 +149,14 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, cons
     return false;
 }
 
-/// Whether no other hypothesis is looked for.
+/// Returns true if no other hypothesis is tried.
 bool is_last(Confirmation confirmation) {
     return confirmation == Confirmation::ok || confirmation == Confirmation::rough;
 }
 
-/// Searches a patch around a point of the image, and once more around the point where its dots are
-/// densest, if that lies elsewhere. Every hypothesis whose bits contradict it is one more chance of
-/// a wrong fix; `tries_left` counts how many more are allowed.
+/// Searches a patch around a point of the image, and then, if it is elsewhere, the patch around the
+/// point where its dots are densest. Every hypothesis whose bits contradict it is one more chance
+/// of a wrong fix; `tries_left` is the number of tries that remain.
 Confirmation locate_around(const Kernels& kernels, const ImageView& image, const Options& options,
                            Vec around_px, int scale, int& tries_left, DesktopWorkspace& w) {
     for (int round = 0; round < 2 && tries_left > 0; ++round) {
@@ -177,10 +178,10 @@ Confirmation locate_around(const Kernels& kernels, const ImageView& image, const
     return Confirmation::implausible;
 }
 
-/// Searches the whole image for dots, in patches that grow.
+/// Searches the whole image in patches, which grow from round to round.
 Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
                               const Options& options, DesktopWorkspace& w) {
-    int tries_left = tuned::kMostTries;
+    int tries_left = tuned::kMaxTries;
     for (const int scale : {1, 2, 4}) {
         const int width = kPatchWidth_px * scale;
         const int height = kPatchHeight_px * scale;
@@ -192,7 +193,7 @@ Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
             }
         }
     }
-    return tries_left < tuned::kMostTries ? Confirmation::uncertain : Confirmation::implausible;
+    return tries_left < tuned::kMaxTries ? Confirmation::uncertain : Confirmation::implausible;
 }
 
 /// Searches patches around the image centre, which grow, and then the whole image.
@@ -210,7 +211,7 @@ Confirmation locate_outwards(const Kernels& kernels, const ImageView& image, con
             confirmation = confirm(kernels, image, options, hypothesis, w);
             if (is_last(confirmation)) return confirmation;
         }
-        look_for_mirror_image(kernels, options, w);
+        find_mirror_image(kernels, options, w);
         if (confirmation == Confirmation::uncertain) break;
     }
     return locate_elsewhere(kernels, image, options, w);

@@ -1,4 +1,4 @@
-// The first attempt of a desktop: locates an image without a prediction, outwards from a patch.
+// First: the first attempt. Locates an image without a prediction, outwards from a patch.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -8,9 +8,9 @@
 
 namespace dotpose::core {
 
-/// Finds the grid in a part of the image, and then measures the dots of the whole image. Returns
-/// true if there is a fix; the workspace has it. Otherwise the workspace's status is no_contrast,
-/// too_few_dots, no_grid or, if the bits of the dots leave doubts, not_certain.
+/// Finds the grid in a part of the image, then measures the dots of the whole image. Returns true
+/// if there is a fix, which is in the workspace. Otherwise the status in the workspace is
+/// no_contrast, too_few_dots, no_grid or, if the bits leave doubts, not_certain.
 bool locate_first(const Kernels& kernels, const ImageView& image, const Options& options,
                   DesktopWorkspace& w);
 

@@ -18,7 +18,7 @@ bool is_implausible(const PoseFit& fit, int bits, int bit_errors) {
     if (fit.displacement <= 0) return true;
     const float scatter = std::sqrt(fit.variance) / fit.displacement;
     const float contradicted = static_cast<float>(bit_errors) / static_cast<float>(bits);
-    return scatter + contradicted > tuning::confirm::kMostImplausible;
+    return scatter + contradicted > tuning::confirm::kMaxImplausible;
 }
 
 bool fit_pattern(const Options& options, const ImageView& image, DesktopWorkspace& w,
@@ -28,7 +28,7 @@ bool fit_pattern(const Options& options, const ImageView& image, DesktopWorkspac
         upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
     w.dot_count = measure_dots(image, options.lens, w.pattern_from_image, nominal, w.grid, w.dots);
     undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));
-    w.seed_count = 0;  // The seeds belonged to the dots before.
+    w.seed_count = 0;  // the seeds refer to the previous dots
     const Observations observations(w.found_dots(), w.grid, nominal, &w.smoothing.paper);
     return refine_pose(observations, w.pattern_from_image, fit);
 }

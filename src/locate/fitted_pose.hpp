@@ -1,4 +1,4 @@
-// Fitted pose: the pose of the attempts in floating point, fitted to all dots in view.
+// Fitted pose: the pose of the second attempt, fitted to all dots in view.
 #pragma once
 
 #include "core/pose/refine_pose.hpp"
@@ -8,15 +8,15 @@
 
 namespace dotpose::core {
 
-/// Whether the position explains the frame badly: dots off their places, and contradicting bits.
-/// Two patterns that overlap nearly in line can pass for a third one, which has the columns of the
-/// one and the rows of the other: a quarter of its cells show no dot at the expected place, half of
-/// the dots lie beside theirs, and so the typical displacement is too small. docs/integrity.md has
+/// Returns true if the position explains the frame badly: large residuals and contradicting bits.
+/// Two patterns that overlap nearly in line can pass for a third one, with the columns of the first
+/// and the rows of the second. A quarter of its cells then have no dot at the expected place, half
+/// of the dots are beside theirs, and the typical displacement is too small. docs/integrity.md has
 /// the numbers.
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
-/// Measures the dots of the position found, and fits the map from the image to the pattern to them.
-/// Returns false if the dots do not determine the map.
+/// Measures the dots of the position and fits the map from the image to the pattern. Returns false
+/// if the dots do not determine the map.
 bool fit_pattern(const Options& options, const ImageView& image, DesktopWorkspace& w, PoseFit& fit);
 
 /// Fits the map as `fit_pattern` does, and writes the pose. Errors: no_grid, not_certain.

@@ -13,16 +13,17 @@ struct Extent {
     int count = 0;
 };
 
-/// Returns the whole numbers from `least` to `most`: at most `room` of them, those around 0.
-Extent extent(float least, float most, int room) {
+/// Returns the integers from `min` to `max`, or the `room` of them around 0.
+Extent extent(float min, float max, int room) {
     const int half = room / 2;
-    const int first = std::max(static_cast<int>(std::floor(std::max(least, -4096.0F))) - 1, -half);
+    const int first = std::max(static_cast<int>(std::floor(std::max(min, -4096.0F))) - 1, -half);
     const int last =
-        std::min(static_cast<int>(std::ceil(std::min(most, 4096.0F))) + 1, room - half - 1);
+        std::min(static_cast<int>(std::ceil(std::min(max, 4096.0F))) + 1, room - half - 1);
     return {first, std::max(last - first + 1, 0)};
 }
 
-/// Fills the workspace's rolls with those of the code along the lines of a view, which gets them.
+/// Fills the rolls in the workspace with those of the code along the lines of a view, and links the
+/// view to them.
 void follow_code(Profile profile, const Place& place, CellsInView& view, DesktopWorkspace& w) {
     const Place corner = moved(profile, place, view.first_column, view.first_row);
     const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,
@@ -50,7 +51,7 @@ FloatLens float_lens(const Lens& lens) {
 }
 
 CellsInView cells_in_view(const ImageView& image, const Options& options,
-                          const Hypothesis& hypothesis, float reach_px, int most_cells,
+                          const Hypothesis& hypothesis, float reach_px, int max_cells,
                           DesktopWorkspace& w) {
     const FloatVec centre = centre_px(image);
     CellsInView view;
@@ -64,29 +65,29 @@ CellsInView cells_in_view(const ImageView& image, const Options& options,
     view.height_px = static_cast<float>(image.height_px);
     view.reach_px = reach_px;
     view.displacement = hypothesis.displacement;
-    // A dot that touches the border of the image is not seen completely.
+    // A dot that touches the border of the image is not complete.
     view.margin_px = std::max(1.7F, 0.15F * spacing_px(hypothesis.pattern_from_image));
     const float half_width = std::min(centre.x + std::abs(hypothesis.from_centre.x) + 1, reach_px);
     const float half_height = std::min(centre.y + std::abs(hypothesis.from_centre.y) + 1, reach_px);
-    float least_x = 0, least_y = 0, most_x = 0, most_y = 0;
+    float min_x = 0, min_y = 0, max_x = 0, max_y = 0;
     for (const FloatVec corner :
          {FloatVec{-half_width, -half_height}, FloatVec{half_width, -half_height},
           FloatVec{-half_width, half_height}, FloatVec{half_width, half_height}}) {
         const FloatVec at = plane_point(view.plane, corner);
-        least_x = std::min(least_x, at.x);
-        least_y = std::min(least_y, at.y);
-        most_x = std::max(most_x, at.x);
-        most_y = std::max(most_y, at.y);
+        min_x = std::min(min_x, at.x);
+        min_y = std::min(min_y, at.y);
+        max_x = std::max(max_x, at.x);
+        max_y = std::max(max_y, at.y);
     }
-    const Extent columns = extent(least_x, most_x, static_cast<int>(w.column_rolls.size()));
-    const Extent rows = extent(least_y, most_y, static_cast<int>(w.row_rolls.size()));
+    const Extent columns = extent(min_x, max_x, static_cast<int>(w.column_rolls.size()));
+    const Extent rows = extent(min_y, max_y, static_cast<int>(w.row_rolls.size()));
     view.first_column = columns.first;
     view.columns = columns.count;
     view.first_row = rows.first;
     view.rows = rows.count;
     const float spacing = spacing_px(view.plane);
     const float cells = 4 * half_width * half_height / (spacing * spacing);
-    view.step = 1 + static_cast<int>(std::min(cells / static_cast<float>(most_cells), 65535.0F));
+    view.step = 1 + static_cast<int>(std::min(cells / static_cast<float>(max_cells), 65535.0F));
     follow_code(options.profile, hypothesis.place, view, w);
     return view;
 }
@@ -103,11 +104,11 @@ void count_from_centre(Profile profile, Hypothesis& hypothesis) {
 
 Similarity similarity_of(const DotOffsets& found) {
     // Offset = shift + turn * place, as complex numbers: least squares in closed form.
-    const float share = 1 / static_cast<float>(found.points);
-    const float u = found.u * share;  // the mean place
-    const float v = found.v * share;
+    const float fraction = 1 / static_cast<float>(found.points);
+    const float u = found.u * fraction;  // mean place
+    const float v = found.v * fraction;
     const float spread = found.squares - static_cast<float>(found.points) * (u * u + v * v);
-    Similarity fit{{found.off_u * share, found.off_v * share}, 0, 0, 0};
+    Similarity fit{{found.off_u * fraction, found.off_v * fraction}, 0, 0, 0};
     const float squares_of_shift = found.off_u * fit.shift_px.x + found.off_v * fit.shift_px.y;
     float explained = 0;
     if (spread > 0) {

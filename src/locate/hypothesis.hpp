@@ -1,5 +1,5 @@
-// Hypothesis: where the attempts of desktops think that the pattern is, and which of its cells they
-// look at there.
+// Hypothesis: a plane and a place in the code that an attempt tries, and the cells that it has in
+// view.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -10,29 +10,30 @@
 
 namespace dotpose::core {
 
-/// A hypothesis of where the pattern is in the image.
+/// A plane and a place that an attempt tries before the bits confirm them.
 struct Hypothesis {
-    FloatPlane pattern_from_image;  ///< upright, px counted from `from_centre`
-    FloatVec from_centre;           ///< px from the image centre
+    FloatPlane pattern_from_image;  ///< upright pattern; px relative to `from_centre`
+    FloatVec from_centre;           ///< origin of the plane, px from the image centre
     Place place;                    ///< place of the plane's cell (0, 0)
-    float displacement = 0;         ///< of a typical dot, spacings
-    bool is_certain = false;        ///< whether the place needs no confirmation
-    bool is_predicted = false;      ///< whether one look at each dot may be enough
-    /// Whether each dot is known to lie nearer to its predicted place than to another place of its
-    /// cell.
+    float displacement = 0;         ///< distance of a typical dot from its intersection, spacings
+    bool is_certain = false;        ///< true if the place needs no confirmation
+    bool is_predicted = false;  ///< true if the plane predicts each dot to a fraction of a pixel
+    /// True if each dot is closer to its predicted place than to another place of its cell, so that
+    /// it is sampled directly.
     bool is_exact = false;
-    bool shows_part = false;  ///< whether the pattern may cover only a part of the image, around
-                              ///< `from_centre`
-    /// True if doubts about a rough frame are left to the second attempt, which reads its bits
-    /// better and in less time than it takes to count the alternatives closely.
+    bool is_partial_view =
+        false;  ///< true if the pattern may cover only a part of the image, around `from_centre`
+    /// True if doubts about a rough frame are left to the second attempt. It reads the bits better,
+    /// in less time than counting the alternatives takes.
     bool defers_if_rough = false;
-    int depth_q8 = 0;  ///< darkness of a typical dot against paper in the smoothed patch, in 1/256
-    float typical_mass = 0;  ///< sum of a dot's darkness beyond the cut, relative to the paper's
-                             ///< level; 0: not known yet
+    int depth_q8 =
+        0;  ///< contrast of a typical dot in the smoothed patch, in 1/256 of the paper level
+    float typical_mass = 0;  ///< sum of the darkness of a dot below the threshold, relative to the
+                             ///< paper level; 0 if not known yet
 };
 
-/// Windows count the pixels that are darker than the paper by more than this share, in 1/256, of a
-/// typical dot's darkness.
+/// Threshold of windows, in 1/256 of the contrast of a typical dot: pixels that are darker than the
+/// paper by more belong to the dot.
 inline constexpr int kCutOfDepth_q8 = 160;
 
 /// Returns the centre of an image, px from its first pixel.
@@ -40,27 +41,27 @@ FloatVec centre_px(const ImageView& image);
 
 FloatLens float_lens(const Lens& lens);
 
-/// Returns the input of `list_cells`: the cells in view within `reach_px` of the hypothesis's
-/// point, thinned to about `most_cells`. Fills the workspace's rolls.
+/// Returns the input of `list_cells`: the cells in view within `reach_px` of `from_centre`,
+/// subsampled to about `max_cells`. Fills the rolls in the workspace.
 CellsInView cells_in_view(const ImageView& image, const Options& options,
-                          const Hypothesis& hypothesis, float reach_px, int most_cells,
+                          const Hypothesis& hypothesis, float reach_px, int max_cells,
                           DesktopWorkspace& w);
 
-/// Counts the cells of the hypothesis from the one nearest its point.
+/// Moves the origin of the cells to the one nearest `from_centre`.
 void count_from_centre(Profile profile, Hypothesis& hypothesis);
 
-/// The shift, scale and turn that take predicted dots to where they were found, by least squares.
+/// Least-squares shift, scale and turn from the predicted dots to the measured ones.
 struct Similarity {
     FloatVec shift_px;
-    float scale = 0;  ///< less 1
+    float scale = 0;  ///< scale minus 1
     float turn_rad = 0;
-    float squares_px2 = 0;  ///< sum of the squared offsets that are left
+    float squares_px2 = 0;  ///< sum of the squared offsets that remain
 };
 
 /// Fits a similarity to the offsets of two dots or more.
 Similarity similarity_of(const DotOffsets& found);
 
-/// Moves, scales and turns a plane to where the dots were found.
+/// Moves, scales and turns a plane by a similarity.
 FloatPlane moved(const FloatPlane& plane, const Similarity& by);
 
 }  // namespace dotpose::core

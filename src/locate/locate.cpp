@@ -33,11 +33,11 @@ namespace {
 
 namespace tuned = tuning::cascade;
 
-/// What is tried. `resampled` is the second attempt that also samples doubtful bits again, which
-/// takes three times as long.
+/// Attempts. `resampled` is the second attempt that also samples doubtful bits again, which takes
+/// three times as long.
 enum class Step : std::uint8_t { tracked, first, second, resampled, device };
 
-/// Returns true if the dots lie on a grid but this code does not read them, so that another may.
+/// Returns true if the dots are on a grid that this code cannot read. Another code may read it.
 bool leaves_code_open(Status status) {
     return status == Status::not_in_code || status == Status::ambiguous ||
            status == Status::not_certain;
@@ -55,7 +55,7 @@ class Cascade {
           w_(w),
           second_(image, w) {}
 
-    /// Returns the fix; the workspace matches it.
+    /// Returns the fix. The workspace matches it.
     CodeReading locate(const Prediction* prediction) {
         if (options_.effort == Effort::device) return make({Step::device});
         prediction_ = prediction;
@@ -65,7 +65,7 @@ class Cascade {
             if (judgement.is_certain) return accept(predicted, judgement);
         }
         CodeReading reading = locate_afresh();
-        if (leaves_code_open(reading.fix.status)) learn_of_another_sheet(reading);
+        if (leaves_code_open(reading.fix.status)) add_evidence_of_another_sheet(reading);
         return reading;
     }
 
@@ -107,11 +107,11 @@ class Cascade {
     /// Returns the codes in which a step is tried.
     std::span<const Profile> worth_trying(Step step) const {
         if (step == Step::resampled && !codes_.is_known())
-            return {&worth_resampling_, fewest_errors_ == kMaxErrors ? 0U : 1U};
+            return {&worth_resampling_, min_errors_ == kMaxErrors ? 0U : 1U};
         return codes_.in_order();
     }
 
-    /// Makes one step in one code. Returns true if there is a fix; the workspace has it, with the
+    /// Makes one step in one code. Returns true if there is a fix; the workspace has it and the
     /// odds of other codes.
     bool attempt(Step step, Profile code) {
         options_.profile = code;
@@ -136,8 +136,8 @@ class Cascade {
 
     bool attempt_second(Profile code) {
         if (second_.read(options_, SecondAttempt::Resampling::never)) return true;
-        if (w_.fix.status == Status::not_certain && w_.fix.bit_errors < fewest_errors_) {
-            fewest_errors_ = w_.fix.bit_errors;
+        if (w_.fix.status == Status::not_certain && w_.fix.bit_errors < min_errors_) {
+            min_errors_ = w_.fix.bit_errors;
             worth_resampling_ = code;
         }
         return false;
@@ -154,8 +154,8 @@ class Cascade {
         return codes_.judge(read, w_.other_codes, w_.fix, options_.integrity.max_p_wrong_log2);
     }
 
-    /// Returns the certain fix or a better one: of a code that explains the same place better, or
-    /// of the second attempt.
+    /// Returns the certain fix, or a better one: in a code that explains the same place better, or
+    /// by the second attempt.
     CodeReading best_of(Step step, Profile code, Judgement judgement) {
         const auto remake = [&](Step other_step, Profile other) {
             if (!attempt(other_step, other)) return false;
@@ -192,7 +192,7 @@ class Cascade {
 
     /// Adds evidence from a frame of another sheet. The evidence for one code can be so strong that
     /// no frame of another code is certain; such a frame must still be able to overturn it.
-    void learn_of_another_sheet(CodeReading& reading) {
+    void add_evidence_of_another_sheet(CodeReading& reading) {
         if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
         const PossibleCodes before = codes_;
         codes_ = PossibleCodes(CodeEvidence{});
@@ -216,8 +216,8 @@ class Cascade {
     DesktopWorkspace& w_;
     const Prediction* prediction_ = nullptr;
     SecondAttempt second_;
-    Profile worth_resampling_ = Profile::anoto;  ///< code with `fewest_errors_` bit errors
-    int fewest_errors_ = kMaxErrors;
+    Profile worth_resampling_ = Profile::anoto;  ///< code with `min_errors_` bit errors
+    int min_errors_ = kMaxErrors;
 };
 
 /// Locates a frame whose arguments were checked.
@@ -226,8 +226,7 @@ CodeReading locate_checked(const ImageView& image, const Options& options,
                            const CodeEvidence& evidence, DesktopWorkspace& w) {
     w.is_mirrored = false;
     CodeReading reading = Cascade(image, options, codes, evidence, w).locate(prediction);
-    // An attempt may have seen the code as in a mirror, and those after it failed for other
-    // reasons.
+    // An attempt may have found the mirrored code; later attempts then failed for other reasons.
     if (reading.fix.status != Status::ok && w.is_mirrored)
         reading.fix.status = w.fix.status = Status::mirrored;
     Options read = options;
@@ -241,8 +240,8 @@ CodeReading locate_checked(const ImageView& image, const Options& options,
     return reading;
 }
 
-/// Notes a place in another code that explains the frame without a contradiction, apart from
-/// misread bits.
+/// Sets a place in another code that explains the frame without a contradiction, apart from misread
+/// bits.
 void note_other_reading(const CodeReading& any, CodeReading& reading) {
     const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
     if (!is_read || tuned::kBitsPerError * any.fix.bit_errors > any.fix.dots_seen) return;

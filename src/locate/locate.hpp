@@ -1,4 +1,4 @@
-// Locating a frame on a desktop, with memory and options that are given: the body of Locator.
+// Locate: locates a frame with given memory and options; the implementation of `Locator`.
 #pragma once
 
 #include "dotpose/code_evidence.hpp"

@@ -8,7 +8,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the steps from one position to another, by the shorter way around.
+/// Returns the number of steps from one position to another, along the shorter way.
 std::int32_t steps(std::uint32_t from, std::uint32_t to) {
     constexpr auto kAll = static_cast<std::int32_t>(kPositionsPerAxis);
     const std::int32_t step = static_cast<std::int32_t>(to) - static_cast<std::int32_t>(from);
@@ -16,13 +16,13 @@ std::int32_t steps(std::uint32_t from, std::uint32_t to) {
     return step < -kAll / 2 ? step + kAll : step;
 }
 
-/// A line of one axis of a place: its position and roll in some profile.
+/// A line of one axis of a place: its position and roll in some code.
 struct Line {
     std::uint32_t position;
     int roll;
 };
 
-/// Returns the line at the same position in the other profile.
+/// Returns the line at the same position in the other code.
 Line here(Profile read, Profile other, std::uint32_t position, int roll_read) {
     return {position, roll_read + roll(other, position) - roll(read, position)};
 }
@@ -37,7 +37,7 @@ std::uint8_t section(Profile profile, const Line& line, const Line& crossing) {
     return static_cast<std::uint8_t>(section_of(profile, roll, line.position, crossing.position));
 }
 
-/// Returns the likelihood ratio of the likeliest other place, moved along one axis or both.
+/// Returns the likelihood ratio of the likeliest other place, which differs along one axis or both.
 float best_odds(const OtherCode& there) {
     return std::max(
         {there.x.best * there.y.here, there.x.here * there.y.best, there.x.best * there.y.best});

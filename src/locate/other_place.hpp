@@ -1,4 +1,4 @@
-// Other place: finds the place in another profile that explains a frame.
+// Other place: the place in another code that explains a frame.
 #pragma once
 
 #include "core/other_codes.hpp"
@@ -6,11 +6,11 @@
 
 namespace dotpose::core {
 
-/// Fills in, if there is one, a place in another profile that explains a fix as well as its own
-/// place does: elsewhere, or the same place if that profile explains it better.
+/// Sets the place in another code that explains a fix as well as its own place, if there is one: at
+/// another position, or at the same position if that code explains it better.
 void name_code_that_explains(const OtherCodes& others, CodeReading& reading);
 
-/// Fills in the likeliest other place of a reading made in the profile `read`.
+/// Sets the likeliest place in the code `other` for a reading in the code `read`.
 void name_other_place(Profile read, Profile other, const OtherCodes& others, CodeReading& reading);
 
 }  // namespace dotpose::core

@@ -40,8 +40,7 @@ void detect_filtered(const ImageView& image, const Options& filtered, DesktopWor
         detect_row(next_smooth_row(image, w.smoothing), filtered, w);
 }
 
-/// Finds the grid that the dots lie on, also for tilted cameras and bent lenses; slower than
-/// `find_grid`.
+/// Finds the grid of the dots, also with tilt and lens distortion. Slower than `find_grid`.
 Status find_grid_thoroughly(const Options& options, DesktopWorkspace& w) {
     const Vec centre_q8 = image_centre_q8(w.light);
     Status status = find_axes(centre_q8, kMaxSeeds, w);
@@ -58,13 +57,13 @@ Status find_grid_thoroughly(const Options& options, DesktopWorkspace& w) {
     return status;
 }
 
-/// Samples the bits from the image through the grid. Returns false if it shows two overlapping
+/// Samples the bits at the cells of the grid. Returns false if the image has two overlapping
 /// patterns.
 bool shows_one_pattern(const ImageView& image, const Options& options, DesktopWorkspace& w) {
     return sample_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
 }
 
-/// Decodes by the decoder of the options.
+/// Decodes with the decoder of the options.
 Status decode(const Options& options, DesktopWorkspace& w) {
     if (options.decoder == Decoder::window) {
         return decode_window(w.grid, options.profile, w.line_scores, w.decoding);
@@ -72,7 +71,7 @@ Status decode(const Options& options, DesktopWorkspace& w) {
     return decode_all(w.grid, options.profile, w.line_scores, w.decoding);
 }
 
-/// Finds the position in the code from the bits, and checks whether all dots agree with it.
+/// Finds the position in the code from the bits, and verifies that all dots agree with it.
 Status read_position(const Options& options, DesktopWorkspace& w) {
     w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
     choose_region(w);
@@ -91,13 +90,13 @@ Status resample(const ImageView& image, const Options& options, DesktopWorkspace
     if (!fit_pattern(options, image, w, fit)) return Status::not_certain;
     w.grid_from_image = w.pattern_from_image;
     w.decoding.pattern_from_grid = {};
-    w.decoding.p_wrong_log2_q8 = {};  // They belonged to the bits before.
+    w.decoding.p_wrong_log2_q8 = {};  // they refer to the previous bits
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }
 
-/// Measures the dots of the fix as the first attempt does, whose centres are not biased, if they
-/// fall on the pixels alike.
-void take_bias(const ImageView& image, const Options& options, DesktopWorkspace& w) {
+/// If the dots have the same sub-pixel phase, measures them again as the first attempt does, which
+/// corrects the pixel bias.
+void measure_again_if_biased(const ImageView& image, const Options& options, DesktopWorkspace& w) {
     if (options.decoder == Decoder::window) return;
     const float variance_px2 =
         w.fix.residual_px * w.fix.residual_px / static_cast<float>(w.fix.dots_used);
@@ -108,7 +107,7 @@ void take_bias(const ImageView& image, const Options& options, DesktopWorkspace&
 }
 
 /// Finds dots and grid in the filtered image, and reads the bits.
-Status see_with(const Options& filtered, const ImageView& image, DesktopWorkspace& w) {
+Status read_filtered_with(const Options& filtered, const ImageView& image, DesktopWorkspace& w) {
     detect_filtered(image, filtered, w);
     Status status = find_dots(filtered, w);                                // II-B.1
     if (status == Status::ok) status = find_grid_thoroughly(filtered, w);  // II-B.2-3
@@ -119,32 +118,31 @@ Status see_with(const Options& filtered, const ImageView& image, DesktopWorkspac
     return shows_one_pattern(image, filtered, w) ? Status::ok : Status::not_certain;
 }
 
-/// Finds dots and grid, for pale dots by a second look with a lower threshold, and reads the bits.
-Status see_filtered(const ImageView& image, const Options& options, DesktopWorkspace& w) {
+/// Finds dots and grid and reads the bits. For pale dots, does so again with a lower threshold.
+Status read_filtered(const ImageView& image, const Options& options, DesktopWorkspace& w) {
     Options filtered = for_filtered(options);
-    const Status status = see_with(filtered, image, w);
+    const Status status = read_filtered_with(filtered, image, w);
     const int pale = (options.threshold.min_contrast + tuned::kPaleParts - 1) / tuned::kPaleParts;
     const bool may_be_pale = (status == Status::no_contrast || status == Status::too_few_dots) &&
                              w.light.greatest_contrast >= pale;
     if (!may_be_pale) return status;
     const Fix seen = w.fix;
     filtered.threshold.min_contrast = pale;
-    if (see_with(filtered, image, w) == Status::ok) return Status::ok;
-    // The second look found no pattern: its dots were noise, so the result of the first look
-    // stands.
+    if (read_filtered_with(filtered, image, w) == Status::ok) return Status::ok;
+    // The lower threshold found no pattern: its dots were noise, so the first result is kept.
     w.fix = seen;
     w.dot_count = 0;
     return status;
 }
 
-/// Measures the pose at the position found, and weighs the other codes.
+/// Measures the pose at the position found, and computes the odds of the other codes.
 Status measure_and_weigh(const ImageView& image, const Options& options, DesktopWorkspace& w) {
     const Status status = measure_pose(options, image, w);  // II-B.8
     w.fix.attempt = Attempt::second;
     if (status == Status::ok) {
         weigh_other_codes(kernels(), w.grid, options.profile, w.decoding, w.line_scores,
                           wanted_codes(w));
-        take_bias(image, options, w);
+        measure_again_if_biased(image, options, w);
     }
     return status;
 }
@@ -153,7 +151,7 @@ Status measure_and_weigh(const ImageView& image, const Options& options, Desktop
 
 bool SecondAttempt::read(const Options& options, Resampling resampling) {
     if (!is_seen_) {
-        w_.fix.status = see_filtered(image_, options, w_);
+        w_.fix.status = read_filtered(image_, options, w_);
         w_.fix.attempt = Attempt::second;
         seen_ = w_.fix;
         is_seen_ = true;
@@ -169,7 +167,7 @@ bool SecondAttempt::read(const Options& options, Resampling resampling) {
     }
     if (status != Status::ok) return false;
     status = measure_and_weigh(image_, options, w_);
-    is_seen_ = false;  // The dots were measured again.
+    is_seen_ = false;  // the dots were measured again
     return status == Status::ok;
 }
 

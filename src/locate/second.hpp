@@ -1,5 +1,5 @@
-// The second attempt: filters an image against noise and uneven light, finds the grid of all its
-// dots thoroughly, and reads the bits from the image at each cell.
+// Second: the second attempt. Filters an image against noise and uneven light, finds the grid of
+// all its dots thoroughly, and reads the bits at each cell of the image.
 #pragma once
 
 #include "dotpose/image.hpp"
@@ -9,7 +9,7 @@
 namespace dotpose::core {
 
 /// Second attempts at one image in several codes. The filtered image, its dots and its grid do not
-/// depend on the code, so they are computed once.
+/// depend on the code and are computed once.
 class SecondAttempt {
   public:
     enum class Resampling : std::uint8_t { never, if_doubtful };
@@ -17,7 +17,7 @@ class SecondAttempt {
     SecondAttempt(const ImageView& image, DesktopWorkspace& w) : image_(image), w_(w) {}
 
     /// Locates the image in the code of the options. Returns true if there is a fix; the workspace
-    /// has it, or the status. With `Resampling::if_doubtful`, a position that is not certain is
+    /// has the fix or the status. With `Resampling::if_doubtful`, a position that is not certain is
     /// read again through a grid that is fitted to its dots.
     bool read(const Options& options, Resampling resampling);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/math/fixed.hpp"
 #include "core/pose/refine_pose.hpp"
@@ -15,14 +16,14 @@ namespace {
 
 namespace tuned = tuning::tracked;
 
-/// Fits position, scale and turn by least squares; perspective and shear stay as predicted. Returns
-/// false if the dots do not determine them.
+/// Fits position, scale and turn by least squares. Perspective and shear remain as predicted.
+/// Returns false if the dots do not determine them.
 bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reach_px,
-                    float displacement, float most_off, FloatPlane& plane) {
+                    float displacement, float max_off, FloatPlane& plane) {
     const ScaledPlane scaled(plane, reach_px);
     const FitSums sums =
-        kernels.sum_fit(dots, plane, displacement, scaled.scale(), most_off * most_off);
-    if (sums.points < tuned::kFewestNear) return false;
+        kernels.sum_fit(dots, plane, displacement, scaled.scale(), max_off * max_off);
+    if (sums.points < tuned::kMinNear) return false;
     // Residual = shift + turn * place, as complex numbers: least squares in closed form.
     const auto points = static_cast<float>(sums.points);
     const float share = 1 / points;
@@ -38,29 +39,29 @@ bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reac
     return true;
 }
 
-/// Returns the greatest error of the prediction to search for, in px.
-int most_shift_px(const Prediction& prediction, float spacing_px) {
+/// Returns the maximum error of the prediction to search for, in px.
+int max_shift_px(const Prediction& prediction, float spacing_px) {
     const float off = std::clamp(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, 0.1F,
-                                 tuned::kMostOff);
+                                 tuned::kMaxOff);
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
-/// Corrects the plane by the listed dots, which are off by about a pixel or less. Returns false if
-/// that does not hold for most of them.
-bool correct_by_bells(const Kernels& kernels, const ImageView& image, CellsInView view,
-                      FloatPlane& plane, MeasuredDots& dots) {
+/// Corrects the plane by the centroids of the listed dots, whose offsets are about a pixel or less.
+/// Returns false if that is not true for most of them.
+bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsInView view,
+                          FloatPlane& plane, MeasuredDots& dots) {
     const float far_px = std::max(view.width_px, view.height_px) / 2;
-    for (int look = 0; look < tuned::kMostLooks; ++look) {
+    for (int look = 0; look < tuned::kMaxLooks; ++look) {
         if (look > 0) {
             view.plane = plane;
             kernels.list_cells(view, dots);
         }
         const DotOffsets found =
-            kernels.find_centres(image, view, tuned::kSeenByBells_px, tuned::kWeight_px, dots);
-        if (found.points < tuned::kFewestNear || 4 * found.points < 3 * dots.count) return false;
+            kernels.find_centres(image, view, tuned::kMaxOffset_px, tuned::kWeight_px, dots);
+        if (found.points < tuned::kMinNear || 4 * found.points < 3 * dots.count) return false;
         const Similarity motion = similarity_of(found);
         plane = moved(plane, motion);
-        // Bells see a part only of what dots are off that a large turn moves.
+        // Centroid windows measure only a part of a large offset, such as one due to a turn.
         const float moved_far_px =
             far_px * std::max(std::abs(motion.scale), std::abs(motion.turn_rad));
         if (moved_far_px < tuned::kTurned_px) break;
@@ -70,37 +71,36 @@ bool correct_by_bells(const Kernels& kernels, const ImageView& image, CellsInVie
 
 /// Corrects the hypothesis by the dots near its `from_centre`. Returns false if they are not there.
 bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Options& options,
-                     int most_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
+                     int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
     FloatPlane& plane = hypothesis.pattern_from_image;
     MeasuredDots& dots = w.measured;
     const float spacing = spacing_px(plane);
     const float reach = tuned::kNear * spacing;
     CellsInView view = cells_in_view(image, options, hypothesis, reach, dots.capacity(), w);
     view.windows = Windows::on_dots;
-    const bool by_bells = suits_one_pass(hypothesis);
-    // The image must hold the bells of the dots, wherever the search finds these.
-    if (by_bells) view.margin_px = kPredictedBellReach_px + static_cast<float>(most_px + 1);
+    const bool by_centroids = can_sample_directly(hypothesis);
+    // The image must contain the centroid windows, wherever the search finds the dots.
+    if (by_centroids) view.margin_px = kPredictedCentroidRadius_px + static_cast<float>(max_px + 1);
     kernels.list_cells(view, dots);
-    // The search makes thirteen shifts along either axis.
-    const int step_px = std::max((most_px + 3) / 6, 1);
+    // The search covers thirteen shifts along each axis.
+    const int step_px = std::max((max_px + 3) / 6, 1);
     Vec shift;
-    if (!kernels.find_shift(image, dots, most_px, step_px, shift, hypothesis.depth_q8))
-        return false;
+    if (!kernels.find_shift(image, dots, max_px, step_px, shift, hypothesis.depth_q8)) return false;
     const FloatVec shift_px{static_cast<float>(shift.x), static_cast<float>(shift.y)};
     plane = recentred(plane, {-shift_px.x, -shift_px.y});
     view.plane = plane;
-    if (by_bells) {
+    if (by_centroids) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
             dots.x[i] += shift_px.x;
             dots.y[i] += shift_px.y;
         }
         FloatPlane corrected = plane;
-        if (correct_by_bells(kernels, image, view, corrected, dots)) {
+        if (correct_by_centroids(kernels, image, view, corrected, dots)) {
             plane = corrected;
             return true;
         }
     }
-    // Windows see farther than bells.
+    // Windows around intersections measure larger offsets than centroid windows.
     kernels.list_cells(view, dots);
     kernels.measure_windows(image, view, {spacing, 0.3F, hypothesis.depth_q8 * kCutOfDepth_q8 >> 8},
                             dots);
@@ -111,11 +111,11 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
 /// Corrects the hypothesis by the dots near `from`, in px from the image centre. Returns false if
 /// they are not there.
 bool correct(const Kernels& kernels, const ImageView& image, const Options& options, FloatVec from,
-             int most_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
+             int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
     hypothesis.from_centre = from;
     hypothesis.pattern_from_image = recentred(hypothesis.pattern_from_image, from);
     count_from_centre(options.profile, hypothesis);
-    if (!correct_by_dots(kernels, image, options, most_px, hypothesis, w)) return false;
+    if (!correct_by_dots(kernels, image, options, max_px, hypothesis, w)) return false;
     hypothesis.pattern_from_image = recentred(hypothesis.pattern_from_image, {-from.x, -from.y});
     hypothesis.from_centre = {};
     return true;
@@ -126,10 +126,11 @@ bool is_in_code(const Place& place) {
            place.section.u < kSections && place.section.v < kSections;
 }
 
-/// Makes a hypothesis from the prediction, counted from the image centre. Returns false if the
+/// Makes a hypothesis from the prediction, relative to the image centre. Returns nullopt if the
 /// prediction is not plausible.
-bool take(const Prediction& prediction, const ImageView& image, const Options& options,
-          Hypothesis& hypothesis) {
+std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const ImageView& image,
+                                          const Options& options) {
+    Hypothesis hypothesis;
     const PlaneFromImage& plane = prediction.pattern_from_image;
     const auto from_q8 = [](int side_px, std::int32_t centre_q8) {
         return (static_cast<float>(side_px - 1) * 128 - static_cast<float>(centre_q8)) / 256;
@@ -142,24 +143,24 @@ bool take(const Prediction& prediction, const ImageView& image, const Options& o
     hypothesis.displacement = static_cast<float>(prediction.displacement_q16) / 65536;
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     if (!is_in_code(hypothesis.place) || !is_plausible(image, hypothesis.pattern_from_image))
-        return false;
-    if (!(spacing > tuned::kFinest_px && spacing < tuned::kCoarsest_px)) return false;
-    if (!(hypothesis.displacement > tuned::kLeastDisplacement &&
-          hypothesis.displacement < tuned::kMostDisplacement))
-        return false;
+        return {};
+    if (!(spacing > tuned::kFinest_px && spacing < tuned::kCoarsest_px)) return {};
+    if (!(hypothesis.displacement > tuned::kMinDisplacement &&
+          hypothesis.displacement < tuned::kMaxDisplacement))
+        return {};
     count_from_centre(options.profile, hypothesis);
-    return true;
+    return hypothesis;
 }
 
-/// Confirms the hypothesis, corrected by the dots near one point of the image after the other,
-/// until one correction is confirmed.
+/// Corrects the hypothesis by the dots near one point of the image after another, until one
+/// correction is confirmed.
 bool confirm_corrected(const Kernels& kernels, const ImageView& image, const Options& options,
-                       const Hypothesis& hypothesis, int most_px, DesktopWorkspace& w) {
+                       const Hypothesis& hypothesis, int max_px, DesktopWorkspace& w) {
     for (const FloatVec share : tuned::kPoints) {
         const FloatVec from{share.x * static_cast<float>(image.width_px),
                             share.y * static_cast<float>(image.height_px)};
         Hypothesis there = hypothesis;
-        if (!correct(kernels, image, options, from, most_px, there, w)) continue;
+        if (!correct(kernels, image, options, from, max_px, there, w)) continue;
         if (confirm(kernels, image, options, there, w) == Confirmation::ok) return true;
     }
     return false;
@@ -170,20 +171,20 @@ bool confirm_corrected(const Kernels& kernels, const ImageView& image, const Opt
 bool locate_tracked(const Kernels& kernels, const ImageView& image, const Options& options,
                     const Prediction& prediction, DesktopWorkspace& w) {
     forget_frame(w);
-    Hypothesis hypothesis;
-    if (!take(prediction, image, options, hypothesis)) return false;
-    const int most_px = most_shift_px(prediction, spacing_px(hypothesis.pattern_from_image));
-    if (!confirm_corrected(kernels, image, options, hypothesis, most_px, w)) return false;
+    const auto hypothesis = hypothesis_from(prediction, image, options);
+    if (!hypothesis) return false;
+    const int max_px = max_shift_px(prediction, spacing_px(hypothesis->pattern_from_image));
+    if (!confirm_corrected(kernels, image, options, *hypothesis, max_px, w)) return false;
     w.fix.attempt = Attempt::tracked;
     return true;
 }
 
 void measure_again(const Kernels& kernels, const ImageView& image, const Options& options,
                    DesktopWorkspace& w) {
-    Hypothesis hypothesis;
-    if (!take(Prediction::like(w.fix), image, options, hypothesis)) return;
-    hypothesis.is_certain = true;
-    confirm_corrected(kernels, image, options, hypothesis, 1, w);
+    auto hypothesis = hypothesis_from(Prediction::like(w.fix), image, options);
+    if (!hypothesis) return;
+    hypothesis->is_certain = true;
+    confirm_corrected(kernels, image, options, *hypothesis, 1, w);
 }
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// The tracked attempt of a desktop: confirms a predicted pose.
+// Tracked: the tracked attempt. Confirms a predicted pose.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -9,13 +9,13 @@
 
 namespace dotpose::core {
 
-/// Measures the dots where the prediction expects them. Returns false if the image does not confirm
-/// it.
+/// Measures the dots at their predicted places. Returns false if the image does not confirm the
+/// prediction.
 bool locate_tracked(const Kernels& kernels, const ImageView& image, const Options& options,
                     const Prediction& prediction, DesktopWorkspace& w);
 
-/// Measures the dots of the workspace's fix, whose place is certain, again as exactly as those of a
-/// prediction. If they do not confirm the fix, it stays as it is.
+/// Measures the dots of the fix in the workspace, whose place is certain, again as exactly as those
+/// of a prediction. If they do not confirm the fix, it remains unchanged.
 void measure_again(const Kernels& kernels, const ImageView& image, const Options& options,
                    DesktopWorkspace& w);
 

@@ -16,7 +16,7 @@
 
 namespace dotpose::core {
 
-/// An image whose rows are pushed to a Locator, which keeps them.
+/// Image made of rows that are pushed to a Locator.
 struct PushedImage {
     std::span<std::uint8_t> memory;
     int width_px = 0;
@@ -51,7 +51,7 @@ struct PushedImage {
     }
 };
 
-/// What only the attempts of desktops need in addition.
+/// Memory that only `Locator` needs, in addition to that of both locators.
 struct DesktopWorkspace : Workspace {
     Patch* patch = nullptr;
     MeasuredDots measured;
@@ -60,10 +60,10 @@ struct DesktopWorkspace : Workspace {
     Smoothing smoothing;
     OtherCodes other_codes;
     PushedImage pushed;
-    bool is_mirrored = false;  ///< true if an attempt saw the code as in a mirror
+    bool is_mirrored = false;  ///< true if an attempt found the mirrored code
 };
 
-/// Returns where to put the odds of other profiles; null if they are not wanted.
+/// Returns the storage for the odds of other codes, or null if they are not wanted.
 inline OtherCodes* wanted_codes(DesktopWorkspace& w) {
     return w.other_codes.are_wanted ? &w.other_codes : nullptr;
 }

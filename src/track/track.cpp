@@ -77,7 +77,7 @@ int p_wrong_with_prior(const Sighting& sighting, const Vector3& limits,
 }  // namespace
 
 const char* name(Verdict verdict) noexcept {
-    constexpr std::array<const char*, kVerdictCount> kNames = {"none", "believed", "with_prior",
+    constexpr std::array<const char*, kVerdictCount> kNames = {"none", "accepted", "with_prior",
                                                                "gated", "too_weak"};
     return kNames[static_cast<std::size_t>(verdict)];
 }
@@ -116,7 +116,7 @@ const Track& Tracker::update(std::int64_t time_us, const Sighting* sighting) {
         was_seen_ ? predicted(last_, time_us, options_) : MotionEstimate{};
     track_.pose = prediction.pose;
     if (sighting != nullptr) track_.verdict = judge(prediction, *sighting);
-    if (track_.verdict != Verdict::believed && track_.verdict != Verdict::with_prior) {
+    if (track_.verdict != Verdict::accepted && track_.verdict != Verdict::with_prior) {
         track_.p_wrong_log2 = 0;
     }
     if (!track_.is_lost && time_us - last_.pose.time_us >= options_.lost_after_us) {
@@ -154,12 +154,12 @@ Verdict Tracker::judge(const MotionEstimate& prediction, const Sighting& sightin
     }
     if (is_possible) {
         agreeing_ = 0;
-        return is_weak ? Verdict::with_prior : Verdict::believed;
+        return is_weak ? Verdict::with_prior : Verdict::accepted;
     }
     if (is_confirmed(sighting)) {
         track_.events.kidnapped = true;
         restart(candidate_);
-        return Verdict::believed;
+        return Verdict::accepted;
     }
     return Verdict::gated;
 }

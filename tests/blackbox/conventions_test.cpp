@@ -20,8 +20,8 @@ using testing::StartsWith;
 constexpr const char* kLog =
     "frame,t_s,file,status,dots_seen,p_wrong,state,events,verdict,plane,track_x_mm,track_y_mm,"
     "vx_mm_s,vy_mm_s\n"
-    "0,0.0,,ok,150,1e-20,moving,fix,believed,world,0,0,0,0\n"
-    "1,0.1,,ok,150,1e-20,moving,,believed,world,10,0,100,0\n";
+    "0,0.0,,ok,150,1e-20,moving,fix,accepted,world,0,0,0,0\n"
+    "1,0.1,,ok,150,1e-20,moving,,accepted,world,10,0,100,0\n";
 
 class Conventions : public ToolCommand {
   protected:

@@ -21,17 +21,17 @@ constexpr const char* kHeader =
 /// the side at 200 mm/s, two frames of rest with some noise, a frame that only the prior made a
 /// fix.
 constexpr const char* kRows =
-    "0,0.0,,ok,150,1e-20,moving,fix,believed,world,0,0,0,0\n"
-    "1,0.1,,ok,150,1e-20,moving,,believed,world,10,0,100,0\n"
-    "2,0.2,,ok,150,1e-12,moving,,believed,world,20,0,100,0\n"
-    "3,0.3,,ok,150,1e-20,moving,,believed,world,30,0,100,0\n"
+    "0,0.0,,ok,150,1e-20,moving,fix,accepted,world,0,0,0,0\n"
+    "1,0.1,,ok,150,1e-20,moving,,accepted,world,10,0,100,0\n"
+    "2,0.2,,ok,150,1e-12,moving,,accepted,world,20,0,100,0\n"
+    "3,0.3,,ok,150,1e-20,moving,,accepted,world,30,0,100,0\n"
     "4,0.4,,no_contrast,0,,lost,lost,none,,,,,\n"
     "5,0.5,,no_contrast,0,,lost,,none,,,,,\n"
     "6,0.6,,too_few_dots,9,,lost,,none,,,,,\n"
-    "7,0.7,\"a \"\"b\"\", c\",ok,150,1e-20,moving,fix kidnapped,believed,world,1000,0,0,0\n"
-    "8,0.8,,ok,150,1e-20,moving,,believed,world,1000,-20,0,-200\n"
-    "9,0.9,,ok,150,1e-20,moving,,believed,world,1000,-40,120,160\n"
-    "10,1.0,,ok,150,1e-20,stationary,stationary,believed,world,1000,-40.01,0,0\n"
+    "7,0.7,\"a \"\"b\"\", c\",ok,150,1e-20,moving,fix kidnapped,accepted,world,1000,0,0,0\n"
+    "8,0.8,,ok,150,1e-20,moving,,accepted,world,1000,-20,0,-200\n"
+    "9,0.9,,ok,150,1e-20,moving,,accepted,world,1000,-40,120,160\n"
+    "10,1.0,,ok,150,1e-20,stationary,stationary,accepted,world,1000,-40.01,0,0\n"
     "11,1.1,,ok,150,1e-14,stationary,,with_prior,world,1000,-40,0,0\n";
 
 class Replay : public ToolCommand {
@@ -52,7 +52,7 @@ TEST_F(Replay, CountsARun) {
     EXPECT_NEAR(figures["longest_gap_s"], 0.3, 1e-9);
     EXPECT_EQ(figures["events"],
               (json{{"fix", 2}, {"kidnapped", 1}, {"lost", 1}, {"stationary", 1}}));
-    EXPECT_EQ(figures["verdicts"], (json{{"believed", 8}, {"none", 3}, {"with_prior", 1}}));
+    EXPECT_EQ(figures["verdicts"], (json{{"accepted", 8}, {"none", 3}, {"with_prior", 1}}));
     EXPECT_NEAR(figures["distance_mm"], 70, 1e-9);
     EXPECT_NEAR(figures["stationary_s"], 0.2, 1e-9);
     EXPECT_NEAR(figures["mean_speed_mm_s"], 140, 1e-6);
@@ -63,8 +63,8 @@ TEST_F(Replay, CountsARun) {
 
 // The lines of the same kind of run: lost, and put down elsewhere.
 TEST_F(Replay, ReadsTheJsonLinesOfWatch) {
-    put(R"({"schema":1,"frame":0,"t_s":0.0,"status":"ok","dots_seen":150,"p_wrong":1e-20,"state":"moving","events":"fix","verdict":"believed","plane":"pattern","x_mm":0.0,"y_mm":0.0,"theta_deg":0.0,"covariance_mm_deg":[1e-06,0,0,0,4e-06,0,0,0,9e-06],"track_x_mm":0.0,"track_y_mm":0.0,"track_theta_deg":0.0,"vx_mm_s":0.0,"vy_mm_s":0.0}
-{"schema":1,"frame":1,"t_s":0.1,"status":"ok","dots_seen":150,"p_wrong":1e-12,"state":"moving","verdict":"believed","plane":"pattern","track_x_mm":30.0,"track_y_mm":40.0,"vx_mm_s":300,"vy_mm_s":400}
+    put(R"({"schema":1,"frame":0,"t_s":0.0,"status":"ok","dots_seen":150,"p_wrong":1e-20,"state":"moving","events":"fix","verdict":"accepted","plane":"pattern","x_mm":0.0,"y_mm":0.0,"theta_deg":0.0,"covariance_mm_deg":[1e-06,0,0,0,4e-06,0,0,0,9e-06],"track_x_mm":0.0,"track_y_mm":0.0,"track_theta_deg":0.0,"vx_mm_s":0.0,"vy_mm_s":0.0}
+{"schema":1,"frame":1,"t_s":0.1,"status":"ok","dots_seen":150,"p_wrong":1e-12,"state":"moving","verdict":"accepted","plane":"pattern","track_x_mm":30.0,"track_y_mm":40.0,"vx_mm_s":300,"vy_mm_s":400}
 {"schema":1,"frame":2,"t_s":0.2,"status":"no_contrast","message":"the image has no dark marks on a lighter ground","dots_seen":0,"state":"lost","events":"lost","verdict":"none"}
 {"schema":1,"frame":3,"t_s":0.3,"sta)");
     ASSERT_EQ(run("replay run.csv --format json"), 0) << errors_;
@@ -116,8 +116,8 @@ TEST_F(Replay, PrintsAndDraws) {
 TEST_F(Replay, NumbersTheAxesOfAPathFarFromTheOrigin) {
     // 20 mm along x and 10 mm along y, down as in the pattern, some 10 km from its origin.
     put(std::string(kHeader) +
-        "0,0.0,,ok,150,1e-20,moving,fix,believed,pattern,59957068.5,9667944,0,0\n"
-        "1,0.1,,ok,150,1e-20,moving,,believed,pattern,59957088.5,9667954,0,0\n");
+        "0,0.0,,ok,150,1e-20,moving,fix,accepted,pattern,59957068.5,9667944,0,0\n"
+        "1,0.1,,ok,150,1e-20,moving,,accepted,pattern,59957088.5,9667954,0,0\n");
     ASSERT_EQ(run("replay run.csv --draw run.svg"), 0);
     const std::string picture = file("run.svg");
     EXPECT_THAT(output_,
@@ -152,7 +152,7 @@ TEST_F(Replay, RefusesWhatIsNoLog) {
     put(std::string(kHeader) + "1,2\n");
     EXPECT_EQ(run("replay run.csv"), 1);
     EXPECT_EQ(errors_, "dotpose: run.csv:2: no log of dotpose watch: 2 values instead of 14\n");
-    put(std::string(kHeader) + "0,soon,,ok,150,1e-20,moving,fix,believed,world,0,0,0,0\n");
+    put(std::string(kHeader) + "0,soon,,ok,150,1e-20,moving,fix,accepted,world,0,0,0,0\n");
     EXPECT_EQ(run("replay run.csv"), 1);
     EXPECT_EQ(errors_, "dotpose: run.csv:2: no log of dotpose watch: 'soon' is no number of t_s\n");
     put("");

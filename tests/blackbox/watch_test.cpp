@@ -25,12 +25,12 @@ DriveReading reading_of(const json& line) {
     DriveReading reading;
     reading.has_fix = line["status"] == "ok";
     reading.events = line.value("events", "");
-    reading.is_believed = line["state"] != "lost" && line["verdict"] == "believed";
+    reading.is_accepted = line["state"] != "lost" && line["verdict"] == "accepted";
     if (reading.has_fix) {
         reading.raw = {line["x_m"].get<double>() * 1000, line["y_m"].get<double>() * 1000,
                        line["yaw_rad"]};
     }
-    if (reading.is_believed) {
+    if (reading.is_accepted) {
         constexpr double kRadians = std::numbers::pi / 180;
         reading.filtered = {line["track_x_mm"], line["track_y_mm"],
                             line["track_theta_deg"].get<double>() * kRadians};
@@ -232,7 +232,7 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
         EXPECT_LT(lines[i]["p_wrong"], 1e-13);
         with_prior += lines[i]["verdict"] == "with_prior";
         if (is_covered[i]) continue;
-        EXPECT_EQ(lines[i]["verdict"], "believed") << i;
+        EXPECT_EQ(lines[i]["verdict"], "accepted") << i;
     }
     EXPECT_GE(with_prior, 3);
     // Alone, in the first frame, the same view is refused.

@@ -454,7 +454,7 @@ typedef struct dotpose_tracker {
     uint64_t state[216];
 } dotpose_tracker;
 
-/* How the robot moves, and when sightings are believed: 80 bytes. */
+/* How the robot moves, and when sightings are accepted: 80 bytes. */
 typedef struct dotpose_track_options {
     uint32_t size;                         /*  0: set by dotpose_track_options_init */
     float acceleration_mm_s2;              /*  4: standard deviation while it manoeuvres; 600 */
@@ -464,13 +464,13 @@ typedef struct dotpose_track_options {
     float max_speed_mm_s;                  /* 20: 1000 */
     float max_turn_rad_s;                  /* 24: 20 */
     float gate_sigmas;                     /* 28: 5 */
-    int32_t confirmations;                 /* 32: sightings before a jump is believed; 3 */
+    int32_t confirmations;                 /* 32: sightings before a jump is accepted; 3 */
     float still_mm;                        /* 36: within this, a robot is stationary; 0.1 */
     float still_rad;                       /* 40: 0.02 */
     float least_sigma_mm;                  /* 44: errors of printing; 0.0002 */
     float least_sigma_rad;                 /* 48: 0.00002 */
     int32_t max_p_wrong_log2;              /* 52: above this a sighting is weak; -30 */
-    int32_t max_weak_p_wrong_log2; /* 56: above this it is never believed; -10, at most -1 */
+    int32_t max_weak_p_wrong_log2; /* 56: above this it is never accepted; -10, at most -1 */
     float spacing_mm;              /* 60: of the pattern; 0.508 */
     int64_t lost_after_us;         /* 64: 70000 */
     int64_t stationary_after_us;   /* 72: 500000 */

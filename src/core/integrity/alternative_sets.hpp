@@ -1,21 +1,22 @@
-// Sets of alternatives by the sequences in which their places differ: docs/integrity.md.
+// Alternative sets: the far alternatives, grouped by the sequences in which their places differ.
+// docs/integrity.md.
 #pragma once
 
 #include <array>
 
 namespace dotpose::core {
 
-/// The alternatives that differ in one set of sequences: their number, and the probability that all
-/// their digits in a step equal the reading's. Both as log2 in 2^-8.
+/// Alternatives that differ from the reading in a given set of sequences. Both values are log2 in
+/// 2^-8.
 struct AlternativeSet {
-    int alternatives_q8 = 0;
-    int equal_q8 = 0;
+    int alternatives_q8 = 0;  ///< number of alternatives
+    int equal_q8 = 0;  ///< probability that all their digits in a step equal those of the reading
 };
-/// The sets differ in: two sequences with a3, two others, three with a3, the three others, all
-/// four.
+/// The sets, in order: a3 and one other sequence, two others, a3 and two others, the three others,
+/// all four. Sequences of equal base are not distinguished.
 inline constexpr std::array<AlternativeSet, 5> kAlternativeSets{
     {{3694, -661}, {4444, -811}, {5712, -1067}, {6057, -1217}, {7326, -1473}}};
-/// log2(1.03), in 2^-8: see kUnevenness in expected_alternatives.cpp.
+/// log2(1.03) in 2^-8. See kUnevenness in expected_alternatives.cpp.
 inline constexpr int kUnevenness_q8 = 11;
 
 }  // namespace dotpose::core

@@ -13,22 +13,24 @@
 namespace dotpose::core {
 namespace {
 
-/// Most lines in a row that two positions share: with one more, five digits would be equal.
-constexpr int kMostOfDistinct = code::kOrder;
-/// Odds above which a closer look at the alternatives cannot help.
+/// Maximum number of adjacent lines that two distinct positions share. With one more, five digits
+/// would be equal.
+constexpr int kMaxSharedInARow = code::kOrder;
+/// Expected odds above which counting more alternatives one by one cannot make the fix certain.
 constexpr float kBeyondHelp = 1e-4F;
 
-/// Returns the expected odds of the alternatives that differ in at least `fewest_different`
-/// sequences and share fewer than `shared_lines` lines in a row.
-float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int fewest_different) {
+/// Returns the expected odds of the alternatives that differ in at least `min_different` sequences
+/// and share fewer than `shared_lines` adjacent lines.
+float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int min_different) {
     ExpectedAlternatives expected(lines.ratios.basis, lines.ratios.position, shared_lines - 1,
-                                  fewest_different);
+                                  min_different);
     for (int line = 0; line < lines.count(); ++line)
         expected.add_line(lines.odds(line));
     return expected.sum();
 }
 
-/// Returns the odds of the same position in other sections: all rolls differ by the same shift.
+/// Returns the summed odds of the same position in the other sections: all rolls differ by the same
+/// shift.
 float sum_of_other_sections(const LikelihoodRatios& ratios) {
     float sum = 0;
     for (int shift = 1; shift < kSections; ++shift) {
@@ -43,21 +45,21 @@ float sum_of_other_sections(const LikelihoodRatios& ratios) {
 }  // namespace
 
 int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2) {
-    if (ratios.lines.count() <= kMostOfDistinct) return 0;
+    if (ratios.lines.count() <= kMaxSharedInARow) return 0;
     const RankedLines lines(ratios);
     const float known = sum_of_single_alternatives(lines) + sum_of_other_sections(ratios) +
-                        sum_of_near_alternatives(lines, kMostOfDistinct);
-    const float expected = sum_of_far_alternatives(lines, kMostOfDistinct, 2);
+                        sum_of_near_alternatives(lines, kMaxSharedInARow);
+    const float expected = sum_of_far_alternatives(lines, kMaxSharedInARow, 2);
     float sum = known + expected;
     const float limit = std::ldexp(1.0F, limit_log2);
     const float far_below_doubt = std::ldexp(1.0F, std::min(limit_log2, -30) - 10);
-    // The more alternatives are looked at one by one, the fewer are left to the expectation.
+    // Counting more alternatives one by one leaves fewer to the expectation.
     if (sum > far_below_doubt && expected > known && expected < kBeyondHelp) {
-        sum = known + sum_of_far_alternatives(lines, kMostOfDistinct - 1, 3);
-        // The sums that take longest are left out if the others exceed the limit already.
-        if (sum < limit) sum += sum_of_near_alternatives(lines, kMostOfDistinct - 1);
+        sum = known + sum_of_far_alternatives(lines, kMaxSharedInARow - 1, 3);
+        // The slowest sums are skipped if the others exceed the limit already.
+        if (sum < limit) sum += sum_of_near_alternatives(lines, kMaxSharedInARow - 1);
         if (sum < limit) {
-            // This is less than what remains to the limit; otherwise a fix might be lost by it.
+            // Less than the remaining margin to the limit: this part alone must not refuse a fix.
             const float negligible = std::min(std::max(sum, far_below_doubt), limit - sum) / 8;
             sum += sum_of_double_alternatives(lines, negligible, limit - sum);
         }

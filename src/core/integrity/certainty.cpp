@@ -7,7 +7,7 @@
 #include "code/rolls.hpp"
 #include "core/integrity/alternative_sets.hpp"
 #include "core/integrity/alternatives.hpp"
-#include "core/integrity/least_losses.hpp"
+#include "core/integrity/min_losses.hpp"
 #include "core/integrity/quick_alternatives.hpp"
 #include "core/integrity/seam_alternatives.hpp"
 #include "core/integrity/tabled_alternatives.hpp"
@@ -19,22 +19,23 @@
 namespace dotpose::core {
 namespace {
 
-/// The number of shifts at which an alternative does not share a line.
+/// Number of shifts at which an alternative does not share a given line.
 constexpr float kShifts = kSections - 1;
-/// Odds at which single alternatives are counted that are not looked at because they have less; and
-/// the number of places of all sequences.
-constexpr int kPassedOver_q8 = -52 * 256;
-constexpr float kPassedOver = 2.3e-16F;
+/// Upper bound of the odds charged for each pruned single alternative, as log2 in 2^-8 and as a
+/// number.
+constexpr int kSkippedOdds_q8 = -52 * 256;
+constexpr float kSkippedOdds = 2.3e-16F;
+/// Number of places of all four sequences.
 constexpr float kSingles = 741;
 
-/// Returns 2^(n / 256), rounded up by up to 2 %; for less than 2^-100 it returns that.
+/// Returns 2^(n / 256), rounded up by at most 2 %; at least 2^-100.
 constexpr float power_of_two_rounded_up(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;
     return static_cast<float>(exp2_q16(n - whole * 256)) * 1.02F * power_of_two_exactly(whole - 16);
 }
 
-/// Returns LikelihoodRatios::odds without a call of a library.
+/// Returns `LikelihoodRatios::odds`, without a library call.
 float odds_of(const LikelihoodRatios& ratios, int lost) {
     const int log2_q8 = std::max(ratios.log2_odds_q8(lost), kNegligible_q8);
     const int whole = log2_q8 >> 8;
@@ -51,45 +52,46 @@ constexpr FarAlternatives kFarAlternatives = [] {
     return sets;
 }();
 
-/// Returns the expectation that quick_alternatives.cpp computes in integers, in floating point and
-/// for all sets at once.
+/// Returns the expected odds of the far alternatives: the sum of quick_alternatives.cpp, in
+/// floating point and for all sets in parallel.
 float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
     std::array<float, kMaxLines> odds;
     const auto count = static_cast<std::size_t>(ratios.count());
-    int last_loss = ratios.least_loss(0);
+    int last_loss = ratios.min_loss(0);
     float last_odds = odds_of(ratios, last_loss);
     for (std::size_t line = 0; line < count; ++line) {
-        const int loss = ratios.least_loss(static_cast<int>(line));
+        const int loss = ratios.min_loss(static_cast<int>(line));
         if (loss != last_loss) last_odds = odds_of(ratios, loss);
         last_loss = loss;
         odds[line] = last_odds;
     }
-    return kernels.sum_far_alternatives(std::span(odds).first(count), ratios.most_shared(),
+    return kernels.sum_far_alternatives(std::span(odds).first(count), ratios.max_shared(),
                                         kFarAlternatives);
 }
 
 /// Returns the odds of the alternatives that share no line: the same position in other sections,
-/// and those that differ in one sequence, at shifts that no line shares.
+/// and the single alternatives at shifts that no line shares.
 float sharing_none(const LikelihoodRatios& ratios) {
     int lost = 0;
     for (int line = 0; line < ratios.count(); ++line)
-        lost += ratios.least_loss(line);
+        lost += ratios.min_loss(line);
     return (1 + kSingles) * kShifts * odds_of(ratios, lost);
 }
 
-/// Score of a lost bit. All bits count alike here, so losses are whole bits.
+/// Score of a lost bit. All bits have the same weight here, so losses are whole bits.
 constexpr int kBit = 2 * 127;
-/// Sets the least loss, in bits, of not sharing each line, the largest first. Losses of more than
-/// kMostBits count as that.
+/// Sets the minimum loss of each line, in bits, sorted with the largest first. Losses are limited
+/// to kMaxBits. Returns the number of lines.
 std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
-    constexpr int kMostBits = 31;
+    constexpr int kMaxBits = 31;
     const auto count = static_cast<std::size_t>(ratios.count());
     std::array<std::uint8_t, kMaxLines> bits;
-    // Once lines are counted, each number is where those with so many bits begin.
-    std::array<std::uint8_t, kMostBits + 1> begin{};
+    // Counting sort: first the number of lines that lose b bits, then the index of the first of
+    // them.
+    std::array<std::uint8_t, kMaxBits + 1> begin{};
     for (std::size_t line = 0; line < count; ++line) {
-        const int loss = ratios.least_loss(static_cast<int>(line)) / kBit;
-        bits[line] = static_cast<std::uint8_t>(std::clamp(loss, 0, kMostBits));
+        const int loss = ratios.min_loss(static_cast<int>(line)) / kBit;
+        bits[line] = static_cast<std::uint8_t>(std::clamp(loss, 0, kMaxBits));
         ++begin[bits[line]];
     }
     std::uint8_t before = 0;
@@ -103,14 +105,15 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
     return count;
 }
 
-/// Returns the loss of the alternative that has another place in one sequence and shares a line.
+/// Returns the loss of the single alternative that has another place in one sequence and shares the
+/// line `shared`.
 int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place, int shared) {
     const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
     const int base = alternative[shared] - own[shared];
     int lost = 0;
-    const int hopeless = ratios.loss_for(kPassedOver_q8) + ratios.most_regained();
-    for (int line = 0; line < ratios.count() && lost <= hopeless; ++line) {
+    const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();
+    for (int line = 0; line < ratios.count() && lost <= loss_limit; ++line) {
         int shift = alternative[line] - own[line] - base;
         shift += shift < 0 ? kSections : 0;
         shift -= shift >= kSections ? kSections : 0;
@@ -119,8 +122,9 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Returns the odds of the alternatives that differ in one sequence. Where tables do not settle it,
-/// all that lose little enough to matter are counted one by one. Returns 1 if there are too many.
+/// Returns the odds of the single alternatives. Sequences that the tables do not bound closely
+/// enough are counted one by one, except alternatives that lose too much to matter. Returns 1 if
+/// there are too many.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
@@ -128,11 +132,11 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
     if (sequences == 0) return sum;
     std::array<LineLoss, kMaxLines> storage;
     const std::size_t lines = sort_losses(ratios, storage);
-    const int enough = (ratios.loss_for(kPassedOver_q8) + ratios.most_regained()) / kBit + 1;
-    sum += kSingles * kPassedOver * static_cast<float>(lines);
+    const int loss_limit = (ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain()) / kBit + 1;
+    sum += kSingles * kSkippedOdds * static_cast<float>(lines);
     SimilarPlaceList list;
     if (!kernels.list_similar_places(ratios.basis, ratios.places, sequences,
-                                     std::span(storage).first(lines), enough, list)) {
+                                     std::span(storage).first(lines), loss_limit, list)) {
         return 1;
     }
     for (const auto& [sequence, place, line] :
@@ -141,7 +145,7 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
     return sum;
 }
 
-/// Returns the odds of all alternatives except those with a seam.
+/// Returns the odds of all alternatives except seam alternatives.
 float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                    const UnsharedLines& unshared, float limit) {
     return far_alternatives(kernels, ratios) + sharing_none(ratios) +
@@ -153,42 +157,43 @@ float seam_alternatives(const Kernels& kernels, const UnsharedLines& unshared) {
         std::max(seam_alternatives_log2_q8(kernels, unshared), -100 * 256));
 }
 
-/// The question that is asked of both axes.
-struct Asked {
+/// Parameters of the judgement that both axes have in common.
+struct Query {
     Profile profile;
     int odds_per_bit_q8;
     int limit_log2;
-    OtherCodes* others;  ///< null if other profiles are not asked for
+    OtherCodes* others;  ///< odds of the other codes; null if they are not wanted
 };
 
-bool is_code_in_question(const Asked& asked) {
-    return asked.others != nullptr && asked.others->log2_in_question_q8 >= 0;
+bool is_code_in_question(const Query& query) {
+    return query.others != nullptr && query.others->log2_in_question_q8 >= 0;
 }
 
-/// Returns the probability that chance agrees as well.
-float chance_of(const Confidence& bits, const Asked& asked) {
-    if (!is_code_in_question(asked))
-        return power_of_two_exactly(chance_log2(bits, asked.odds_per_bit_q8));
+/// Returns the bound of the probability that random bits agree as well.
+float chance_of(const Confidence& bits, const Query& query) {
+    if (!is_code_in_question(query))
+        return power_of_two_exactly(chance_log2(bits, query.odds_per_bit_q8));
     return power_of_two_rounded_up(
-        chance_log2_q8(bits, asked.odds_per_bit_q8, asked.others->log2_in_question_q8));
+        chance_log2_q8(bits, query.odds_per_bit_q8, query.others->log2_in_question_q8));
 }
 
-/// Returns how many profiles are in question; each has as many alternatives.
-float codes_in_question(const Asked& asked) {
-    return !is_code_in_question(asked) ? 1
-                                       : power_of_two_rounded_up(asked.others->log2_in_question_q8);
+/// Returns the number of possible codes, each weighted by its odds. Each code has equally many
+/// alternatives.
+float codes_in_question(const Query& query) {
+    return !is_code_in_question(query) ? 1
+                                       : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
-/// Returns the probability that one axis is wrong, or 1 if it is above the limit. By bits alone,
-/// without scores of lines, it is never less than by scores.
+/// Returns the bound of the probability that one axis is wrong, or 1 if it exceeds the limit. With
+/// hard bits alone it is never smaller than with scores.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
-                 const Asked& asked) {
+                 const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();
-    const int limit_log2 = asked.limit_log2;
+    const int limit_log2 = query.limit_log2;
     const float limit = power_of_two_exactly(limit_log2);
-    const float chance = chance_of(bits, asked);
+    const float chance = chance_of(bits, query);
     if (chance > limit) return 1;
-    const float codes = codes_in_question(asked);
+    const float codes = codes_in_question(query);
     const auto with = [&](float alternatives) { return chance + codes * alternatives; };
     float sum = with(alternatives(kernels, ratios, unshared, limit));
     if (sum > limit && !ratios.is_of_bits()) {
@@ -208,28 +213,29 @@ bool is_within_limit(float wrong, int limit_log2, Fix& fix) {
     return fix.p_wrong_log2 <= limit_log2;
 }
 
-/// Returns whether both axes are certain; tells what they say of other profiles.
+/// Returns true if both axes are certain. Sets the odds of the other codes.
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
-                 const LikelihoodRatios& x, const LikelihoodRatios& y, const Asked& asked,
+                 const LikelihoodRatios& x, const LikelihoodRatios& y, const Query& query,
                  Fix& fix) {
     const UnsharedLines x_unshared(kernels, x);
-    const float x_wrong = axis_wrong(kernels, bits[0], x_unshared, asked);
+    const float x_wrong = axis_wrong(kernels, bits[0], x_unshared, query);
     if (x_wrong >= 1) return false;
     const UnsharedLines y_unshared(kernels, y);
-    const float y_wrong = axis_wrong(kernels, bits[1], y_unshared, asked);
-    if (!is_within_limit(x_wrong + y_wrong, asked.limit_log2, fix)) return false;
-    if (asked.others == nullptr) return true;
-    weigh_other_codes(kernels, x_unshared, y_unshared, asked.profile, *asked.others);
+    const float y_wrong = axis_wrong(kernels, bits[1], y_unshared, query);
+    if (!is_within_limit(x_wrong + y_wrong, query.limit_log2, fix)) return false;
+    if (query.others == nullptr) return true;
+    weigh_other_codes(kernels, x_unshared, y_unshared, query.profile, *query.others);
     return true;
 }
 
-/// Returns the odds of a bit from the bits of both axes, which are misread alike as they are read
-/// from the same dots. Returns 0 if nothing is known or too many bits are wrong. Sets bit_errors.
+/// Returns the odds of a bit, estimated from both axes, as log2 in 2^-8. Both axes are read from
+/// the same dots and have the same error rate. Returns 0 if there are no bits or too many are
+/// wrong. Sets `bit_errors`.
 int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOptions& options,
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();
     for (const Confidence* bits : {&x, &y}) {
-        // So many wrong bits mean that two patterns are in view.
+        // This many wrong bits mean that two patterns are in view.
         if (256 * bits->wrong() > bits->bits() * options.max_bit_error_q8) return 0;
     }
     Confidence both = x;
@@ -237,7 +243,7 @@ int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOpt
     return odds_per_bit_q8(both);
 }
 
-/// Returns what the first column and the first row are read as.
+/// Returns the readings of the first column and the first row.
 std::array<AxisReading, 2> readings_at(const Place& corner, Profile profile) {
     const auto& [cell, section] = corner;
     const auto roll = [&](std::uint32_t position, int own_section, std::uint32_t cross) {
@@ -249,13 +255,13 @@ std::array<AxisReading, 2> readings_at(const Place& corner, Profile profile) {
 
 }  // namespace
 
-bool is_plainly_certain(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
-                        Profile profile, const IntegrityOptions& options, Fix& fix,
-                        OtherCodes* others) {
+bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
+                          Profile profile, const IntegrityOptions& options, Fix& fix,
+                          OtherCodes* others) {
     const auto& [x, y] = axes;
     const int odds_q8 = odds_of_bits_q8(x.confidence, y.confidence, options, fix);
     if (odds_q8 == 0) return false;
-    if (std::min(x.lines.size(), y.lines.size()) <= kMostShared) return false;
+    if (std::min(x.lines.size(), y.lines.size()) <= kMaxShared) return false;
     const auto ratios_of = [&](const AxisBits& axis) {
         return LikelihoodRatios(profile, axis.lines, axis.reading, odds_q8, axis.rolls);
     };
@@ -277,7 +283,7 @@ bool is_certain(const Kernels& kernels, const Evidence& evidence, Profile profil
     const auto& [x_bits, y_bits] = evidence.bits;
     const int odds_q8 = odds_of_bits_q8(x_bits, y_bits, options, fix);
     if (odds_q8 == 0) return false;
-    if (std::min(evidence.columns.count(), evidence.rows.count()) <= kMostShared) return false;
+    if (std::min(evidence.columns.count(), evidence.rows.count()) <= kMaxShared) return false;
     const auto [x, y] = readings_at(evidence.corner, profile);
     return are_certain(kernels, evidence.bits,
                        LikelihoodRatios(profile, evidence.columns, x, odds_q8),

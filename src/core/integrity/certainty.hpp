@@ -1,5 +1,5 @@
-// Certainty: the probability that a position whose lines are scored is wrong, by chance, by
-// alternatives and by seams. docs/integrity.md derives it.
+// Certainty: bound of the probability that a position is wrong, from chance, alternatives and
+// seams. docs/integrity.md derives it.
 #pragma once
 
 #include <array>
@@ -15,42 +15,44 @@
 
 namespace dotpose::core {
 
-/// The bits of one axis near the middle, by line, from the first to the last line that has any.
+/// Hard bits of one axis near the middle of the view, from the first to the last line that has
+/// bits.
 struct AxisBits {
     std::span<const TrackedLine> lines;
-    AxisReading reading;                  ///< of the first line, at the first bit of the words
-    Confidence confidence;                ///< of all bits read, compared with the code
-    std::span<const std::uint8_t> rolls;  ///< of the lines
+    AxisReading reading;    ///< reading of the first line, at the first bit of its word
+    Confidence confidence;  ///< all bits read on this axis, compared with the code
+    std::span<const std::uint8_t> rolls;  ///< roll of each line
 };
 
-/// Returns whether hard bits alone, without the scores of lines, make the position certain. That
-/// takes a tenth of the work of `is_certain` and settles clean frames; it returns false in doubt.
-/// Bits that were not read near the middle count for chance only, so the claim stays an upper
-/// estimate. `others`, unless null, is told what the bits say of other profiles.
-bool is_plainly_certain(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
-                        Profile profile, const IntegrityOptions& options, Fix& fix,
-                        OtherCodes* others = nullptr);
+/// Returns true if the hard bits alone, without the scores of lines, make the position certain.
+/// This takes a tenth of the work of `is_certain` and suffices for clean frames. Returns false if
+/// in doubt. Bits that were read farther from the middle count for chance only, which keeps the
+/// result an upper bound. Sets `p_wrong_log2` of the fix. If `others` is not null, sets the odds of
+/// the other codes.
+bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
+                          Profile profile, const IntegrityOptions& options, Fix& fix,
+                          OtherCodes* others = nullptr);
 
-/// The bits and scores that a position is judged by.
+/// Bits and scores from which a position is judged.
 struct Evidence {
-    Place corner;                    ///< of the first column and row
-    std::array<Confidence, 2> bits;  ///< of x and of y, compared with the code
+    Place corner;                    ///< place of the first column and row
+    std::array<Confidence, 2> bits;  ///< bits of x and of y, compared with the code
     Lines columns;
     Lines rows;
 };
 
-/// Returns the evidence of a block whose cell (0, 0) is at `place`; scores go to `storage`.
+/// Returns the evidence of a block whose cell (0, 0) is at `place`. `storage` receives the scores.
 Evidence evidence_of(const Kernels& kernels, Profile profile, const Place& place,
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage);
 
-/// Sets bit_errors and p_wrong_log2 of the fix, the latter an upper estimate. Returns false if the
-/// position is not certain enough, or too many bits contradict it. `others`, unless null, is told
-/// what the bits say of other profiles.
+/// Sets `bit_errors` and `p_wrong_log2` of the fix, the latter as an upper bound. Returns false if
+/// the position is not certain enough, or if too many bits contradict it. If `others` is not null,
+/// sets the odds of the other codes.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, Profile profile,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr);
 
-/// Tells `others` what the bits say of other profiles, without judging the position.
+/// Sets the odds of the other codes, without judging the position.
 void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, Profile profile,
                        OtherCodes& others);
 

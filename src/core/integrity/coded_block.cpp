@@ -8,33 +8,34 @@
 namespace dotpose::core {
 namespace {
 
-/// The first line and cell of the middle: as a cell, and as an index in a block.
+/// First line and first cell of the middle, as a cell number and as an index of the block.
 constexpr int kFirst = -kMostTracked / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 
-/// Returns the longest stretch of ones.
-std::uint32_t longest_stretch(std::uint32_t bits) {
+/// Returns the longest run of ones.
+std::uint32_t longest_run(std::uint32_t bits) {
     if (const std::uint32_t beyond = bits + (bits & (0 - bits)); (beyond & bits) == 0) return bits;
     std::uint32_t longest = 0;
-    int most = 0;
+    int max_length = 0;
     for (std::uint32_t rest = bits; rest != 0;) {
         const int first = std::countr_zero(rest);
         const int length = std::countr_one(rest >> first);
-        const std::uint32_t stretch = ~std::uint32_t{0} >> (32 - length) << first;
-        if (length > most) longest = stretch;
-        most = std::max(most, length);
-        rest &= ~stretch;
+        const std::uint32_t run = ~std::uint32_t{0} >> (32 - length) << first;
+        if (length > max_length) longest = run;
+        max_length = std::max(max_length, length);
+        rest &= ~run;
     }
     return longest;
 }
 
 }  // namespace
 
-/// Compares lines with the code. Lines from `first_line` on have `rolls` at the cell `first_cell`.
+/// Compares the lines of one axis with the code. `rolls` are those of the lines from `first_line`
+/// on, at cell `first_cell`.
 CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rolls, int first_line,
                                   int count, int first_cell) {
     Half half;
-    // Cells before `first_cell` have no bits, so that their rolls do not matter.
+    // Cells before `first_cell` have no bits, so their rolls do not matter.
     const int ahead = ((kFirst - first_cell) % kSections + kSections) % kSections;
     const int begin = std::max(first_line, kFirst);
     const int end = std::min(first_line + count, kFirst + kMostTracked);
@@ -48,10 +49,10 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
         const int roll = there < kSections ? there : there - kSections;
         const std::uint32_t code = code::kMainWords[static_cast<std::size_t>(roll)];
         const std::uint32_t wrong = (bits ^ code) & seen;
-        // Bits beyond a gap are dropped, though they would speak against alternatives, too: tables
-        // know only stretches without gaps.
+        // Without wrong bits, only the longest run of bits without a gap is kept, because the
+        // tables contain only runs. The dropped bits could only make alternatives less likely.
         half.rolls[i] = static_cast<std::uint8_t>(roll);
-        half.lines[i] = {code, wrong == 0 ? longest_stretch(seen) : seen, wrong};
+        half.lines[i] = {code, wrong == 0 ? longest_run(seen) : seen, wrong};
         if (seen == 0) continue;
         if (half.end == 0) {
             half.first = i;

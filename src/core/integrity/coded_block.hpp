@@ -1,5 +1,5 @@
-// Coded block: bits that were read next to those that the code has there, as words, so that
-// comparing them takes an instruction.
+// Coded block: the bits read and the bits of the code at the same cells, packed into words, so that
+// one instruction compares a line.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"
@@ -7,22 +7,22 @@
 
 namespace dotpose::core {
 
-/// The middle of an upright block, compared with the code.
+/// The middle cells of an upright block, compared with the code.
 class CodedBlock {
   public:
-    /// `place` is that of cell (0, 0); `view` has the rolls of all lines that were read.
+    /// `place` is the place of cell (0, 0). `view` has the rolls of all lines that were read.
     CodedBlock(Profile profile, const Place& place, const CellsInView& view, const BitBlock& block);
 
-    /// Returns the bits of one axis; `confidence` is that of all bits read.
+    /// Returns the bits of one axis. `confidence` covers all bits read, also outside the middle.
     AxisBits axis(Axis axis, const Confidence& confidence) const;
 
   private:
     struct Half {
         std::array<TrackedLine, kMostTracked> lines;
         std::array<std::uint8_t, kMostTracked> rolls;
-        std::size_t first = 0;  ///< the first line that has bits
-        std::size_t end = 0;
-        AxisReading reading;  ///< of the first line that has bits
+        std::size_t first = 0;  ///< first line that has bits
+        std::size_t end = 0;    ///< end of the lines that have bits
+        AxisReading reading;    ///< reading of line `first`
     };
     static Half half(const BitLines& lines, const std::uint8_t* rolls, int first_line, int count,
                      int first_cell);

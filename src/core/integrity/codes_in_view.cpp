@@ -5,11 +5,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds that need no closer look: kSettled of a profile, kNoDoubt of places elsewhere.
-constexpr float kSettled = 1e-12F;
-constexpr float kNoDoubt = 1e-10F;
+/// Odds below which no more bits are needed: of the same place in another code, and of places
+/// elsewhere.
+constexpr float kMaxOddsHere = 1e-12F;
+constexpr float kMaxOddsElsewhere = 1e-10F;
 
-/// Returns whether two profiles differ in the rolls of the lines from a position on.
+/// Returns true if two codes differ in the rolls of the lines from a position on.
 bool differ_from(std::uint32_t position, Profile read, Profile other) {
     std::array<std::uint8_t, BitBlock::kSide> own;
     std::array<std::uint8_t, BitBlock::kSide> theirs;
@@ -18,9 +19,10 @@ bool differ_from(std::uint32_t position, Profile read, Profile other) {
     return own != theirs;
 }
 
-/// Returns whether profiles in question have other symbols in view than the one read, or may
-/// explain them at another place.
-bool tells_more(Profile read, const Place& place, bool has_more_lines, const OtherCodes& others) {
+/// Returns true if more lines may change the odds: another code has other symbols in view, or a
+/// place elsewhere in it is not ruled out yet.
+bool may_change_odds(Profile read, const Place& place, bool has_more_lines,
+                     const OtherCodes& others) {
     const auto have_other_rolls = [&](Profile other) {
         const Place corner = moved(read, place, -BitBlock::kMiddle, -BitBlock::kMiddle);
         return differ_from(corner.cell.x, read, other) || differ_from(corner.cell.y, read, other);
@@ -28,8 +30,8 @@ bool tells_more(Profile read, const Place& place, bool has_more_lines, const Oth
     for (std::size_t i = 0; i < others.of.size(); ++i) {
         const auto other = static_cast<Profile>(i);
         if (other == read) continue;
-        if (others.of[i].elsewhere() > kNoDoubt) return true;
-        if (!has_more_lines || others.of[i].here() < kSettled) continue;
+        if (others.of[i].elsewhere() > kMaxOddsElsewhere) return true;
+        if (!has_more_lines || others.of[i].here() < kMaxOddsHere) continue;
         if (have_other_rolls(other)) return true;
     }
     return false;
@@ -40,7 +42,7 @@ bool tells_more(Profile read, const Place& place, bool has_more_lines, const Oth
 void weigh_codes_in_view(const Kernels& kernels, Profile read, const Place& place,
                          const BitBlock& block, const std::array<Confidence, 2>& bits,
                          bool has_more_lines, std::span<ScoredLine> storage, OtherCodes& others) {
-    if (!tells_more(read, place, has_more_lines, others)) return;
+    if (!may_change_odds(read, place, has_more_lines, others)) return;
     weigh_other_codes(kernels, evidence_of(kernels, read, place, block, bits, storage), read,
                       others);
 }

@@ -1,5 +1,5 @@
-// Codes in view: what all dots in view say of other profiles, and not only those that had to make
-// the position certain.
+// Codes in view: the odds of the other codes from all dots in view, not only from the dots that had
+// to make the position certain.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"
@@ -7,8 +7,8 @@
 
 namespace dotpose::core {
 
-/// Weighs the other profiles once more, where that may tell more, by a block of bits whose cell (0,
-/// 0) is at `place`. `has_more_lines` says whether the block has more lines than had to make the
+/// Computes the odds of the other codes again, where more bits may change them. `block` has cell
+/// (0, 0) at `place`. `has_more_lines` is true if the block has more lines than had to make the
 /// position certain.
 void weigh_codes_in_view(const Kernels& kernels, Profile read, const Place& place,
                          const BitBlock& block, const std::array<Confidence, 2>& bits,

@@ -13,19 +13,19 @@ constexpr std::array<std::int32_t, 34> kLog2OfOneAnd{
     1466,  1039,  736,   521,   369,   261,   185,   131,  93,   66,   47,   33,
     24,    17,    12,    9,     6,     5,     3,     3,    2,    2};
 
-/// Returns an upper bound of log2(1 + 2^-n): the function is convex, so it is below its chords.
+/// Returns an upper bound of log2(1 + 2^-n). The function is convex, so its chords are above it.
 int log2_of_one_and_q16(int n_q8) {
     const auto i = static_cast<std::size_t>(n_q8 >> 7);
     return kLog2OfOneAnd[i] - ((kLog2OfOneAnd[i] - kLog2OfOneAnd[i + 1]) * (n_q8 & 127) >> 7);
 }
 
 int log_odds_q8(int odds_per_bit_q8, int level) {
-    // 129 / 2^14 stands for 1 / 127.
+    // 129 / 2^14 is 1 / 127.
     return (odds_per_bit_q8 * Confidence::weight_of(level) * 129) >> 14;
 }
 
-/// Returns the share of bits that are wrong at such odds, in 2^-16.
-std::uint32_t wrong_share_q16(int log_odds_q8) {
+/// Returns the fraction of bits that are wrong at these odds, in 2^-16.
+std::uint32_t wrong_fraction_q16(int log_odds_q8) {
     if (log_odds_q8 >= 15 * 256) return 1;
     return UINT32_MAX / (65536 + static_cast<std::uint32_t>(exp2_q16(log_odds_q8)));
 }
@@ -48,12 +48,12 @@ std::int64_t agreement_log2_q16(const Confidence& axis, int odds_per_bit_q8) {
 int odds_per_bit_q8(const Confidence& confidence) {
     struct Weighted {
         std::uint8_t level;
-        std::uint32_t weight;  ///< of all bits of the level together
+        std::uint32_t weight;  ///< total weight of the bits of the level
     };
     std::array<Weighted, Confidence::kLevels> levels;
     std::size_t count = 0;
     std::uint32_t allowed = 2 * 127;
-    // Levels with the strongest bits come first.
+    // The levels with the strongest bits come first.
     for (int level = Confidence::kLevels; level-- > 0;) {
         const int bits = confidence.bits(level);
         if (bits == 0) continue;
@@ -64,13 +64,13 @@ int odds_per_bit_q8(const Confidence& confidence) {
     }
     const std::uint64_t allowed_q16 = std::uint64_t{allowed} << 16;
     int odds_q8 = 0;
-    // Bisection: the larger the odds, the less weight is expected to be wrong.
+    // Bisection: the larger the odds, the smaller the expected weight of wrong bits.
     for (int step_q8 = 8 * 256; step_q8 >= 8; step_q8 /= 2) {
         std::uint64_t expected_q16 = 0;
         for (std::size_t i = 0; i < count && expected_q16 <= allowed_q16; ++i) {
             const auto [level, weight] = levels[i];
             expected_q16 +=
-                std::uint64_t{weight} * wrong_share_q16(log_odds_q8(odds_q8 + step_q8, level));
+                std::uint64_t{weight} * wrong_fraction_q16(log_odds_q8(odds_q8 + step_q8, level));
         }
         if (expected_q16 > allowed_q16) odds_q8 += step_q8;
     }

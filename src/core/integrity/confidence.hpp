@@ -1,5 +1,5 @@
-// Confidence: how sure bits are, and how probable it is that chance agrees with the code as well.
-// docs/integrity.md derives both.
+// Confidence: how reliable the bits are, and the probability that random bits agree with the code
+// as well. docs/integrity.md derives both.
 #pragma once
 
 #include <array>
@@ -8,14 +8,14 @@
 
 namespace dotpose::core {
 
-/// Counts bits by their weight, in steps of 8, and by whether the code contradicts them.
+/// Histogram of the bits by weight, in steps of 8, and by agreement with the code.
 class Confidence {
   public:
     static constexpr int kLevels = 16;
-    /// Returns the weight that stands for all weights of a level.
+    /// Returns the weight that represents a level.
     static constexpr int weight_of(int level) { return 8 * level + 4; }
 
-    /// Adds bits of a weight from -127 to 127.
+    /// Adds `bits` bits of the same weight, -127 to 127.
     void add(int weight, bool is_wrong, int bits = 1) {
         const int level = (weight < 0 ? -weight : weight) >> 3;
         counts_[static_cast<std::size_t>(2 * level + (is_wrong ? 1 : 0))] += bits;
@@ -46,22 +46,23 @@ class Confidence {
     }
 
   private:
-    std::array<std::int32_t, 2 * kLevels> counts_{};  ///< by level: right, wrong
+    std::array<std::int32_t, 2 * kLevels> counts_{};  ///< right and wrong bits, by level
 };
 
-/// Returns the odds that a bit of weight 127 is right, as log2 in 2^-8, at most 16 * 256; log odds
-/// of weaker bits are proportional to their weight. It is the value (logistic regression, maximum
-/// likelihood) at which as much weight is expected to be wrong as is, plus two full bits; 0 if that
-/// says nothing.
+/// Returns the odds that a bit of weight 127 is right, as log2 in 2^-8, from 0 to 16 * 256. The log
+/// odds of a weaker bit are proportional to its weight. The estimate is the value at which the
+/// expected weight of wrong bits equals the observed weight plus two full bits (logistic
+/// regression, maximum likelihood). Returns 0 if the bits carry no information.
 int odds_per_bit_q8(const Confidence& confidence);
 
 /// Returns log2 of an upper bound of the probability that random bits of these weights agree as
-/// well with some position, section and turn of one axis: L * 63 * 4 hypotheses, each by Chernoff's
-/// bound with weights scaled to log odds. It holds for any odds, and is best for the true ones.
+/// well with any position, section and turn of one axis. There are L * 63 * 4 hypotheses; each is
+/// bounded by Chernoff, with weights scaled to log odds. The bound holds for any odds and is
+/// smallest near the true ones.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
-/// Returns that bound in 2^-8, for 2^(log2_times_q8 / 256) times as many hypotheses. Of these odds
-/// and those of bits beyond doubt the better ones are taken.
+/// Returns the same bound in 2^-8, for 2^(log2_times_q8 / 256) times as many hypotheses. Uses the
+/// given odds or 2^16, whichever gives the smaller bound.
 int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8);
 
 }  // namespace dotpose::core

@@ -11,23 +11,23 @@
 namespace dotpose::core {
 namespace {
 
-/// The least sum: negligible odds for each of the 190,027 pairs of places at each shift. No smaller
-/// expectation is relied on.
+/// Minimum of the sum: negligible odds for each of the 190,027 pairs of places at each shift. No
+/// result relies on a smaller expectation.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// Factor of safety of expectations. At one position the odds can be larger than expected over all
+/// Safety factor of expectations. At a given position the odds can be larger than the mean over all
 /// positions; on 5,630 axes of hard frames they were at most 21 times as large.
 constexpr float kMargin = 32;
 
-/// A set of anchors, with a bit for each, by rank.
+/// Set of anchors: a bit for each, by rank.
 using Anchors = std::uint32_t;
 
-/// Anchors divided into one group fewer than an alternative has to share to be looked at, so that
-/// it shares two of some group.
+/// The anchors, divided into `shared - 1` groups. An alternative that shares `shared` anchors
+/// therefore shares two anchors of the same group.
 class Groups {
   public:
     Groups(const RankedLines& lines, int anchors, int shared) : count_(shared - 1) {
-        // Anchors go to the groups in turn. Those of one group are far apart then, so that few
+        // Assigns anchors to the groups in turn. Anchors of one group are then far apart, so few
         // alternatives share two of them.
         int n = 0;
         for (int line = 0; line < lines.count(); ++line) {
@@ -48,7 +48,8 @@ class Groups {
         }
     }
 
-    /// Returns whether an alternative with these shared anchors was not met at an earlier pair.
+    /// Returns true if (`one`, `other`) is the first pair of anchors at which an alternative with
+    /// these shared anchors is found.
     bool is_first_pair(Anchors shared, int one, int other) const {
         for (const Anchors group : groups_) {
             const Anchors both = shared & group;
@@ -60,18 +61,18 @@ class Groups {
 
   private:
     int count_;
-    std::array<Anchors, kFewestFound - 1> groups_{};
+    std::array<Anchors, kMinFound - 1> groups_{};
 };
 
-/// A byte for each anchor, by rank, and for a few lines more; compilers keep them in one register.
+/// One byte for each anchor, by rank, and for a few more lines. Compilers keep it in one register.
 using AnchorBytes [[gnu::vector_size(16)]] = std::uint8_t;
-static_assert(sizeof(AnchorBytes) >= kMostAnchors && sizeof(AnchorBytes) <= kMaxLines);
+static_assert(sizeof(AnchorBytes) >= kMaxAnchors && sizeof(AnchorBytes) <= kMaxLines);
 
 int at(const RankedLines::Offsets& offsets, int rank) {
     return offsets.all[static_cast<std::size_t>(rank)];
 }
 
-/// Returns offsets between -62 and 62 modulo 63; negative ones are stored modulo 256.
+/// Returns offsets from -62 to 62 modulo 63. Negative ones are stored modulo 256.
 AnchorBytes modulo_sections(AnchorBytes offsets) {
     return offsets + (static_cast<AnchorBytes>(offsets >= kSections) & kSections);
 }
@@ -82,18 +83,18 @@ AnchorBytes anchors_of(const RankedLines::Offsets& offsets) {
     return bytes;
 }
 
-/// Returns the offsets of a place less that at one anchor, modulo 63.
+/// Returns the offsets of a place minus its offset at one anchor, modulo 63.
 AnchorBytes since(int one, const RankedLines::Offsets& offsets) {
     return modulo_sections(anchors_of(offsets) - offsets.all[static_cast<std::size_t>(one)]);
 }
 
-/// Returns the negative of the same, modulo 63. A place shares the anchors at which these equal
-/// its own `since` with the place.
+/// Returns the negative of `since`, modulo 63. Two places share the anchors at which `since` of one
+/// equals `opposite` of the other.
 AnchorBytes opposite(int one, const RankedLines::Offsets& offsets) {
     return modulo_sections(offsets.all[static_cast<std::size_t>(one)] - anchors_of(offsets));
 }
 
-/// Some anchors, each marked by 1 in its byte.
+/// Set of anchors, each marked by 1 in its byte.
 class Marks {
   public:
     explicit Marks(AnchorBytes marks) { std::memcpy(halves_.data(), &marks, sizeof marks); }
@@ -102,7 +103,8 @@ class Marks {
     Anchors anchors() const { return bits_of(halves_[0]) | bits_of(halves_[1]) << 8; }
 
   private:
-    /// Returns the lowest bits of eight bytes: each is moved to another bit of the highest byte.
+    /// Returns the lowest bits of eight bytes: the product moves each to a different bit of the
+    /// highest byte.
     static Anchors bits_of(std::uint64_t bytes) {
         return static_cast<Anchors>(bytes * 0x0102040810204080 >> 56);
     }
@@ -110,14 +112,15 @@ class Marks {
     std::array<std::uint64_t, 2> halves_;
 };
 
-/// A place of a sequence, with the offsets that shared anchors have in another sequence.
+/// A place of a sequence, with the offsets that the other place of a pair must have at the shared
+/// anchors.
 struct Opposite {
     AnchorBytes offsets;
     const RankedLines::Offsets* place;
 };
 
-/// The places of a sequence other than the reading's, in buckets by how much larger the offset at
-/// one anchor is than at another, modulo 63.
+/// The places of a sequence, except that of the reading, in buckets by the difference of their
+/// offsets at two anchors, modulo 63.
 class Buckets {
   public:
     Buckets(const RankedLines& lines, std::size_t sequence, int one, int other) {
@@ -154,7 +157,7 @@ class Buckets {
     std::array<Opposite, code::kA4Restored.size()> places_;
 };
 
-/// Sums up the alternatives that share at least `shared` anchors.
+/// Sums up the odds of the alternatives that share at least `shared` anchors.
 class Finder {
   public:
     Finder(const RankedLines& lines, int anchors, int shared)
@@ -166,7 +169,7 @@ class Finder {
     float sum() const {
         float sum = 0;
         groups_.visit_pairs([&](int one, int other) {
-            // Of every two sequences one has the buckets, but not the third, which is the shortest.
+            // In each pair of sequences one has the buckets. a3, the shortest, never has them.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });
@@ -174,8 +177,8 @@ class Finder {
     }
 
   private:
-    /// Returns the odds of the alternatives that differ in the places of this sequence and of one
-    /// of `others`, and share both anchors.
+    /// Returns the odds of the alternatives that differ in this sequence and in one of `others` and
+    /// share both anchors.
     float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others, int one,
                           int other) const {
         const Buckets buckets(lines_, sequence, one, other);
@@ -197,10 +200,10 @@ class Finder {
         return sum;
     }
 
-    /// Returns the odds of a pair of places; `shared` is the sum of their offsets in a line that it
-    /// shares.
+    /// Returns the odds of a pair of places. `shared` is the sum of their offsets in a line that
+    /// the pair shares.
     float odds(const RankedLines::Offsets& a, const RankedLines::Offsets& b, int shared) const {
-        // 126 is no shift, as are 63 and 189; it keeps the sums of two places above 0.
+        // 126 is shift 0 modulo 63, and keeps the sums of two offsets positive.
         const int base = 2 * kSections - shared;
         int lost = 0;
         for (int rank = 0; rank < lines_.count(); ++rank) {
@@ -213,27 +216,27 @@ class Finder {
     const RankedLines& lines_;
     int shared_;
     Groups groups_;
-    AnchorBytes anchors_{};  ///< 1 for each anchor, 0 for lines that are none
+    AnchorBytes anchors_{};  ///< 1 for each anchor, 0 for other lines
 };
 
 }  // namespace
 
-float sum_of_double_alternatives(const RankedLines& lines, float negligible, float most) {
-    const int anchors = std::min(lines.count(), kMostAnchors);
+float sum_of_double_alternatives(const RankedLines& lines, float negligible, float max_odds) {
+    const int anchors = std::min(lines.count(), kMaxAnchors);
     const auto expected = expected_double_alternatives(lines, anchors);
     const auto expected_odds = [&](int shared) {
         return kMargin * expected[static_cast<std::size_t>(shared)];
     };
-    // With every anchor fewer that has to be shared, more pairs of anchors are gone through: for
-    // seven 6 of the 66 pairs, for four 18, for two all. More than for four are worth it only if
-    // the fix would be lost otherwise.
-    constexpr int kFewestForDetail = 4;
-    int shared = std::min(kFewestFound, anchors);
+    // The fewer anchors must be shared, the more pairs of anchors are visited: 6 of the 66 pairs
+    // for seven, 18 for four, all for two. Fewer than four are worth the time only if the fix would
+    // be refused otherwise.
+    constexpr int kMinForDetail = 4;
+    int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&
-           expected_odds(shared) > (shared > kFewestForDetail ? negligible : most / 8))
+           expected_odds(shared) > (shared > kMinForDetail ? negligible : max_odds / 8))
         --shared;
     const float rest = expected_odds(shared);
-    return kFloor + (rest > most ? rest : rest + Finder(lines, anchors, shared).sum());
+    return kFloor + (rest > max_odds ? rest : rest + Finder(lines, anchors, shared).sum());
 }
 
 }  // namespace dotpose::core

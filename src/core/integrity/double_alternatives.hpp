@@ -1,4 +1,4 @@
-// Double alternatives: positions that differ from the one found in the places of two secondary
+// Double alternatives: positions that differ from the one read in the places of two secondary
 // sequences. docs/integrity.md.
 #pragma once
 
@@ -7,10 +7,11 @@
 namespace dotpose::core {
 
 /// Returns the summed odds of the 190,027 pairs of places at all shifts, at least 2^-41. Pairs that
-/// share several of the lines that say most are looked at one by one, the others counted at their
-/// expectation. So many are looked at that an expectation of about `negligible` is left, and more
-/// where it would exceed `most`; if it does all the same, none are, as the sum is beyond `most`
-/// anyway. There must be 6 lines or more.
-float sum_of_double_alternatives(const RankedLines& lines, float negligible, float most);
+/// share several of the lines with the most information are counted one by one, the others by
+/// their expectation. The number of shared lines is chosen so that the expectation is about
+/// `negligible`, or at most `max_odds` if that takes too long. If the expectation exceeds
+/// `max_odds` even then, it is returned without counting pairs, because the sum exceeds the limit
+/// anyway. Needs at least 6 lines.
+float sum_of_double_alternatives(const RankedLines& lines, float negligible, float max_odds);
 
 }  // namespace dotpose::core

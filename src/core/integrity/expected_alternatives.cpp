@@ -6,17 +6,18 @@
 namespace dotpose::core {
 namespace {
 
-/// A string of five digits occurs in a sequence at most once, so it is at most 3^5 / 233 times as
-/// frequent as if digits were drawn. Over the four sequences that makes 1.12 for five steps.
+/// Safety factor for each step. A string of five digits occurs in a sequence at most once, so it is
+/// at most 3^5 / 233 times as frequent as in a random sequence. Over the four sequences this is
+/// 1.12 for five steps.
 constexpr float kUnevenness = 1.03F;
 
 }  // namespace
 
 ExpectedAlternatives::ExpectedAlternatives(const code::Basis& basis, std::uint32_t position,
-                                           int most_shared, int fewest_different)
-    : basis_(basis), position_(position), most_shared_(static_cast<std::size_t>(most_shared)) {
+                                           int max_shared, int min_different)
+    : basis_(basis), position_(position), max_shared_(static_cast<std::size_t>(max_shared)) {
     for (unsigned different = 0; different < 16; ++different) {
-        if (std::popcount(different) < fewest_different) continue;
+        if (std::popcount(different) < min_different) continue;
         Set& set = sets_[set_count_++];
         set.different = different;
         set.alternatives = 1;
@@ -29,8 +30,8 @@ ExpectedAlternatives::ExpectedAlternatives(const code::Basis& basis, std::uint32
     }
 }
 
-/// Returns the sums by shift after a step. All digits of an alternative are equally probable; those
-/// of the reading are known.
+/// Returns the sums by shift after a step. All digits of an alternative are equally probable; the
+/// digits of the reading are known.
 ExpectedAlternatives::ByShift ExpectedAlternatives::after_step(const Set& set,
                                                                const ByShift& before) const {
     ByShift now = before;
@@ -66,12 +67,12 @@ void ExpectedAlternatives::add_line(const ByShift& odds) {
         for (const float sum : set.shared)
             before[0] += sum;
         const ByShift after = after_step(set, before);
-        // A new run of shared lines begins where the shift returns to 0; a run goes on where all
-        // digits are equal. Adjacent lines are both shared only in the latter case, as sums of
-        // digits differ.
+        // A run of shared lines begins where the shift returns to 0, and continues where all digits
+        // are equal. Adjacent lines can only be shared in the second case, because different digits
+        // have different sums.
         float returned = after[0] - before[0] * set.equal;
         returned = returned > 0 ? returned : 0;
-        for (std::size_t i = most_shared_ - 1; i > 0; --i) {
+        for (std::size_t i = max_shared_ - 1; i > 0; --i) {
             set.shared[i] = set.shared[i - 1] * set.equal * odds[0];
         }
         set.shared[0] = returned * odds[0];

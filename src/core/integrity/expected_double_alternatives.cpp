@@ -6,18 +6,17 @@
 namespace dotpose::core {
 namespace {
 
-/// See expected_alternatives.cpp.
+/// See kUnevenness in expected_alternatives.cpp.
 constexpr float kUnevenness = 1.03F;
-/// Odds and sums are kept above these, as processors are slow at very small products. Sums start at
-/// a large number, so that what is thereby added stays small even where other rolls suit some lines
-/// much better.
-constexpr float kLeastOdds = 0x1p-40F;
-constexpr float kLeastSum = 0x1p-80F;
+/// Lower bounds of odds and sums, because processors are slow at very small products. Sums start at
+/// a large number, so that the bounds add little even where other rolls fit some lines much better.
+constexpr float kMinOdds = 0x1p-40F;
+constexpr float kMinSum = 0x1p-80F;
 constexpr float kStart = 0x1p40F;
 
 using ByShift = std::array<float, kSections>;
 
-/// The alternatives that differ in two sequences, over the lines so far.
+/// Alternatives that differ in two sequences, over the lines added so far.
 class Pair {
   public:
     Pair(const code::Secondary& a, const code::Secondary& b, std::uint32_t position)
@@ -37,17 +36,17 @@ class Pair {
         }
         is_first_ = false;
         // The odds of a shared line are 1.
-        std::array<float, kFewestFound> shared;
+        std::array<float, kMinFound> shared;
         for (std::size_t n = 0; n < sums_.size(); ++n) {
             shared[n] = sums_[n][0];
             for (std::size_t s = 1; s < kSections; ++s)
-                sums_[n][s] = std::max(sums_[n][s], kLeastSum) * std::max(odds[s], kLeastOdds);
+                sums_[n][s] = std::max(sums_[n][s], kMinSum) * std::max(odds[s], kMinOdds);
             sums_[n][0] = is_anchor ? (n == 0 ? 0 : shared[n - 1]) : shared[n];
         }
     }
 
-    /// Adds the odds of the alternatives to `totals`, by the number of anchors they share.
-    void add_to(std::span<float, kFewestFound> totals) const {
+    /// Adds the odds of the alternatives to `totals`, by the number of anchors shared.
+    void add_to(std::span<float, kMinFound> totals) const {
         const float alternatives = static_cast<float>(a_.length * b_.length) / kStart;
         for (std::size_t n = 0; n < sums_.size(); ++n) {
             for (const float sum : sums_[n])
@@ -60,14 +59,14 @@ class Pair {
         if (++place == of.length) place = 0;
     }
 
-    /// Changes the sums by shift as a step does in one sequence. All digits of an alternative are
-    /// equally probable; those of the reading are known.
+    /// Applies a step in one sequence to the sums by shift. All digits of an alternative are
+    /// equally probable; the digits of the reading are known.
     static void step(const code::Secondary& of, std::uint32_t place, float factor, ByShift& sums) {
-        // The sums stand here twice, so that any shift of them is one stretch.
+        // The sums are stored twice, so that every cyclic shift of them is contiguous.
         std::array<float, 2 * kSections> before;
-        const float share = factor / static_cast<float>(of.base);
+        const float fraction = factor / static_cast<float>(of.base);
         for (std::size_t s = 0; s < kSections; ++s)
-            before[s] = before[s + kSections] = sums[s] * share;
+            before[s] = before[s + kSections] = sums[s] * fraction;
         sums.fill(0);
         for (int digit = 0; digit < of.base; ++digit) {
             const int shift = of.weight * (digit - of.digits[place]);
@@ -82,15 +81,15 @@ class Pair {
     std::uint32_t place_a_;
     std::uint32_t place_b_;
     bool is_first_ = true;
-    std::array<ByShift, kFewestFound> sums_;  ///< by the number of anchors shared
+    std::array<ByShift, kMinFound> sums_;  ///< sums by shift, by the number of anchors shared
 };
 
 }  // namespace
 
-std::array<float, kFewestFound + 1> expected_double_alternatives(const RankedLines& lines,
-                                                                 int anchors) {
+std::array<float, kMinFound + 1> expected_double_alternatives(const RankedLines& lines,
+                                                              int anchors) {
     const LikelihoodRatios& ratios = lines.ratios;
-    std::array<float, kFewestFound> totals{};
+    std::array<float, kMinFound> totals{};
     for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
         for (std::size_t l = k + 1; l < ratios.basis.size(); ++l) {
             Pair pair(ratios.basis[k], ratios.basis[l], ratios.position);
@@ -101,7 +100,7 @@ std::array<float, kFewestFound + 1> expected_double_alternatives(const RankedLin
             pair.add_to(totals);
         }
     }
-    std::array<float, kFewestFound + 1> fewer{};
+    std::array<float, kMinFound + 1> fewer{};
     for (std::size_t n = 0; n < totals.size(); ++n)
         fewer[n + 1] = fewer[n] + totals[n];
     return fewer;

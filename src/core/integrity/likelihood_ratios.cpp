@@ -10,15 +10,16 @@ namespace dotpose::core {
 
 namespace {
 
-/// Returns in how many bits two stretches of the main sequence differ, by their first indices.
+/// Returns the Hamming distance of two substrings of the main sequence, given by their first
+/// indices.
 constexpr int distance_of(std::size_t first, std::size_t other, std::size_t length) {
     const std::uint32_t all = length == 0 ? 0 : ~std::uint32_t{0} >> (32 - length);
     return bits_in((code::kMainWords[first] ^ code::kMainWords[other]) & all);
 }
 
-/// The least number of bits in which other stretches of the main sequence, of the same length,
-/// differ from one, and how many differ in no more.
-struct NearestStretches {
+/// Minimum distance of a substring of the main sequence from the others of its length, and the
+/// number of substrings at that distance.
+struct NearestSubstrings {
     int distance = kMostTracked + 1;
     int count = 0;
 
@@ -27,16 +28,16 @@ struct NearestStretches {
         if (other_distance == distance) ++count;
     }
 };
-constexpr NearestStretches nearest_of(std::size_t first, std::size_t length) {
-    NearestStretches nearest;
+constexpr NearestSubstrings nearest_of(std::size_t first, std::size_t length) {
+    NearestSubstrings nearest;
     for (std::size_t other = 0; other < kSections; ++other) {
         if (other != first) nearest.add(distance_of(first, other, length));
     }
     return nearest;
 }
 
-/// Where the least distance of a stretch of the main sequence from the others of its length grows,
-/// by its first index: bit i is 1 if it is larger with bit i. It grows by at most one with each.
+/// Minimum distances of the substrings of the main sequence, by first index: bit i is 1 if the
+/// distance grows with bit i. It grows by at most one with each bit.
 constexpr auto kGrowingDistances = [] {
     std::array<std::uint32_t, kSections> grows{};
     for (std::size_t first = 0; first < grows.size(); ++first) {
@@ -57,16 +58,16 @@ static_assert([] {
     return true;
 }());
 
-/// log2 of the most stretches that differ from another in the fewest bits, by their length, in
-/// 2^-8, rounded up.
+/// Upper bound, by length, of log2 of the number of substrings at the minimum distance from
+/// another, in 2^-8.
 constexpr auto kLog2OfNearest = [] {
     std::array<std::uint16_t, kMostTracked + 1> log2{};
     for (std::size_t length = 0; length < log2.size(); ++length) {
-        int most = 1;
+        int max_count = 1;
         for (std::size_t first = 0; first < kSections; ++first)
-            most = std::max(most, nearest_of(first, length).count);
+            max_count = std::max(max_count, nearest_of(first, length).count);
         log2[length] =
-            static_cast<std::uint16_t>(log2_at_most_q8(static_cast<std::uint32_t>(most)));
+            static_cast<std::uint16_t>(log2_at_most_q8(static_cast<std::uint32_t>(max_count)));
     }
     return log2;
 }();
@@ -85,9 +86,9 @@ LikelihoodRatios::LikelihoodRatios(Profile profile, const Lines& lines_, const A
         const LineScores& scores = lines[i];
         const int own = scores[rolls_[static_cast<std::size_t>(i)]];
         const BestScore best = lines.best(i);
-        set_least_loss(i, own == best.score ? best.margin : own - best.score);
+        set_min_loss(i, own == best.score ? best.margin : own - best.score);
     }
-    hopeless_score_ = most_regained_ + -kNegligible_q8 * 2 * 127 / odds_q8;
+    hopeless_score_ = max_gain_ + -kNegligible_q8 * 2 * 127 / odds_q8;
 }
 
 LikelihoodRatios::LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
@@ -98,7 +99,7 @@ LikelihoodRatios::LikelihoodRatios(Profile profile, std::span<const TrackedLine>
       count_(static_cast<int>(lines_.size())),
       odds_per_bit_q8_(odds_q8) {
     follow_rolls(profile, reading);
-    set_least_losses_of_bits();
+    set_min_losses_of_bits();
 }
 
 LikelihoodRatios::LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
@@ -111,21 +112,21 @@ LikelihoodRatios::LikelihoodRatios(Profile profile, std::span<const TrackedLine>
       odds_per_bit_q8_(odds_q8) {
     find_places();
     std::copy(rolls.begin(), rolls.end(), rolls_.begin());
-    set_least_losses_of_bits();
+    set_min_losses_of_bits();
 }
 
-void LikelihoodRatios::set_least_losses_of_bits() {
+void LikelihoodRatios::set_min_losses_of_bits() {
     for (int i = 0; i < count_; ++i) {
         const auto line = static_cast<std::size_t>(i);
         const Nearest others = bits_[line].seen != 0 ? nearest(i) : Nearest{0, kOtherRolls_q8};
-        set_least_loss(i, kScoreOfBit * others.lost_bits);
+        set_min_loss(i, kScoreOfBit * others.lost_bits);
         log2_of_nearest_q8_[line] = static_cast<std::int16_t>(others.log2_count_q8);
     }
-    hopeless_score_ = most_regained_ + -kNegligible_q8 * 2 * 127 / odds_per_bit_q8_;
+    hopeless_score_ = max_gain_ + -kNegligible_q8 * 2 * 127 / odds_per_bit_q8_;
 }
 
 int LikelihoodRatios::log2_of_nearest_q8(int line) const {
-    // All other rolls lose at least a bit more.
+    // All other rolls lose at least one bit more.
     const int log2_q8 = add_log2(log2_of_nearest_q8_[static_cast<std::size_t>(line)],
                                  kOtherRolls_q8 - odds_per_bit_q8_);
     return std::min(log2_q8, kOtherRolls_q8);
@@ -142,9 +143,9 @@ void LikelihoodRatios::find_places() {
         places[k] = basis[k].place_of(position);
 }
 
-void LikelihoodRatios::set_least_loss(int line, int least_loss) {
-    least_losses_[static_cast<std::size_t>(line)] = static_cast<std::int16_t>(least_loss);
-    most_regained_ += std::max(-least_loss, 0);
+void LikelihoodRatios::set_min_loss(int line, int min_loss) {
+    min_losses_[static_cast<std::size_t>(line)] = static_cast<std::int16_t>(min_loss);
+    max_gain_ += std::max(-min_loss, 0);
 }
 
 LikelihoodRatios::Nearest LikelihoodRatios::nearest(int line) const {
@@ -152,14 +153,14 @@ LikelihoodRatios::Nearest LikelihoodRatios::nearest(int line) const {
     const int own = own_roll(line);
     const int first = std::countr_zero(bits.seen);
     const int length = static_cast<int>(std::bit_width(bits.seen)) - first;
-    const std::uint32_t stretch = bits.seen >> first;
-    if (bits.wrong == 0 && (stretch & (stretch + 1)) == 0) {
+    const std::uint32_t read = bits.seen >> first;
+    if (bits.wrong == 0 && (read & (read + 1)) == 0) {
         const int begin = own + first < kSections ? own + first : own + first - kSections;
         const std::uint32_t grows = kGrowingDistances[static_cast<std::size_t>(begin)];
-        return {bits_in(grows & stretch), kLog2OfNearest[static_cast<std::size_t>(length)]};
+        return {bits_in(grows & read), kLog2OfNearest[static_cast<std::size_t>(length)]};
     }
-    // Tables do not cover lines with gaps or wrong bits.
-    NearestStretches nearest;
+    // The tables do not cover lines with gaps or wrong bits.
+    NearestSubstrings nearest;
     for (int roll = 0; roll < kSections; ++roll) {
         if (roll != own) nearest.add(loss_of_bits(line, roll));
     }
@@ -178,7 +179,8 @@ std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOff
     const int base = offsets[static_cast<std::size_t>(shared)];
     const int count = ratios.count();
     int lost = 0;
-    // From the shared line onwards, where most is lost soonest, and on to the lines before it.
+    // Visits the lines after the shared one first, where the loss grows fastest, then those before
+    // it.
     for (int i = 1, line = shared + 1; i < count; ++i, ++line) {
         if (line == count) line = 0;
         const int shift = offsets[static_cast<std::size_t>(line)] - base;

@@ -9,18 +9,18 @@
 namespace dotpose::core {
 namespace {
 
-/// How often the shortest sequence has to be repeated to be longer than all lines.
+/// Number of repetitions of the shortest sequence that exceed the maximum number of lines.
 constexpr std::uint32_t kTurns = kMaxLines / code::kA3.size() + 1;
 
-/// The places in one sequence at which the digits of a run of lines occur, the reading's own
-/// included.
+/// The places in one sequence at which the digits of a run of lines occur, including that of the
+/// reading.
 class TwinPlaces {
   public:
-    /// The run begins `run` lines after the first and has one line more than digits.
+    /// The run begins at line `run` and has one line more than `digits`.
     TwinPlaces(const RankedLines& lines, std::size_t sequence, std::uint32_t run, int digits) {
         const code::Secondary& a = lines.ratios.basis[sequence];
         const std::uint32_t own = (lines.ratios.places[sequence] + run) % a.length;
-        // The reading's own place is the first, and the places before it are the last.
+        // The place of the reading comes first, and the places before it come last.
         for (const bool before : {false, true}) {
             const auto add = [&](std::uint32_t place) {
                 if ((place < own) != before) return;
@@ -32,8 +32,8 @@ class TwinPlaces {
         }
     }
 
-    /// The offsets of a place, and those of the first eight lines less that of the run's first
-    /// line, modulo 63.
+    /// A place: its offsets, and those of the first eight lines minus that of the first line of the
+    /// run, modulo 63.
     struct Twin {
         EightOffsets first = 0;
         const RankedLines::Offsets* offsets;
@@ -59,7 +59,8 @@ class TwinPlaces {
 
 using OneOfEach = std::array<const TwinPlaces::Twin*, 4>;
 
-/// Returns the odds of an alternative that shares a run of lines; `first` is the sum of its twins'.
+/// Returns the odds of an alternative that shares a run of lines. `first` is the sum of `first` of
+/// its twins.
 float odds_of_twins(const RankedLines& lines, EightOffsets first, const OneOfEach& twins) {
     int lost = lines.loss_of_first(first);
     for (int rank = 8; rank < lines.count() && !lines.ratios.is_hopeless(lost); ++rank) {
@@ -72,10 +73,10 @@ float odds_of_twins(const RankedLines& lines, EightOffsets first, const OneOfEac
     return lines.ratios.is_hopeless(lost) ? kNegligible : lines.ratios.odds(lost);
 }
 
-/// Returns the odds of the alternatives that share the lines of one run.
+/// Returns the summed odds of the alternatives that share the lines of one run.
 float sum_of_twins(const RankedLines& lines, const std::array<TwinPlaces, 4>& places) {
     float sum = 0;
-    bool is_own = true;  // The first combination is the reading itself.
+    bool is_own = true;  // the first combination is the reading itself
     for (const auto& a : places[0].all()) {
         for (const auto& b : places[1].all()) {
             for (const auto& c : places[2].all()) {

@@ -1,4 +1,4 @@
-// Near alternatives: positions that share several lines in a row with the one found.
+// Near alternatives: positions that share several adjacent lines with the one read.
 // docs/integrity.md.
 #pragma once
 
@@ -6,10 +6,10 @@
 
 namespace dotpose::core {
 
-/// Returns the summed odds of all alternatives that share `shared_lines` consecutive lines, four or
-/// five, or more: one by one, from the places in the secondary sequences at which the digits of the
-/// three or four differences occur again. This is an upper bound, as those that share more lines
-/// are counted more than once, and hopeless ones as negligible.
+/// Returns the summed odds of all alternatives that share at least `shared_lines` adjacent lines, 4
+/// or 5. They are counted one by one, from the places in the secondary sequences at which the 3 or
+/// 4 digits between these lines occur again. The result is an upper bound: alternatives that share
+/// more lines are counted more than once, and hopeless ones as negligible.
 float sum_of_near_alternatives(const RankedLines& lines, int shared_lines);
 
 }  // namespace dotpose::core

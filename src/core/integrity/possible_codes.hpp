@@ -1,5 +1,5 @@
 // Possible codes: how certain a fix in one code is, given that the sheet may have another code.
-// docs/integrity.md, "Several codes", derives the numbers.
+// docs/integrity.md, "Which code?", derives the numbers.
 #pragma once
 
 #include <array>

@@ -4,41 +4,41 @@
 #include <optional>
 #include <span>
 
-#include "core/integrity/least_losses.hpp"
+#include "core/integrity/min_losses.hpp"
 #include "core/integrity/similar_places.hpp"
 #include "core/integrity/unshared_lines.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// The prior probability that a certain border between two lines is a seam between sections a
-/// certain distance apart. It is so small that a position is still believed if a seam explains the
-/// view as well, but not if a seam explains it better.
+/// Prior probability that a given border between two lines is a seam between sections a given
+/// distance apart. A position is still accepted if a seam explains the view equally well, but not
+/// if a seam explains it better.
 constexpr int kSeam_q8 = -32 * 256;
-/// Odds below this, against the position found, are not counted.
-constexpr int kLeast_q8 = -8 * 256;
+/// Odds against the position read below which an alternative is not counted.
+constexpr int kMin_q8 = -8 * 256;
 
-/// The least losses of an alternative before each line, and from it on, over its shifts. Shifts are
-/// left out that have lost enough whatever the shift on the other side is.
-class LossesOfSides {
+/// Minimum losses of an alternative before each line, and from each line on, over its shifts.
+/// Shifts are skipped that lose at least the limit whatever the shift on the other side is.
+class LossesByBorder {
   public:
-    LossesOfSides(const LikelihoodRatios& ratios, const RollOffsets& offsets, int enough)
-        : ratios_(ratios), enough_(enough) {
+    LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
+        : ratios_(ratios), loss_limit_(loss_limit) {
         before_.fill(kNone);
         from_.fill(kNone);
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios.count()));
-        // The least loss that is kept by sharing the lines of a shift.
+        // Loss that is avoided by sharing the lines of a shift.
         std::array<int, kSections> kept{};
         int in_all = 0;
-        int most_kept = 0;
+        int max_kept = 0;
         for (std::size_t line = 0; line < in_view.size(); ++line) {
-            const int loss = std::max(ratios.least_loss(static_cast<int>(line)), 0);
+            const int loss = std::max(ratios.min_loss(static_cast<int>(line)), 0);
             in_all += loss;
-            most_kept = std::max(most_kept, kept[in_view[line]] += loss);
+            max_kept = std::max(max_kept, kept[in_view[line]] += loss);
         }
         for (const std::uint8_t shift : in_view) {
-            if (in_all - kept[shift] - most_kept < enough) add(offsets, shift);
-            kept[shift] = -in_all;  // each shift is added once
+            if (in_all - kept[shift] - max_kept < loss_limit) add(offsets, shift);
+            kept[shift] = -in_all;  // so that each shift is added once
         }
     }
 
@@ -52,72 +52,71 @@ class LossesOfSides {
 
     void add(const RollOffsets& offsets, int shift) {
         const int count = ratios_.count();
-        const auto keep_less = [](int& least, int lost) { least = std::min(least, lost); };
+        const auto update_min = [](int& least, int lost) { least = std::min(least, lost); };
         const auto loss_in = [&](int line) {
             return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
-        // A shift that has lost enough on one side does not count, whatever the other side.
+        // A shift that loses the limit on one side does not count, whatever the other side loses.
         int lost = 0;
-        for (int line = 0; line < count && lost < enough_; ++line) {
-            keep_less(before_[static_cast<std::size_t>(line)], lost);
+        for (int line = 0; line < count && lost < loss_limit_; ++line) {
+            update_min(before_[static_cast<std::size_t>(line)], lost);
             lost += loss_in(line);
         }
         lost = 0;
-        for (int line = count; line-- > 0 && lost < enough_;) {
+        for (int line = count; line-- > 0 && lost < loss_limit_;) {
             lost += loss_in(line);
-            keep_less(from_[static_cast<std::size_t>(line)], lost);
+            update_min(from_[static_cast<std::size_t>(line)], lost);
         }
     }
 
     const LikelihoodRatios& ratios_;
-    int enough_;
+    int loss_limit_;
     std::array<int, kMaxLines> before_;
     std::array<int, kMaxLines> from_;
 };
 
 /// Sums up the odds of the seam alternatives that explain the lines about as well as the position
-/// found.
+/// read.
 class SeamAlternatives {
   public:
-    SeamAlternatives(const LikelihoodRatios& ratios, int enough)
-        : ratios_(ratios), enough_(enough) {}
+    SeamAlternatives(const LikelihoodRatios& ratios, int loss_limit)
+        : ratios_(ratios), loss_limit_(loss_limit) {}
 
-    /// Adds an alternative that has another place in one sequence.
+    /// Adds the alternatives with another place in one sequence, at all borders.
     void add(std::size_t sequence, std::uint32_t place) {
         RollOffsets offsets;
         set_roll_offsets(ratios_, sequence, place, offsets);
-        const LossesOfSides losses(ratios_, offsets, enough_);
+        const LossesByBorder losses(ratios_, offsets, loss_limit_);
         for (int line = 1; line < ratios_.count(); ++line) {
             const int odds = ratios_.log2_odds_q8(losses.with_border_before(line));
-            if (odds > kLeast_q8) sum_q8_ = add_log2(sum_q8_, odds + kSeam_q8);
+            if (odds > kMin_q8) sum_q8_ = add_log2(sum_q8_, odds + kSeam_q8);
         }
     }
     int sum_q8() const { return sum_q8_; }
 
   private:
     const LikelihoodRatios& ratios_;
-    int enough_;
+    int loss_limit_;
     int sum_q8_ = kNever_q8;
 };
 
-/// Returns the loss from which on the odds of an alternative are too small to be counted.
-int enough_for(const LikelihoodRatios& ratios) {
-    return ratios.loss_for(kLeast_q8) + ratios.most_regained();
+/// Returns the loss from which an alternative is too improbable to be counted.
+int loss_limit_of(const LikelihoodRatios& ratios) {
+    return ratios.loss_for(kMin_q8) + ratios.max_gain();
 }
 
-/// Returns the losses of all steps, in parts so large that an alternative which lost
-/// `StepLosses::kEnough` of them has lost enough even if one step, that of the border, does not
-/// count.
-StepLosses losses_of_steps(const LikelihoodRatios& ratios, int enough) {
+/// Returns the losses of all steps, in parts. An alternative that loses `StepLosses::kLimitParts`
+/// of them loses the limit even if one step, that of the border, does not count.
+StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {
     StepLosses steps;
     steps.count = ratios.count() - 1;
     const auto lost_at = [&](int step) {
-        return std::min(ratios.least_loss_of_step(step), enough);
+        return std::min(ratios.min_loss_of_step(step), loss_limit);
     };
     int most = 0;
     for (int step = 0; step < steps.count; ++step)
         most = std::max(most, lost_at(step));
-    const int part = (enough + most + StepLosses::kEnough - 1) / StepLosses::kEnough;
+    const int part = (loss_limit + most + StepLosses::kLimitParts - 1) / StepLosses::kLimitParts;
     for (int step = 0; step < steps.count; ++step)
         steps.parts[static_cast<std::size_t>(step)] =
             static_cast<std::uint8_t>(lost_at(step) / part);
@@ -127,15 +126,15 @@ StepLosses losses_of_steps(const LikelihoodRatios& ratios, int enough) {
 }  // namespace
 
 int seam_alternatives_log2_q8(const LikelihoodRatios& ratios) {
-    const int enough = enough_for(ratios);
-    SeamAlternatives alternatives(ratios, enough);
-    if (surely_lose_with_border(ratios, enough) || least_loss_with_border(ratios) >= enough)
+    const int loss_limit = loss_limit_of(ratios);
+    SeamAlternatives alternatives(ratios, loss_limit);
+    if (must_lose_with_border(ratios, loss_limit) || min_loss_with_border(ratios) >= loss_limit)
         return alternatives.sum_q8();
     const UnsharedLines unshared(ratios);
     visit_similar_places(
-        ratios, Steps(ratios, enough, Excused::any_one),
+        ratios, Steps(ratios, loss_limit, Excused::any_one),
         [&](std::size_t sequence) {
-            return unshared.all_lose(sequence, Sharing::on_two_sides, enough);
+            return unshared.all_lose(sequence, Sharing::on_two_sides, loss_limit);
         },
         [&](std::size_t sequence, std::uint32_t place) { alternatives.add(sequence, place); });
     return alternatives.sum_q8();
@@ -143,13 +142,13 @@ int seam_alternatives_log2_q8(const LikelihoodRatios& ratios) {
 
 int seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unshared) {
     const LikelihoodRatios& ratios = unshared.ratios();
-    const int enough = enough_for(ratios);
-    SeamAlternatives alternatives(ratios, enough);
-    if (surely_lose_with_border(ratios, enough)) return alternatives.sum_q8();
+    const int loss_limit = loss_limit_of(ratios);
+    SeamAlternatives alternatives(ratios, loss_limit);
+    if (must_lose_with_border(ratios, loss_limit)) return alternatives.sum_q8();
     std::optional<StepLosses> steps;
     for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
-        if (unshared.all_lose(k, Sharing::on_two_sides, enough)) continue;
-        if (!steps) steps = losses_of_steps(ratios, enough);
+        if (unshared.all_lose(k, Sharing::on_two_sides, loss_limit)) continue;
+        if (!steps) steps = losses_of_steps(ratios, loss_limit);
         const PlaceBits similar =
             kernels.find_similar_places(ratios.basis[k], ratios.places[k], *steps);
         for (std::uint32_t word = 0; word < similar.size(); ++word)

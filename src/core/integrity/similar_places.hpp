@@ -1,54 +1,54 @@
-// Similar places: the alternatives in one sequence whose digits are so similar to the reading's
-// that they cannot be passed over; 32 at a time, one in each bit.
+// Similar places: the places of a sequence whose digits are so similar to those of the reading that
+// their alternatives may matter. They are found 32 at a time, one in each bit.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
 
 namespace dotpose::core {
 
-/// Most steps between adjacent lines in which digits are compared.
-inline constexpr int kMostSteps = 18;
+/// Maximum number of steps between adjacent lines in which digits are compared.
+inline constexpr int kMaxSteps = 18;
 
-/// Parts that are enough to lose.
-inline constexpr unsigned kEnough = 15;
+/// Number of parts into which the loss limit is divided.
+inline constexpr unsigned kLimitParts = 15;
 
 /// Steps at which an alternative is excused: it loses nothing there, whatever its digit.
 enum class Excused : std::uint8_t { none, any_one };
 
-/// What an alternative loses at least in the steps where its digit differs from the reading's: one
-/// of the two lines is not shared, so the smaller loss of the two. In parts of what is enough,
-/// rounded down.
+/// Minimum loss of an alternative in each step in which its digit differs from that of the reading:
+/// it does not share one of the two lines, so the smaller loss of the two. In parts of the loss
+/// limit, rounded down.
 struct Steps {
-    Steps(const LikelihoodRatios& ratios, int enough, Excused excused);
+    Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused);
 
     int count;
     int first_line;
-    std::array<std::uint8_t, kMostSteps> losses;
-    bool tell_apart = false;  ///< whether any place can lose enough
+    std::array<std::uint8_t, kMaxSteps> losses;
+    bool can_exclude = false;  ///< true if any place can lose the limit
 };
 
-/// The places at the first step that, as far as the steps tell, do not lose enough.
+/// The places, at the first step, that may lose less than the limit.
 class SimilarPlaces {
   public:
-    /// `own` is the reading's place at the first step of `steps`.
+    /// `own` is the place of the reading at the first step of `steps`.
     SimilarPlaces(const code::Secondary& a, std::uint32_t own, const Steps& steps);
 
-    /// Returns the similar ones of the 32 places from 32 * word on, except the reading's own.
+    /// Returns the similar places among the 32 from 32 * word on, except that of the reading.
     std::uint32_t operator[](std::uint32_t word) const;
 
   private:
     struct Step {
-        const std::uint32_t* places;  ///< where the reading's digit occurs
+        const std::uint32_t* places;  ///< places at which the digit of the reading occurs
         std::uint8_t ahead;           ///< number of the step
-        std::uint8_t parts;           ///< the loss, in parts of what is enough
+        std::uint8_t parts;           ///< loss, in parts of the limit
     };
     const code::Secondary& sequence_;
     std::uint32_t own_;
     std::size_t count_ = 0;
-    std::array<Step, kMostSteps> steps_;
+    std::array<Step, kMaxSteps> steps_;
 };
 
-/// Calls `use` for the places that are set in the word at 32 * `word`.
+/// Calls `use` for each place that is set in a word; `word` is its index.
 template <typename Use>
 void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
     for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
@@ -56,8 +56,8 @@ void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
     }
 }
 
-/// Calls `use` with the sequence and the place at the first line of all similar places. Sequences
-/// that `is_settled` returns true for are left out.
+/// Calls `use` with the sequence and the place, at the first line, of all similar places. Sequences
+/// for which `is_settled` returns true are skipped.
 template <typename IsSettled, typename Use>
 void visit_similar_places(const LikelihoodRatios& ratios, const Steps& steps, IsSettled is_settled,
                           Use use) {

@@ -8,39 +8,40 @@
 namespace dotpose::core {
 namespace {
 
-/// Bounds of the odds of the alternatives in one sequence that share a line, by one table.
+/// Bounds of the odds of the single alternatives that share a line, by sequence, from one table.
 class Bounds {
   public:
     explicit Bounds(const UnsharedLines& unshared) : unshared_(unshared) {
         const LikelihoodRatios& ratios = unshared.ratios();
         for (std::size_t n = 1; n < odds_.size(); ++n)
-            odds_[n] = ratios.odds(unshared.least_loss_of(n) - ratios.most_regained());
+            odds_[n] = ratios.odds(unshared.min_loss_of(n) - ratios.max_gain());
     }
-    /// An alternative that does not share n of the table's lines loses at least what the n cheapest
-    /// of them cost. No place has more with that n than the table says, nor any with less than its
-    /// own least number.
+    /// An alternative with n unshared lines of the table loses at least the sum of the n smallest
+    /// line losses. The table bounds the number of such alternatives for each n, and the minimum of
+    /// n for each place.
     float operator[](std::size_t sequence) const {
         const LikelihoodRatios& ratios = unshared_.ratios();
-        const auto& most_with = code::kMostWith[unshared_.tables() - 1][sequence];
-        // Those that are not counted: they share a line at no more shifts than there are lines.
+        const auto& max_with = code::kMostWith[unshared_.tables() - 1][sequence];
+        // The alternatives beyond the table. Each shares a line at no more shifts than there are
+        // lines.
         float sum =
             static_cast<float>(ratios.count() * ratios.basis[sequence].length) * odds_.back();
-        std::size_t n = unshared_.least_unshared(sequence, Sharing::at_one_shift);
-        for (n = std::max<std::size_t>(n, 1); n <= most_with.size(); ++n)
-            sum += static_cast<float>(most_with[n - 1]) * odds_[n];
+        std::size_t n = unshared_.min_unshared(sequence, Sharing::at_one_shift);
+        for (n = std::max<std::size_t>(n, 1); n <= max_with.size(); ++n)
+            sum += static_cast<float>(max_with[n - 1]) * odds_[n];
         return sum;
     }
 
   private:
     const UnsharedLines& unshared_;
-    /// Element n bounds the odds of an alternative that leaves n lines unshared, the last element
-    /// those of all alternatives that leave as many or more.
+    /// Element n bounds the odds of an alternative with n unshared lines. The last element bounds
+    /// those with as many or more.
     std::array<float, code::kMostCounted + 2> odds_;
 };
 
 }  // namespace
 
-float tabled_alternatives(const Kernels& kernels, const UnsharedLines& widest, float enough,
+float tabled_alternatives(const Kernels& kernels, const UnsharedLines& widest, float max_odds,
                           unsigned& sequences) {
     if (widest.tables() == 0) return 0;
     const LikelihoodRatios& ratios = widest.ratios();
@@ -50,7 +51,7 @@ float tabled_alternatives(const Kernels& kernels, const UnsharedLines& widest, f
         for (unsigned rest = sequences; rest != 0; rest &= rest - 1) {
             const int sequence = std::countr_zero(rest);
             const float odds = bounds[static_cast<std::size_t>(sequence)];
-            if (odds > enough) continue;
+            if (odds > max_odds) continue;
             sum += odds;
             sequences ^= 1U << sequence;
         }

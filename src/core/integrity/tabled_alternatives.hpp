@@ -1,16 +1,17 @@
-// Tabled alternatives: a bound of the odds of the alternatives in one sequence, by tables of how
-// many of them leave how many lines unshared. Most sequences need not be looked at then.
+// Tabled alternatives: a bound of the odds of the single alternatives of a sequence, from tables of
+// the number of alternatives by the number of lines that they leave unshared. Most sequences need
+// no enumeration then.
 #pragma once
 
 #include "core/integrity/unshared_lines.hpp"
 
 namespace dotpose::core {
 
-/// Returns a bound of the odds of the alternatives that differ in one sequence and share a line,
-/// each sequence by the table with the most lines that gives at most `enough`; `widest` is of the
-/// table with the most. `sequences` has one in each bit: those for which no table does are not
-/// counted, and stay in it.
-float tabled_alternatives(const Kernels& kernels, const UnsharedLines& widest, float enough,
+/// Returns a bound of the odds of the single alternatives that share a line. Each sequence uses the
+/// table with the most lines whose bound is at most `max_odds`. `widest` belongs to the table with
+/// the most lines. `sequences` has a bit for each sequence to bound; the bits of those that no
+/// table bounds closely enough remain set, and their odds are not included.
+float tabled_alternatives(const Kernels& kernels, const UnsharedLines& widest, float max_odds,
                           unsigned& sequences);
 
 }  // namespace dotpose::core

@@ -1,5 +1,5 @@
-// Unshared lines: what every alternative in one sequence loses at least, by a table of how many
-// lines it shares at most. Most alternatives need not be looked at then.
+// Unshared lines: the minimum loss of all single alternatives of a sequence, from a table of the
+// number of lines that they share at most. Most alternatives need not be enumerated then.
 #pragma once
 
 #include <array>
@@ -11,56 +11,59 @@
 
 namespace dotpose::core {
 
-/// Where an alternative shares lines: at one shift, or at two, one before and one beyond a border.
+/// Shifts at which an alternative shares lines: one shift, or one before and one beyond a border.
 enum class Sharing : std::uint8_t {
     at_one_shift,
-    on_two_sides,  ///< up to some border at one shift, beyond it at another
+    on_two_sides,  ///< at one shift before some border and at another beyond it
 };
 
-/// Least losses of all alternatives in a sequence.
+/// Minimum losses of all single alternatives, by sequence.
 class UnsharedLines {
   public:
-    static constexpr int kMostLines = 16;
-    /// Uses the table with the most lines, at most `most_lines` and at most as many as there are.
-    explicit UnsharedLines(const LikelihoodRatios& ratios, int most_lines = kMostLines);
-    /// Uses the same table as the constructor above; a kernel of the desktop sorts the losses.
+    static constexpr int kMaxTableLines = 16;
+    /// Uses the table with the most lines, at most `max_lines` and at most the number of lines in
+    /// view.
+    explicit UnsharedLines(const LikelihoodRatios& ratios, int max_lines = kMaxTableLines);
+    /// Uses the same table as the constructor above. A kernel sorts the losses.
     UnsharedLines(const Kernels& kernels, const LikelihoodRatios& ratios,
-                  int most_lines = kMostLines);
+                  int max_lines = kMaxTableLines);
 
     const LikelihoodRatios& ratios() const { return ratios_; }
-    /// Returns the number of tables that suit the number of lines; the one with the most is used.
+    /// Returns the number of tables with at most as many lines as are in view. The last of them is
+    /// used.
     std::size_t tables() const { return row_ + 1; }
-    /// Returns whether all alternatives in a sequence lose at least `enough`, without what they may
-    /// regain.
-    bool all_lose(std::size_t sequence, Sharing sharing, int enough) const {
-        return least_loss(sequence, sharing) >= enough;
+    /// Returns true if all alternatives of a sequence lose at least `loss_limit`, apart from gains
+    /// in other lines.
+    bool all_lose(std::size_t sequence, Sharing sharing, int loss_limit) const {
+        return min_loss(sequence, sharing) >= loss_limit;
     }
-    /// Returns how many of the table's lines all alternatives in a sequence do not share at least;
-    /// 0 if there is no table for it.
-    std::size_t least_unshared(std::size_t sequence, Sharing sharing) const;
-    /// Returns what alternatives lose at least that do not share n of the table's lines, without
-    /// what they may regain.
-    int least_loss_of(std::size_t n) const { return least_[n]; }
-    /// Returns what all alternatives in a sequence lose at least; 0 if there is no table for it.
-    int least_loss(std::size_t sequence, Sharing sharing) const;
-    /// Returns what all places of another profile's a4 lose at least, by the rows of
+    /// Returns the minimum number of lines of the table that an alternative of a sequence leaves
+    /// unshared, or 0 if there is no table for the sequence.
+    std::size_t min_unshared(std::size_t sequence, Sharing sharing) const;
+    /// Returns the minimum loss of an alternative with n unshared lines of the table, apart from
+    /// gains in other lines.
+    int min_loss_of(std::size_t n) const { return smallest_sums_[n]; }
+    /// Returns the minimum loss of all alternatives of a sequence, or 0 if there is no table for
+    /// the sequence.
+    int min_loss(std::size_t sequence, Sharing sharing) const;
+    /// Returns the minimum loss of all places in the a4 of another code, given its rows of
     /// `code::kUnsharedInOther`.
-    int least_loss(const std::array<std::string_view, 3>& unshared_in_other) const;
+    int min_loss(const std::array<std::string_view, 3>& unshared_in_other) const;
 
   private:
-    /// Returns the losses of the lines in the middle, which are longest, that the table is applied
-    /// to; none if there are too few lines for one.
-    std::span<const std::int16_t> choose_lines(int most_lines);
+    /// Returns the losses of the lines in the middle to which the table is applied: those lines are
+    /// longest. Empty if there are too few lines for any table.
+    std::span<const std::int16_t> choose_lines(int max_lines);
 
     const LikelihoodRatios& ratios_;
-    std::size_t row_ = SIZE_MAX;  ///< of the table; SIZE_MAX if there are too few lines for one
+    std::size_t row_ = SIZE_MAX;  ///< row of the table; SIZE_MAX if there are too few lines for any
     std::uint32_t first_line_ = 0;
-    LeastSums least_{};  ///< up to the most lines that a table has as not shared
+    SmallestSums smallest_sums_{};  ///< up to the maximum number of unshared lines in a table
 };
 
-inline std::size_t UnsharedLines::least_unshared(std::size_t sequence, Sharing sharing) const {
+inline std::size_t UnsharedLines::min_unshared(std::size_t sequence, Sharing sharing) const {
     const code::Secondary& a = ratios_.basis[sequence];
-    // There is no table for the other forms of a4.
+    // Only one variant of a4 has a table.
     const bool is_known = sequence < 3 || a.digits == code::kA4Restored.data();
     if (row_ == SIZE_MAX || !is_known) return 0;
     const std::uint32_t ahead = ratios_.places[sequence] + first_line_;

@@ -31,7 +31,7 @@ AxisReading reading_of(Profile profile, const Place& place, Axis axis) {
     }
 }
 
-/// Compares the bits of one axis, in all lines of an upright grid, with the code.
+/// Compares the bits of one axis with the code, in all lines of an upright grid.
 Confidence compare(Profile profile, const Upright& upright, Axis axis, const AxisReading& reading) {
     Confidence confidence;
     Line storage;
@@ -53,10 +53,10 @@ Place corner_place(Profile profile, const Decoding& decoding, const Upright& upr
     return moved(profile, decoding.place, corner.x, corner.y);
 }
 
-/// What all bits in view say before alternatives are counted.
+/// Result of comparing all bits in view, before alternatives are counted.
 struct Doubt {
-    int odds_per_bit_q8 = 0;  ///< 0 if nothing is known of the bits
-    /// log2 of the probability that chance agrees as well, in 2^-8, for each axis.
+    int odds_per_bit_q8 = 0;  ///< 0 if the bits carry no information
+    /// log2 of the bound that random bits agree as well, in 2^-8, for each axis.
     std::array<int, 2> by_chance_q8{};
 };
 
@@ -65,10 +65,10 @@ Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptio
     decoding.bits = agreements[0].bits() + agreements[1].bits();
     fix.bit_errors = agreements[0].wrong() + agreements[1].wrong();
     for (const Confidence& agreement : agreements) {
-        // So many wrong bits mean that two patterns are in view.
+        // This many wrong bits mean that two patterns are in view.
         if (agreement.wrong() > agreement.bits() * options.max_bit_error_q8 / 256) return {};
     }
-    // Both axes are read from the same dots, so their bits are misread alike.
+    // Both axes are read from the same dots and have the same error rate.
     Confidence both = agreements[0];
     both.add(agreements[1]);
     Doubt doubt{odds_per_bit_q8(both), {}};
@@ -89,7 +89,7 @@ Doubt compare_with_chance(const Grid& grid, Profile profile, const IntegrityOpti
     return doubt_of(agreements, options, decoding, fix);
 }
 
-/// Returns the probability that an axis is wrong, as log2 in 2^-8.
+/// Returns the bound of the probability that one axis is wrong, as log2 in 2^-8.
 int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limit_q8,
                       int alternatives_q8) {
     int sum_q8 = add_log2(by_chance_q8, alternatives_q8);
@@ -97,9 +97,9 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
     return std::min(sum_q8, 0);
 }
 
-/// Returns the probability that each axis is wrong, as log2 in 2^-8. `alternatives_q8(axis,
-/// ratios)` returns the odds of its alternatives; they are not counted where chance alone is above
-/// the limit.
+/// Returns the bound of the probability that each axis is wrong, as log2 in 2^-8.
+/// `alternatives_q8(axis, ratios)` returns the odds of its alternatives. They are not counted where
+/// chance alone exceeds the limit.
 template <typename Alternatives>
 std::array<int, 2> with_alternatives(const Grid& grid, Profile profile, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
@@ -125,8 +125,8 @@ int sum(const std::array<int, 2>& p_wrong_q8) {
     return add_log2(p_wrong_q8[0], p_wrong_q8[1]);
 }
 
-/// Returns whether the position is refused whatever the alternatives are: nothing is known of the
-/// bits, or chance agrees as well.
+/// Returns true if the position is refused whatever its alternatives are: the bits carry no
+/// information, or chance exceeds the limit.
 bool is_hopeless(const Doubt& doubt, int limit_q8) {
     return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
 }
@@ -138,7 +138,7 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
     return is_sure ? Status::ok : Status::not_certain;
 }
 
-/// Returns the probability that each axis is wrong, by quick_alternatives.hpp.
+/// Returns the bound of the probability that each axis is wrong, by quick_alternatives.hpp.
 std::array<int, 2> estimate_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
                                     int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {
@@ -164,7 +164,7 @@ Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
 
 namespace {
 
-/// The lines of one axis of a tracked frame, from the first in view to the last.
+/// Lines of one axis of a tracked frame, from the first to the last in view.
 struct TrackedAxis {
     std::span<const TrackedLine> lines;
     AxisReading reading;
@@ -222,7 +222,7 @@ Status verify_tracked(Profile profile, const Tracking& tracking, const Integrity
 
 namespace {
 
-/// Compares the bits of both axes, in all lines, with the code.
+/// Compares the bits of both axes with the code, in all lines.
 std::array<Confidence, 2> compare_both(const Grid& grid, Profile profile,
                                        const Decoding& decoding) {
     const Upright all(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
@@ -232,7 +232,7 @@ std::array<Confidence, 2> compare_both(const Grid& grid, Profile profile,
             compare(profile, all, Axis::y, reading_of(profile, corner, Axis::y))};
 }
 
-/// Sets the probability of chance for as many times the hypotheses as there are profiles.
+/// Sets the bound of chance for several possible codes.
 void count_hypotheses_of(int log2_codes_q8, const Grid& grid, Profile profile,
                          const Decoding& decoding, Doubt& doubt) {
     const auto agreements = compare_both(grid, profile, decoding);

@@ -1,5 +1,5 @@
 // Verify: compares all dots in view with the position that a part of them gave. differs: the paper
-// accepts whatever decodes; see docs/differs-from-paper.md.
+// accepts every position that decodes; see docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/lines.hpp"
@@ -12,28 +12,27 @@
 
 namespace dotpose::core {
 
-/// Sets bit_errors and p_wrong_log2 of the fix, and p_wrong_log2_q8 of the decoding, from chance
-/// and from alternatives (quick_alternatives.hpp, and alternatives.hpp where these leave doubts).
-/// Errors: not_certain.
+/// Sets `bit_errors` and `p_wrong_log2` of the fix, and `p_wrong_log2_q8` of the decoding, from
+/// chance and alternatives: by quick_alternatives.hpp, and by alternatives.hpp where these leave
+/// doubts. Errors: not_certain.
 Status verify(const Grid& grid, Profile profile, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
-/// Verifies with as many profiles in question as `others` says; null means one.
+/// Does the same for several possible codes, given by `others`; null means one code.
 Status verify_among_codes(const Grid& grid, Profile profile, const OtherCodes* others,
                           Decoding& decoding, const IntegrityOptions& options,
                           std::span<ScoredLine> storage, Fix& fix);
 
-/// Verifies in integers only and in bounded time. Positions that quick_alternatives.hpp leaves in
-/// doubt are refused.
+/// Does the same in integers only and in bounded time. Positions that quick_alternatives.hpp leaves
+/// in doubt are refused.
 Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
-/// Verifies a tracked frame, whose place is known and whose bits are all equally sure.
+/// Does the same for a tracked frame: its place is known and all its bits have the same weight.
 Status verify_tracked(Profile profile, const Tracking& tracking, const IntegrityOptions& options,
                       Decoding& decoding, Fix& fix);
 
-/// Tells `others`, unless null, what the bits of a grid say of other profiles than the one it was
-/// read in.
+/// Sets the odds of the codes other than the one the grid was read in. `others` may be null.
 void weigh_other_codes(const Kernels& kernels, const Grid& grid, Profile profile,
                        const Decoding& decoding, std::span<ScoredLine> storage, OtherCodes* others);
 

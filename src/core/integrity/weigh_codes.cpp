@@ -12,20 +12,20 @@
 namespace dotpose::core {
 namespace {
 
-/// The sequence in which profiles differ.
+/// The sequence in which the codes differ.
 constexpr std::size_t kA4 = 3;
-/// Odds at which places are counted that are not looked at because they have less.
-constexpr int kPassedOver_q8 = -52 * 256;
-constexpr float kPassedOver = 2.3e-16F;
-/// Summed odds that need no closer look.
-constexpr float kEnough = 1e-12F;
+/// Upper bound of the odds charged for each pruned place, as log2 in 2^-8 and as a number.
+constexpr int kSkippedOdds_q8 = -52 * 256;
+constexpr float kSkippedOdds = 2.3e-16F;
+/// Summed odds below which no closer bound is computed.
+constexpr float kNegligibleOdds = 1e-12F;
 
-/// What places lose at least in the lines that they do not share.
+/// Minimum losses of places in the lines that they do not share.
 struct Losses {
     explicit Losses(const LikelihoodRatios& ratios)
-        : enough(ratios.loss_for(kPassedOver_q8) + ratios.most_regained()) {
+        : loss_limit(ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain()) {
         for (int line = 0; line < ratios.count(); ++line) {
-            const int least = ratios.least_loss(line);
+            const int least = ratios.min_loss(line);
             const int eighths = std::max(least, 0) / kUnit;
             of[static_cast<std::size_t>(line)] = static_cast<std::uint16_t>(eighths);
             all += eighths;
@@ -33,34 +33,36 @@ struct Losses {
         }
     }
 
-    /// Returns the losses of all steps, in parts of which `StepLosses::kEnough` are enough.
+    /// Returns the losses of all steps, in parts. A place that loses `StepLosses::kLimitParts` of
+    /// them loses the limit.
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
-        // Quotients are less than 16, and floats exact enough that none is rounded up to the next.
-        const auto part =
-            static_cast<float>((enough + StepLosses::kEnough - 1) / StepLosses::kEnough);
+        // Quotients are below 16, where floats are exact enough not to round up to the next
+        // integer.
+        const auto part = static_cast<float>((loss_limit + StepLosses::kLimitParts - 1) /
+                                             StepLosses::kLimitParts);
         for (int step = 0; step < steps.count; ++step) {
-            const int lost = std::min(ratios.least_loss_of_step(step), enough);
+            const int lost = std::min(ratios.min_loss_of_step(step), loss_limit);
             steps.parts[static_cast<std::size_t>(step)] =
                 static_cast<std::uint8_t>(static_cast<float>(lost) / part);
         }
         return steps;
     }
 
-    /// Returns whether places lose enough if the lines that they share are worth no more than
+    /// Returns true if places lose the limit when the lines that they share are worth at most
     /// `all_but`.
-    bool are_enough(int all_but) const { return kUnit * (all - all_but) > enough; }
+    bool exceed_limit(int all_but) const { return kUnit * (all - all_but) > loss_limit; }
 
-    /// Scores are counted in units of this, rounded down, where their sum must fit 16 bits.
+    /// Unit of scores, to which they are rounded down, where their sum must fit 16 bits.
     static constexpr int kUnit = 8;
-    int enough;                               ///< score after which a place is passed over
-    int all = 0;                              ///< units that places lose that share no line
-    int at_best = 0;                          ///< score that these lose, less what they regain
-    std::array<std::uint16_t, kMaxLines> of;  ///< units that each line is worth
+    int loss_limit;                           ///< loss from which a place is skipped
+    int all = 0;                              ///< loss of places that share no line, in units
+    int at_best = 0;                          ///< loss of these places, minus their gains
+    std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units
 };
 
-/// Sums up the places of one other profile.
+/// Sums up the odds of the places in one other code.
 class OtherPlaces {
   public:
     OtherPlaces(const LikelihoodRatios& ratios, const Losses& losses, Profile read, Profile other)
@@ -70,7 +72,7 @@ class OtherPlaces {
           theirs_(code::basis(other)[kA4]),
           shift_here_(code::roll_further(read, other, ratios.position, ratios.places[kA4])),
           here_(offsets_of(ratios.places[kA4])) {
-        // A line whose roll is the one read loses nothing.
+        // A line with the same roll as the reading loses nothing.
         const int shared = modulo(here_[0] - shift_here_);
         int lost = 0;
         for (std::size_t line = 0; line < count_ && !ratios_.is_hopeless(lost); ++line) {
@@ -83,41 +85,43 @@ class OtherPlaces {
 
     /// Likelihood ratio of the same place.
     float here() const { return result_.here; }
-    /// Upper bound of the sum of those of all other places; once they are counted, that sum.
+    /// Upper bound of the sum of the likelihood ratios of all other places, or that sum once they
+    /// are counted.
     float elsewhere() const { return result_.elsewhere; }
 
-    /// Bounds the places elsewhere by a table.
+    /// Bounds the odds of the places elsewhere by a table.
     void bound(const UnsharedLines& unshared, Profile read, Profile other) {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
-        const int lost = unshared.least_loss(table) - ratios_.most_regained();
-        // There are at most as many shifts as lines, besides those that no line shares.
+        const int lost = unshared.min_loss(table) - ratios_.max_gain();
+        // Each place shares a line at no more shifts than there are lines.
         result_.elsewhere =
             static_cast<float>(theirs_.length * count_) * ratios_.odds(std::max(lost, 0)) +
             sharing_none();
     }
 
-    /// Forgets the bound, to count places one by one.
+    /// Resets the bound, before places are counted one by one.
     void begin_count() { result_.elsewhere = 0; }
 
     /// Adds the same place of a4 at its other shifts, and all places at shifts that share no line.
     void add_unsimilar() {
-        // A place that has the rolls read shares all lines at one shift and none at the others.
+        // A place with the rolls of the reading shares all lines at one shift and none at the
+        // others.
         if (!has_same_rolls_) add(ratios_.places[kA4], here_, shift_here_);
         add_sharing_none();
     }
 
-    /// Adds another place in a4, at all shifts that some line shares.
+    /// Adds another place of a4, at all shifts at which it shares a line.
     void add(std::uint32_t place) { add(place, offsets_of(place), kNoShift); }
-    /// Adds a number of places that are passed over.
-    void add_passed_over(int places) {
-        result_.elsewhere += static_cast<float>(places * ratios_.count()) * kPassedOver;
+    /// Adds a number of pruned places.
+    void add_skipped(int places) {
+        result_.elsewhere += static_cast<float>(places * ratios_.count()) * kSkippedOdds;
     }
-    /// Returns the sums, with the position of the best place elsewhere.
+    /// Returns the sums and the position of the best place elsewhere.
     const OtherAxis& result() {
-        // The position of a place that explains little is never asked for.
-        constexpr float kWorthNaming = 1e-6F;
-        if (result_.best < kWorthNaming) return result_;
+        // The position of a place with small odds is never reported.
+        constexpr float kMinReportedOdds = 1e-6F;
+        if (result_.best < kMinReportedOdds) return result_;
         auto places = ratios_.places;
         places[kA4] = best_place_;
         result_.position = code::position_at(ratios_.basis, places);
@@ -134,22 +138,22 @@ class OtherPlaces {
         RollOffsets offsets;
         const std::uint8_t* own = ratios_.basis[kA4].rolls + ratios_.places[kA4];
         const std::uint8_t* alternative = theirs_.rolls + place;
-        // All lines that the tables have are taken, as loops of a known length are faster.
+        // Covers all lines of the tables, because loops of constant length are faster.
         for (std::size_t line = 0; line < offsets.size(); ++line)
             offsets[line] = roll_offset(own[line], alternative[line]);
         return offsets;
     }
 
-    /// Returns the odds of all places at shifts that share no line, as if all lost as little as the
-    /// best.
+    /// Returns an upper bound of the odds of all places at shifts that share no line: each counts
+    /// like the best.
     float sharing_none() const {
         return static_cast<float>(theirs_.length * (kSections - 1)) * ratios_.odds(losses_.at_best);
     }
 
-    /// Adds the places at shifts that share no line, one by one if all together are too much.
+    /// Adds the places at shifts that share no line, one by one if their bound is not negligible.
     void add_sharing_none() {
         const float all = sharing_none();
-        if (all <= kEnough) {
+        if (all <= kNegligibleOdds) {
             result_.elsewhere += all;
             return;
         }
@@ -175,7 +179,7 @@ class OtherPlaces {
     }
 
     void add(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
-        // The units of the lines that are shared at each shift, by the offset of these lines.
+        // Loss of the lines shared at each shift, in units, by their roll offset.
         std::array<std::uint16_t, kSections + 1> shared{};
         std::uint16_t most = 0;
         for (std::size_t line = 0; line < count_; ++line) {
@@ -183,20 +187,20 @@ class OtherPlaces {
             here = static_cast<std::uint16_t>(here + losses_.of[line]);
             most = std::max(most, here);
         }
-        if (losses_.are_enough(most) && shift_left_out == kNoShift) {
-            add_passed_over(1);
+        if (losses_.exceed_limit(most) && shift_left_out == kNoShift) {
+            add_skipped(1);
             return;
         }
         for (int line = 0; line < ratios_.count(); ++line) {
             const int base = offsets[static_cast<std::size_t>(line)];
             std::uint16_t& kept = shared[static_cast<std::size_t>(base)];
             if (kept == kCounted) continue;
-            const bool is_passed_over = losses_.are_enough(kept);
+            const bool is_skipped = losses_.exceed_limit(kept);
             kept = kCounted;
             const int shift = modulo(offsets[0] - base);
             if (shift == shift_left_out) continue;
-            if (is_passed_over) {
-                result_.elsewhere += kPassedOver;
+            if (is_skipped) {
+                result_.elsewhere += kSkippedOdds;
                 continue;
             }
             const auto lost = loss_of_offsets(ratios_, offsets, line);
@@ -218,13 +222,14 @@ class OtherPlaces {
     const std::size_t count_;
     const code::Secondary& theirs_;
     const int shift_here_;
-    const RollOffsets here_;      ///< of the same place
-    bool has_same_rolls_ = true;  ///< whether the same place has the rolls read in all lines
+    const RollOffsets here_;  ///< roll offsets of the same place
+    bool has_same_rolls_ =
+        true;  ///< true if the same place has the rolls of the reading in all lines
     std::uint32_t best_place_ = 0;
     OtherAxis result_;
 };
 
-/// Weighs the places of the other profiles along one axis.
+/// Computes the odds of the places in other codes along one axis.
 class AxisWeigher {
   public:
     AxisWeigher(const Kernels& kernels, const UnsharedLines& unshared, Profile read)
@@ -234,33 +239,33 @@ class AxisWeigher {
           read_(read),
           losses_(ratios_) {}
 
-    /// Returns the places in profile `other`, those elsewhere bounded by a table.
+    /// Returns the places in the code `other`; those elsewhere are bounded by a table.
     OtherPlaces bounded(Profile other) const {
         OtherPlaces others(ratios_, losses_, read_, other);
         others.bound(unshared_, read_, other);
         return others;
     }
 
-    /// Counts places elsewhere one by one if their bound, with odds of `across` on the other axis,
-    /// is not negligible.
+    /// Counts the places elsewhere one by one if their bound is not negligible. `across` is the
+    /// odds of the other axis.
     void look_closer(Profile other, float across, OtherPlaces& others) {
-        if (others.elsewhere() * across <= kEnough) return;
+        if (others.elsewhere() * across <= kNegligibleOdds) return;
         others.begin_count();
         others.add_unsimilar();
         if (!steps_) steps_ = losses_.of_steps(ratios_);
-        // The digits as they were read are looked for in the sequence of the other profile.
+        // Searches the sequence of the other code for the digits of the reading.
         code::Secondary a4 = code::basis(other)[kA4];
         a4.digits = ratios_.basis[kA4].digits;
         const PlaceBits similar = kernels_.find_similar_places(a4, ratios_.places[kA4], *steps_);
         int added = 0;
         for (std::uint32_t word = 0; word < similar.size(); ++word) {
-            // Few places are similar, so the others are skipped instead of visited.
+            // Few places are similar, so the loop visits only bits that are set.
             for (std::uint32_t rest = similar[word]; rest != 0; rest &= rest - 1) {
                 others.add(32 * word + static_cast<std::uint32_t>(std::countr_zero(rest)));
                 ++added;
             }
         }
-        others.add_passed_over(a4.length - 1 - added);
+        others.add_skipped(a4.length - 1 - added);
     }
 
   private:
@@ -269,7 +274,7 @@ class AxisWeigher {
     const UnsharedLines& unshared_;
     const Profile read_;
     const Losses losses_;
-    std::optional<StepLosses> steps_;  ///< once they are needed
+    std::optional<StepLosses> steps_;  ///< set when they are needed
 };
 
 }  // namespace
@@ -293,7 +298,7 @@ void weigh_other_codes(const Kernels& kernels, const UnsharedLines& columns,
         if (other == read) continue;
         OtherPlaces x = by_x.bounded(other);
         OtherPlaces y = by_y.bounded(other);
-        // An axis need not be looked at closely if the other one contradicts the profile.
+        // An axis needs no enumeration if the other axis contradicts the code.
         by_x.look_closer(other, y.here() + y.elsewhere(), x);
         by_y.look_closer(other, x.here() + x.elsewhere(), y);
         others.of[i] = {x.result(), y.result()};

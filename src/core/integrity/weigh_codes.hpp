@@ -1,5 +1,5 @@
-// Other codes: which places of the other profiles explain an axis as well as the one that was read.
-// Profiles share all sequences but a4, so these are places that differ from it in a4 alone.
+// Weigh codes: the odds of the places in the other codes that explain an axis as well as the place
+// read. Codes differ in a4 only, so these are places that differ from the reading in a4 alone.
 // docs/integrity.md derives the sums.
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace dotpose::core {
 
-/// Returns the odds of the places in the profile `other`, against the reading of `ratios` in
+/// Returns the odds of the places in the code `other`, against the reading of `ratios` in the code
 /// `read`.
 OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
                            Profile other);
 
-/// Sets the odds of the places in all other profiles, by the ratios of both axes.
+/// Sets the odds of the places in all other codes, from the ratios of both axes.
 void weigh_other_codes(const Kernels& kernels, const UnsharedLines& columns,
                        const UnsharedLines& rows, Profile read, OtherCodes& others);
 

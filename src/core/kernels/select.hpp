@@ -1,15 +1,15 @@
-// Select: the kernels for the processor that the program runs on.
+// Select: the kernels for the current processor.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
 
-/// Returns kernels with plain numbers, for any processor; the others are compared with these.
+/// Returns scalar kernels for any processor, with which the others are compared.
 const Kernels& portable_kernels();
-/// Returns kernels with vectors of 16 bytes, which every x86-64 and 64-bit ARM processor has.
+/// Returns kernels with vectors of 16 bytes, for every x86-64 and 64-bit ARM processor.
 const Kernels& wide_kernels();
-/// Returns kernels for AVX2; null if the processor or the compiler does not have it.
+/// Returns kernels for AVX2, or null if the processor or the compiler does not support it.
 const Kernels* avx2_kernels();
 
 /// Returns the fastest kernels for this processor.

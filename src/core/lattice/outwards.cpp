@@ -235,7 +235,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
         std::clamp(std::sqrt(mean_square), tuned::kLeastDisplacement, tuned::kMostDisplacement);
     // Then the nearest of four places counts, which leaves a fifth of that noise.
     pass.displacement = grid.displacement;
-    pass.most_off = std::min(tuned::kMostOffPart * grid.displacement, tuned::kMostOff);
+    pass.max_off = std::min(tuned::kMostOffPart * grid.displacement, tuned::kMostOff);
     for (int round = 0; round < tuned::kMostRounds; ++round) {
         pass.with_perspective = pass.reach_px > 4 * spacing;
         sums = kernels.sum_cells(patch.dots, plane, pass);

@@ -7,7 +7,7 @@ namespace dotpose::core {
 namespace {
 
 /// Returns the derivatives, by the parameters, of the direction from one point to another, in rad.
-/// `scale` is the unit of places.
+/// `scale` is the unit of the places, in spacings.
 Parameters direction_gradient(const FourVecs& places, float scale, std::size_t from,
                               std::size_t to) {
     const float x = (places.x[to] - places.x[from]) * scale;
@@ -23,7 +23,8 @@ Parameters direction_gradient(const FourVecs& places, float scale, std::size_t f
     return gradient;
 }
 
-/// Returns covariance . a, where each term is correlated with its neighbours at most.
+/// Returns covariance * a, for a covariance in which each term is correlated with its neighbours
+/// only.
 Parameters times(const std::array<Parameters, kPoseParameters>& covariance, const Parameters& a) {
     Parameters product;
     for (std::size_t k = 0; k < kPoseParameters; ++k) {
@@ -47,11 +48,12 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
                          Vec reference_q8, Fix& fix) {
     fix.dots_used = fit.dots;
     fix.surface = fit.surface;
-    // Some dots are seen only when measured where the code has them, not as blobs of their own.
+    // Some dots are found only when they are measured at their place in the code, not as blobs.
     fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
     const ScaledPlane plane(float_plane(pattern_from_image), static_cast<float>(fit.reach_px));
-    // Theta is the direction of the image's x axis, here between two points 16 px apart.
+    // Theta is the direction of the x axis of the image, here between two points that are 16 px
+    // apart.
     constexpr float kStep_px = 8;
     const Vec from_centre_q8 = reference_q8 - pattern_from_image.centre_q8;
     const float x = static_cast<float>(from_centre_q8.x) / 256;

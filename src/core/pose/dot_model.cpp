@@ -9,15 +9,15 @@ namespace {
 
 constexpr auto kSide = DotPixels::kSide;
 
-/// Cosines of the angles at which chords end, the farthest from the middle of the dot first. There
-/// are as many chords on the other side of it. Neighbours are nearer to each other than pixels.
+/// Cosines of the angles at which the chords of the ellipse end, from the outermost chord to the
+/// middle. The other half is symmetric. Neighbouring chords are less than a pixel apart.
 constexpr float kChordsOfSmall[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                     0.60876143F, 0.38268343F, 0.13052619F};
 constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F, 0.76040597F,
                              0.64944805F, 0.52249856F, 0.38268343F, 0.23344536F, 0.07845910F};
 constexpr float kSmall_px2 = 4;  // squared half axis
 
-/// Returns exp(-x) of a positive number, with the same bits everywhere, unlike that of libraries.
+/// Returns exp(-x) for x >= 0, with the same bits on every platform, unlike library functions.
 float exp_of_minus(float x) {
     constexpr float kLog2 = 0.693147181F;
     if (!(x < 80)) return 0;
@@ -33,29 +33,30 @@ float exp_of_minus(float x) {
 struct Normal {
     float density;
     float cumulative;
-    float integral;  ///< of the cumulative distribution, up to x
+    float integral;  ///< integral of the cumulative distribution, up to x
 
     Normal(float x, float sigma) {
-        // Abramowitz and Stegun, Handbook of Mathematical Functions, 26.2.17: right to 1e-7.
+        // Abramowitz and Stegun, Handbook of Mathematical Functions, 26.2.17: error below 1e-7.
         const float z = x / sigma;
-        const float bell = 0.39894228F * exp_of_minus(z * z / 2);
+        const float density_of_z = 0.39894228F * exp_of_minus(z * z / 2);
         const float t = 1 / (1 + 0.2316419F * std::abs(z));
         const float tail =
-            bell * t *
+            density_of_z * t *
             (0.31938153F +
              t * (-0.356563782F + t * (1.781477937F + t * (-1.821255978F + t * 1.330274429F))));
-        density = bell / sigma;
+        density = density_of_z / sigma;
         cumulative = z > 0 ? 1 - tail : tail;
-        integral = x * cumulative + sigma * bell;
+        integral = x * cumulative + sigma * density_of_z;
     }
 };
 
-/// The responses of a line of pixels to a step and to a point at one place, both blurred.
+/// Responses of a line of pixels to a blurred step and to a blurred point at one place.
 struct PixelLine {
-    std::array<float, kSide> step;   ///< of a step: darkness 1 beyond the place
-    std::array<float, kSide> point;  ///< of a point: derivative of the step by the place, negative
-    std::array<float, kSide> slope;  ///< derivative of `point` by the place, negative
-    std::array<float, kSide> point_by_blur;  ///< derivative by the variance of the blur
+    std::array<float, kSide> step;  ///< response to a step: darkness 1 beyond the place
+    std::array<float, kSide>
+        point;  ///< response to a point: negative derivative of `step` by the place
+    std::array<float, kSide> slope;          ///< negative derivative of `point` by the place
+    std::array<float, kSide> point_by_blur;  ///< derivative of `point` by the variance of the blur
 
     PixelLine(float place, float blur_2, int half_px) {
         const float sigma = std::sqrt(blur_2);
@@ -71,7 +72,7 @@ struct PixelLine {
             before = after;
         }
     }
-    /// Returns the derivative of the step by the variance of the blur.
+    /// Returns the derivative of `step` by the variance of the blur.
     float step_by_blur(std::size_t i) const { return slope[i] / 2; }
 };
 
@@ -93,13 +94,13 @@ DotImages draw(const ModelDot& dot, int half_px) {
         const PixelLine right(dot.centre.x + radius.x * sine, dot.blur_2.x, half_px);
         const PixelLine above(dot.centre.y - radius.y * cosine, dot.blur_2.y, half_px);
         const PixelLine below(dot.centre.y + radius.y * cosine, dot.blur_2.y, half_px);
-        // The share of the chord in the area of the dot, for each px of its length.
-        const float share = sine / (2 * static_cast<float>(cosines.size()) * radius.x);
+        // Fraction of the area of the dot that the chord covers, per px of its length.
+        const float fraction = sine / (2 * static_cast<float>(cosines.size()) * radius.x);
         for (std::size_t v = begin; v < end; ++v) {
-            const float down = share * (below.point[v] + above.point[v]);
-            const float down_by_v = -share * (below.slope[v] + above.slope[v]);
-            const float down_by_radius = -share * cosine * (below.slope[v] - above.slope[v]);
-            const float down_by_blur = share * (below.point_by_blur[v] + above.point_by_blur[v]);
+            const float down = fraction * (below.point[v] + above.point[v]);
+            const float down_by_v = -fraction * (below.slope[v] + above.slope[v]);
+            const float down_by_radius = -fraction * cosine * (below.slope[v] - above.slope[v]);
+            const float down_by_blur = fraction * (below.point_by_blur[v] + above.point_by_blur[v]);
             for (std::size_t u = begin; u < end; ++u) {
                 const float across = left.step[u] - right.step[u];
                 images.dot.all[v][u] += down * across;
@@ -114,7 +115,7 @@ DotImages draw(const ModelDot& dot, int half_px) {
     }
     for (std::size_t v = begin; v < end; ++v) {
         for (std::size_t u = begin; u < end; ++u) {
-            // The darkness of the whole dot stays 1, so a wider ellipse is paler everywhere.
+            // The total darkness stays 1, so a wider ellipse is paler everywhere.
             float& by = by_radius_u.all[v][u];
             by = (by - images.dot.all[v][u] / radius.x) / (2 * radius.x);
             by_radius_v.all[v][u] /= 2 * radius.y;

@@ -1,5 +1,5 @@
-// Dot model: what a camera makes of a dot. An ellipse, blurred by a Gaussian and averaged over
-// square pixels, with the derivatives that are needed to fit it.
+// Dot model: the image of a dot. An ellipse, blurred by a Gaussian and averaged over square pixels,
+// with its derivatives by the parameters.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 
 namespace dotpose::core {
 
-/// An ellipse in the image, in px and px^2.
+/// An ellipse in the image. Lengths are in px, squares in px^2.
 struct ModelDot {
-    FloatVec centre;    ///< from the middle of the pixel in the middle
+    FloatVec centre;    ///< centre, from the middle of the central pixel
     FloatVec radius_2;  ///< squared half axes along u and v
     FloatVec blur_2;    ///< variance of the blur along each axis
 };
 
-/// A square of pixels: row, then column.
+/// Square of pixels, by row and column.
 struct DotPixels {
-    static constexpr int kHalf_px = 6;  ///< from the pixel in the middle to the last one
+    static constexpr int kHalf_px = 6;  ///< distance from the central pixel to the last one
     static constexpr std::size_t kSide = 2 * kHalf_px + 1;
 
     float& at(int u, int v) {
@@ -31,14 +31,16 @@ struct DotPixels {
     std::array<std::array<float, kSide>, kSide> all{};
 };
 
-/// Images of a model dot whose darkness adds up to 1, and of its derivatives.
+/// Images of a model dot and of its derivatives. The darkness of the dot has the sum 1.
 struct DotImages {
     DotPixels dot;
-    /// By the centre, the squared half axis, and the blur, each along u and then along v.
+    /// Derivatives by the centre, the squared half axis and the blur, each along u and then along
+    /// v.
     std::array<DotPixels, 6> derivatives;
 };
 
-/// Draws the pixels that are at most `half_px` from the one in the middle; others are 0.
+/// Draws the pixels that are at most `half_px` from the central one along each axis. Other pixels
+/// are 0.
 DotImages draw(const ModelDot& dot, int half_px);
 
 }  // namespace dotpose::core

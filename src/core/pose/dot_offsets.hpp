@@ -1,4 +1,4 @@
-// Dot offsets: where dots lie in the pattern, and how far from where the code has them.
+// Dot offsets: places of the dots in the pattern and their residuals.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -7,23 +7,23 @@ namespace dotpose::core {
 
 /// A measured dot in the pattern, in spacings.
 struct DotOffset {
-    FloatVec at;   ///< where it was measured
-    FloatVec off;  ///< from there to its place in the code
-    float squared() const { return off.x * off.x + off.y * off.y; }
+    FloatVec at;        ///< measured place
+    FloatVec residual;  ///< vector from there to its place in the code
+    float squared() const { return residual.x * residual.x + residual.y * residual.y; }
 };
 
-/// Returns where a plane has a measured dot, and how far that is from its place in the code.
-/// `displacement` is that of dots from their intersections, in spacings.
+/// Returns the measured place of a dot through a plane, and its residual. `displacement` is the
+/// distance of dots from their intersections, in spacings.
 inline DotOffset dot_offset(const MeasuredDots& dots, std::size_t k, const FloatPlane& plane,
                             float displacement) {
     const FloatVec at = plane_point(plane, {dots.x[k], dots.y[k]});
     const std::int32_t x_bit = dots.bits[k] & 1;
     const std::int32_t y_bit = dots.bits[k] >> 1;
-    const auto way_x = static_cast<float>(y_bit - x_bit);
-    const auto way_y = static_cast<float>(x_bit + y_bit - 1);
-    return {
-        at,
-        {dots.column[k] + displacement * way_x - at.x, dots.row[k] + displacement * way_y - at.y}};
+    const auto direction_x = static_cast<float>(y_bit - x_bit);
+    const auto direction_y = static_cast<float>(x_bit + y_bit - 1);
+    return {at,
+            {dots.column[k] + displacement * direction_x - at.x,
+             dots.row[k] + displacement * direction_y - at.y}};
 }
 
 }  // namespace dotpose::core

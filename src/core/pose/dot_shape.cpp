@@ -34,8 +34,8 @@ DotShape::Normal DotShape::equations(const StackedDots& stacks, const Terms& ter
                                      const Terms& first, float noise_2) {
     Normal normal;
     stacks.visit([&](const StackedDots::Stack& stack) {
-        const DotImages images = draw(dot(terms, {stack.rest.x / stack.dots + terms[off_u],
-                                                  stack.rest.y / stack.dots + terms[off_v]}),
+        const DotImages images = draw(dot(terms, {stack.rest.x / stack.dots + terms[offset_u],
+                                                  stack.rest.y / stack.dots + terms[offset_v]}),
                                       stacks.half_px());
         stacks.visit_pixels([&](int u, int v) {
             Terms derivatives;
@@ -50,18 +50,19 @@ DotShape::Normal DotShape::equations(const StackedDots& stacks, const Terms& ter
         });
     });
     normal.squares = normal.cost;
-    normal.expect(off_u, 0, tuned::kOff_px, terms);
-    normal.expect(off_v, 0, tuned::kOff_px, terms);
+    normal.expect(offset_u, 0, tuned::kOff_px, terms);
+    normal.expect(offset_v, 0, tuned::kOff_px, terms);
     normal.expect(radius_u, first[radius_u], first[radius_u], terms);
     normal.expect(blur_u, tuned::kBlur_2, tuned::kBlur_2, terms);
     normal.expect(blur_v, tuned::kBlur_2, tuned::kBlur_2, terms);
-    // Most dots are about as wide as high.
+    // Prior: most dots are about as wide as high.
     Terms by_width{};
     by_width[radius_u] = 1 / first[radius_u];
     by_width[radius_v] = -by_width[radius_u];
     normal.add(by_width, (terms[radius_v] - terms[radius_u]) / first[radius_u],
                1 / (tuned::kSigmaOfWidth * tuned::kSigmaOfWidth));
-    // Small dots hardly show how large they are, but their ink is about as dark as that of others.
+    // Prior: the size of a small dot is hardly visible, but its contrast is about that of other
+    // dots.
     const float area = kPi * std::sqrt(terms[radius_u] * terms[radius_v]);
     const float contrast = terms[mass] / area;
     Terms by_contrast{};
@@ -113,9 +114,9 @@ DotShape::Terms DotShape::changed(const Terms& terms, const Terms& step) {
     Terms result = terms;
     for (std::size_t i = 0; i < Term::count; ++i)
         result[i] += step[i];
-    // Half axes and blur stay above 0: a step shrinks them to a quarter at most.
+    // Half axes and blur stay positive: a step reduces them to a quarter at most.
     for (const std::size_t i : {radius_u, radius_v, blur_u, blur_v})
-        result[i] = std::max({result[i], terms[i] / 4, tuned::kLeast_px2});
+        result[i] = std::max({result[i], terms[i] / 4, tuned::kMin_px2});
     return result;
 }
 
@@ -123,13 +124,13 @@ bool DotShape::fit(const StackedDots& stacks) {
     if (!stacks.are_enough()) return false;
     const float noise_2 = stacks.noise_2();
     const float darkness = stacks.mass();
-    const float radius_2 = std::max(darkness / (kPi * tuned::kContrast), tuned::kLeast_px2);
+    const float radius_2 = std::max(darkness / (kPi * tuned::kContrast), tuned::kMin_px2);
     const Terms first{0, 0, radius_2, radius_2, tuned::kBlur_2, tuned::kBlur_2, darkness, 0};
     terms_ = first;
     Normal normal = equations(stacks, terms_, first, noise_2);
     float damping = tuned::kFirstDamping;
     // Levenberg 1944, Marquardt 1963.
-    for (int round = 0; round < tuned::kMostRounds && damping < tuned::kMostDamping; ++round) {
+    for (int round = 0; round < tuned::kMaxRounds && damping < tuned::kMaxDamping; ++round) {
         factor_ = normal.matrix;
         for (std::size_t i = 0; i < Term::count; ++i)
             factor_[i][i] *= 1 + damping;

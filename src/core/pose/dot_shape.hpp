@@ -1,18 +1,19 @@
-// Dot shape: size and blur of the dots of a frame, by a model dot fitted to their mean images.
+// Dot shape: size and blur of the dots of a frame, from a model dot that is fitted to their mean
+// images.
 #pragma once
 
 #include "core/pose/stacked_dots.hpp"
 
 namespace dotpose::core {
 
-/// The model dot of a frame, and how well it is known.
+/// The model dot of a frame, with its uncertainty.
 class DotShape {
   public:
-    /// Terms of the fit: how far all dots are off along u and v; squared half axes and blur of the
-    /// model dot; its darkness, and that of the paper.
+    /// Terms of the fit: common offset of all dots along u and v; squared half axes and blur of the
+    /// model dot; its darkness, and the darkness of the paper.
     enum Term : std::size_t {
-        off_u,
-        off_v,
+        offset_u,
+        offset_v,
         radius_u,
         radius_v,
         blur_u,
@@ -23,32 +24,33 @@ class DotShape {
     };
     using Terms = std::array<float, Term::count>;
 
-    /// Fits the model to the stacks. Returns false if their dots are not enough, or do not
-    /// determine it.
+    /// Fits the model to the stacks. Returns false if there are too few dots or the model is not
+    /// determined.
     bool fit(const StackedDots& stacks);
 
-    /// Draws the whole model dot at a place.
+    /// Draws the complete model dot at a place.
     DotImages drawn_at(FloatVec centre) const {
         return draw(dot(terms_, centre), DotPixels::kHalf_px);
     }
     /// Returns the variance of the blur along each axis, px^2.
     FloatVec blur_2() const { return {terms_[blur_u], terms_[blur_v]}; }
-    /// Returns how far dots are from where they were expected, px.
-    FloatVec off() const { return {terms_[off_u], terms_[off_v]}; }
-    /// Returns the variance of what depends on the terms with these derivatives. It includes how
-    /// badly a model dot explains the images.
+    /// Returns the common offset of the dots from their expected places, px.
+    FloatVec offset() const { return {terms_[offset_u], terms_[offset_v]}; }
+    /// Returns the variance of a quantity with these derivatives by the terms. It includes the
+    /// misfit of the model.
     float variance(const Terms& derivatives) const;
-    /// Returns how much more is left of the images than noise explains: 1 for dots of this model.
+    /// Returns the ratio of the squared residuals of the images to the noise, at least 1. 1 is a
+    /// perfect fit.
     float misfit() const { return misfit_; }
 
   private:
     using Matrix = std::array<Terms, Term::count>;  ///< the lower triangle
 
-    /// The terms' normal equations, and what they minimise.
+    /// Normal equations of the terms, and their cost.
     struct Normal {
         Matrix matrix{};
         Terms right{};
-        float squares = 0;  ///< of what is left of the images, in variances
+        float squares = 0;  ///< squared residuals of the images, in variances
         float pixels = 0;
         float cost = 0;
 
@@ -67,7 +69,7 @@ class DotShape {
     static Terms changed(const Terms& terms, const Terms& step);
 
     Terms terms_{};
-    Matrix factor_{};  ///< Cholesky's, of the terms' information
+    Matrix factor_{};  ///< Cholesky factor of the information matrix of the terms
     float misfit_ = 1;
 };
 

@@ -9,8 +9,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Calls use(first, second, direction) for all pairs of facing dots; the direction is that from the
-/// first to the second.
+/// Calls use(first, second, direction) for all pairs of facing dots. `direction` is the unit vector
+/// from the first to the second.
 template <typename Use>
 void visit_facing(const MeasuredDots& dots, Use use) {
     const auto is_at = [&](std::size_t k, float column, float row, Symbol symbol) {
@@ -34,24 +34,25 @@ void visit_facing(const MeasuredDots& dots, Use use) {
 
 }  // namespace
 
-bool take_pull(const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots) {
+bool correct_neighbour_bias(const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots) {
     const float limit = tuning::fit::kOutlier * fit.variance;
     float sum = 0;
     float count = 0;
-    visit_facing(dots, [&](std::size_t first, std::size_t second, FloatVec way) {
+    visit_facing(dots, [&](std::size_t first, std::size_t second, FloatVec direction) {
         if (dots.x[first] >= kNoDot_px || dots.x[second] >= kNoDot_px) return;
         const DotOffset a = dot_offset(dots, first, plane, fit.displacement);
         const DotOffset b = dot_offset(dots, second, plane, fit.displacement);
         if (!(a.squared() <= limit && b.squared() <= limit)) return;
-        sum += way.x * (b.off.x - a.off.x) + way.y * (b.off.y - a.off.y);
+        sum += direction.x * (b.residual.x - a.residual.x) +
+               direction.y * (b.residual.y - a.residual.y);
         count += 2;
     });
     if (!(sum > tuning::facing::kSure * std::sqrt(count * fit.variance))) return false;
-    const float pull = sum / count;
-    const float by = pull / (plane.du_x * plane.dv_y - plane.dv_x * plane.du_y);
-    visit_facing(dots, [&](std::size_t first, std::size_t second, FloatVec way) {
-        const FloatVec apart_px{by * (way.x * plane.dv_y - way.y * plane.dv_x),
-                                by * (way.y * plane.du_x - way.x * plane.du_y)};
+    const float bias = sum / count;
+    const float by = bias / (plane.du_x * plane.dv_y - plane.dv_x * plane.du_y);
+    visit_facing(dots, [&](std::size_t first, std::size_t second, FloatVec direction) {
+        const FloatVec apart_px{by * (direction.x * plane.dv_y - direction.y * plane.dv_x),
+                                by * (direction.y * plane.du_x - direction.x * plane.du_y)};
         if (dots.x[first] < kNoDot_px) {
             dots.x[first] -= apart_px.x;
             dots.y[first] -= apart_px.y;

@@ -1,7 +1,6 @@
-// Facing dots: neighbours that are displaced towards each other. Blurred and large, they nearly
-// touch, and each draws the centre of the other to itself. In the pose this cancels out, but the
-// dots seem to scatter more than they do. differs: the paper does not state how well a pose is
-// known.
+// Facing dots: adjacent dots that are displaced towards each other. If they are large or blurred,
+// each biases the centroid of the other towards itself. The biases cancel in the pose, but increase
+// the residuals. differs: the paper does not state the uncertainty of a pose.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -10,8 +9,8 @@
 
 namespace dotpose::core {
 
-/// Estimates from the residuals how far facing dots, listed row by row, are drawn together, and
-/// moves them apart by that. Returns false if they are not, as far as the fit tells.
-bool take_pull(const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
+/// Estimates this bias from the residuals and subtracts it from the centres of facing dots. `dots`
+/// are listed row by row. Returns false, without a change, if the bias is not significant.
+bool correct_neighbour_bias(const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 
 }  // namespace dotpose::core

@@ -1,5 +1,5 @@
-// Float fit: the pose from dots that were measured where the code has them. Does what `refine_pose`
-// does, in vectors and single precision. differs: the paper stops at eq. 12.
+// Float fit: the pose from dots that were measured at their places in the code. The same fit as
+// `refine_pose`, in vectors and single precision. differs: the paper stops at eq. 12.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -7,9 +7,9 @@
 
 namespace dotpose::core {
 
-/// Improves the plane. Dots count that are at most `limit` (spacings^2) off in the first round, and
-/// four deviations in the last. Sets all of `fit`. Returns false if the dots do not determine the
-/// plane.
+/// Fits the plane by least squares, starting from `plane`. Dots are inliers if their squared
+/// residual (spacings^2) is at most `limit` in the first round, and at most four standard
+/// deviations in the last. Sets all of `fit`. Returns false if the dots do not determine the plane.
 bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, float limit,
                float displacement, FloatPlane& plane, PoseFit& fit);
 

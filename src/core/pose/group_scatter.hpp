@@ -1,5 +1,5 @@
-// Group scatter: whether neighbouring dots are off their places in common. A one-way analysis of
-// variance of both coordinates at once.
+// Group scatter: correlation of the residuals of neighbouring dots. A one-way analysis of variance
+// of both coordinates together.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +9,12 @@ namespace dotpose::core {
 
 /// Sums over groups of neighbouring dots, about a plane that was fitted to all dots, in spacings^2.
 struct GroupScatter {
-    float squares = 0;  ///< of the dots' residuals
-    float between = 0;  ///< of the groups' mean residuals, each times its dots
+    float squares = 0;  ///< squared residuals of the dots
+    float between = 0;  ///< squared mean residuals of the groups, each times the number of its dots
     float dots = 0;
     float groups = 0;
 
-    /// Returns the degrees of freedom of the groups' means: two coordinates each, less the
+    /// Returns the degrees of freedom of the group means: two coordinates each, minus the
     /// parameters of the fit.
     float freedom() const {
         constexpr float kFitted = 6;
@@ -25,11 +25,12 @@ struct GroupScatter {
         constexpr float kExact = 1e-12F;
         return std::max(squares - between, 0.0F) / std::max(2 * (dots - groups), 1.0F) + kExact;
     }
-    /// Returns by how many deviations the groups are off more than chance explains.
+    /// Returns the excess of the scatter between groups over chance, in standard deviations.
     float excess() const {
         return (between / (freedom() * variance_within()) - 1) * std::sqrt(freedom() / 2);
     }
-    /// Returns the variance, along one axis, of the displacement that the dots of a group share.
+    /// Returns the variance, along one axis, of the displacement that the dots of a group have in
+    /// common.
     float variance_between() const {
         return std::max(between - freedom() * variance_within(), 0.0F) / std::max(2 * dots, 1.0F);
     }

@@ -16,13 +16,13 @@ namespace {
 
 namespace tuned = tuning::measure;
 
-constexpr int kMostHalf_px = 24;
+constexpr int kMaxHalf_px = 24;
 
 Vec rounded_px(Vec point_q8) {
     return {(point_q8.x + 128) >> 8, (point_q8.y + 128) >> 8};
 }
 
-/// The pixels of a window, ends inclusive.
+/// Pixels of a window. Bounds are inclusive.
 struct Box {
     int left;
     int right;
@@ -32,24 +32,24 @@ struct Box {
     bool operator==(const Box&) const = default;
 };
 
-/// The window that a dot is measured through.
+/// Window in which a dot is measured.
 struct Window {
     int half_px = 0;
     std::int32_t sigma_q8 = 0;
 
-    /// Sets the size for dots that blur has made about a tenth of the spacing wide (one sigma).
+    /// Sets the size for dots whose standard deviation, with blur, is about a tenth of the spacing.
     explicit Window(std::int32_t spacing_q8)
         : half_px(std::min<std::int32_t>(
               std::max<std::int32_t>(spacing_q8 * tuned::kHalf_32nds / 32 + 255,
-                                     tuned::kLeastHalf_q8) /
+                                     tuned::kMinHalf_q8) /
                   256,
-              kMostHalf_px)),
+              kMaxHalf_px)),
           sigma_q8(std::max<std::int32_t>(spacing_q8 * tuned::kSigma_128ths / 128,
-                                          tuned::kLeastSigma_q8)) {}
+                                          tuned::kMinSigma_q8)) {}
 
-    /// Returns the part of the window around a pixel that lies in the image together with the
-    /// neighbours of all its pixels; nothing if that pixel itself does not. A window may be cut, as
-    /// dots at the border tell most of angle and tilt.
+    /// Returns the part of the window around a pixel that is in the image together with the
+    /// neighbours of all its pixels, or nullopt if that pixel itself is not. Windows may be cut,
+    /// because dots at the border determine angle and tilt best.
     std::optional<Box> box_around(const ImageView& image, int u, int v) const {
         const int last_u = image.width_px - 2;
         const int last_v = image.height_px - 2;
@@ -59,15 +59,15 @@ struct Window {
     }
 };
 
-constexpr int kMostSide_px = 2 * kMostHalf_px + 1;
-/// Columns, and room to fill up the last group of four.
-constexpr std::size_t kMostInFours = kMostSide_px + 3;
+constexpr int kMostSide_px = 2 * kMaxHalf_px + 1;
+/// Columns, padded to a multiple of four.
+constexpr std::size_t kMaxInFours = kMostSide_px + 3;
 
-/// Grey levels of the pixels of a box, without defects.
+/// Grey levels of the pixels of a box, without defective pixels.
 class Patch {
   public:
-    /// Loads the grey levels of a box; a box that is loaded already costs nothing.
-    void show(const ImageView& image, const Box& box) {
+    /// Loads the grey levels of a box, unless it is loaded already.
+    void load(const ImageView& image, const Box& box) {
         if (box == box_) return;
         box_ = box;
         for (int v = box.top; v <= box.bottom; ++v) {
@@ -78,26 +78,26 @@ class Patch {
         }
     }
     const Box& box() const { return box_; }
-    /// Returns a row from the left side of the box; at least three zeros follow its last pixel.
+    /// Returns a row, from the left side of the box. At least three zeros follow its last pixel.
     const float* row(int v) const { return levels_[static_cast<std::size_t>(v - box_.top)].data(); }
     float at(int u, int v) const { return row(v)[u - box_.left]; }
 
   private:
     Box box_{0, -1, 0, -1};
-    std::array<std::array<float, kMostInFours>, kMostSide_px> levels_;
+    std::array<std::array<float, kMaxInFours>, kMostSide_px> levels_;
 };
 
-/// The light on the paper around a dot, in grey levels: a plane through the window's rim.
-struct RimLight {
+/// Paper level around a dot, in grey levels: a plane through the border of the window.
+struct BorderBackground {
     float middle = 0;
     float slope_u = 0;  ///< grey levels per px
     float slope_v = 0;
 };
 
-/// Fits the light to those sides of the window around a pixel that lie in the image: at least two,
-/// as no image is smaller than a window. Where one of two opposite sides is missing, the light is
-/// taken to be even in that direction.
-RimLight light_on_rim(const Patch& patch, Vec pixel, int half) {
+/// Fits the paper level to the sides of the window that are in the image. These are at least two,
+/// because no image is smaller than a window. If one of two opposite sides is missing, the slope in
+/// that direction is 0.
+BorderBackground border_background(const Patch& patch, Vec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};
         float sum = 0;
@@ -127,13 +127,13 @@ RimLight light_on_rim(const Patch& patch, Vec pixel, int half) {
     return {sum / count, slope(sides[0], sides[1]), slope(sides[2], sides[3])};
 }
 
-/// Fits a Gaussian dot to a window by one step of Gauss and Newton. A dot of the window's width
-/// that is `offset` away from the window's middle has
+/// Fits a Gaussian dot to a window by one Gauss-Newton step. A dot with the width of the window, at
+/// `offset` from its centre, has
 ///
-///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d), everything in units of sigma.
+///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d), all in units of sigma.
 ///
-/// In a whole window the result is the windowed centroid; in a window cut by the image's border it
-/// is not biased.
+/// In a complete window the result is the windowed centroid. In a window that is cut by the border
+/// of the image it is not biased.
 class DotFit {
   public:
     /// Adds four pixels of a row.
@@ -150,7 +150,7 @@ class DotFit {
         float offset_x;
         float offset_y;
     };
-    /// Returns nothing where the spot is lighter than the paper.
+    /// Returns nullopt if the spot is brighter than the paper.
     std::optional<Result> solve() const {
         const float one = one_x_y_xx_[0];
         const float sum_x = one_x_y_xx_[1];
@@ -172,22 +172,22 @@ class DotFit {
     }
 
   private:
-    // Sums weighted with the profile's square: 1, x, y, x^2, xy, y^2; with the profile: the
-    // darkness, and the darkness times x and y.
+    // Sums weighted with the squared profile: 1, x, y, x^2, xy, y^2; and with the profile:
+    // darkness, and darkness times x and y.
     Four one_x_y_xx_{};
     Four xy_yy_dark_{};
     Four dark_y_{};
 };
 
-/// The window's profile along one axis: distances from its middle in sigma, and exp(-d^2 / 2).
-/// Zeros fill up the last group of four.
-struct Across {
-    using Values = std::array<float, kMostInFours>;
+/// Profile of the window along one axis: distances from its centre in sigma, and exp(-d^2 / 2).
+/// Padded with zeros to a multiple of four.
+struct AxisProfile {
+    using Values = std::array<float, kMaxInFours>;
     Values distance;
     Values profile;
-    Values from_pixel;  ///< px from the pixel at the middle
+    Values from_pixel;  ///< distance from the central pixel, px
 
-    Across(int first, int last, int pixel, std::int32_t middle_q8, std::int32_t sigma_q8) {
+    AxisProfile(int first, int last, int pixel, std::int32_t middle_q8, std::int32_t sigma_q8) {
         std::size_t count = 0;
         for (int i = first; i <= last; ++i, ++count) {
             const float d = static_cast<float>(i * 256 - middle_q8) / static_cast<float>(sigma_q8);
@@ -200,40 +200,41 @@ struct Across {
     }
 };
 
-DotFit fit_dot(const Patch& patch, const RimLight& light, std::int32_t sigma_q8, Vec middle_q8) {
+DotFit fit_dot(const Patch& patch, const BorderBackground& light, std::int32_t sigma_q8,
+               Vec middle_q8) {
     const Box& box = patch.box();
     const Vec pixel = rounded_px(middle_q8);
-    const Across across(box.left, box.right, pixel.x, middle_q8.x, sigma_q8);
-    const Across down(box.top, box.bottom, pixel.y, middle_q8.y, sigma_q8);
+    const AxisProfile along_u(box.left, box.right, pixel.x, middle_q8.x, sigma_q8);
+    const AxisProfile along_v(box.top, box.bottom, pixel.y, middle_q8.y, sigma_q8);
     const auto columns = static_cast<std::size_t>(box.right - box.left + 1);
     DotFit fit;
     for (int v = box.top; v <= box.bottom; ++v) {
         const auto j = static_cast<std::size_t>(v - box.top);
         const float* levels = patch.row(v);
-        const float slope_v = light.slope_v * down.from_pixel[j];
+        const float slope_v = light.slope_v * along_v.from_pixel[j];
         for (std::size_t i = 0; i < columns; i += 4) {
             const Four paper =
-                light.middle + light.slope_u * four_at(&across.from_pixel[i]) + slope_v;
-            fit.add(four_at(&across.profile[i]) * down.profile[j], paper - four_at(levels + i),
-                    four_at(&across.distance[i]), down.distance[j]);
+                light.middle + light.slope_u * four_at(&along_u.from_pixel[i]) + slope_v;
+            fit.add(four_at(&along_u.profile[i]) * along_v.profile[j], paper - four_at(levels + i),
+                    four_at(&along_u.distance[i]), along_v.distance[j]);
         }
     }
     return fit;
 }
 
-/// Returns the dot near a point, or nothing if that is outside the image or shows no dark spot.
+/// Returns the dot near a point, or nullopt if the point is outside the image or has no dark spot.
 std::optional<Dot> measure(const ImageView& image, const Window& window, Vec start_q8) {
     const std::int64_t farthest =
         tuned::kFarthest_2 * std::int64_t{window.sigma_q8} * window.sigma_q8;
     const auto sigma_q8 = static_cast<float>(window.sigma_q8);
     Dot dot{start_q8, 0, 0};
     Patch patch;
-    for (int iteration = 0; iteration < tuned::kMostIterations; ++iteration) {
+    for (int iteration = 0; iteration < tuned::kMaxIterations; ++iteration) {
         const Vec pixel = rounded_px(dot.centre_q8);
         const auto box = window.box_around(image, pixel.x, pixel.y);
         if (!box) return {};
-        patch.show(image, *box);
-        const RimLight light = light_on_rim(patch, pixel, window.half_px);
+        patch.load(image, *box);
+        const BorderBackground light = border_background(patch, pixel, window.half_px);
         const auto fit = fit_dot(patch, light, window.sigma_q8, dot.centre_q8).solve();
         if (!fit) return {};
         constexpr float kFarthestStep = 4;
@@ -243,7 +244,7 @@ std::optional<Dot> measure(const ImageView& image, const Window& window, Vec sta
         };
         const Vec step{step_q8(fit->offset_x), step_q8(fit->offset_y)};
         dot.centre_q8 = dot.centre_q8 + step;
-        // Darkness as a share of the light makes dots alike all over the image.
+        // Darkness relative to the paper level does not depend on the light.
         const float mass = 16384 * fit->height / std::max(light.middle, 1.0F);
         dot.mass = static_cast<std::uint16_t>(std::min(mass, 65535.0F));
         if (squared(dot.centre_q8 - start_q8) > farthest) return {};
@@ -252,9 +253,9 @@ std::optional<Dot> measure(const ImageView& image, const Window& window, Vec sta
     return dot;
 }
 
-/// Drops dots that are much lighter or darker than the typical one: paper where a dot is missing,
-/// dirt, graphics.
-void drop_strange(Grid& grid, std::span<Dot> dots) {
+/// Rejects dots whose mass differs much from the typical one: paper where a dot is missing, dirt,
+/// graphics.
+void reject_mass_outliers(Grid& grid, std::span<Dot> dots) {
     constexpr std::size_t kSample = tuned::kMedianSample;
     std::array<std::int32_t, kSample> masses;
     std::size_t n = 0;
@@ -296,7 +297,7 @@ int measure_dots(const ImageView& image, const Lens& lens, const PlaneFromImage&
             dots[count++] = *dot;
         }
     }
-    drop_strange(grid, dots.first(count));
+    reject_mass_outliers(grid, dots.first(count));
     return static_cast<int>(count);
 }
 

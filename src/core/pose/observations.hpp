@@ -1,4 +1,4 @@
-// Observations: the dots that were read, each with the place where the code has it printed.
+// Observations: the dots that were read, each with its printed place in the code.
 #pragma once
 
 #include "core/decode/nominal.hpp"
@@ -9,36 +9,38 @@ namespace dotpose::core {
 
 struct Observation {
     Vec image_point_q8;
-    Vec pattern_step;  ///< its intersection, spacings from `Decoding::place`
+    Vec pattern_step;  ///< its intersection, in spacings from `Decoding::place`
     Symbol symbol;
 };
 
-/// Returns the place where the dot was printed, in spacings from `Decoding::place`.
+/// Returns the printed place of the dot, in spacings from `Decoding::place`.
 inline Vec nominal_place_q16(const Observation& o, std::int32_t displacement_q16) {
     return {o.pattern_step.x * 65536 + dx(o.symbol) * displacement_q16,
             o.pattern_step.y * 65536 + dy(o.symbol) * displacement_q16};
 }
 
+/// Dots of a grid that belong to a cell, with their nominal places.
 class Observations {
   public:
-    /// `paper` is the light of the image in which all dots were measured, or null if they were not.
+    /// `paper` is the paper level of the image in which all dots were measured, or null if they
+    /// were not measured.
     Observations(std::span<const Dot> dots, const Grid& grid, const Nominal& nominal,
                  const PaperMap* paper = nullptr)
         : dots_(dots), grid_(grid), nominal_(nominal), paper_(paper) {}
 
     bool know_noise() const { return paper_ != nullptr; }
-    /// Returns the variance that pixel noise gives a dot's centre, relative to a dot on the
-    /// lightest paper. Noise is the same everywhere, contrast is proportional to the light.
+    /// Returns the variance of a centre due to pixel noise, relative to a dot on the brightest
+    /// paper. Noise is constant over the image; contrast is proportional to the light.
     float noise(const Observation& o) const {
         const float light =
             static_cast<float>(paper_at(*paper_, o.image_point_q8.x >> 8, o.image_point_q8.y >> 8));
         return 255.0F * 255.0F / (light * light);
     }
 
-    /// Returns an upper bound of the number of observations that `visit` shows.
+    /// Returns an upper bound of the number of observations that `visit` visits.
     int count() const { return static_cast<int>(dots_.size()); }
 
-    /// Shows every `every`-th observation.
+    /// Calls `use` for every `every`-th observation.
     template <typename Use>
     void visit(Use use, int every = 1) const {
         const Vec along_row = nominal_.pattern_step({1, 0});

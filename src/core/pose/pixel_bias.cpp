@@ -12,30 +12,30 @@ namespace {
 
 namespace tuned = tuning::bias;
 
-/// Returns sin(2 pi x), to 0.001, with the same bits everywhere.
+/// Returns sin(2 pi x), with an error below 0.001 and the same bits on every platform.
 float sine_of_turns(float x) {
     const float turn = x - std::floor(x + 0.5F);
     const float y = 8 * turn * (1 - 2 * std::abs(turn));
     return 0.775F * y + 0.225F * y * std::abs(y);
 }
 
-/// Returns the place of a dot's bell along one axis, px: a fourth of a pixel, as the kernels put
-/// it.
-float place_of_bell(std::int32_t window, std::int32_t sum, std::int32_t mass) {
+/// Returns the centre of the centroid window of a dot along one axis, px: a multiple of 1/4 px, as
+/// the kernels place it.
+float place_of_window(std::int32_t window, std::int32_t sum, std::int32_t mass) {
     const float quarters =
         4 * static_cast<float>(sum) / static_cast<float>(std::max<std::int32_t>(mass, 1));
     return static_cast<float>(window) + std::floor(quarters + 0.5F) / 4;
 }
 
-/// A bell at the pixels of a line; see kernels/loops/bells.inc.
-struct BellLine {
+/// Weights of a centroid window along one axis. See kernels/loops/centroid_windows.inc.
+struct WindowWeights {
     std::array<float, DotPixels::kSide> weight;
     std::array<float, DotPixels::kSide> moment;
     std::array<float, DotPixels::kSide> slope;
 
-    BellLine(float place_px, float reach_px) {
+    WindowWeights(float place_px, float radius_px) {
         for (std::size_t i = 0; i < weight.size(); ++i) {
-            const float t = (static_cast<float>(i) - DotPixels::kHalf_px - place_px) / reach_px;
+            const float t = (static_cast<float>(i) - DotPixels::kHalf_px - place_px) / radius_px;
             const float base = std::max(1 - t * t, 0.0F);
             const float cube = base * base * base;
             weight[i] = cube * base;
@@ -58,31 +58,32 @@ float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide
     return sum;
 }
 
-/// The error of the centre that a bell gives of a model dot.
-struct BellsError {
-    float px;                  ///< from the dot to the centre found
-    DotShape::Terms by_shape;  ///< derivatives
-    float slopes;              ///< the moment's slope along the axis, over that along u
+/// Error of the centroid of a model dot.
+struct CentroidError {
+    float px;                  ///< from the true centre to the centroid
+    DotShape::Terms by_shape;  ///< derivatives of `px` by the shape
+    float slopes;              ///< slope of the moment along the axis, divided by that along u
 };
 
 enum class Along : std::uint8_t { u, v };
 
-/// Returns the error along an axis for a dot and a bell that are off the middle of a pixel by so
-/// much along this axis. The slope is that along u, as the kernels have one for both axes.
-BellsError bells_error(const DotShape& shape, Along axis, float dot_px, float bell_px,
-                       float reach_px) {
+/// Returns the error along an axis. `dot_px` and `window_px` are the places of the dot and of the
+/// window along this axis, from the centre of a pixel. The slope used is that along u, because the
+/// kernels have one for both axes.
+CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, float window_px,
+                             float radius_px) {
     const bool is_u = axis == Along::u;
-    const BellLine u(is_u ? bell_px : 0, reach_px);
-    const BellLine v(is_u ? 0 : bell_px, reach_px);
+    const WindowWeights u(is_u ? window_px : 0, radius_px);
+    const WindowWeights v(is_u ? 0 : window_px, radius_px);
     const DotImages images = shape.drawn_at({is_u ? dot_px : 0, is_u ? 0 : dot_px});
     const auto moment = [&](const DotPixels& pixels) {
-        return reach_px *
+        return radius_px *
                (is_u ? weighted(pixels, u.moment, v.weight) : weighted(pixels, u.weight, v.moment));
     };
     const float by = 1 / weighted(images.dot, u.slope, v.weight);
     const float offset = moment(images.dot) * by;
     const float slope = is_u ? 1 / by : weighted(images.dot, u.weight, v.slope);
-    BellsError error{bell_px + offset - dot_px, {}, slope * by};
+    CentroidError error{window_px + offset - dot_px, {}, slope * by};
     for (std::size_t i = DotShape::radius_u; i <= DotShape::blur_v; ++i) {
         const DotPixels& pixels = images.derivatives[i];
         error.by_shape[i] = (moment(pixels) - offset * weighted(pixels, u.slope, v.weight)) * by;
@@ -90,12 +91,13 @@ BellsError bells_error(const DotShape& shape, Along axis, float dot_px, float be
     return error;
 }
 
-/// The bias along one axis: amplitude sin(2 pi phase), of bells that are on their dots.
+/// Bias along one axis, amplitude * sin(2 pi phase), of windows that are centred on their dots.
 class AxisBias {
   public:
-    AxisBias(const DotShape& shape, Along axis, float reach_px) {
-        constexpr float kQuarter_px = 0.25F;  // where the sine is 1
-        const BellsError error = bells_error(shape, axis, kQuarter_px, kQuarter_px, reach_px);
+    AxisBias(const DotShape& shape, Along axis, float radius_px) {
+        constexpr float kQuarter_px = 0.25F;  // phase at which the sine is 1
+        const CentroidError error =
+            centroid_error(shape, axis, kQuarter_px, kQuarter_px, radius_px);
         const float of_model =
             tuned::kOfModel + tuned::kOfMisfit * std::max(shape.misfit() - tuned::kMisfit, 0.0F);
         amplitude_px_ = error.px;
@@ -106,16 +108,16 @@ class AxisBias {
     }
 
     float amplitude_px() const { return amplitude_px_; }
-    /// Returns the slope of the moments along this axis, over that along u.
+    /// Returns the slope of the moments along this axis, divided by that along u.
     float slopes() const { return slopes_; }
-    /// Returns the bias of a dot, px, and keeps in mind how it falls on the pixels.
+    /// Returns the bias of a dot, px, and adds its phase to the mean.
     float of(float phase) {
         const float sine = sine_of_turns(phase);
         sines_ += sine;
         dots_ += 1;
         return amplitude_px_ * sine;
     }
-    /// Returns the variance that is left of the mean over the dots, px^2.
+    /// Returns the remaining variance of the mean over the dots, px^2.
     float variance_of_mean() const {
         const float mean = sines_ / std::max(dots_, 1.0F);
         return variance_ * mean * mean;
@@ -129,22 +131,23 @@ class AxisBias {
     float dots_ = 0;
 };
 
-/// Returns what bells are off, px, that are beside their dots by `d`, as their only step of
-/// Newton's method takes moments for straight: with moments of slope (d - bend d^3), divided by the
-/// slope at the bell along u. `slopes` is the slope along v over that along u.
-FloatVec error_beside(float bend, float slopes, FloatVec d) {
+/// Returns the error, px, of a window whose centre is `d` away from its dot. The kernels take one
+/// Newton step, which treats moments as linear: the moment has the slope (d - bend d^3) and is
+/// divided by the slope at the centre of the window along u. `slopes` is the slope along v divided
+/// by that along u.
+FloatVec error_off_centre(float bend, float slopes, FloatVec d) {
     return {2 * bend * d.x * d.x * d.x,
             d.y * (slopes * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1)};
 }
 
-float bend_of_moment(const DotShape& shape, float amplitude_px, float reach_px) {
+float bend_of_moment(const DotShape& shape, float amplitude_px, float radius_px) {
     constexpr float kBeside_px = 0.1F;
-    const float error = bells_error(shape, Along::u, kBeside_px, 0, reach_px).px -
+    const float error = centroid_error(shape, Along::u, kBeside_px, 0, radius_px).px -
                         amplitude_px * sine_of_turns(kBeside_px);
     return error / (2 * kBeside_px * kBeside_px * kBeside_px);
 }
 
-/// Where a plane has the dots in the image, of those that lie about there.
+/// Expected places of the dots in the image, for the inliers of a plane.
 class ExpectedDots {
   public:
     ExpectedDots(const FloatPlane& plane, const PoseFit& fit, FloatVec centre_px,
@@ -156,22 +159,22 @@ class ExpectedDots {
           centre_px_(centre_px),
           dots_(dots) {}
 
-    /// Shows every so many-th dot, with its phase.
+    /// Calls `use` for every `every`-th inlier, with its sub-pixel phase.
     template <typename Use>
     void visit(std::size_t every, Use use) const {
         for (std::size_t k = 0; k < static_cast<std::size_t>(dots_.count); k += every) {
             if (dots_.x[k] >= kNoDot_px || dots_.paper[k] <= 0) continue;
             const DotOffset dot = dot_offset(dots_, k, plane_, displacement_);
             if (!(dot.squared() <= limit_)) continue;
-            const float u = (dot.off.x * plane_.dv_y - dot.off.y * plane_.dv_x) * by_;
-            const float v = (dot.off.y * plane_.du_x - dot.off.x * plane_.du_y) * by_;
+            const float u = (dot.residual.x * plane_.dv_y - dot.residual.y * plane_.dv_x) * by_;
+            const float v = (dot.residual.y * plane_.du_x - dot.residual.x * plane_.du_y) * by_;
             use(k, Phase({dots_.x[k] + u + centre_px_.x, dots_.y[k] + v + centre_px_.y}));
         }
     }
 
   private:
     const FloatPlane& plane_;
-    const float by_;  ///< from spacings^2 to px^2
+    const float by_;  ///< px^2 per spacing^2
     const float displacement_;
     const float limit_;
     const FloatVec centre_px_;
@@ -180,7 +183,7 @@ class ExpectedDots {
 
 }  // namespace
 
-void put_bells_on_centres(const ImageView& image, const Bells& bells, MeasuredDots& dots) {
+void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots) {
     const auto sum_at = [](float px, std::int32_t window, std::int32_t mass) {
         const float from_window = px - static_cast<float>(window);
         return static_cast<std::int32_t>(std::floor(from_window * static_cast<float>(mass) + 0.5F));
@@ -189,44 +192,44 @@ void put_bells_on_centres(const ImageView& image, const Bells& bells, MeasuredDo
     const auto bottom = static_cast<float>(image.height_px - 1);
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
         if (dots.x[k] >= kNoDot_px) continue;
-        const float u = dots.x[k] + bells.centre_px.x;
-        const float v = dots.y[k] + bells.centre_px.y;
-        if (std::min({u, right - u, v, bottom - v}) < bells.reach_px) dots.x[k] = kNoDot_px;
+        const float u = dots.x[k] + window.centre_px.x;
+        const float v = dots.y[k] + window.centre_px.y;
+        if (std::min({u, right - u, v, bottom - v}) < window.radius_px) dots.x[k] = kNoDot_px;
         dots.sum_u[k] = sum_at(u, dots.window_u[k], dots.mass[k]);
         dots.sum_v[k] = sum_at(v, dots.window_v[k], dots.mass[k]);
     }
 }
 
-FloatVec take_pixel_bias(const ImageView& image, const Bells& bells, const FloatPlane& plane,
-                         const PoseFit& fit, MeasuredDots& dots) {
-    const ExpectedDots expected(plane, fit, bells.centre_px, dots);
-    StackedDots stacks(bells.dot_radius_px + tuned::kBeyondEdge_px);
+FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window,
+                            const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots) {
+    const ExpectedDots expected(plane, fit, window.centre_px, dots);
+    StackedDots stacks(window.dot_radius_px + tuned::kBeyondEdge_px);
     expected.visit(static_cast<std::size_t>(dots.count / tuned::kDots + 1),
                    [&](std::size_t k, const Phase& phase) {
                        stacks.add(image, phase, static_cast<float>(dots.paper[k]));
                    });
     DotShape shape;
     if (!shape.fit(stacks)) return {};
-    // Blur takes the bias away, and makes dots larger than a model dot is drawn.
+    // Blur removes the bias, and makes dots larger than the image of a model dot.
     if (std::min(shape.blur_2().x, shape.blur_2().y) > tuned::kBlurred_px2) return {};
-    AxisBias along_u(shape, Along::u, bells.reach_px);
-    AxisBias along_v(shape, Along::v, bells.reach_px);
-    const float bend = bend_of_moment(shape, along_u.amplitude_px(), bells.reach_px);
+    AxisBias along_u(shape, Along::u, window.radius_px);
+    AxisBias along_v(shape, Along::v, window.radius_px);
+    const float bend = bend_of_moment(shape, along_u.amplitude_px(), window.radius_px);
     constexpr float kMost_px = 0.2F;
-    constexpr float kMostBend = 4;
+    constexpr float kMaxBend = 4;
     if (!(std::abs(along_u.amplitude_px()) < kMost_px) ||
-        !(std::abs(along_v.amplitude_px()) < kMost_px) || !(std::abs(bend) < kMostBend)) {
+        !(std::abs(along_v.amplitude_px()) < kMost_px) || !(std::abs(bend) < kMaxBend)) {
         return {};
     }
-    const FloatVec off = shape.off();
+    const FloatVec offset = shape.offset();
     expected.visit(1, [&](std::size_t k, const Phase& phase) {
-        const float u = place_of_bell(dots.window_u[k], dots.sum_u[k], dots.mass[k]);
-        const float v = place_of_bell(dots.window_v[k], dots.sum_v[k], dots.mass[k]);
-        const FloatVec beside =
-            error_beside(bend, along_v.slopes(),
-                         {dots.x[k] + bells.centre_px.x - u, dots.y[k] + bells.centre_px.y - v});
-        dots.x[k] -= along_u.of(phase.rest.x + off.x) + beside.x;
-        dots.y[k] -= along_v.of(phase.rest.y + off.y) + beside.y;
+        const float u = place_of_window(dots.window_u[k], dots.sum_u[k], dots.mass[k]);
+        const float v = place_of_window(dots.window_v[k], dots.sum_v[k], dots.mass[k]);
+        const FloatVec window_error = error_off_centre(
+            bend, along_v.slopes(),
+            {dots.x[k] + window.centre_px.x - u, dots.y[k] + window.centre_px.y - v});
+        dots.x[k] -= along_u.of(phase.rest.x + offset.x) + window_error.x;
+        dots.y[k] -= along_v.of(phase.rest.y + offset.y) + window_error.y;
     });
     return {along_u.variance_of_mean(), along_v.variance_of_mean()};
 }

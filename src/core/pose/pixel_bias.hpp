@@ -1,6 +1,6 @@
-// Pixel bias: what centres of dots are off because of how the dots fall on the pixels. It averages
-// out over dots that fall on them in all ways; where all fall on them alike, it is computed from a
-// model dot and taken away. differs: the paper's dots turn in the view, and it has no such frames.
+// Pixel bias: error of the centroids due to the sub-pixel phase of the dots. It averages out if the
+// dots have all phases. If all have the same phase, it is computed from a model dot and subtracted.
+// differs: in the frames of the paper the dots have all phases.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -10,20 +10,20 @@
 
 namespace dotpose::core {
 
-/// The bells by which the centres of dots were found.
-struct Bells {
-    float reach_px = 0;
-    float dot_radius_px = 0;  ///< about as large as the dots are
-    FloatVec centre_px;       ///< from the image's first pixel to where dots are counted from
+/// The centroid window with which the centres of the dots were measured.
+struct CentroidWindow {
+    float radius_px = 0;      ///< distance at which the weight becomes 0
+    float dot_radius_px = 0;  ///< approximate radius of the dots
+    FloatVec centre_px;       ///< origin of the places of dots, from the first pixel of the image
 };
 
-/// Makes the centres found so far the places of the bells, for looking at the dots once more. Drops
-/// dots around which a bell does not fit into the image.
-void put_bells_on_centres(const ImageView& image, const Bells& bells, MeasuredDots& dots);
+/// Moves the centroid windows to the current centres, before the dots are measured again. Drops
+/// dots whose window is not completely in the image.
+void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots);
 
-/// Takes the bias from the dots that lie where the plane has them. Returns the variance that is
-/// left of the mean of all centres, along u and v, px^2.
-FloatVec take_pixel_bias(const ImageView& image, const Bells& bells, const FloatPlane& plane,
-                         const PoseFit& fit, MeasuredDots& dots);
+/// Subtracts the bias from the centres of all inliers of the plane. Returns the variance of the
+/// mean of all centres that remains, along u and v, px^2.
+FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window,
+                            const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 
 }  // namespace dotpose::core

@@ -13,9 +13,9 @@ using Pair = std::array<float, 2>;
 
 using Symmetric = Symmetric2<float>;
 
-/// Returns the covariance of the whitened terms, in units of the noise's variance, if the variance
-/// of the terms is 1.
-Symmetric spread_of(const FurtherTerms& terms, const PlaneNormalFloat& normal, float variance) {
+/// Returns the covariance of the whitened terms, in units of the noise variance, for terms of
+/// variance 1.
+Symmetric spread_of(const DistortionPrior& terms, const PlaneNormalFloat& normal, float variance) {
     const std::size_t i = terms.first;
     const float scale = 1 / variance;
     const float a = normal.factor(i, i);
@@ -25,49 +25,50 @@ Symmetric spread_of(const FurtherTerms& terms, const PlaneNormalFloat& normal, f
     return {(a * a + b * b) * scale, b * c * scale, c * c * scale};
 }
 
-/// The posterior of the terms if they are of one kind.
+/// Posterior of the terms under one component of the prior.
 struct PosteriorOfKind {
-    Symmetric precision;  ///< of noise and terms together, in units of that of the noise
+    Symmetric
+        precision;  ///< precision of noise and terms together, in units of the noise precision
     Pair mean;
-    float distance;  ///< squared distance of the fitted terms from 0, in deviations
-    float share;     ///< probability of the kind: prior, after `weigh` posterior
+    float distance;     ///< squared distance of the fitted terms from 0, in deviations
+    float probability;  ///< probability of the component: prior, after `weigh` posterior
 
     PosteriorOfKind() = default;
-    PosteriorOfKind(const FurtherTerms::Kind& kind, const Symmetric& spread, const Pair& seen,
+    PosteriorOfKind(const DistortionPrior::Kind& kind, const Symmetric& spread, const Pair& seen,
                     float variance, float unit) {
         const float own = kind.deviation * unit * kind.deviation * unit;
         precision = Symmetric{1 + own * spread.xx, own * spread.xy, 1 + own * spread.yy}.inverse();
         const Pair lost = precision * seen;
         mean = {seen[0] - lost[0], seen[1] - lost[1]};
         distance = (lost[0] * seen[0] + lost[1] * seen[1]) / variance;
-        share = kind.probability;
+        probability = kind.probability;
     }
 };
 using PosteriorsByKind =
-    std::array<PosteriorOfKind, std::tuple_size_v<decltype(FurtherTerms::kinds)>>;
+    std::array<PosteriorOfKind, std::tuple_size_v<decltype(DistortionPrior::kinds)>>;
 
-/// Sets the posterior probability of each kind, by how well it explains the fitted terms.
+/// Sets the posterior probability of each component from its fit to the terms.
 void weigh(PosteriorsByKind& kinds) {
     float nearest = kinds[0].distance;
     for (const PosteriorOfKind& kind : kinds)
         nearest = std::min(nearest, kind.distance);
     float sum = 0;
     for (PosteriorOfKind& kind : kinds) {
-        kind.share *=
+        kind.probability *=
             std::sqrt(kind.precision.determinant()) * std::exp((nearest - kind.distance) / 2);
-        sum += kind.share;
+        sum += kind.probability;
     }
     for (PosteriorOfKind& kind : kinds)
-        kind.share /= sum;
+        kind.probability /= sum;
 }
 
-/// Returns the posterior of all kinds together. Its covariance is the mean of theirs plus the
-/// spread of their means.
+/// Returns the posterior of the mixture. Its covariance is the mean of the covariances plus the
+/// spread of the means.
 Posterior mixed(const PosteriorsByKind& kinds, float variance) {
     Posterior posterior{};
     for (const PosteriorOfKind& kind : kinds) {
         for (std::size_t i = 0; i < 2; ++i)
-            posterior.mean[i] += kind.share * kind.mean[i];
+            posterior.mean[i] += kind.probability * kind.mean[i];
     }
     for (const PosteriorOfKind& kind : kinds) {
         const Symmetric& precision = kind.precision;
@@ -77,7 +78,7 @@ Posterior mixed(const PosteriorsByKind& kinds, float variance) {
         for (std::size_t i = 0; i < 2; ++i) {
             for (std::size_t j = 0; j < 2; ++j)
                 posterior.covariance[i][j] +=
-                    kind.share * (variance * kept[i][j] + off[i] * off[j]);
+                    kind.probability * (variance * kept[i][j] + off[i] * off[j]);
         }
     }
     return posterior;
@@ -85,7 +86,7 @@ Posterior mixed(const PosteriorsByKind& kinds, float variance) {
 
 }  // namespace
 
-Posterior posterior_of(const FurtherTerms& terms, const PlaneNormalFloat& normal,
+Posterior posterior_of(const DistortionPrior& terms, const PlaneNormalFloat& normal,
                        const Parameters& whitened, float variance, float unit) {
     const Pair seen{whitened[terms.first], terms.count > 1 ? whitened[terms.first + 1] : 0.0F};
     const Symmetric spread = spread_of(terms, normal, variance);

@@ -1,6 +1,6 @@
-// Posterior: how much to keep of terms that a camera straight above flat paper would not need
-// (shrinkage). Fitting a tilt where there is none costs accuracy, and so does leaving one out; how
-// likely each is decides. differs: the paper has no such terms.
+// Posterior: shrinkage of the distortion terms, which a camera straight above flat paper does not
+// need. Fitting a tilt that is not there costs accuracy, and so does omitting one that is. The
+// shrinkage depends on their probabilities. differs: the paper has no such terms.
 #pragma once
 
 #include <array>
@@ -10,28 +10,27 @@
 
 namespace dotpose::core {
 
-/// One or two terms that occur together, and their prior: one of three kinds, each a Gaussian about
-/// 0.
-struct FurtherTerms {
+/// Prior of one or two distortion terms that occur together: a mixture of three Gaussians about 0.
+struct DistortionPrior {
     struct Kind {
         float probability;
-        float deviation;  ///< of each term, in `unit` of `posterior_of`
+        float deviation;  ///< standard deviation of each term, in `unit` of `posterior_of`
     };
-    std::size_t first;  ///< index of the first one in Parameters
-    std::size_t count;  ///< at most 2
+    std::size_t first;  ///< index of the first term in `Parameters`
+    std::size_t count;  ///< number of terms, 1 or 2
     std::array<Kind, 3> kinds;
 };
 
-/// The posterior of whitened terms, given one frame. The second term is 0 if there is only one.
+/// Posterior of whitened terms, given one frame. The second term is 0 if there is only one.
 struct Posterior {
     std::array<float, 2> mean;
     std::array<std::array<float, 2>, 2> covariance;
 };
 
 /// Returns the posterior by Bayes' rule. `whitened` are the terms as fitted, from
-/// normal.times_transposed; `variance` is that of each of its elements; `unit` is that of the
-/// kinds' deviations.
-Posterior posterior_of(const FurtherTerms& terms, const PlaneNormalFloat& normal,
+/// normal.times_transposed. `variance` is the variance of each of their elements, `unit` the unit
+/// of the standard deviations of the prior.
+Posterior posterior_of(const DistortionPrior& terms, const PlaneNormalFloat& normal,
                        const Parameters& whitened, float variance, float unit);
 
 }  // namespace dotpose::core

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/math/fixed.hpp"
-#include "core/pose/survey.hpp"
+#include "core/pose/observation_batches.hpp"
 #include "core/pose/tuning.hpp"
 
 namespace dotpose::core {
@@ -13,18 +13,17 @@ namespace tuned = tuning::fit;
 
 constexpr float kPower30 = 1073741824.0F;
 
-/// Prior deviations of tilt, shear and bend, as cameras and prints have them, relative to the
-/// scale. A tilt is the change of scale from the middle to the outermost dot, about 0.01 for 2
-/// degrees; a bend is the outermost dot's displacement relative to its distance, and must be beyond
-/// doubt.
-constexpr std::array<FurtherTerms, 3> kTerms{{
+/// Prior standard deviations of tilt, shear and lens distortion, relative to the scale. A tilt is
+/// the change of scale from the centre to the outermost dot, about 0.01 for 2 degrees. A bend is
+/// the displacement of the outermost dot relative to its distance; it must be significant.
+constexpr std::array<DistortionPrior, 3> kTerms{{
     {kTilt, 2, {{{0.1F, 0}, {0.8F, 0.01F}, {0.1F, 0.1F}}}},
     {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
     {kBend, 1, {{{0.99F, 0}, {0.005F, 0.01F}, {0.005F, 0.1F}}}},
 }};
 
-/// How the scatter of dots depends on the light: that of printers is the same everywhere, that of
-/// pixel noise grows as light gets less. A line is fitted to squared residuals.
+/// Dependence of the scatter of dots on the light. Print errors are the same everywhere; pixel
+/// noise grows as light decreases. A line is fitted to the squared residuals.
 class Scatter {
   public:
     void add(float noise, float squared_residual) {
@@ -38,13 +37,13 @@ class Scatter {
         const float mean_noise = noise_ / count_;
         const float mean_square = squares_ / count_;
         const float spread = noise_noise_ / count_ - mean_noise * mean_noise;
-        constexpr float kLeastSpread = 1e-4F;
-        if (spread <= kLeastSpread * mean_noise * mean_noise || mean_square <= 0) return;
+        constexpr float kMinSpread = 1e-4F;
+        if (spread <= kMinSpread * mean_noise * mean_noise || mean_square <= 0) return;
         const float slope = (noise_squares_ / count_ - mean_noise * mean_square) / spread;
-        by_noise_ = std::clamp(slope / mean_square, 0.0F, tuned::kMostByNoise / mean_noise);
+        by_noise_ = std::clamp(slope / mean_square, 0.0F, tuned::kMaxByNoise / mean_noise);
         always_ = 1 - by_noise_ * mean_noise;
     }
-    /// Returns the variance of the typical dot over that of a dot with such noise.
+    /// Returns the variance of the typical dot divided by that of a dot with this noise.
     Four weight(Four noise) const { return 1.0F / (always_ + by_noise_ * noise); }
 
   private:
@@ -57,17 +56,17 @@ class Scatter {
     float by_noise_ = 0;
 };
 
-/// One round of Gauss and Newton: the equations at the pose so far, and the step from there.
+/// One Gauss-Newton round: the equations at the current pose, and the step from there.
 class Round {
   public:
-    Round(const Survey& survey, const PlaneFromImage& pose)
-        : survey_(survey),
+    Round(const ObservationBatches& batches, const PlaneFromImage& pose)
+        : batches_(batches),
           pose_(pose),
-          plane_(from_its_at(pose), static_cast<float>(survey.reach_px())) {
-        const Batch& sample = survey.sample();
-        Batch::Values<std::int32_t> x_q16;  // from the intersection
-        Batch::Values<std::int32_t> y_q16;
-        Batch::Values<std::int32_t> values;
+          plane_(from_its_at(pose), static_cast<float>(batches.reach_px())) {
+        const ObservationBatch& sample = batches.sample();
+        ObservationBatch::Values<std::int32_t> x_q16;  // distances from the intersections
+        ObservationBatch::Values<std::int32_t> y_q16;
+        ObservationBatch::Values<std::int32_t> values;
         for (std::size_t i = 0; i < sample.count; ++i) {
             const Vec offset =
                 point_q16(sample, i) - Vec{sample.step_x_q16[i], sample.step_y_q16[i]};
@@ -75,7 +74,7 @@ class Round {
             y_q16[i] = offset.y;
             values[i] = offset.x * sample.dx[i] + offset.y * sample.dy[i];
         }
-        // The displacement is measured: ink spreads and lenses blur differently each time.
+        // The displacement is measured in each frame, because ink spread and blur vary.
         displacement_q16_ = median(std::span(values).first(sample.count));
         for (std::size_t i = 0; i < sample.count; ++i) {
             values[i] = squared_q30({x_q16[i] - sample.dx[i] * displacement_q16_,
@@ -85,11 +84,11 @@ class Round {
         limit_ = static_cast<float>(tuned::kOutlier_medians * typical_q30 + 64) / kPower30;
     }
 
-    /// Returns the normal equations of all dots that are not too far off.
+    /// Returns the normal equations of all inliers.
     PlaneNormalFloat normal(bool know_noise) const {
         const Scatter scatter = know_noise ? scatter_of_dots() : Scatter();
         PlaneSumsFloat sums;
-        survey_.visit([&](const Batch& batch) {
+        batches_.visit([&](const ObservationBatch& batch) {
             for (std::size_t i = 0; i < batch.count; i += 4)
                 add_four(batch, i, scatter, sums);
         });
@@ -106,7 +105,7 @@ class Round {
     }
 
   private:
-    /// Returns the plane counted from its `at_centre`, which may take more digits than a float has.
+    /// Returns the plane relative to its `at_centre`, which may have more digits than a float.
     static FloatPlane from_its_at(PlaneFromImage plane) {
         plane.at_centre_q16 = {};
         return float_plane(plane);
@@ -117,13 +116,13 @@ class Round {
             std::min<std::int64_t>(squared(residual_q16) >> 2, INT32_MAX));
     }
 
-    Vec point_q16(const Batch& batch, std::size_t i) const {
+    Vec point_q16(const ObservationBatch& batch, std::size_t i) const {
         return plane_point_q16(pose_, pose_.centre_q8 + Vec{batch.x_q8[i], batch.y_q8[i]});
     }
 
     Scatter scatter_of_dots() const {
         Scatter scatter;
-        survey_.visit([&](const Batch& batch) {
+        batches_.visit([&](const ObservationBatch& batch) {
             for (std::size_t i = 0; i < batch.count; ++i) {
                 const Vec target{batch.step_x_q16[i] + batch.dx[i] * displacement_q16_,
                                  batch.step_y_q16[i] + batch.dy[i] * displacement_q16_};
@@ -136,7 +135,7 @@ class Round {
         return scatter;
     }
 
-    void add_four(const Batch& batch, std::size_t i, const Scatter& scatter,
+    void add_four(const ObservationBatch& batch, std::size_t i, const Scatter& scatter,
                   PlaneSumsFloat& sums) const {
         const auto px = [](const std::int32_t* at_q8) {
             return __builtin_convertvector(four_at(at_q8), Four) / 256.0F;
@@ -155,20 +154,20 @@ class Round {
         sums.add(places, {{x, y}, weight * (x * x + y * y) <= limit_ ? weight : Four{}});
     }
 
-    const Survey& survey_;
+    const ObservationBatches& batches_;
     const PlaneFromImage& pose_;
     ScaledPlane plane_;
     std::int32_t displacement_q16_ = 0;
-    float limit_ = 0;  ///< squared residual beyond which a dot is left out, spacings^2
+    float limit_ = 0;  ///< squared residual beyond which a dot is an outlier, spacings^2
 };
 
-/// Shrinks the further terms of a step to their posterior means. `whole` are these terms as fitted,
-/// whitened. Sets the covariance of `fit`.
+/// Shrinks the distortion terms of a step to their posterior means. `whole` are these terms as
+/// fitted, whitened. Sets the covariance of `fit`.
 void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
     fit.covariance = {};
     for (std::size_t i = 0; i < kTilt; ++i)
         fit.covariance[i][i] = fit.variance;
-    for (const FurtherTerms& terms : kTerms) {
+    for (const DistortionPrior& terms : kTerms) {
         const Posterior posterior = posterior_of(terms, fit.normal, whole, fit.variance, unit);
         for (std::size_t i = 0; i < terms.count; ++i) {
             step[terms.first + i] += posterior.mean[i] - whole[terms.first + i];
@@ -185,21 +184,22 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     PlaneNormalFloat& normal = fit.normal;
     if (normal.points() < 3 || !normal.decompose()) return false;
     step = normal.whitened(normal.right());
-    float left = normal.squared_residuals();
+    float residual_squares = normal.squared_residuals();
     for (const float part : step)
-        left -= part * part;
+        residual_squares -= part * part;
     fit.dots = normal.points();
     const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
     constexpr float kExact = 1e-12F;
-    fit.variance = std::max(left / static_cast<float>(freedom), kExact);
-    // Once whitened, the share of each further term is independent of the terms after it.
+    fit.variance = std::max(residual_squares / static_cast<float>(freedom), kExact);
+    // After whitening, the contribution of each distortion term is independent of the terms after
+    // it.
     Parameters whole = normal.times_transposed(distortions);
     for (std::size_t i = 0; i < kPoseParameters; ++i)
         whole[i] += step[i];
     const Parameters exact = step;
     shrink(whole, unit, fit, step);
     moved = 0;
-    fit.squares = left;
+    fit.squares = residual_squares;
     for (std::size_t i = 0; i < kPoseParameters; ++i) {
         const float lost = exact[i] - step[i];
         moved += step[i] * step[i];
@@ -211,11 +211,11 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
 }
 
 bool refine_pose(const Observations& observations, PlaneFromImage& pose, PoseFit& fit) {
-    const Survey survey(observations, pose.centre_q8);
-    fit.reach_px = survey.reach_px();
+    const ObservationBatches batches(observations, pose.centre_q8);
+    fit.reach_px = batches.reach_px();
     float moved = 1;
-    for (int i = 0; i < tuned::kMostRounds && moved > tuned::kSettled; ++i) {
-        const Round round(survey, pose);
+    for (int i = 0; i < tuned::kMaxRounds && moved > tuned::kSettled; ++i) {
+        const Round round(batches, pose);
         fit.normal = round.normal(observations.know_noise());
         PlaneFromImage better;
         if (!round.solve(fit, better, moved)) return false;

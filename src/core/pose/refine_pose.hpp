@@ -1,7 +1,7 @@
-// Refine: the pose from all dots. Once the position is known, so is where every dot was printed,
-// displacement included; the pose is the map of least squares from the dots' centres to these
-// places. differs: the paper stops at eq. 12, whose grid carries the displacements as noise. In
-// floating point, of single precision.
+// Refine: the pose from all dots. Once the position is known, the printed place of every dot is
+// known, including its displacement. The pose is the least-squares map from the centres of the dots
+// to these places. differs: the paper stops at eq. 12, whose grid has the displacements as noise.
+// Single precision.
 #pragma once
 
 #include "core/fit/plane_normal_float.hpp"
@@ -12,29 +12,29 @@
 
 namespace dotpose::core {
 
-/// How the dots determine the pose.
+/// Result of a fit: how well the dots determine the pose.
 struct PoseFit {
-    int reach_px = 1;         ///< the unit of length in the image
-    int dots = 0;             ///< those used; others lay too far off
-    float variance = 0;       ///< of one coordinate of one dot, spacings^2
-    float squares = 0;        ///< squared residuals after the last step, of all dots used
-    float displacement = 0;   ///< of the typical dot from its intersection, spacings
-    PlaneNormalFloat normal;  ///< of the parameters of `jacobian`, decomposed
-    std::array<Parameters, kPoseParameters> covariance;  ///< of the whitened parameters
+    int reach_px = 1;         ///< unit of length in the image
+    int dots = 0;             ///< number of inliers
+    float variance = 0;       ///< variance of one coordinate of one dot, spacings^2
+    float squares = 0;        ///< squared residuals of all inliers after the last step
+    float displacement = 0;   ///< distance of a typical dot from its intersection, spacings
+    PlaneNormalFloat normal;  ///< normal equations of the parameters of `jacobian`, decomposed
+    std::array<Parameters, kPoseParameters> covariance;  ///< covariance of the whitened parameters
     Surface surface = Surface::even;
-    /// What an uneven sheet adds to the covariance of x, y and theta.
+    /// Contribution of an uneven sheet to the covariance of x, y and theta.
     std::array<std::array<float, 3>, 3> uneven{};
 };
 
-/// Solves the normal equations of `fit` for the step to the plane of least squares, and shrinks the
-/// further terms to their posterior means. `distortions` are these terms of the plane so far,
-/// `unit` is its scale. Sets `moved`, the size of the step in squared deviations, and all of `fit`
-/// except the displacement. Returns false if the dots do not determine the plane.
+/// Solves the normal equations of `fit` for the step to the least-squares plane, and shrinks the
+/// distortion terms to their posterior means. `distortions` are these terms of the current plane
+/// and `unit` is its scale. Sets `moved`, the size of the step in squared deviations, and all of
+/// `fit` except the displacement. Returns false if the dots do not determine the plane.
 bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step, float& moved);
 
-/// Improves the pose. Dots that are farther off than most are left out; terms that a camera
-/// straight above flat paper would not need are shrunk (pose/posterior), as each costs accuracy.
-/// Returns false, with the pose as it was, if the dots do not determine it.
+/// Improves the pose. Outliers are rejected. Distortion terms, which a camera straight above flat
+/// paper does not need, are shrunk to their posterior means (pose/posterior), because each term
+/// costs accuracy. Returns false, without a change, if the dots do not determine the pose.
 bool refine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                  PoseFit& fit);
 

@@ -37,10 +37,10 @@ void StackedDots::add(const ImageView& image, const Phase& phase, float paper) {
 }
 
 bool StackedDots::are_enough() const {
-    constexpr float kFewestBeyond = 16;  // beyond the first of each stack
+    constexpr float kMinBeyond = 16;  // besides one in each stack
     float stacks = 0;
     visit([&](const Stack&) { stacks += 1; });
-    return dots_ >= stacks + kFewestBeyond;
+    return dots_ >= stacks + kMinBeyond;
 }
 
 float StackedDots::mass() const {
@@ -52,7 +52,7 @@ float StackedDots::mass() const {
 }
 
 float StackedDots::noise_2() const {
-    constexpr float kLeast = 1e-6F;  // of levels that are whole numbers
+    constexpr float kMinVariance = 1e-6F;  // quantization of grey levels
     float between = 0;
     float freedom = 0;
     visit([&](const Stack& stack) {
@@ -61,7 +61,7 @@ float StackedDots::noise_2() const {
             freedom += stack.dots - 1;
         });
     });
-    return std::max((squares_ - between) / freedom, 0.0F) + kLeast;
+    return std::max((squares_ - between) / freedom, 0.0F) + kMinVariance;
 }
 
 }  // namespace dotpose::core

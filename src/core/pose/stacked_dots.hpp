@@ -1,4 +1,4 @@
-// Stacked dots: mean images of dots by where they fall on the pixels.
+// Stacked dots: mean images of dots, by their sub-pixel phase.
 #pragma once
 
 #include "core/pose/dot_model.hpp"
@@ -6,39 +6,40 @@
 
 namespace dotpose::core {
 
-/// Where a point of the image falls on the pixels.
+/// Pixel and sub-pixel phase of a point of the image.
 struct Phase {
-    int u = 0;  ///< the pixel that holds the point
+    int u = 0;  ///< pixel that contains the point
     int v = 0;
-    FloatVec rest;  ///< from the middle of that pixel, px
+    FloatVec rest;  ///< offset from the centre of that pixel, -0.5 to 0.5 px
 
     explicit Phase(FloatVec point_px);
 };
 
-/// Images of dots, added up by the quarters of a pixel, along u and v, into which they fall.
+/// Sums of the images of dots, by the quarter of a pixel, along u and v, that contains their
+/// centre.
 class StackedDots {
   public:
     /// The dots of one stack.
     struct Stack {
         float dots = 0;
-        FloatVec rest;       ///< sum of the parts of pixels, see Phase
-        DotPixels darkness;  ///< sum of the darkness, relative to the paper around each dot
+        FloatVec rest;       ///< sum of `Phase::rest`
+        DotPixels darkness;  ///< sum of the darkness, relative to the paper level around each dot
     };
 
-    /// Pixels count within `reach_px` of the pixel in the middle.
+    /// Uses the pixels within `reach_px` of the central pixel.
     explicit StackedDots(float reach_px);
 
-    /// Adds a dot, unless the image does not hold all of its pixels.
+    /// Adds a dot if all its pixels are in the image.
     void add(const ImageView& image, const Phase& phase, float paper);
 
-    /// Shows each stack with dots.
+    /// Calls `use` for each stack that has dots.
     template <typename Use>
     void visit(Use use) const {
         for (const Stack& stack : stacks_) {
             if (stack.dots > 0) use(stack);
         }
     }
-    /// Shows the pixels that count, from the one in the middle.
+    /// Calls `use` for the pixels used, relative to the central one.
     template <typename Use>
     void visit_pixels(Use use) const {
         for (int v = -half_px_; v <= half_px_; ++v) {
@@ -47,20 +48,20 @@ class StackedDots {
             }
         }
     }
-    /// Returns how far from the one in the middle pixels count, along each axis.
+    /// Returns the distance of the outermost pixels from the central one, along each axis.
     int half_px() const { return half_px_; }
-    /// Whether there are enough dots to tell a typical one from noise.
+    /// Returns true if there are enough dots to separate signal from noise.
     bool are_enough() const;
     /// Returns the mean darkness of a dot: the sum over its pixels.
     float mass() const;
-    /// Returns the variance of a pixel among the dots of a stack.
+    /// Returns the variance of a pixel over the dots of a stack.
     float noise_2() const;
 
   private:
     static constexpr int kAlong = 4;
 
     std::array<Stack, kAlong * kAlong> stacks_{};
-    float squares_ = 0;  ///< of the darkness of all pixels that count
+    float squares_ = 0;  ///< squared darkness of all pixels used
     float dots_ = 0;
     int half_px_;
     int reach_2_;

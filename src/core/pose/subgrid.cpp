@@ -26,8 +26,8 @@ void write_pose(const PlaneFromImage& there, Profile profile, const Place& place
     fix.fraction_y_q16 = static_cast<std::uint16_t>(t.y & 0xFFFF);
     const Vec du = there.du_q24;
     fix.theta_bam = angle_bam(du);
-    // px per spacing is the inverse of the length of du, which may be next to nothing far outside
-    // of the image, where the map may fold.
+    // px per spacing is the inverse of the length of du. The length may be almost 0 far outside the
+    // image, where the map may fold.
     const auto du_length_q24 = square_root(static_cast<std::uint64_t>(squared(du)));
     const std::int64_t spacing_q16 =
         (std::int64_t{1} << 40) / std::max<std::uint32_t>(du_length_q24, 1U);

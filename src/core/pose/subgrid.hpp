@@ -1,4 +1,4 @@
-// Subgrid: where the reference point lies between the intersections, and the angle. Paper section
+// Subgrid: the place of the reference point between the intersections, and the angle. Paper section
 // II-B.8, eq. 10-12; the angle is at the end of II-B.6.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Returns the grid's plane turned upright; it counts from `Decoding::place`.
+/// Returns the plane of the grid, turned upright; its origin is `Decoding::place`.
 PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, Turn pattern_from_grid);
 
 /// Writes position, section, angle and spacing at the reference point into the fix.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/pose/group_scatter.hpp"
-#include "core/pose/sides.hpp"
+#include "core/pose/split_fit.hpp"
 #include "core/pose/tuning.hpp"
 
 namespace dotpose::core {
@@ -13,13 +13,13 @@ namespace {
 
 namespace tuned = tuning::uneven;
 
-/// How much the dots of each block of the image are off in common.
+/// Mean residuals of the dots in each block of the image.
 class Blocks {
   public:
     Blocks(const Kernels& kernels, const MeasuredDots& dots, const FloatPlane& plane,
            const PoseFit& fit) {
-        const int side = fit.dots > tuned::kManyDots ? static_cast<int>(BlockSums::kMostAlong)
-                                                     : tuned::kFewAlong;
+        const int side =
+            fit.dots > tuned::kManyDots ? static_cast<int>(BlockSums::kMaxAlong) : tuned::kFewAlong;
         const auto reach_px = static_cast<float>(fit.reach_px);
         BlockSums sums;
         kernels.sum_blocks(dots, plane, fit.displacement, tuning::fit::kOutlier * fit.variance,
@@ -42,8 +42,9 @@ class Blocks {
 
     const GroupScatter& scatter() const { return scatter_; }
     float outliers() const { return outliers_; }
-    float side() const { return side_; }  ///< of a block, in spacings
-    /// Returns the variance, along one axis, of the sheet's displacement at a block, in spacings^2.
+    float side() const { return side_; }  ///< side of a block, in spacings
+    /// Returns the variance, along one axis, of the displacement of the sheet at a block, in
+    /// spacings^2.
     float variance_of_sheet() const {
         return std::max(scatter_.variance_between() - variance_of_bias_, 0.0F);
     }
@@ -55,20 +56,20 @@ class Blocks {
     float variance_of_bias_;
 };
 
-/// Returns the blocks of the dots on the reference point's side of a line.
+/// Returns the blocks of the dots on the side of the reference point.
 Blocks blocks_here(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
-                   const Sides& sides) {
-    const OneSide only(OneSide::Side::here, dots, sides.plane, reference_px, sides.slip);
-    return {kernels, dots, sides.plane, sides.fit};
+                   const SplitFit& split) {
+    const HalfPlane only(HalfPlane::Side::here, dots, split.plane, reference_px, split.step);
+    return {kernels, dots, split.plane, split.fit};
 }
 
 bool has_outliers(const Blocks& blocks) {
     return blocks.outliers() >
-           tuned::kFewOutliers + tuned::kShareOfOutliers * blocks.scatter().dots;
+           tuned::kFewOutliers + tuned::kOutlierFraction * blocks.scatter().dots;
 }
 
-/// Adds the difference of two planes at the reference point to the covariance, times `weight`, as
-/// the pose may be that of either.
+/// Adds the difference of two planes at the reference point to the covariance, times `weight`,
+/// because the pose may be that of either.
 void add_difference(const FloatPlane& plane, const FloatPlane& other, FloatVec reference_px,
                     float weight, PoseFit& fit) {
     const FloatVec p = plane_point(plane, reference_px);
@@ -88,7 +89,7 @@ void add(float variance, std::size_t i, PoseFit& fit) {
     fit.uneven[i][i] += variance;
 }
 
-/// Adds what dots with common residuals leave open to the covariance.
+/// Adds the uncertainty due to common residuals to the covariance.
 void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     const float variance = blocks.variance_of_sheet();
     add(tuned::kOfPlace * variance, 0, fit);
@@ -96,57 +97,58 @@ void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     add(tuned::kOfTurn * variance / (blocks.side() * blocks.side()), 2, fit);
 }
 
-/// Widens the covariance if the line passes so near the reference point that either side may hold
-/// it.
+/// Widens the covariance if the line passes so close to the reference point that the point may be
+/// on either side.
 void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
-                     const Sides& sides, PoseFit& fit) {
-    if (sides.slip.distance > tuned::kNearLine) return;
+                     const SplitFit& split, PoseFit& fit) {
+    if (split.step.distance > tuned::kNearLine) return;
     FloatPlane beyond;
-    if (fit_far_side(kernels, dots, reference_px, sides, beyond))
-        return add_difference(sides.plane, beyond, reference_px, 1, fit);
-    // Without a plane for it, the other side may lie anywhere in its cell, turned by some degrees.
+    if (fit_far_side(kernels, dots, reference_px, split, beyond))
+        return add_difference(split.plane, beyond, reference_px, 1, fit);
+    // Without a plane, the other side may be anywhere in its cell, turned by some degrees.
     add(1.0F / 12, 0, fit);
     add(1.0F / 12, 1, fit);
     add(0.02F * 0.02F, 2, fit);
 }
 
-/// Fits to the reference point's side if a line divides the sheet for sure and nothing else of it
-/// is uneven. If a line is only possible, the covariance leaves open which fit is right.
+/// Uses the fit to the side of the reference point if a line certainly divides the sheet and that
+/// side is even. If a line is only possible, the covariance covers both fits.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
-    Sides sides{plane, fit};
-    const bool has_line = fit_this_side(kernels, dots, reference_px, sides);
-    const bool is_divided = has_line && sides.slip.gain > Slip::kCertain;
+    SplitFit split{plane, fit};
+    const bool has_line = fit_this_side(kernels, dots, reference_px, split);
+    const bool is_divided = has_line && split.step.gain > PaperStep::kCertain;
     if (is_divided &&
-        blocks_here(kernels, dots, reference_px, sides).scatter().excess() < tuned::kSuspect) {
-        plane = sides.plane;
-        fit = sides.fit;
+        blocks_here(kernels, dots, reference_px, split).scatter().excess() < tuned::kSuspect) {
+        plane = split.plane;
+        fit = split.fit;
         fit.surface = Surface::divided;
-        // Where no dot is far off, the paper may as well be bent.
+        // Without outliers, the paper may be bent instead.
         if (!has_outliers(blocks)) widen_by_blocks(blocks, fit);
     } else {
         const float excess = blocks.scatter().excess();
         if (is_divided || excess > tuned::kUneven) fit.surface = Surface::uneven;
         if (is_divided || excess > tuned::kShared) widen_by_blocks(blocks, fit);
         if (!has_line) return;
-        add_difference(plane, sides.plane, reference_px, 1, fit);
+        add_difference(plane, split.plane, reference_px, 1, fit);
     }
-    if (is_divided) widen_near_line(kernels, dots, reference_px, sides, fit);
+    if (is_divided) widen_near_line(kernels, dots, reference_px, split, fit);
 }
 
-/// Looks for a line if blocks share residuals by more than `least` deviations, or dots are off for
-/// another reason.
-void fit_uneven_from(float least, const Kernels& kernels, MeasuredDots& dots, const Blocks& blocks,
-                     FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
+/// Searches for a line if the blocks scatter by more than `min_excess` deviations, or if there are
+/// many outliers.
+void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dots,
+                     const Blocks& blocks, FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
     const float excess = blocks.scatter().excess();
-    if (excess > least || has_outliers(blocks))
+    if (excess > min_excess || has_outliers(blocks))
         consider_line(kernels, dots, reference_px, blocks, plane, fit);
     else if (excess > tuned::kShared)
         widen_by_blocks(blocks, fit);
 }
 
-/// Returns from how many deviations on a patient attempt looks for a line. What dots share on any
-/// sheet, as by the bias of pixels, shows the more the more dots there are; so do lines.
+/// Returns the deviations from which a thorough attempt searches for a line. Common residuals that
+/// every sheet has, such as pixel bias, become more significant with the number of dots, and so do
+/// lines.
 float patient_excess(const Blocks& blocks) {
     return tuned::kMaybeLine *
            std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));
@@ -181,7 +183,7 @@ void fit_uneven(const Kernels& kernels, const Observations& observations, Vec re
         dots.row[k] = static_cast<float>(o.pattern_step.y);
         dots.bits[k] = static_cast<std::int32_t>(o.symbol);
     });
-    // Kernels take eight dots at once.
+    // Kernels process eight dots at a time.
     for (std::size_t k = 0; k < 8; ++k)
         dots.x[static_cast<std::size_t>(dots.count) + k] = kNoDot_px;
     FloatPlane better = float_plane(plane);

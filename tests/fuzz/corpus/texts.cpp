@@ -79,7 +79,7 @@ distortion_coefficients: {rows: 1, cols: 5, data: [0.01, 0, 0, 0, 0]}
 constexpr const char* kLog =
     "frame,t_s,file,status,dots_seen,p_wrong,state,events,verdict,plane,track_x_mm,track_y_mm,"
     "vx_mm_s,vy_mm_s\n"
-    "0,0.0,\"a \"\"b\"\",c\",ok,174,1.46e-11,moving,fix,believed,pattern,2539.9,3555.9,0.1,-0.2\n"
+    "0,0.0,\"a \"\"b\"\",c\",ok,174,1.46e-11,moving,fix,accepted,pattern,2539.9,3555.9,0.1,-0.2\n"
     "1,0.033,b,too_few_dots,3,,lost,lost,,,,,,\n"
     "2,0.066,c,ok,177,1e-11,stationary,kidnapped,gated,world,2540.0,3556.0,0,0\n";
 

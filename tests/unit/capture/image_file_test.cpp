@@ -334,7 +334,7 @@ TEST_F(ImageFileTest, scales_few_bits_in_16_by_the_bits_in_use) {
         EXPECT_EQ(read(encode_pnm(raster, false, 65535)).pixels, levels);
         EXPECT_EQ(read(encode_pnm(raster, true, 65535)).pixels, levels);
     }
-    // A largest value that the file states is believed.
+    // The maximum value that the file states is not questioned.
     EXPECT_EQ(read(encode_pnm(ten, false, 1023)).pixels, of_ten);
     EXPECT_EQ(read(encode_pnm(ten, false, 40000)).pixels, (Bytes{0, 3, 4, 7}));
 }

@@ -26,7 +26,7 @@ std::vector<int> a4_rolls(Profile profile, std::size_t place, int lines) {
     return rolls;
 }
 
-int most_shared(Profile read, std::size_t own, Profile other, int lines) {
+int max_shared(Profile read, std::size_t own, Profile other, int lines) {
     const std::vector<int> rolls = a4_rolls(read, own, lines);
     const bool have_same_rolls = read != Profile::microdots && other != Profile::microdots;
     int most = 0;
@@ -53,7 +53,7 @@ TEST(UnsharedInOther, IsWhatCountingGives) {
                 ASSERT_EQ(row.size(), 241U);
                 const int lines = code::kUnsharedOf[i];
                 for (std::size_t place = 0; place < 241; place += 7)
-                    ASSERT_EQ(row[place] - '0', lines - most_shared(read, place, other, lines));
+                    ASSERT_EQ(row[place] - '0', lines - max_shared(read, place, other, lines));
             }
         }
     }

@@ -186,7 +186,7 @@ Errors track_eight(double speed_mm_s, double sigma_mm, double constant_mm = 0) {
         seen[0] += constant_mm;
         const Sighting sighting = at(frame, seen, round_covariance(claimed_mm));
         const Track& track = tracker.update(sighting.time_us, &sighting);
-        EXPECT_EQ(track.verdict, Verdict::believed) << frame;
+        EXPECT_EQ(track.verdict, Verdict::accepted) << frame;
         if (frame < 200) continue;
         const Pose error = error_of(track.pose, truth);
         for (std::size_t i = 0; i < 2; ++i) {

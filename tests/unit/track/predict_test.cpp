@@ -221,7 +221,7 @@ TEST(TrackerPredict, FollowsARobotThatWasPutElsewhereBeforeItBelievesIt) {
 TEST(TrackerPredict, KeepsTheSpeedOfARobotThatIsBelievedToBeElsewhere) {
     Followed robot = drive(200'000, driving);
     std::int64_t time_us = 200'000;
-    while (robot.tracker.track().verdict != Verdict::believed || time_us == 200'000) {
+    while (robot.tracker.track().verdict != Verdict::accepted || time_us == 200'000) {
         time_us += kFrame_us;
         ASSERT_LT(time_us, 300'000);
         robot.see(driving_elsewhere(time_us), time_us);

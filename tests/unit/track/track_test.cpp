@@ -63,7 +63,7 @@ TEST(Tracker, StartsLostAndBelievesTheFirstFix) {
     EXPECT_EQ(events_of(tracker.update(0, nullptr)), "");
     const Track& track = see(tracker, at(kFrame_us, 7, 8, 0.5));
     EXPECT_EQ(events_of(track), "fix ");
-    EXPECT_EQ(track.verdict, Verdict::believed);
+    EXPECT_EQ(track.verdict, Verdict::accepted);
     EXPECT_EQ(track.p_wrong_log2, -60);
     EXPECT_FALSE(track.is_lost);
     EXPECT_EQ(track.pose.x_nm, kFar_nm + 7'000'000);
@@ -115,7 +115,7 @@ TEST(Tracker, SurvivesShortGaps) {
     tracker.update(130'000, nullptr);
     const Track& track = see(tracker, at(160'000, 16, 0, 0.32));
     EXPECT_EQ(events_of(track), "");
-    EXPECT_EQ(track.verdict, Verdict::believed);
+    EXPECT_EQ(track.verdict, Verdict::accepted);
 }
 
 TEST(Tracker, DoesNotBelieveASingleWrongFix) {
@@ -129,7 +129,7 @@ TEST(Tracker, DoesNotBelieveASingleWrongFix) {
         EXPECT_EQ(track.p_wrong_log2, 0);
         EXPECT_EQ(events_of(track), "");
         EXPECT_NEAR(static_cast<double>(track.pose.x_nm - kFar_nm), 10e6, 5000);
-        EXPECT_EQ(see(copy, at(105'000, 10.5, 0, 0.21)).verdict, Verdict::believed);
+        EXPECT_EQ(see(copy, at(105'000, 10.5, 0, 0.21)).verdict, Verdict::accepted);
     }
 }
 
@@ -140,7 +140,7 @@ TEST(Tracker, BelievesAJumpOnceConfirmed) {
     EXPECT_EQ(see(tracker, at(105'000, 80.1, 90, 1)).verdict, Verdict::gated);
     const Track& track = see(tracker, at(110'000, 80.2, 90, 1));
     EXPECT_EQ(events_of(track), "kidnapped ");
-    EXPECT_EQ(track.verdict, Verdict::believed);
+    EXPECT_EQ(track.verdict, Verdict::accepted);
     EXPECT_EQ(track.pose.x_nm, kFar_nm + 80'200'000);
 }
 

@@ -64,7 +64,7 @@ const kColumns: readonly Column[] = [
     ["code", ({ reading }) => reading.fix.code],
     ["state", ({ reading }) => (reading.fix.ok ? "moving" : "lost"), true],
     ["events", eventOf, true],
-    ["verdict", ({ reading }) => (reading.fix.ok ? "believed" : "none"), true],
+    ["verdict", ({ reading }) => (reading.fix.ok ? "accepted" : "none"), true],
     ["plane", () => "pattern"],
     ["track_x_mm", ({ reading }) => x_mm(reading).toFixed(6)],
     ["track_y_mm", ({ reading }) => y_mm(reading).toFixed(6)],

@@ -92,7 +92,7 @@ void add_track_numbers(GObjectClass* element_class) {
                "Usual acceleration of the robot: larger follows faster, smooths less", kLeast,
                kMost, static_cast<double>(track.acceleration_mm_s2));
     add_number(element_class, kLostAfter, "lost-after-ms",
-               "Time without a believed fix after which the robot is lost", 0, 1e9,
+               "Time without a accepted fix after which the robot is lost", 0, 1e9,
                static_cast<double>(track.lost_after_us) / 1000);
     add_number(element_class, kMaxPWrong, "max-p-wrong",
                "Probability of being wrong above which a position is refused, the prior included; "

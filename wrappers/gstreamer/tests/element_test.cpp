@@ -96,7 +96,7 @@ TEST_F(GstreamerElement, FollowsAnewAfterAJumpBack) {
     EXPECT_EQ(locate(frame(171, 10 * GST_SECOND + 5 * GST_MSECOND))["attempt"], "tracked");
     // As after a seek. Without a new beginning, nothing would be followed for ten seconds.
     EXPECT_EQ(locate(frame(170, 0))["events"], "fix");
-    EXPECT_EQ(locate(frame(171, 5 * GST_MSECOND))["verdict"], "believed");
+    EXPECT_EQ(locate(frame(171, 5 * GST_MSECOND))["verdict"], "accepted");
     EXPECT_EQ(locate(frame(172, 10 * GST_MSECOND))["frame"], 4);
 }
 
@@ -121,7 +121,7 @@ TEST_F(GstreamerElement, WithoutTimesTheRateTellsThem) {
     // Without a rate either, it is the clock.
     start("", "0/1");
     EXPECT_EQ(locate(frame(0, GST_CLOCK_TIME_NONE))["events"], "fix");
-    EXPECT_EQ(locate(frame(1, GST_CLOCK_TIME_NONE))["verdict"], "believed");
+    EXPECT_EQ(locate(frame(1, GST_CLOCK_TIME_NONE))["verdict"], "accepted");
 }
 
 TEST_F(GstreamerElement, StartsAnewAfterAStop) {

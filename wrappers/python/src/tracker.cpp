@@ -147,7 +147,7 @@ void define_track(py::module_& module) {
         .def_readonly("is_stationary", &Track::is_stationary, "Whether the robot is at rest.")
         .def_property_readonly(
             "verdict", [](const Track& self) { return name(self.verdict); },
-            "How the fix was judged: \"none\", \"believed\", \"with_prior\", \"gated\" or "
+            "How the fix was judged: \"none\", \"accepted\", \"with_prior\", \"gated\" or "
             "\"too_weak\".")
         .def_property_readonly(
             "p_wrong", [](const Track& self) { return std::ldexp(1.0, self.p_wrong_log2); },

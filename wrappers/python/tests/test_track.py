@@ -33,7 +33,7 @@ def test_a_tracker_knows_pose_and_speed():
         if time_us == 0:
             assert track.events == {"fix"}
     assert attempts.count("tracked") > 50
-    assert not track.is_lost and track.verdict == "believed" and track.p_wrong < 1e-9
+    assert not track.is_lost and track.verdict == "accepted" and track.p_wrong < 1e-9
     assert track.x_mm == pytest.approx(shot.x_mm, abs=0.01)
     assert track.vx_mm_s == pytest.approx(15.0, abs=0.5)
     assert track.vy_mm_s == pytest.approx(0.0, abs=0.5)

@@ -1,4 +1,4 @@
-// Headers of the loops, which have to come before the namespace of a form begins.
+// Headers of the loops. They must be included before the namespace of a form begins.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,8 @@
 
 namespace dotpose::core {
 
-/// Whether loops have one form for all cases, not a faster one for each. WebAssembly is downloaded.
+/// True if loops have one form for all cases instead of a faster one for each: the size of
+/// WebAssembly matters.
 #if defined(__wasm__)
 inline constexpr bool kOneForm = true;
 #else

@@ -1,5 +1,4 @@
-// Dark sums: how dark the pixels of a square are, and where the darkness is. For processors without
-// vectors.
+// Dark sums: mass and moments of the dark pixels of a square, for processors without vectors.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +7,17 @@
 
 namespace dotpose::core {
 
-/// By how much pixels are darker than a level, summed up, and times their places from the middle.
-/// For at most 11 x 11 pixels the mass is below 2^15 and the others are below 2^18.
+/// Sums of the darkness of pixels below a level: alone (mass), and times their distance from the
+/// middle. For at most 11 x 11 pixels the mass is below 2^15 and the moments are below 2^18.
 struct DarkSums {
     std::int32_t mass = 0;
     std::int32_t x = 0;
     std::int32_t y = 0;
 };
 
-/// In a square of this half size only the pixels count that are at most so many steps from the
-/// middle. Dots of tracked sizes have no others that are more than half as dark as their middle.
+/// Half size of the squares from which the corners are excluded: pixels farther from the middle
+/// than a limit of steps. Dots of tracked sizes have no pixels there that are more than half as
+/// dark as their middle.
 inline constexpr int kHalfOfDiamond = 2;
 
 /// Returns the sums of a square of 2 Half + 1 pixels per side that begins at `row`. As its size is
@@ -28,7 +28,7 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
                                            std::int32_t level) {
     std::int32_t mass = 0;
     std::int32_t sum_x = 0;
-    std::int32_t so_far = 0;  // the sum of all masses up to each row
+    std::int32_t so_far = 0;  // sum of all masses up to each row
     const auto add_row = [&](int reach) {
 #pragma GCC unroll 16
         for (int x = -reach; x <= reach; ++x) {

@@ -121,8 +121,8 @@ double two_lines(std::uint32_t position, const Odds& first, const Odds& second, 
 
 constexpr double kUnevenness = 1.03;
 
-float sum_of(std::uint32_t position, int most_shared, const std::vector<Odds>& lines) {
-    ExpectedAlternatives expected(code::basis(Profile::anoto), position, most_shared, 2);
+float sum_of(std::uint32_t position, int max_shared, const std::vector<Odds>& lines) {
+    ExpectedAlternatives expected(code::basis(Profile::anoto), position, max_shared, 2);
     for (const Odds& odds : lines)
         expected.add_line(odds);
     return expected.sum();
@@ -150,8 +150,8 @@ TEST(ExpectedAlternatives, OfTwoLinesAreThoseOfEveryPairOfDigits) {
         first[0] = second[0] = 1;
         const std::uint32_t position = random_place(rng).cell.x;
         const double exact = two_lines(position, first, second, kUnevenness);
-        for (const int most_shared : {3, 4}) {
-            EXPECT_NEAR(static_cast<double>(sum_of(position, most_shared, {first, second})) / exact,
+        for (const int max_shared : {3, 4}) {
+            EXPECT_NEAR(static_cast<double>(sum_of(position, max_shared, {first, second})) / exact,
                         1, 1e-4)
                 << i << ", seed " << kSeed;
         }
@@ -178,15 +178,15 @@ TEST(ExpectedAlternatives, EachDifferenceHasItsOwnShare) {
 TEST(ExpectedAlternatives, ThoseThatShareMoreLinesAreLeftToOthers) {
     Odds same{};
     same[0] = 1;
-    for (const int most_shared : {3, 4}) {
+    for (const int max_shared : {3, 4}) {
         std::vector<Odds> lines;
         for (int n = 1; n <= 6; ++n) {
             lines.push_back(same);
-            const float sum = sum_of(99, most_shared, lines);
-            if (n <= most_shared) {
-                EXPECT_GT(sum, 1000) << n << " lines of " << most_shared;
+            const float sum = sum_of(99, max_shared, lines);
+            if (n <= max_shared) {
+                EXPECT_GT(sum, 1000) << n << " lines of " << max_shared;
             } else {
-                EXPECT_EQ(sum, 0) << n << " lines of " << most_shared;
+                EXPECT_EQ(sum, 0) << n << " lines of " << max_shared;
             }
         }
     }

@@ -95,7 +95,7 @@ TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
     for (const int least : {-600, -200, 420}) {
         const Case c(rng, least);
         const LikelihoodRatios ratios(Profile::anoto, c.lines, c.reading, kOdds_q8);
-        EXPECT_EQ(ratios.most_regained() > 0, least == 420);
+        EXPECT_EQ(ratios.max_gain() > 0, least == 420);
         const double exact = exact_sum(c);
         ASSERT_GT(exact, 1e-12);
         const RankedLines lines(ratios);
@@ -118,7 +118,7 @@ TEST(DoubleAlternatives, AreExpectedWhereThatIsNegligible) {
     const RankedLines lines(ratios);
     const double exact = exact_sum(c);
     const auto expected = expected_double_alternatives(lines, kLines);
-    for (int shared = 4; shared <= kFewestFound; ++shared) {
+    for (int shared = 4; shared <= kMinFound; ++shared) {
         const float negligible = expected[static_cast<std::size_t>(shared)];
         const double sum = static_cast<double>(sum_of_double_alternatives(lines, negligible, 1));
         const double ratio = (sum - kFloor) / exact;

@@ -13,7 +13,7 @@ constexpr std::uint64_t kSeed = 53;
 constexpr std::size_t kLines = 4;
 constexpr std::array<int, 4> kBases{3, 3, 2, 3};
 
-using ByAnchors = std::array<double, kFewestFound>;
+using ByAnchors = std::array<double, kMinFound>;
 
 /// Adds the alternatives that differ in two sequences and have these offsets, step by step.
 void add_alternative(const RatiosCase& c, const RankedLines& lines, int anchors,
@@ -86,9 +86,9 @@ TEST(ExpectedDoubleAlternatives, AreNeverNothing) {
     RatiosCase c = read_at_random(rng, 64);
     c.odds_q8 = 16 * 256;
     const LikelihoodRatios ratios = c.ratios();
-    const auto fewer = expected_double_alternatives(RankedLines(ratios), kMostAnchors);
+    const auto fewer = expected_double_alternatives(RankedLines(ratios), kMaxAnchors);
     EXPECT_GT(fewer[1], 0);
-    EXPECT_LT(fewer[kFewestFound], 0x1p-45F);
+    EXPECT_LT(fewer[kMinFound], 0x1p-45F);
 }
 
 }  // namespace

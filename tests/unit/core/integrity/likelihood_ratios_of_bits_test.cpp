@@ -81,13 +81,13 @@ TEST(LikelihoodRatiosOfBits, LosesAsWeightsDo) {
                 ASSERT_EQ(bits.loss(line, shift), weights.loss(line, shift)) << line;
                 if (shift > 0) sum += std::exp2(bits.log2_odds_q8(bits.loss(line, shift)) / 256.0);
             }
-            ASSERT_EQ(bits.least_loss(line), weights.least_loss(line)) << line;
+            ASSERT_EQ(bits.min_loss(line), weights.min_loss(line)) << line;
             const double bound = std::exp2(
-                (bits.log2_odds_q8(bits.least_loss(line)) + bits.log2_of_nearest_q8(line)) / 256.0);
+                (bits.log2_odds_q8(bits.min_loss(line)) + bits.log2_of_nearest_q8(line)) / 256.0);
             ASSERT_LE(sum, bound) << line;
             ASSERT_LE(bound, 64 * sum) << line;
         }
-        EXPECT_EQ(bits.most_regained(), weights.most_regained());
+        EXPECT_EQ(bits.max_gain(), weights.max_gain());
         RollOffsets offsets;
         set_roll_offsets(bits, 2, (bits.places[2] + 1) % bits.basis[2].length, offsets);
         for (int line = 0; line < kLines; ++line)
@@ -161,7 +161,7 @@ double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
     double apart = 0;
     double sum = 0;
     for (int line = 0; line < ratios.count(); ++line) {
-        const double best = power(ratios.log2_odds_q8(ratios.least_loss(line)));
+        const double best = power(ratios.log2_odds_q8(ratios.min_loss(line)));
         const double all = best * power(ratios.log2_of_nearest_q8(line));
         if (line > 0) {
             for (double& odds : sharing)
@@ -169,7 +169,7 @@ double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
             sharing.push_back(apart * equal);
         }
         apart = line == 0 ? all : sum * std::min(best * power(kUnevenness_q8), all * equal);
-        const auto most = std::min(sharing.size(), static_cast<std::size_t>(ratios.most_shared()));
+        const auto most = std::min(sharing.size(), static_cast<std::size_t>(ratios.max_shared()));
         sum = std::accumulate(sharing.end() - static_cast<std::ptrdiff_t>(most), sharing.end(),
                               apart);
     }
@@ -222,7 +222,7 @@ TEST(UnsharedLines, AreNotSharedByAnyAlternative) {
                     int lost = 0;
                     for (int line = 0; line < kLines; ++line) {
                         const bool is_shared = offsets[static_cast<std::size_t>(line)] == shift;
-                        lost += is_shared ? 0 : std::max(ratios.least_loss(line), 0);
+                        lost += is_shared ? 0 : std::max(ratios.min_loss(line), 0);
                     }
                     ASSERT_GE(lost, kEnough) << k << ' ' << place << ' ' << shift;
                 }

@@ -57,7 +57,7 @@ Verdict judge_plainly(const Block& block, const Place& claimed,
     const Place middle = moved(block.profile, claimed, -first_column, -first_row);
     const core::CodedBlock coded(block.profile, middle, view, words);
     Verdict verdict;
-    verdict.is_certain = core::is_plainly_certain(
+    verdict.is_certain = core::passes_hard_bit_test(
         core::kernels(),
         {coded.axis(core::Axis::x, confidences[0]), coded.axis(core::Axis::y, confidences[1])},
         block.profile, options, verdict.fix);

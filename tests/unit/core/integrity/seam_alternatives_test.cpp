@@ -50,8 +50,8 @@ std::vector<Alternative> all_alternatives(const RatiosCase& c) {
 
 /// Returns the least loss of an alternative in the lines [first, end), over the shifts at which it
 /// shares any line in view.
-double least_loss(const RatiosCase& c, const Alternative& alternative, std::size_t first,
-                  std::size_t end) {
+double min_loss(const RatiosCase& c, const Alternative& alternative, std::size_t first,
+                std::size_t end) {
     double least = std::numeric_limits<double>::infinity();
     for (const int shared : alternative.offsets) {
         double lost = 0;
@@ -76,8 +76,8 @@ Sum sum_of_all(const RatiosCase& c) {
     Sum sum;
     for (const Alternative& alternative : all_alternatives(c)) {
         for (std::size_t border = 1; border < c.rolls.size(); ++border) {
-            const double lost = least_loss(c, alternative, 0, border) +
-                                least_loss(c, alternative, border, c.rolls.size());
+            const double lost = min_loss(c, alternative, 0, border) +
+                                min_loss(c, alternative, border, c.rolls.size());
             // A lost score is twice the weight that changes sides.
             const double odds = -lost / 2 / 127 * c.odds_q8 / 256;
             if (odds <= kLeastLog2) continue;
@@ -184,8 +184,7 @@ TEST(SeamAlternatives, WhatTheLinesShowBetterIsDoubt) {
                 c.storage.push_back(scored_line(modulo_63(c.rolls[line] + shift), 12, 0, 127, rng));
             }
             const double gained =
-                -(least_loss(c, alternative, 0, 6) + least_loss(c, alternative, 6, 12)) / 2 / 127 *
-                5;
+                -(min_loss(c, alternative, 0, 6) + min_loss(c, alternative, 6, 12)) / 2 / 127 * 5;
             EXPECT_GE(seam_alternatives_log2_q8(c.ratios()) / 256.0, kSeamLog2 + gained - 0.1);
             shown += gained > 5;
             break;

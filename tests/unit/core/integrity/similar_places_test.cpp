@@ -28,7 +28,7 @@ RatiosCase random_case(Rng& rng) {
 bool is_similar(const code::Secondary& a, std::uint32_t own, std::uint32_t place,
                 const Steps& steps) {
     if (place == own) return false;
-    if (!steps.tell_apart) return true;
+    if (!steps.can_exclude) return true;
     unsigned lost = 0;
     bool is_counted = false;  // whether the step before counted
     for (int step = 0; step < steps.count; ++step) {
@@ -38,7 +38,7 @@ bool is_similar(const code::Secondary& a, std::uint32_t own, std::uint32_t place
         is_counted = parts > 0 && differs && !is_counted;
         if (is_counted) lost += parts;
     }
-    return lost < kEnough;
+    return lost < kLimitParts;
 }
 
 TEST(SimilarPlaces, AreThoseThatLoseLessThanEnough) {

@@ -45,8 +45,8 @@ class Comparison {
     void compare(const LikelihoodRatios& ratios) {
         for (std::size_t sequence = 0; sequence < ratios.basis.size(); ++sequence) {
             const double exact = exact_sum(ratios, sequence);
-            for (const int most_lines : code::kUnsharedOf) {
-                const UnsharedLines unshared(kernels(), ratios, most_lines);
+            for (const int max_lines : code::kUnsharedOf) {
+                const UnsharedLines unshared(kernels(), ratios, max_lines);
                 compare(unshared, sequence, exact);
             }
         }

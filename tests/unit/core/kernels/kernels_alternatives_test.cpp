@@ -36,7 +36,7 @@ TEST(KernelsAlternatives, SimilarPlacesLoseTooLittleByTheirSteps) {
         StepLosses steps;
         steps.count = whole(rng, 0, 63);
         for (std::uint8_t& parts : steps.parts)
-            parts = static_cast<std::uint8_t>(std::min(whole(rng, 0, 9), StepLosses::kEnough));
+            parts = static_cast<std::uint8_t>(std::min(whole(rng, 0, 9), StepLosses::kLimitParts));
         for (std::size_t k = 0; k < 4; ++k) {
             const code::Secondary& a = places.basis[k];
             const PlaceBits similar = kernels.find_similar_places(a, places.own[k], steps);
@@ -57,7 +57,7 @@ TEST(KernelsAlternatives, SimilarPlacesLoseTooLittleByTheirSteps) {
                     most_before = most;
                     most = std::max(most, with_this);
                 }
-                if (most >= StepLosses::kEnough) continue;
+                if (most >= StepLosses::kLimitParts) continue;
                 ASSERT_TRUE(is_similar) << k << ' ' << place;
                 ++count;
             }
@@ -122,8 +122,8 @@ TEST(KernelsAlternatives, LeastLossesAreThoseOfSortedLosses) {
         const int count = whole(rng, 8, 16);
         for (int line = 0; line < count; ++line)
             losses.push_back(static_cast<std::int16_t>(whole(rng, -most / 2, most)));
-        LeastSums sums;
-        kernels.sum_least_losses(losses, sums);
+        SmallestSums sums;
+        kernels.sum_smallest_losses(losses, sums);
         std::ranges::sort(losses);
         int expected = 0;
         ASSERT_EQ(sums[0], 0);

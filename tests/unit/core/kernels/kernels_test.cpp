@@ -156,7 +156,7 @@ struct RandomView {
     std::vector<std::uint8_t> rolls;
 
     RandomView(int width_px, int height_px, double spacing_px, double tilt, Rng& rng)
-        : rolls(2 * kMostLinesInView) {
+        : rolls(2 * kMaxLinesInView) {
         for (std::uint8_t& roll : rolls)
             roll = static_cast<std::uint8_t>(rng.below(63));
         view.plane = random_plane(rng, spacing_px, tilt / spacing_px, tilt / 1e4);
@@ -176,7 +176,7 @@ struct RandomView {
         view.first_column = whole(rng, -view.columns, 0);
         view.first_row = whole(rng, -view.rows, 0);
         view.column_rolls = rolls.data();
-        view.row_rolls = rolls.data() + kMostLinesInView;
+        view.row_rolls = rolls.data() + kMaxLinesInView;
     }
 };
 
@@ -229,14 +229,14 @@ TEST_F(KernelsTest, WindowsAreTheSame) {
         random.view.first_column = random.view.first_row = -60;
         const WindowOptions options{static_cast<float>(spacing_px), number(rng, 0.2, 0.5),
                                     whole(rng, 10, 220)};
-        const float bell_reach_px = number(rng, 3.3, kMostBellReach_px);
+        const float window_radius_px = number(rng, 3.3, kMaxCentroidRadius_px);
         DotTable listed(4096);
         portable_kernels().list_cells(random.view, listed.dots);
         expect_same([&](const Kernels& kernels, Record& record) {
             DotTable table(listed);
             kernels.measure_windows(picture.view, random.view, options, table.dots);
             table.record_measures(record);
-            kernels.refine_centres(picture.view, random.view, bell_reach_px, table.dots);
+            kernels.refine_centres(picture.view, random.view, window_radius_px, table.dots);
             table.record_measures(record);
         });
     });
@@ -315,7 +315,7 @@ TEST_F(KernelsTest, SimilarPlacesAreTheSame) {
         StepLosses steps;
         steps.count = whole(rng, 0, 63);
         for (std::uint8_t& parts : steps.parts)
-            parts = static_cast<std::uint8_t>(whole(rng, 0, StepLosses::kEnough));
+            parts = static_cast<std::uint8_t>(whole(rng, 0, StepLosses::kLimitParts));
         std::vector<LineLoss> lines;
         const int dearest = whole(rng, 0, 12);
         const int count = whole(rng, 1, 64);
@@ -347,9 +347,9 @@ TEST_F(KernelsTest, FarAlternativesAreTheSame) {
         std::vector<float> best(static_cast<std::size_t>(whole(rng, 8, 64)));
         for (float& odds : best)
             odds = std::ldexp(1.0F, -whole(rng, 0, 60));
-        const int most_shared = whole(rng, 5, 7);
+        const int max_shared = whole(rng, 5, 7);
         expect_same([&](const Kernels& kernels, Record& record) {
-            record.add(kernels.sum_far_alternatives(best, most_shared, sets));
+            record.add(kernels.sum_far_alternatives(best, max_shared, sets));
         });
     });
 }

@@ -45,7 +45,7 @@ void expect_sums(const Picture& picture, int half_px, int cut_q8, const Measured
 TEST(KernelsWindows, WindowsAreSummedUpToTheBorder) {
     repeat_with_each_form(40, [](const Kernels& kernels, Rng& rng) {
         Picture picture(whole(rng, 64, 200), whole(rng, 64, 200), whole(rng, 0, 3), rng);
-        const int half_px = whole(rng, 2, kMostHalfWindow_px);
+        const int half_px = whole(rng, 2, kMaxHalfWindow_px);
         CellsInView view;
         view.centre_x = static_cast<float>(picture.view.width_px - 1) / 2;
         view.centre_y = static_cast<float>(picture.view.height_px - 1) / 2;
@@ -83,7 +83,7 @@ struct OneDot {
     CellsInView cells;
     DotTable table{8};
 
-    /// Draws a Gaussian dot at (u, v), believed to be `off_px` to the right of that and below.
+    /// Draws a Gaussian dot at (u, v), predicted `off_px` to the right of that and below.
     OneDot(double u, double v, double sigma_px, double off_px) {
         for (int y = 0; y < kSide_px; ++y) {
             for (int x = 0; x < kSide_px; ++x) {
@@ -110,7 +110,7 @@ TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
     repeat_with_each_form(200, [](const Kernels& kernels, Rng& rng) {
         constexpr double kMargin_px = 2;
         const double sigma_px = rng.uniform(0.7, 4);
-        // Narrower bells cover hardly more than the flat top of a dot, in whole grey levels.
+        // Smaller windows cover hardly more than the flat top of a dot, in whole grey levels.
         const auto reach_px = static_cast<float>(rng.uniform(std::max(3.3, 2.5 * sigma_px), 12));
         const auto anywhere = [&] { return rng.uniform(20, OneDot::kSide_px - 21); };
         const auto at_border = [&] { return rng.uniform(kMargin_px, kMargin_px + 1); };
@@ -142,7 +142,7 @@ TEST(KernelsWindows, CentresFarFromTheirDotsStay) {
 
 TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
     repeat_with_each_form(100, [](const Kernels& kernels, Rng& rng) {
-        // The same dot is listed several times, with predictions around it: how fast a bell's
+        // The same dot is listed several times, with predictions around it: how fast the
         // moments grow with the distance is measured on those that are near.
         const double u = rng.uniform(20, OneDot::kSide_px - 21);
         const double v = rng.uniform(20, OneDot::kSide_px - 21);
@@ -164,7 +164,7 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
         double across = 0;
         for (std::size_t k = 0; k < 8; ++k) {
             if (k == 5) continue;
-            // Farther off, a large dot reaches out of the bell, so that its weight falls faster.
+            // Farther off, a large dot reaches beyond the window, so its weight decreases faster.
             const double most_px = 0.02 + 0.2 * std::pow(std::abs(off[k]), 3);
             EXPECT_NEAR(dots.x[k], u, most_px) << off[k];
             EXPECT_NEAR(dots.y[k], v, most_px) << off[k];
@@ -184,7 +184,7 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
     });
 }
 
-/// Sixteen Gaussian dots in a square on paper whose level is level(x, y), each believed to be a
+/// Sixteen Gaussian dots in a square on paper whose level is level(x, y), each predicted a
 /// tenth of a pixel off.
 struct LitDots {
     static constexpr int kSide_px = 80;
@@ -263,7 +263,7 @@ TEST(KernelsWindows, LightThatFallsOffMovesNoCentres) {
 
 TEST(KernelsWindows, AShadowThatEndsMovesNoCentresBesideItsEdge) {
     repeat_with_each_form(20, [](const Kernels& kernels, Rng& rng) {
-        // Between the second and the third column of dots, out of reach of all bells.
+        // Between the second and the third column of dots, outside all centroid windows.
         expect_no_common_error(kernels, rng, 3.3F,
                                [&](double u, double /*v*/) { return u < 40 ? 90 : 200; });
     });

@@ -91,7 +91,7 @@ TEST(FacingDots, AreMovedApartByWhatDrawsThemTogether) {
         FacingFrame frame(plane, kPull, rng);
         // A quarter of the dots has a neighbour that faces it.
         EXPECT_NEAR(frame.mean_error_px(), kPull * spacing_px / 4, kPull * spacing_px / 12);
-        ASSERT_TRUE(core::take_pull(plane, fit_with(kPull), frame.dots()));
+        ASSERT_TRUE(core::correct_neighbour_bias(plane, fit_with(kPull), frame.dots()));
         EXPECT_LT(frame.mean_error_px(), 0.1 * kPull * spacing_px);
     }
 }
@@ -102,7 +102,7 @@ TEST(FacingDots, StayWhereTheyAreIfNothingDrawsThemTogether) {
         SCOPED_TRACE(testing::Message() << i << ", seed " << kSeed);
         const FloatPlane plane = random_float_plane(8, rng.uniform(0, 4e-4), rng);
         FacingFrame frame(plane, 0, rng);
-        EXPECT_FALSE(core::take_pull(plane, fit_with(0), frame.dots()));
+        EXPECT_FALSE(core::correct_neighbour_bias(plane, fit_with(0), frame.dots()));
     }
 }
 
@@ -110,9 +110,9 @@ TEST(FacingDots, AreNotNeededAmongFewDots) {
     core::PoseFit fit = fit_with(0.01);
     OwnedDots owned;
     const FloatPlane plane{};
-    EXPECT_FALSE(core::take_pull(plane, fit, owned.dots));
+    EXPECT_FALSE(core::correct_neighbour_bias(plane, fit, owned.dots));
     owned.add({0, 0}, Symbol::right, {0, 0});
-    EXPECT_FALSE(core::take_pull(plane, fit, owned.dots));
+    EXPECT_FALSE(core::correct_neighbour_bias(plane, fit, owned.dots));
 }
 
 }  // namespace

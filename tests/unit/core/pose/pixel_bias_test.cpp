@@ -55,16 +55,16 @@ class AlikeFrame {
     }
 
     MeanError measure(float dot_radius_px) {
-        const core::Bells bells{
+        const core::CentroidWindow window{
             std::max(2.4F * dot_radius_px, 3.3F), dot_radius_px, {kMiddle_u, kMiddle_v}};
         core::CellsInView view;
         view.centre_x = kMiddle_u;
         view.centre_y = kMiddle_v;
         core::MeasuredDots& dots = owned_.dots;
-        // The second look is from where bells have put the dots.
+        // The second measurement starts from the centroids of the first.
         for (int look = 0; look < 2; ++look) {
-            core::put_bells_on_centres(image_.view(), bells, dots);
-            core::kernels().refine_centres(image_.view(), view, bells.reach_px, dots);
+            core::recentre_windows(image_.view(), window, dots);
+            core::kernels().refine_centres(image_.view(), view, window.radius_px, dots);
         }
         MeanError error;
         error.before = mean_error();
@@ -77,7 +77,7 @@ class AlikeFrame {
         core::PoseFit fit;
         fit.displacement = 2.0F / kSpacing_px;
         fit.variance = 0.004F * 0.004F;
-        error.variance_px2 = core::take_pixel_bias(image_.view(), bells, plane, fit, dots);
+        error.variance_px2 = core::correct_pixel_bias(image_.view(), window, plane, fit, dots);
         error.after = mean_error();
         return error;
     }

@@ -13,8 +13,8 @@ namespace {
 using namespace core;
 
 constexpr std::uint64_t kSeed = 62;
-constexpr FurtherTerms kTwo{kTilt, 2, {{{0.3F, 0}, {0.5F, 0.02F}, {0.2F, 0.2F}}}};
-constexpr FurtherTerms kOne{kBend, 1, {{{0.6F, 0}, {0.3F, 0.02F}, {0.1F, 0.2F}}}};
+constexpr DistortionPrior kTwo{kTilt, 2, {{{0.3F, 0}, {0.5F, 0.02F}, {0.2F, 0.2F}}}};
+constexpr DistortionPrior kOne{kBend, 1, {{{0.6F, 0}, {0.3F, 0.02F}, {0.1F, 0.2F}}}};
 
 /// Returns equations of points that determine all parameters, some of them only in combination.
 PlaneNormalFloat random_normal(Rng& rng) {
@@ -41,7 +41,7 @@ struct Integral {
     double mean[2] = {};
     double covariance[2][2] = {};
 
-    Integral(const FurtherTerms& terms, const PlaneNormalFloat& normal, const double (&seen)[2],
+    Integral(const DistortionPrior& terms, const PlaneNormalFloat& normal, const double (&seen)[2],
              double variance, double unit) {
         const std::size_t i = terms.first;
         const double a = normal.factor(i, i);
@@ -61,7 +61,7 @@ struct Integral {
                     squares[r][s] += weight * white[r] * white[s];
             }
         };
-        for (const FurtherTerms::Kind& kind : terms.kinds) {
+        for (const DistortionPrior::Kind& kind : terms.kinds) {
             const double deviation = static_cast<double>(kind.deviation) * unit;
             const auto probability = static_cast<double>(kind.probability);
             if (deviation == 0) {
@@ -93,7 +93,7 @@ struct Integral {
     }
 };
 
-void expect_integral(const FurtherTerms& terms, Rng& rng) {
+void expect_integral(const DistortionPrior& terms, Rng& rng) {
     for (int i = 0; i < 30; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
         const PlaneNormalFloat normal = random_normal(rng);

@@ -1,4 +1,4 @@
-#include "core/pose/slip.hpp"
+#include "core/pose/paper_step.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,20 +11,22 @@
 namespace dotpose::core {
 namespace {
 
-namespace tuned = tuning::slip;
+namespace tuned = tuning::paper_step;
 
 constexpr float kOnPlane = tuned::kOnPlane;
-constexpr std::size_t kMostDots = 1024;
-constexpr std::size_t kLines = 48;  ///< at most, in each direction
+constexpr std::size_t kMaxDots = 1024;
+constexpr std::size_t kLines = 48;  ///< maximum number of lines in each direction
 constexpr float kLinesPerSpacing = 2;
 constexpr int kDirections = 8;
 constexpr float kBehind = tuned::kBehind;
 
-/// Sums over the dots of one part. Dots are together if a common displacement may explain them.
+/// Sums over the dots of one part. Coherent dots are those whose residuals a common displacement
+/// may explain.
 struct PartSums {
-    Four counts;   ///< dots, log odds of the plane as it is; dots together, squared residuals
-    Four places;   ///< of dots together: x, y, residuals along x and y
-    Four moments;  ///< of dots together: xx, xy, yy from the reference point, turning
+    Four counts;   ///< number of dots, log odds of the single plane; number of coherent dots, their
+                   ///< squared residuals
+    Four places;   ///< coherent dots: sums of x, y, residuals along x and y
+    Four moments;  ///< coherent dots: sums of xx, xy, yy from the reference point, and of torque
 
     PartSums& operator+=(const PartSums& o) {
         counts += o.counts;
@@ -40,8 +42,8 @@ struct PartSums {
     float dots() const { return counts[2]; }
     float squares() const { return counts[3]; }
 
-    /// Returns the squared residuals that are left if the part was moved and turned as a whole.
-    float left() const {
+    /// Returns the squared residuals that remain if the part was displaced and turned as a whole.
+    float remaining() const {
         if (dots() < 3) return squares();
         const float by = 1 / dots();
         const float x = places[0];
@@ -61,7 +63,7 @@ float inner_product(const Triple& a, const Triple& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// A symmetric matrix of 3 x 3: xx, xy, xz, yy, yz, zz.
+/// Symmetric 3 x 3 matrix: xx, xy, xz, yy, yz, zz.
 struct Symmetric3 {
     float xx, xy, xz, yy, yz, zz;
 
@@ -77,7 +79,7 @@ struct Symmetric3 {
     Symmetric3 times(float by) const {
         return {by * xx, by * xy, by * xz, by * yy, by * yz, by * zz};
     }
-    /// Returns the inverse, 0 if there is none.
+    /// Returns the inverse, or 0 if there is none.
     Symmetric3 inverse() const {
         const Symmetric3 a = adjugate();
         const float determinant = xx * a.xx + xy * a.xy + xz * a.xz;
@@ -85,8 +87,8 @@ struct Symmetric3 {
     }
 };
 
-/// The affine map of least squares of all dots that are together. A step at a line explains only
-/// what such a map does not: one without the step takes up most of what a step in the middle does.
+/// Least-squares affine map of all coherent dots. A step at a line only explains what such a map
+/// does not: an affine map without the step absorbs most of a step in the middle.
 class AffineFit {
   public:
     AffineFit() = default;
@@ -101,16 +103,17 @@ class AffineFit {
 
     /// Returns the squared residuals of all dots.
     float squares() const { return squares_; }
-    /// Returns by how much these become less if the part beyond a line is displaced.
+    /// Returns the reduction of the squared residuals if the part beyond a line is displaced.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
         const float spread = step[0] - inner_product(step, inverse_ * step);
-        if (!(spread > kLeastSpread)) return 0;
+        if (!(spread > kMinSpread)) return 0;
         const float x = beyond.places[2] - inner_product(step, x_);
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns by how much these become less if the part beyond a line is displaced and turned.
+    /// Returns the reduction of the squared residuals if the part beyond a line is displaced and
+    /// turned.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
@@ -132,13 +135,13 @@ class AffineFit {
                                 x - inner_product(turn_y, by_step),
                                 xx + yy - inner_product(turn_x, inverse_ * turn_x) -
                                     inner_product(turn_y, inverse_ * turn_y)};
-        if (!(spread > kLeastSpread)) return 0;
+        if (!(spread > kMinSpread)) return 0;
         return inner_product(seen, normal.inverse() * seen);
     }
 
   private:
-    /// A part with hardly a dot more or less than all of them determines no step.
-    static constexpr float kLeastSpread = 1;
+    /// A part that differs from the whole by less than this number of dots determines no step.
+    static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};
     Triple x_{};
@@ -153,10 +156,10 @@ class Search {
         : variance_(fit.variance) {
         const FloatVec reference = plane_point(plane, reference_px);
         const auto count = static_cast<std::size_t>(all.count);
-        const std::size_t every = count / kMostDots + 1;
+        const std::size_t every = count / kMaxDots + 1;
         weight_ = static_cast<float>(every);
         float outliers = 0;
-        float reach = 0;  // squared, of the farthest dot
+        float reach = 0;  // squared distance of the farthest dot
         for (std::size_t k = 0; k < count; k += every) {
             if (all.x[k] >= kNoDot_px) continue;
             DotOffset dot = dot_offset(all, k, plane, fit.displacement);
@@ -170,45 +173,45 @@ class Search {
         const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
         lines_ = std::clamp(wanted, std::size_t{4}, kLines);
         per_spacing_ = static_cast<float>(lines_) / length;
-        // Where many dots are off, as among words, some more of them beyond a line say little.
+        // If outliers are frequent, as among words, more of them beyond a line carry little
+        // evidence.
         off_plane_ = std::log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
             sums_[k] = sums_of(dots_[k]);
         fit_affine();
     }
 
-    /// Replaces `best` by the best line at right angles to a direction, if that has a larger gain.
-    void try_direction(FloatVec direction, Slip& best) const {
+    /// Replaces `best` by the best line perpendicular to a direction if its gain is larger.
+    void try_direction(FloatVec direction, PaperStep& best) const {
         std::array<PartSums, kLines> beyond = strips_along(direction);
         const auto consider = [&](std::size_t line, float gain) {
             if (gain <= best.gain) return;
             best = {direction, static_cast<float>(line) / per_spacing_ - kBehind, gain};
         };
         std::size_t likeliest = 0;
-        float most_explained = 0;
+        float max_explained = 0;
         for (std::size_t line = lines_; --line > 0;) {
             if (line + 1 < lines_) beyond[line] += beyond[line + 1];
             const PartSums& part = beyond[line];
-            if (part.seen() < tuned::kFewestBeyond) continue;
+            if (part.seen() < tuned::kMinBeyond) continue;
             const float explained = affine_.explained_by_displacement(part);
-            if (explained > most_explained) likeliest = line;
-            most_explained = std::max(most_explained, explained);
+            if (explained > max_explained) likeliest = line;
+            max_explained = std::max(max_explained, explained);
             const PartSums here = all_.less(part);
-            if (most_gain_of(part, here) > best.gain) consider(line, gain_of(part, here));
+            if (max_gain_of(part, here) > best.gain) consider(line, gain_of(part, here));
         }
         if (likeliest == 0) return;
-        // Whether the part is turned as well is asked near the line that its displacement alone
-        // explains most.
+        // Tests for a turn of the part only near the line that explains most by displacement alone.
         constexpr std::size_t kNear = 2;
         const std::size_t last = std::min(likeliest + kNear, lines_ - 1);
         for (std::size_t line = std::max(likeliest, kNear + 1) - kNear; line <= last; ++line) {
-            if (beyond[line].seen() >= tuned::kFewestBeyond)
+            if (beyond[line].seen() >= tuned::kMinBeyond)
                 consider(line, gain_of_step(beyond[line], best.gain));
         }
     }
 
   private:
-    /// Returns the sums of dots in strips at right angles to a direction.
+    /// Returns the sums of the dots in strips perpendicular to a direction.
     std::array<PartSums, kLines> strips_along(FloatVec direction) const {
         std::array<PartSums, kLines> strips{};
         const auto last = static_cast<std::int32_t>(lines_) - 1;
@@ -226,8 +229,8 @@ class Search {
         const float on_plane = std::max(kOnPlane - squared / (2 * variance_), off_plane_);
         if (squared > tuned::kTogether * variance_) return {Four{1, on_plane}, Four{}, Four{}};
         const auto& [x, y] = dot.at;
-        return {Four{1, on_plane, 1, squared}, Four{x, y, dot.off.x, dot.off.y},
-                Four{x * x, x * y, y * y, x * dot.off.y - y * dot.off.x}};
+        return {Four{1, on_plane, 1, squared}, Four{x, y, dot.residual.x, dot.residual.y},
+                Four{x * x, x * y, y * y, x * dot.residual.y - y * dot.residual.x}};
     }
 
     void fit_affine() {
@@ -236,51 +239,50 @@ class Search {
         for (std::size_t k = 0; k < count_; ++k) {
             all_ += sums_[k];
             if (sums_[k].dots() == 0) continue;
-            const auto& [at, off] = dots_[k];
+            const auto& [at, residual] = dots_[k];
             const Triple place{1, at.x, at.y};
             for (std::size_t i = 0; i < 3; ++i) {
-                x_off[i] += place[i] * off.x;
-                y_off[i] += place[i] * off.y;
+                x_off[i] += place[i] * residual.x;
+                y_off[i] += place[i] * residual.y;
             }
         }
         affine_ = AffineFit(all_, x_off, y_off);
     }
 
-    /// Returns by how much a step at the line explains the dots better than any affine map, as a
-    /// log likelihood ratio; something smaller if that is below `least`.
-    float gain_of_step(const PartSums& beyond, float least) const {
+    /// Returns the gain of a step at the line over any affine map, as a log likelihood ratio, or 0
+    /// if it is below `min_gain`.
+    float gain_of_step(const PartSums& beyond, float min_gain) const {
         const float explained = affine_.explained_by_step(beyond);
-        const float left = affine_.squares() - explained;
+        const float remaining = affine_.squares() - explained;
         const float dots = weight_ * all_.dots();
-        if (!(dots * explained > least * left)) return 0;
-        return dots * std::log(affine_.squares() / left);
+        if (!(dots * explained > min_gain * remaining)) return 0;
+        return dots * std::log(affine_.squares() / remaining);
     }
 
-    /// Returns the log odds of the part's dots for a plane of its own.
+    /// Returns the log odds of the dots of a part for a plane of its own.
     float on_own_plane(const PartSums& part) const {
-        return kOnPlane * part.dots() - part.left() / (2 * variance_) +
+        return kOnPlane * part.dots() - part.remaining() / (2 * variance_) +
                off_plane_ * (part.seen() - part.dots());
     }
 
-    /// Returns what `gain_of` is at most, for the least residuals that are conceivable.
-    float most_gain_of(const PartSums& beyond, const PartSums& here) const {
-        const auto most_of = [this](const PartSums& part) {
+    /// Returns an upper bound of `gain_of`, for the smallest possible residuals.
+    float max_gain_of(const PartSums& beyond, const PartSums& here) const {
+        const auto max_of = [this](const PartSums& part) {
             return kOnPlane * part.dots() + off_plane_ * (part.seen() - part.dots());
         };
-        return weight_ * (std::max(most_of(beyond), 0.0F) - beyond.on_plane() +
-                          std::max(most_of(here) - here.on_plane(), 0.0F));
+        return weight_ * (std::max(max_of(beyond), 0.0F) - beyond.on_plane() +
+                          std::max(max_of(here) - here.on_plane(), 0.0F));
     }
 
-    /// Returns by how much two parts explain the dots better than the plane as it is, as a log
-    /// likelihood ratio. The part beyond may be displaced in any way; the plane as it is may be a
-    /// compromise between both.
+    /// Returns the gain of two parts over the single plane, as a log likelihood ratio. The part
+    /// beyond may be displaced in any way; the single plane may be a compromise between the parts.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
     }
 
-    std::array<DotOffset, kMostDots> dots_;
-    std::array<PartSums, kMostDots> sums_;
+    std::array<DotOffset, kMaxDots> dots_;
+    std::array<PartSums, kMaxDots> sums_;
     std::size_t count_ = 0;
     PartSums all_{};
     AffineFit affine_;
@@ -288,7 +290,7 @@ class Search {
     float off_plane_;  ///< log odds of a dot that is not on the plane
     float weight_ = 1;
     std::size_t lines_ = 0;
-    float per_spacing_ = 0;  ///< lines in a spacing
+    float per_spacing_ = 0;  ///< lines per spacing
 };
 
 FloatVec turned(FloatVec v, float c, float s) {
@@ -297,18 +299,18 @@ FloatVec turned(FloatVec v, float c, float s) {
 
 }  // namespace
 
-Slip find_slip(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit& fit,
-               FloatVec reference_px) {
+PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit& fit,
+                          FloatVec reference_px) {
     const Search search(dots, plane, fit, reference_px);
-    Slip best;
+    PaperStep best;
     constexpr float kSin = 0.70710678F;  // sine and cosine of an eighth of a turn
     FloatVec direction{1, 0};
     for (int i = 0; i < kDirections; ++i) {
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // A line turned a little may explain more than the best one, but hardly twice as much.
-    if (best.gain < Slip::kPossible / 2) return best;
+    // Turning the best line a little increases the gain, but hardly to twice as much.
+    if (best.gain < PaperStep::kPossible / 2) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {
         s /= 2;

@@ -1,4 +1,4 @@
-// Survey: all observations in batches, as each round of a fit goes through them.
+// Observation batches: all observations in batches, for each round of a fit.
 #pragma once
 
 #include <array>
@@ -8,16 +8,16 @@
 
 namespace dotpose::core {
 
-/// Dots, one array for each of their properties: loops over these become vector instructions.
-struct Batch {
-    static constexpr std::size_t kMost = 256;
+/// Dots as one array per property, for vector instructions.
+struct ObservationBatch {
+    static constexpr std::size_t kMax = 256;
     template <typename Value>
-    using Values = std::array<Value, kMost>;
+    using Values = std::array<Value, kMax>;
 
     std::size_t count = 0;
-    Values<std::int32_t> x_q8;  ///< in the image, from the plane's centre
+    Values<std::int32_t> x_q8;  ///< place in the image, from the centre of the plane
     Values<std::int32_t> y_q8;
-    Values<std::int32_t> step_x_q16;  ///< of the intersection, in spacings
+    Values<std::int32_t> step_x_q16;  ///< place of the intersection, in spacings
     Values<std::int32_t> step_y_q16;
     Values<std::int32_t> dx;  ///< direction of the displacement: -1, 0 or 1
     Values<std::int32_t> dy;
@@ -32,27 +32,28 @@ struct Batch {
         dy[count] = dotpose::dy(symbol);
         noise[count++] = its_noise;
     }
-    /// Fills up to a multiple of four with dots that are not counted and lie too far off to be
-    /// used.
+    /// Pads to a multiple of four with dots that are not counted and are too far away to be
+    /// inliers.
     void fill_up();
 };
 
-class Survey {
+/// Observations relative to the centre of a plane.
+class ObservationBatches {
   public:
-    Survey(const Observations& observations, Vec centre_q8);
+    ObservationBatches(const Observations& observations, Vec centre_q8);
 
-    /// Returns a bound of the dots' distances from the centre along each axis.
+    /// Returns a bound of the distances of the dots from the centre along each axis.
     int reach_px() const { return reach_px_; }
-    /// Returns evenly spread dots; all of them if they fit one batch.
-    const Batch& sample() const { return sample_; }
+    /// Returns a regular subsample of the dots, or all of them if they fit in one batch.
+    const ObservationBatch& sample() const { return sample_; }
 
-    /// Shows all dots, in batches that are filled up.
+    /// Calls `use` for all dots, in padded batches.
     template <typename Use>
     void visit(Use use) const {
         if (sample_is_all_) return use(sample_);
-        Batch batch;
+        ObservationBatch batch;
         observations_.visit([&](const Observation& o) {
-            if (batch.count == Batch::kMost) {
+            if (batch.count == ObservationBatch::kMax) {
                 use(batch);
                 batch.count = 0;
             }
@@ -63,7 +64,7 @@ class Survey {
     }
 
   private:
-    void add(const Observation& o, Batch& batch) const {
+    void add(const Observation& o, ObservationBatch& batch) const {
         batch.add(o.image_point_q8 - centre_q8_, o.pattern_step, o.symbol,
                   observations_.know_noise() ? observations_.noise(o) : 0);
     }
@@ -72,7 +73,7 @@ class Survey {
     Vec centre_q8_;
     int reach_px_ = 1;
     bool sample_is_all_;
-    Batch sample_;
+    ObservationBatch sample_;
 };
 
 }  // namespace dotpose::core

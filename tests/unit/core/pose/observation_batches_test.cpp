@@ -1,5 +1,5 @@
-// What a survey shows to the rounds of a fit, compared with the grid itself.
-#include "core/pose/survey.hpp"
+// The batches that the rounds of a fit visit, compared with the grid itself.
+#include "core/pose/observation_batches.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ struct Counted {
     bool operator==(const Counted&) const = default;
 };
 
-TEST(Survey, ShowsAllDotsInOrder) {
+TEST(ObservationBatches, ShowsAllDotsInOrder) {
     Rng rng(kSeed);
     for (int i = 0; i < 40; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
@@ -42,9 +42,9 @@ TEST(Survey, ShowsAllDotsInOrder) {
             expected.add(p.x, p.y, o.pattern_step.x, o.pattern_step.y,
                          2 * dx(o.symbol) + dy(o.symbol));
         });
-        const Survey survey(observations, centre_q8);
+        const ObservationBatches batches(observations, centre_q8);
         Counted shown;
-        survey.visit([&](const Batch& batch) {
+        batches.visit([&](const ObservationBatch& batch) {
             for (std::size_t k = 0; k < batch.count; ++k) {
                 shown.add(batch.x_q8[k], batch.y_q8[k], batch.step_x_q16[k] / 65536,
                           batch.step_y_q16[k] / 65536, 2 * batch.dx[k] + batch.dy[k]);
@@ -52,14 +52,14 @@ TEST(Survey, ShowsAllDotsInOrder) {
             }
         });
         EXPECT_EQ(shown, expected);
-        EXPECT_EQ(survey.reach_px(), reach_q8 / 256 + 1);
+        EXPECT_EQ(batches.reach_px(), reach_q8 / 256 + 1);
         EXPECT_EQ(expected.dots > 256, i % 2 == 1);
-        EXPECT_GE(survey.sample().count, std::min<std::size_t>(reading.dots.size(), 128U));
+        EXPECT_GE(batches.sample().count, std::min<std::size_t>(reading.dots.size(), 128U));
     }
 }
 
-TEST(Survey, FillsBatchesUpWithDotsFarAway) {
-    Batch batch;
+TEST(ObservationBatches, FillsBatchesUpWithDotsFarAway) {
+    ObservationBatch batch;
     for (int n = 0; n < 5; ++n)
         batch.add({n, n}, {n, -n}, Symbol::up, 1);
     batch.fill_up();

@@ -1,8 +1,8 @@
-#include "core/pose/survey.hpp"
+#include "core/pose/observation_batches.hpp"
 
 namespace dotpose::core {
 
-void Batch::fill_up() {
+void ObservationBatch::fill_up() {
     constexpr Vec kFar{1 << 14, 1 << 14};
     const std::size_t counted = count;
     while (count % 4 != 0)
@@ -10,9 +10,9 @@ void Batch::fill_up() {
     count = counted;
 }
 
-Survey::Survey(const Observations& observations, Vec centre_q8)
+ObservationBatches::ObservationBatches(const Observations& observations, Vec centre_q8)
     : observations_(observations), centre_q8_(centre_q8) {
-    const int every = observations.count() / static_cast<int>(Batch::kMost) + 1;
+    const int every = observations.count() / static_cast<int>(ObservationBatch::kMax) + 1;
     sample_is_all_ = every == 1;
     int reach_q8 = 0;
     int wait = 0;

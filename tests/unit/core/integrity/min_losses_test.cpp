@@ -1,5 +1,5 @@
 // The least losses compared with all patterns of shared lines.
-#include "core/integrity/least_losses.hpp"
+#include "core/integrity/min_losses.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,9 +21,9 @@ RatiosCase random_case(int lines, Profile profile, Rng& rng) {
     return c;
 }
 
-/// Returns the least loss over all patterns of shared lines (a bit each) with at most `most_shared`
+/// Returns the least loss over all patterns of shared lines (a bit each) with at most `max_shared`
 /// of them in a row.
-int least_of_patterns(const std::vector<int>& losses, int most_shared) {
+int least_of_patterns(const std::vector<int>& losses, int max_shared) {
     int least = INT32_MAX;
     for (std::uint32_t shared = 0; shared < 1U << losses.size(); ++shared) {
         int sum = 0;
@@ -32,7 +32,7 @@ int least_of_patterns(const std::vector<int>& losses, int most_shared) {
         for (std::size_t line = 0; line < losses.size(); ++line) {
             const bool is_shared = (shared >> line & 1) != 0;
             run = is_shared ? run + 1 : 0;
-            may_be = may_be && run <= most_shared;
+            may_be = may_be && run <= max_shared;
             if (!is_shared) sum += losses[line];
         }
         if (may_be) least = std::min(least, sum);
@@ -55,43 +55,43 @@ std::vector<int> losses_of(const RatiosCase& c) {
     return losses;
 }
 
-TEST(LeastLosses, AreTheLeastOverAllPatternsOfSharedRuns) {
+TEST(MinLosses, AreTheMinimumOverAllPatternsOfSharedRuns) {
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
         const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
-        const int most_shared = profile == Profile::libdots ? 7 : 5;
+        const int max_shared = profile == Profile::libdots ? 7 : 5;
         const RatiosCase c = random_case(1 + i % 12, profile, rng);
         const std::vector<int> losses = losses_of(c);
         const std::vector<int> backwards(losses.rbegin(), losses.rend());
-        const core::OneSide from_first = core::least_losses(c.ratios(), false);
-        const core::OneSide from_last = core::least_losses(c.ratios(), true);
+        const core::MinLosses from_first = core::min_losses(c.ratios(), false);
+        const core::MinLosses from_last = core::min_losses(c.ratios(), true);
         for (std::size_t n = 0; n <= losses.size(); ++n) {
             const auto end = static_cast<std::ptrdiff_t>(n);
             EXPECT_EQ(from_first[n],
-                      least_of_patterns({losses.begin(), losses.begin() + end}, most_shared))
+                      least_of_patterns({losses.begin(), losses.begin() + end}, max_shared))
                 << n;
             EXPECT_EQ(from_last[n],
-                      least_of_patterns({backwards.begin(), backwards.begin() + end}, most_shared))
+                      least_of_patterns({backwards.begin(), backwards.begin() + end}, max_shared))
                 << n;
         }
     }
 }
 
-TEST(LeastLosses, ABorderSeparatesTwoPatterns) {
+TEST(MinLosses, ABorderSeparatesTwoPatterns) {
     Rng rng(kSeed);
     for (int i = 0; i < 40; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
         const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
-        const int most_shared = profile == Profile::libdots ? 7 : 5;
+        const int max_shared = profile == Profile::libdots ? 7 : 5;
         const RatiosCase c = random_case(2 + i % 11, profile, rng);
         const std::vector<int> losses = losses_of(c);
         int least = INT32_MAX;
         for (auto border = losses.begin(); border != losses.end(); ++border) {
-            least = std::min(least, least_of_patterns({losses.begin(), border}, most_shared) +
-                                        least_of_patterns({border, losses.end()}, most_shared));
+            least = std::min(least, least_of_patterns({losses.begin(), border}, max_shared) +
+                                        least_of_patterns({border, losses.end()}, max_shared));
         }
-        EXPECT_EQ(core::least_loss_with_border(c.ratios()), least);
+        EXPECT_EQ(core::min_loss_with_border(c.ratios()), least);
     }
 }
 
