@@ -14,8 +14,8 @@
 #include "core/decode/position.hpp"
 #include "core/decode/search.hpp"
 #include "core/decode/window.hpp"
+#include "core/detect/adaptive_threshold.hpp"
 #include "core/detect/blobs.hpp"
-#include "core/detect/light.hpp"
 #include "core/integrity/verify.hpp"
 #include "core/lattice/axes.hpp"
 #include "core/lattice/neighbours.hpp"
@@ -52,8 +52,8 @@ struct Located {
 using Stage = bool (*)(Located&);
 
 bool measure_light(Located& l) {
-    core::Light& light = l.w.light;
-    core::begin_light(l.image->width_px, l.image->height_px, light);
+    core::AdaptiveThreshold& light = l.w.threshold;
+    core::begin_threshold(l.image->width_px, l.image->height_px, light);
     int band = 0;
     for (int v = 0; v < l.image->height_px; ++v) {
         for (int ready = core::take_row(l.image->view().row(v), light); ready > 0; --ready, ++band)

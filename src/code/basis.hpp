@@ -1,4 +1,4 @@
-// Basis: the four secondary number sequences of a profile.
+// Basis: the four secondary number sequences of a code variant.
 #pragma once
 
 #include <array>
@@ -21,8 +21,8 @@ constexpr const Basis& basis(Profile profile) {
     return kBasis<kA4Restored>;
 }
 
-/// Returns the position at which the four sequences stand at these places: the number with these
-/// remainders modulo 236, 233, 31 and 241.
+/// Returns the position with these places in the four sequences. The places are the remainders of
+/// the position modulo 236, 233, 31 and 241.
 std::uint32_t position_at(const Basis& basis, const std::array<std::uint32_t, 4>& places);
 
 }  // namespace dotpose::code

@@ -1,5 +1,5 @@
-// Decoding: finds the position of a window of symbols without errors, exactly (paper sections II-A
-// and II-B.7).
+// Decoding: finds the exact position of a window of symbols without errors (paper sections II-A and
+// II-B.7).
 #include <array>
 #include <cstddef>
 
@@ -9,21 +9,21 @@
 namespace dotpose {
 namespace {
 
-constexpr int kLargestWindow = 32;
-constexpr int kSmallestWindow = code::kMainOrder;
+constexpr int kMaxWindow = 32;
+constexpr int kMinWindow = code::kMainOrder;
 
-using Rolls = std::array<std::uint8_t, kLargestWindow>;
-using Deltas = std::array<std::uint8_t, kLargestWindow - 1>;
+using Rolls = std::array<std::uint8_t, kMaxWindow>;
+using Deltas = std::array<std::uint8_t, kMaxWindow - 1>;
 
-/// The places of one secondary sequence at which the digits of all differences stand.
+/// Places of one secondary sequence at which its digits equal those of all differences.
 struct Places {
     std::uint32_t first = 0;
     int count = 0;
 };
 
-/// Whether the digits of all differences stand in the sequence from a place on.
-bool stands_at(const code::Secondary& a, std::size_t digit, std::span<const std::uint8_t> deltas,
-               std::uint32_t place) {
+/// Returns true if the digits of the sequence from `place` on equal those of all differences.
+bool matches_at(const code::Secondary& a, std::size_t digit, std::span<const std::uint8_t> deltas,
+                std::uint32_t place) {
     for (const std::uint8_t d : deltas) {
         if (a.digits[place] != code::digit_of_delta(d, digit)) return false;
         place = place + 1 == a.length ? 0 : place + 1;
@@ -39,20 +39,20 @@ Places find(const code::Secondary& a, std::size_t digit, std::span<const std::ui
     Places places;
     if (first == code::kAbsent) return places;
     if (!a.has_twins) {
-        // The place of the key is unique; only the further digits must still be compared.
+        // The place of the key is unique, so only the remaining digits are compared.
         std::uint32_t next = first + std::uint32_t{code::kOrder};
         if (next >= a.length) next -= a.length;
-        return {first, stands_at(a, digit, deltas.subspan(code::kOrder), next) ? 1 : 0};
+        return {first, matches_at(a, digit, deltas.subspan(code::kOrder), next) ? 1 : 0};
     }
     for (std::uint32_t place = first; place < a.length; ++place) {
-        if (!stands_at(a, digit, deltas, place)) continue;
+        if (!matches_at(a, digit, deltas, place)) continue;
         if (places.count++ == 0) places.first = place;
     }
     return places;
 }
 
-/// Returns the place in the main sequence of a whole column or row of bits; kAbsent if there is
-/// none.
+/// Returns the place in the main sequence of all bits of a column or row, or kAbsent if the main
+/// sequence does not contain them.
 std::uint8_t place_in_main(const Window& window, bool columns, int line) {
     const int length = columns ? window.rows : window.columns;
     const auto bit = [&](int i) -> unsigned {
@@ -73,7 +73,7 @@ std::uint8_t place_in_main(const Window& window, bool columns, int line) {
     return place;
 }
 
-/// Reads the rolls of all columns (or rows) of a window; sets the first roll and the position of
+/// Reads the rolls of all columns (or rows) of a window. Sets the first roll and the position of
 /// the first line. Errors: not_in_code, ambiguous.
 Status read_axis(Profile profile, const Window& window, bool columns, std::uint8_t& first_roll,
                  std::uint32_t& position) {
@@ -91,7 +91,7 @@ Status read_axis(Profile profile, const Window& window, bool columns, std::uint8
 
 Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept {
-    if (rolls.size() < kSmallestWindow || rolls.size() > kLargestWindow) {
+    if (rolls.size() < kMinWindow || rolls.size() > kMaxWindow) {
         return Status::bad_window;
     }
     Deltas storage;
@@ -99,7 +99,7 @@ Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
     for (std::size_t i = 0; i < deltas.size(); ++i) {
         const int step = rolls[i + 1] - rolls[i];
         const int d = step < 0 ? step + kSections : step;
-        if (d < code::kSmallestDelta || d > code::kLargestDelta) return Status::not_in_code;
+        if (d < code::kMinDelta || d > code::kMaxDelta) return Status::not_in_code;
         deltas[i] = static_cast<std::uint8_t>(d);
     }
     std::array<std::uint32_t, 4> first_places;
@@ -117,7 +117,7 @@ Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
 }
 
 Status decode(Profile profile, const Window& window, Place& place) noexcept {
-    const auto fits = [](int n) { return n >= kSmallestWindow && n <= kLargestWindow; };
+    const auto fits = [](int n) { return n >= kMinWindow && n <= kMaxWindow; };
     if (!fits(window.columns) || !fits(window.rows) ||
         window.symbols.size() < static_cast<std::size_t>(window.columns * window.rows)) {
         return Status::bad_window;

@@ -5,7 +5,7 @@
 namespace dotpose {
 
 int delta(Profile profile, std::uint32_t p) noexcept {
-    unsigned sum = code::kSmallestDelta;
+    unsigned sum = code::kMinDelta;
     for (const code::Secondary& a : code::basis(profile)) {
         sum += unsigned{a.weight} * a.digits[a.place_of(p)];
     }
@@ -13,11 +13,12 @@ int delta(Profile profile, std::uint32_t p) noexcept {
 }
 
 int roll(Profile profile, std::uint32_t p) noexcept {
-    // The sum of p differences consists of p times the constant 5 and, for each sequence, its whole
-    // turns and the digits of the turn begun. The number of whole turns is the number of lines in
-    // them divided by the length, which modulo 63 is a multiplication.
+    // The sum of p differences is p times the constant 5 plus, for each sequence, the sum over its
+    // whole turns and over the digits of its last, incomplete turn. The number of whole turns is
+    // their number of lines divided by the length. Modulo 63, this division is a multiplication by
+    // the inverse.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
-    std::uint32_t sum = code::kSmallestDelta * lines;
+    std::uint32_t sum = code::kMinDelta * lines;
     for (const code::Secondary& a : code::basis(profile)) {
         const std::uint32_t place = a.place_of(p);
         sum += (lines - place) * a.turn_roll + a.rolls[place];
@@ -44,15 +45,15 @@ int section_of(Profile profile, int roll_seen, std::uint32_t position,
 
 namespace {
 
-/// One axis of a place: its position, the section of its own lines, and the section of the lines
-/// across.
+/// Position and sections of a place along one axis: `own` is the section of the lines of this axis,
+/// `cross` that of the other axis.
 struct AxisPlace {
     std::uint32_t position;
     std::uint8_t own;
     std::uint8_t cross;
 };
 
-// Not inlined, as it is called twice and rarely goes past an end.
+// Not inlined: it is called twice, and the second half is rarely needed.
 [[gnu::noinline]] AxisPlace moved(Profile profile, AxisPlace place, std::int32_t distance) {
     const std::int64_t target = std::int64_t{place.position} + distance;
     const bool is_before = target < 0;
@@ -60,8 +61,8 @@ struct AxisPlace {
         place.position = static_cast<std::uint32_t>(target);
         return place;
     }
-    // After a whole turn around x, the rolls of columns are shifted by those of the turn, and rows
-    // are read at an x that is larger by the turn.
+    // A whole turn around x adds the rolls of one turn to the columns. The rows are read at an x
+    // that is larger by one turn.
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);
         return static_cast<std::uint8_t>(sum % kSections);

@@ -13,8 +13,9 @@ int roll_from(Profile profile, std::uint32_t position, int section, std::uint32_
 }
 
 int roll_further(Profile read, Profile other, std::uint32_t position, std::uint32_t place) {
-    // Each profile's part of the roll by a4 is the sum over whole turns and over the digits before
-    // the place. It is less than kTurns, a multiple of 63, which keeps the difference above 0.
+    // The part of a roll that comes from a4 is the sum over the whole turns of a4 and over the
+    // digits before the place. It is less than kTurns, a multiple of 63. Adding kTurns keeps the
+    // difference positive.
     constexpr std::uint32_t kTurns = 512 * kSections;
     const std::uint32_t lines = modulo_sections(position) + 4 * kSections;
     const auto by_a4 = [&](Profile profile) {
@@ -35,8 +36,8 @@ void follow_rolls(Profile profile, std::uint32_t position, int first_roll,
             sum -= *here[k];
         }
         const auto roll_at = [&](std::size_t i) {
-            return few_modulo_sections(sum + here[0][i] + here[1][i] + here[2][i] + here[3][i] +
-                                       kSmallestDelta * static_cast<std::uint32_t>(i));
+            return short_modulo_sections(sum + here[0][i] + here[1][i] + here[2][i] + here[3][i] +
+                                         kMinDelta * static_cast<std::uint32_t>(i));
         };
         const std::size_t count = std::min(rolls.size(), kLinesAhead - 1);
         for (std::size_t i = 0; i < count; ++i)

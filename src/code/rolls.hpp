@@ -1,5 +1,5 @@
-// Rolls of lines anywhere on the plane. Those of consecutive lines are computed together, which is
-// quicker than one by one.
+// Rolls of lines, singly and for runs of consecutive lines. A run is computed together, which is
+// faster than line by line.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace dotpose::code {
 
-/// Returns the roll, in [0, 63), of column (row) `position` of a section, counted from row (column)
-/// `cross` on.
+/// Returns the roll, in [0, 63), of column (row) `position` of a section, if row (column) `cross`
+/// is the first of its bits.
 int roll_from(Profile profile, std::uint32_t position, int section, std::uint32_t cross);
 
-/// Returns by how much the roll of a position in the profile `other` exceeds that in `read`, in [0,
-/// 63). `place` is that of the position in a4, in which alone profiles differ.
+/// Returns the roll of a position in the code variant `other` minus its roll in `read`, in [0, 63).
+/// `place` is the place of the position in a4, the only sequence that differs between the variants.
 int roll_further(Profile read, Profile other, std::uint32_t position, std::uint32_t place);
 
-/// Sets rolls[i] to the roll of line `position` + i, given the roll of line `position`. Stepping by
-/// differences also works across the end of the code.
+/// Sets rolls[i] to the roll of line `position` + i, given the roll of line `position`. The lines
+/// may go beyond the end of the code, because the rolls are sums of differences.
 void follow_rolls(Profile profile, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls);
 

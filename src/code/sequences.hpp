@@ -1,11 +1,12 @@
-// Sequences: the five kinds of sequence that the code is built from, as published, and proofs that
-// they have the properties the code needs. Paper section II-A; patent US 6,667,695; a4: see
+// Sequences: the main sequence and the secondary sequences of the code, as published, with proofs
+// of the properties that decoding needs. Paper section II-A; patent US 6,667,695; a4:
 // docs/position-code.md.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 
 namespace dotpose::code {
 
@@ -50,7 +51,7 @@ inline constexpr auto kA4Microdots = digits(
 
 // ---- Proofs, by enumeration at compile time -----------------------------------------------------
 
-/// Returns the `length` digits from `start` on, cyclic, read as one number to `base`.
+/// Returns the `length` digits from `start` on, cyclically, as one number to `base`.
 template <std::size_t Length>
 constexpr unsigned key(const Digits<Length>& sequence, std::size_t start, int length,
                        unsigned base) {
@@ -61,12 +62,12 @@ constexpr unsigned key(const Digits<Length>& sequence, std::size_t start, int le
     return value;
 }
 
-/// Whether every string of `order` digits stands at most once in the cycle and every digit is below
-/// `base`: the definition of a quasi De Bruijn sequence.
+/// Returns true if every string of `order` digits occurs at most once in the cycle and every digit
+/// is below `base`: the definition of a quasi De Bruijn sequence.
 template <std::size_t Length>
 consteval bool is_quasi_de_bruijn(const Digits<Length>& sequence, int order, unsigned base) {
-    constexpr std::size_t kMostStrings = 2187;  // 7 digits to base 3
-    std::array<bool, kMostStrings> seen{};
+    constexpr std::size_t kMaxStrings = 2187;  // 7 digits to base 3
+    std::array<bool, kMaxStrings> seen{};
     for (std::size_t i = 0; i < Length; ++i) {
         if (sequence[i] >= base) return false;
         bool& seen_before = seen[key(sequence, i, order, base)];
@@ -76,7 +77,7 @@ consteval bool is_quasi_de_bruijn(const Digits<Length>& sequence, int order, uns
     return true;
 }
 
-/// Whether some string of `length` bits also stands in the cycle flipped and reversed.
+/// Returns true if the cycle also contains some string of its `length` bits flipped and reversed.
 template <std::size_t Length>
 consteval bool has_flipped_reverse(const Digits<Length>& sequence, std::size_t length) {
     for (std::size_t i = 0; i < Length; ++i) {
@@ -91,15 +92,12 @@ consteval bool has_flipped_reverse(const Digits<Length>& sequence, std::size_t l
     return false;
 }
 
-consteval int greatest_common_divisor(int a, int b) {
-    return b == 0 ? a : greatest_common_divisor(b, a % b);
-}
-
 static_assert(kMain.size() == 63, "the main sequence has 63 bits");
-static_assert(is_quasi_de_bruijn(kMain, 6, 2), "6 bits of main tell the place in it");
-static_assert(!has_flipped_reverse(kMain, 8), "8 bits of main tell whether they are upside down");
-static_assert(!has_flipped_reverse(kMain, 7), "7 bits would do; the paper asks for 8");
-static_assert(has_flipped_reverse(kMain, 6), "6 bits would not: the test above can fail");
+static_assert(is_quasi_de_bruijn(kMain, 6, 2), "6 bits of main determine the place in it");
+static_assert(!has_flipped_reverse(kMain, 8),
+              "8 bits of main determine whether they are upside down");
+static_assert(!has_flipped_reverse(kMain, 7), "7 bits suffice; the paper asks for 8");
+static_assert(has_flipped_reverse(kMain, 6), "6 bits do not suffice: the test above can fail");
 
 static_assert(kA1.size() == 236 && is_quasi_de_bruijn(kA1, 5, 3), "a1: order 5, length 236");
 static_assert(kA2.size() == 233 && is_quasi_de_bruijn(kA2, 5, 3), "a2: order 5, length 233");
@@ -112,9 +110,8 @@ static_assert(kA4Published.size() == 241 && !is_quasi_de_bruijn(kA4Published, 5,
                   !is_quasi_de_bruijn(kA4Published, 6, 3) && is_quasi_de_bruijn(kA4Published, 7, 3),
               "the published a4 is misprinted: only 7 digits are unique");
 
-static_assert(greatest_common_divisor(236, 233) == 1 && greatest_common_divisor(236, 31) == 1 &&
-                  greatest_common_divisor(236, 241) == 1 && greatest_common_divisor(233, 31) == 1 &&
-                  greatest_common_divisor(233, 241) == 1 && greatest_common_divisor(31, 241) == 1,
-              "the lengths are pairwise coprime, so that four places give one position");
+static_assert(std::gcd(236, 233) == 1 && std::gcd(236, 31) == 1 && std::gcd(236, 241) == 1 &&
+                  std::gcd(233, 31) == 1 && std::gcd(233, 241) == 1 && std::gcd(31, 241) == 1,
+              "the lengths are pairwise coprime: four places give one position");
 
 }  // namespace dotpose::code

@@ -65,12 +65,12 @@ constexpr bool in_order() {
 }
 static_assert(in_order(), "one row for each Status, in its order");
 
-/// Returns the row of a status: the last one for `other` and for what is no Status.
+/// Returns the row of a status. `other` and values that are not a Status have the last row.
 constexpr std::size_t row_of(Status status) {
     return std::min<std::size_t>(static_cast<std::size_t>(status), kStatusCount);
 }
 
-/// The names alone, so that a device that prints no message does not store the messages.
+/// Names without messages: a device that prints no message does not store the messages.
 constexpr auto kNames = [] {
     std::array<std::array<char, 16>, kTexts.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) {

@@ -1,5 +1,5 @@
-// Lookup tables, made from the sequences at compile time: rolls for O(1) encoding, and the place of
-// every string for decoding.
+// Lookup tables, computed from the sequences at compile time: rolls for encoding in O(1), places of
+// strings for decoding.
 #pragma once
 
 #include <array>
@@ -13,17 +13,16 @@ namespace dotpose::code {
 
 /// Marks a string that does not occur in the sequence.
 inline constexpr std::uint8_t kAbsent = 255;
-/// Number of differences (one digit each) from which a place is looked up.
+/// Number of differences, with one digit each, that determine a place.
 inline constexpr int kOrder = 5;
 
-/// Number of lines beyond its end to which a sequence's rolls are continued, for a line and for a
-/// vector that begins within these.
+/// Number of entries by which the tables of a sequence continue beyond its end: lines after the
+/// first, and lanes of a vector that begins at the last line.
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
-/// Returns n modulo 63 for n < 4095, without a division, which small processors lack: 64 modulo 63
-/// is 1.
-constexpr std::uint32_t few_modulo_sections(std::uint32_t n) {
+/// Returns n modulo 63 for n < 4095, without a division: 64 modulo 63 is 1.
+constexpr std::uint32_t short_modulo_sections(std::uint32_t n) {
     n = (n & 63) + (n >> 6);
     return n < kSections ? n : n - kSections;
 }
@@ -32,31 +31,29 @@ constexpr std::uint32_t few_modulo_sections(std::uint32_t n) {
 constexpr std::uint32_t modulo_sections(std::uint32_t n) {
     n = (n & 0xFFFFFF) + (n >> 24);
     n = (n & 0xFFF) + (n >> 12);
-    return few_modulo_sections((n & 63) + (n >> 6));
+    return short_modulo_sections((n & 63) + (n >> 6));
 }
 
-/// A secondary number sequence in one type for all lengths and bases.
+/// A secondary number sequence with its tables, in one type for all lengths and bases.
 struct Secondary {
     const std::uint8_t* digits;  ///< `length` digits
-    /// By line, from place 0 on: sum of the weighted digits before it, modulo 63, which they add to
-    /// the roll. The table goes on beyond the end of the sequence for `kLinesAhead` lines and a
-    /// vector.
+    /// Sum of the weighted digits before each place, modulo 63: their part of the roll. The table
+    /// continues beyond the end of the sequence by `kLinesAhead` lines and a vector.
     const std::uint8_t* rolls;
-    const std::uint8_t* first_place_of;  ///< first place by the key of 5 digits; kAbsent where
-                                         ///< there is none
-    /// By digit: one bit for each place, from the lowest bit on, which is 1 where the digit stands
-    /// there. The table goes on beyond the end of the sequence, for 256 bits from each of
-    /// `kLinesAhead` places.
+    const std::uint8_t*
+        first_place_of;  ///< first place by the key of 5 digits; kAbsent if there is none
+    /// Bit set of the places of each digit, from the lowest bit on. The table continues beyond the
+    /// end of the sequence, with 256 bits from each of `kLinesAhead` places.
     const std::uint32_t* const* places_of;
     std::uint32_t reciprocal;     ///< 2^20 / length
     std::uint16_t rest_of_65536;  ///< 65536 modulo length
     std::uint8_t length;
-    std::uint8_t turn_roll;  ///< roll per line on whole turns: see `roll`
+    std::uint8_t turn_roll;  ///< roll per line over whole turns: see `roll`
     std::uint8_t base;
     std::uint8_t weight;  ///< weight in the basis equation of section II-A
-    bool has_twins;       ///< whether some string of 5 digits stands twice
+    bool has_twins;       ///< true if some string of 5 digits occurs twice
 
-    /// Returns the place of a position: the position modulo `length`, without a division.
+    /// Returns the position modulo `length`, without a division.
     constexpr std::uint32_t place_of(std::uint32_t position) const {
         // The sum is less than 2^24.
         const std::uint32_t n = (position >> 16) * rest_of_65536 + (position & 0xFFFF);
@@ -65,9 +62,9 @@ struct Secondary {
             rest -= length;
         return rest;
     }
-    /// Returns at which of the 32 places from 32 * word on, one in each bit, the `count` digits
-    /// stand that stand at a place, itself included; the bits beyond the sequence's end are 0.
-    constexpr std::uint32_t places_like(std::uint32_t place, int count, std::uint32_t word) const {
+    /// Returns the places of the `count` digits that begin at `place`, `place` included, as a bit
+    /// set of the 32 places from 32 * word on. Bits beyond the end of the sequence are 0.
+    constexpr std::uint32_t equal_places(std::uint32_t place, int count, std::uint32_t word) const {
         const std::uint32_t rest = length - 32 * word;
         std::uint32_t places = rest < 32 ? ~(~std::uint32_t{0} << rest) : ~std::uint32_t{0};
         for (int ahead = 0; ahead < count; ++ahead) {
@@ -101,7 +98,7 @@ consteval auto places_of(const Digits<Length>& sequence, int digit) {
     return words;
 }
 
-/// Returns the roll that a turn of a sequence adds, divided by the turn's length, modulo 63.
+/// Returns the roll that a whole turn of a sequence adds, divided by its length modulo 63.
 consteval std::uint8_t turn_roll(std::size_t length, unsigned roll_of_turn) {
     std::size_t inverse = 1;
     while (length * inverse % kSections != 1)
@@ -109,7 +106,7 @@ consteval std::uint8_t turn_roll(std::size_t length, unsigned roll_of_turn) {
     return static_cast<std::uint8_t>(roll_of_turn * inverse % kSections);
 }
 
-/// Returns the first place of each string of `Order` digits, by its key.
+/// Returns the first place of each string of `Order` digits, indexed by its key.
 template <unsigned Base, int Order, std::size_t Length>
 constexpr auto first_places(const Digits<Length>& sequence) {
     constexpr std::size_t kKeys = [] {
@@ -152,18 +149,18 @@ struct Tables {
 
 using Basis = std::array<Secondary, 4>;
 
-/// The sequences of a profile in the basis equation d = 5 + a1 + 3 a2 + 9 a3 + 18 a4 (section
-/// II-A).
+/// The four sequences of a code variant, with their weights in the basis equation d = 5 + a1 + 3 a2
+/// + 9 a3 + 18 a4 (section II-A).
 template <const auto& A4>
 inline constexpr Basis kBasis{Tables<3, kA1, 1>::kSecondary, Tables<3, kA2, 3>::kSecondary,
                               Tables<2, kA3, 9>::kSecondary, Tables<3, A4, 18>::kSecondary};
 
-inline constexpr int kSmallestDelta = 5;
-inline constexpr int kLargestDelta = 58;
+inline constexpr int kMinDelta = 5;
+inline constexpr int kMaxDelta = 58;
 
-/// The digits a1..a4 of each difference from 5 to 58, two bits for each, from the lowest on.
+/// The digits a1..a4 of each difference from 5 to 58, two bits each, from the lowest bits on.
 inline constexpr auto kDigitsOfDelta = [] {
-    std::array<std::uint8_t, kLargestDelta - kSmallestDelta + 1> result{};
+    std::array<std::uint8_t, kMaxDelta - kMinDelta + 1> result{};
     for (std::size_t i = 0; i < result.size(); ++i) {
         result[i] =
             static_cast<std::uint8_t>(i % 3 | i / 3 % 3 << 2 | i / 9 % 2 << 4 | i / 18 << 6);
@@ -173,10 +170,10 @@ inline constexpr auto kDigitsOfDelta = [] {
 
 /// Returns the digit a1..a4 of a difference, for n = 0..3.
 constexpr unsigned digit_of_delta(std::size_t delta, std::size_t n) {
-    return kDigitsOfDelta[delta - kSmallestDelta] >> 2 * n & 3U;
+    return kDigitsOfDelta[delta - kMinDelta] >> 2 * n & 3U;
 }
 
-/// The main sequence, continued so that 256 bits follow any index.
+/// The main sequence, repeated to have 256 bits after any index.
 inline constexpr auto kMainRepeated = [] {
     std::array<std::uint8_t, kSections + 256> bits{};
     for (std::size_t i = 0; i < bits.size(); ++i)
@@ -184,7 +181,7 @@ inline constexpr auto kMainRepeated = [] {
     return bits;
 }();
 
-/// 32 bits of the main sequence from any index on, the first in the lowest bit.
+/// The 32 bits of the main sequence from any index on, the first in the lowest bit.
 inline constexpr auto kMainWords = [] {
     std::array<std::uint32_t, kSections> words{};
     for (std::size_t i = 0; i < words.size(); ++i) {

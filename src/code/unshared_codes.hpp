@@ -1,5 +1,5 @@
-// How many lines a position shares with positions of the other profiles that differ from it in a4.
-// Generated; tests/unit/code/unshared_codes_test.cpp counts them anew.
+// Number of lines in which a position differs from positions of the other code variants with
+// another place in a4. Generated; tests/unit/code/unshared_codes_test.cpp recomputes the table.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 
 namespace dotpose::code {
 
-/// By the profile read, the other profile, and a number of lines as in `kUnsharedOf`: one digit for
-/// each place in a4 of the first line. It is the least number of these lines that are not shared
-/// with a place of the other profile, over all its places and shifts. The same place does not count
-/// where both profiles have it with the same rolls.
+/// Minimum numbers of unshared lines, by the code variant read, the other variant, and the number
+/// of lines as in `kUnsharedOf`: one digit for each place in a4 of the first line. The minimum is
+/// over all places and shifts of the other variant, except the same place if both variants have it
+/// with the same rolls.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kProfileCount>,
                             kProfileCount>
     kUnsharedInOther{{

@@ -1,5 +1,5 @@
-// How many lines a position shares with positions that differ from it in one sequence. Generated;
-// tests/unit/code/unshared_lines_test.cpp counts them anew.
+// Number of lines in which a position differs from positions with another place in one sequence.
+// Generated; tests/unit/code/unshared_lines_test.cpp recomputes the table.
 #pragma once
 
 #include <array>
@@ -8,14 +8,14 @@
 
 namespace dotpose::code {
 
-/// The numbers of consecutive lines for which the table has values.
+/// Numbers of consecutive lines for which the table has values.
 inline constexpr std::array<int, 3> kUnsharedOf{10, 13, 16};
 
-/// First entry of each sequence in the table: a1, a2, a3 and the restored a4.
+/// Index of the first entry of each sequence in the table: a1, a2, a3 and the restored a4.
 inline constexpr std::array<std::size_t, 4> kUnsharedFrom{0, 236, 469, 500};
 
-/// By sequence and place of the first line: the least numbers of lines that are not shared, as
-/// `unshared_at_one_shift` and `unshared_on_two_sides` return them.
+/// Minimum numbers of unshared lines by sequence and place of the first line, packed as
+/// `unshared_at_one_shift` and `unshared_on_two_sides` unpack them.
 inline constexpr std::array<std::uint16_t, 741> kUnshared{
     0x2A48, 0x2A48, 0x2A49, 0x2889, 0x4A91, 0x4892, 0x5292, 0x2A92, 0x2A51, 0x2892, 0x2A52, 0x324A,
     0x328A, 0x288A, 0x2A92, 0x2A52, 0x3249, 0x328A, 0x0849, 0x2A92, 0x4A92, 0x42D2, 0x2ADA, 0x08DA,
@@ -81,37 +81,38 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
     0x7322, 0x7522, 0x74DA, 0x7D1B, 0x551B, 0x5CDB, 0x54DB, 0x2C93, 0x2C4A,
 };
 
-/// The most unshared lines for which positions are counted.
-inline constexpr std::size_t kMostCounted = 7;
+/// Largest number of unshared lines for which positions are counted.
+inline constexpr std::size_t kMaxCounted = 7;
 
-/// By row, sequence and n from 1 on: with how many other positions a position has exactly n
-/// unshared lines, at most. Positions stand elsewhere in that sequence alone, and count once for
-/// each shift at which they share a line. It holds at all places, for the a4 of every profile.
-inline constexpr std::array<std::array<std::array<std::uint8_t, kMostCounted>, 4>, 3> kMostWith{{
-    {{{1, 4, 15, 34, 64, 120, 227},
-      {2, 4, 11, 30, 65, 118, 222},
-      {0, 1, 5, 10, 17, 21, 28},
-      {1, 6, 15, 28, 76, 145, 229}}},
-    {{{0, 1, 3, 7, 18, 32, 51},
-      {0, 1, 2, 5, 14, 29, 57},
-      {0, 0, 1, 2, 6, 13, 18},
-      {0, 3, 6, 8, 14, 28, 55}}},
-    {{{0, 0, 0, 2, 4, 10, 19},
-      {0, 0, 1, 2, 4, 7, 13},
-      {0, 0, 0, 0, 2, 4, 6},
-      {0, 0, 3, 4, 7, 10, 16}}},
-}};
+/// Upper bounds of the number of positions with exactly n unshared lines, by row, sequence and n
+/// from 1 on. The positions differ from the one read in this sequence only, and count once for each
+/// shift at which they share a line. The bounds hold at all places and for the a4 of every code
+/// variant.
+inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>, 3>
+    kMaxPositionsWith{{
+        {{{1, 4, 15, 34, 64, 120, 227},
+          {2, 4, 11, 30, 65, 118, 222},
+          {0, 1, 5, 10, 17, 21, 28},
+          {1, 6, 15, 28, 76, 145, 229}}},
+        {{{0, 1, 3, 7, 18, 32, 51},
+          {0, 1, 2, 5, 14, 29, 57},
+          {0, 0, 1, 2, 6, 13, 18},
+          {0, 3, 6, 8, 14, 28, 55}}},
+        {{{0, 0, 0, 2, 4, 10, 19},
+          {0, 0, 1, 2, 4, 7, 13},
+          {0, 0, 0, 0, 2, 4, 6},
+          {0, 0, 3, 4, 7, 10, 16}}},
+    }};
 
-/// Returns the least number of lines, of `kUnsharedOf[row]`, that are not shared with a position
-/// that stands elsewhere in one sequence alone. It is at least row + 1, and exceeds that by three
-/// bits of an entry of the table.
+/// Returns the minimum number of unshared lines, among `kUnsharedOf[row]` lines, over all positions
+/// that differ in this sequence only. It is at least row + 1; three bits of the entry store the
+/// excess.
 constexpr std::size_t unshared_at_one_shift(std::size_t entry, std::size_t row) {
     return row + 1 + (kUnshared[entry] >> 3 * row & 7U);
 }
 
-/// Returns the least number of lines that are not shared with such a position if one part of a view
-/// is read at one of its shifts and the rest at another. It is at least row, and exceeds that by
-/// two bits.
+/// Returns the same minimum if one part of a view is read at one shift of such a position and the
+/// rest at another. It is at least row; two bits of the entry store the excess.
 constexpr std::size_t unshared_on_two_sides(std::size_t entry, std::size_t row) {
     return row + (kUnshared[entry] >> (9 + 2 * row) & 3U);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Marks functions that processors with few registers should not inline, because the caller would
-/// run out of them. Other processors gain from inlining.
+/// Marks functions that processors with few registers do not inline, because the caller would run
+/// out of registers. Other processors gain from inlining.
 #if defined(__thumb__) && !defined(__thumb2__)
 #define DOTPOSE_NOINLINE [[gnu::noinline]]
 #else

@@ -1,4 +1,4 @@
-// Names the option that makes a frame a bad argument.
+// Reports the name of the option that is out of range.
 #include "core/option_ranges.hpp"
 
 #include "dotpose/option_fault.hpp"

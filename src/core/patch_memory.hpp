@@ -1,5 +1,5 @@
-// Patch: a part of the image and the dots measured in it, as the attempts of desktops keep them.
-// Not stable, like stages.hpp.
+// Patch: a part of the image and the dots measured in it, for the attempts of desktops. Not stable,
+// like stages.hpp.
 #pragma once
 
 #include <array>
@@ -8,71 +8,71 @@
 
 namespace dotpose::core {
 
-/// Dots in a patch, in px of the image from its middle.
+/// Dots in a patch, in image px from its middle.
 struct PatchDots {
-    static constexpr int kMost = 2048;
+    static constexpr int kMax = 2048;
     int count = 0;
-    // Capacities are rounded up to whole vectors; unused elements are far away.
-    alignas(64) std::array<float, kMost + 16> x;
-    alignas(64) std::array<float, kMost + 16> y;
+    // Capacities are rounded up to whole vectors. Unused elements are far away.
+    alignas(64) std::array<float, kMax + 16> x;
+    alignas(64) std::array<float, kMax + 16> y;
 };
 
-/// A part of an image, reduced by the factor `scale`, with a margin around it.
+/// A part of an image, reduced by the factor `scale`, with a margin.
 struct Patch {
-    static constexpr int kMostWidth_px = 256;
-    static constexpr int kMostHeight_px = 192;
+    static constexpr int kMaxWidth_px = 256;
+    static constexpr int kMaxHeight_px = 192;
     static constexpr int kMarginX_px = 32;
     static constexpr int kMarginY_px = 8;
     static constexpr int kTileWidth_px = 16;
     static constexpr int kTileHeight_px = 8;
-    static constexpr int kMostStride = kMostWidth_px + 2 * kMarginX_px;
-    static constexpr int kMostPixels = (kMostHeight_px + 2 * kMarginY_px) * kMostStride;
-    static constexpr int kTilesPerRow = kMostWidth_px / kTileWidth_px;
-    static constexpr int kTiles = kTilesPerRow * kMostHeight_px / kTileHeight_px;
-    static constexpr int kStrips = kMostWidth_px / 32;
+    static constexpr int kMaxStride = kMaxWidth_px + 2 * kMarginX_px;
+    static constexpr int kMaxPixels = (kMaxHeight_px + 2 * kMarginY_px) * kMaxStride;
+    static constexpr int kTilesPerRow = kMaxWidth_px / kTileWidth_px;
+    static constexpr int kTiles = kTilesPerRow * kMaxHeight_px / kTileHeight_px;
+    static constexpr int kStrips = kMaxWidth_px / 32;
 
     int left_px = 0;  ///< px of the image
     int top_px = 0;
-    int scale = 1;  ///< number of px of the image, in both directions, that make one px of the
-                    ///< patch
+    int scale = 1;  ///< side of a patch pixel, in px of the image
     int width_px = 0;
     int height_px = 0;
     int stride = 0;
-    int depth_q8 = 0;  ///< darkness of a typical dot against paper in the smoothed patch, in 1/256
-    alignas(64) std::array<std::uint8_t, kMostPixels> pixels;
-    alignas(64) std::array<std::uint8_t, kMostPixels> smoothed;
+    int dot_contrast_q8 =
+        0;  ///< darkness of a typical dot relative to paper in the smoothed patch, in 1/256
+    alignas(64) std::array<std::uint8_t, kMaxPixels> pixels;
+    alignas(64) std::array<std::uint8_t, kMaxPixels> smoothed;
     alignas(64) std::array<std::uint8_t, kTiles> brightest;
     alignas(64) std::array<std::uint8_t, kTiles> darkness;  ///< 255 minus the darkest level
     alignas(64) std::array<std::uint8_t, kTiles> thresholds;
     PatchDots dots;
 
-    std::uint8_t* row(std::array<std::uint8_t, kMostPixels>& of, int v) {
+    std::uint8_t* row(std::array<std::uint8_t, kMaxPixels>& of, int v) {
         return of.data() + (v + kMarginY_px) * stride + kMarginX_px;
     }
 };
 
-/// Dots by the cells of the pattern that they belong to, in whole vectors; unused elements are far
-/// away.
+/// Dots by the cells of the pattern they belong to, in whole vectors. Unused elements are far away.
 struct MeasuredDots {
     int count = 0;
-    std::span<float> column;  ///< column of the pattern, counted as by the plane in use
+    std::span<float> column;  ///< column of the pattern, in the coordinates of the current plane
     std::span<float> row;
-    std::span<std::int32_t> bits;      ///< bits of the code there: the x bit plus 2 times the y bit
+    std::span<std::int32_t>
+        bits;  ///< bits of the code in the cell: the x bit plus 2 times the y bit
     std::span<std::int32_t> window_u;  ///< middle of the window, px
     std::span<std::int32_t> window_v;
     std::span<std::int32_t> mass;   ///< sum of darkness over the window
-    std::span<std::int32_t> sum_u;  ///< sum of darkness times px from the window's left
-    std::span<std::int32_t> sum_v;  ///< sum of darkness times px from the window's top
+    std::span<std::int32_t> sum_u;  ///< sum of darkness times px from the left of the window
+    std::span<std::int32_t> sum_v;  ///< sum of darkness times px from the top of the window
     std::span<std::int32_t> paper;  ///< grey level of the paper around the dot
-    /// Measured centre in px from the plane's centre, with the lens corrected; kNoDot_px if there
-    /// is no dot. Before the measurement, the expected place in the image.
+    /// Measured centre in px from the plane's centre, undistorted, or kNoDot_px if there is no dot.
+    /// Before the measurement, the predicted place in the image.
     std::span<float> x;
     std::span<float> y;
 
     int capacity() const { return static_cast<int>(column.size()) - 8; }
 };
 
-/// A coordinate that is far outside every image.
+/// A coordinate far outside every image.
 inline constexpr float kNoDot_px = 1e6F;
 
 }  // namespace dotpose::core

@@ -35,7 +35,8 @@ Prediction moved(const Prediction& prediction, Profile profile, Vec by_q16, std:
     plane.dv_q24 = turned(plane.dv_q24, unit);
     const Vec pivot_q16 = plane_point_q16(prediction.pattern_from_image, pivot_q8);
     const Vec centre_q16 = pivot_q16 + turned(plane.at_centre_q16 - pivot_q16, unit) + by_q16;
-    // The plane is counted from the intersection at its centre, so that it may move on without end.
+    // The plane is relative to the intersection at its centre, which keeps its coordinates small
+    // however far it moves.
     next.place = moved(profile, prediction.place, centre_q16.x >> 16, centre_q16.y >> 16);
     plane.at_centre_q16 = {centre_q16.x & 0xFFFF, centre_q16.y & 0xFFFF};
     return next;

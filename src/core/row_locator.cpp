@@ -1,4 +1,4 @@
-// What Locator and DeviceLocator have in common.
+// Common parts of Locator and DeviceLocator.
 #include <span>
 
 #include "core/steps.hpp"

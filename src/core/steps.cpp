@@ -42,8 +42,8 @@ const Fix& refuse(Status reason, Workspace& w) {
     return w.fix;
 }
 
-Vec image_centre_q8(const Light& light) {
-    return {(light.width_px - 1) * 128, (light.height_px - 1) * 128};
+Vec image_centre_q8(const AdaptiveThreshold& threshold) {
+    return {(threshold.width_px - 1) * 128, (threshold.height_px - 1) * 128};
 }
 
 Vec reference_q8(Vec centre_q8, const Options& options) {
@@ -61,22 +61,22 @@ void forget_frame(Workspace& w) {
 
 void begin_frame(int width_px, int height_px, Workspace& w) {
     forget_frame(w);
-    begin_light(width_px, height_px, w.light);
-    begin_blobs(w.light, w.open, dot_list(w));
+    begin_threshold(width_px, height_px, w.threshold);
+    begin_blobs(w.threshold, w.open, dot_list(w));
 }
 
 void threshold_bands(int ready, const Options& options, Workspace& w) {
     ThresholdOptions threshold = options.threshold;
     threshold.min_contrast = std::max(threshold.min_contrast, options.min_contrast);
-    const int newest = (w.light.rows_taken - 1) >> w.light.band_shift;
-    const bool is_last = w.light.rows_taken == w.light.height_px;
+    const int newest = (w.threshold.rows_taken - 1) >> w.threshold.band_shift;
+    const bool is_last = w.threshold.rows_taken == w.threshold.height_px;
     for (int band = newest - ready + (is_last ? 1 : 0); ready > 0; --ready, ++band) {
-        const int before = w.light.greatest_contrast;
-        measure_levels(band, threshold, w.light);
-        // No row above showed dots: what was taken for some was noise.
-        if (before < least_contrast(threshold, w.light)) w.dot_count = 0;
-        for (int v = band_begin(w.light, band); v < band_end(w.light, band); ++v) {
-            grow_blobs(v, w.light, w.open, dot_list(w));
+        const int before = w.threshold.max_contrast;
+        measure_levels(band, threshold, w.threshold);
+        // No row above had contrast: dots found there were noise.
+        if (before < min_tile_contrast(threshold, w.threshold)) w.dot_count = 0;
+        for (int v = band_begin(w.threshold, band); v < band_end(w.threshold, band); ++v) {
+            grow_blobs(v, w.threshold, w.open, dot_list(w));
         }
     }
 }
@@ -90,16 +90,16 @@ void detect_image(const ImageView& image, const Options& options, Workspace& w) 
 Status find_dots(const Options& options, Workspace& w) {
     sift_dots(options.blobs, dot_list(w));
     w.fix.dots_seen = w.dot_count;
-    if (!w.light.has_contrast) return Status::no_contrast;
-    // Options may allow no dots at all, but the stages that follow take means over them.
+    if (!w.threshold.has_contrast) return Status::no_contrast;
+    // min_dots may be 0, but the following stages compute means over the dots.
     if (w.dot_count < std::max(options.lattice.min_dots, 1)) return Status::too_few_dots;
-    undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));  // eq. 1-2
+    undistort(options.lens, image_centre_q8(w.threshold), first(w.dots, w.dot_count));  // eq. 1-2
     return Status::ok;
 }
 
-Status find_axes(Vec start_q8, int most_seeds, Workspace& w) {
+Status find_axes(Vec start_q8, int max_seeds, Workspace& w) {
     const auto dots = w.found_dots();
-    const int room = std::min(most_seeds, static_cast<int>(w.seeds.size()));
+    const int room = std::min(max_seeds, static_cast<int>(w.seeds.size()));
     w.seed_count = choose_seeds(dots, start_q8, first(w.seeds, room));
     const std::span<const std::uint16_t> seeds = first(w.seeds, w.seed_count);
     find_neighbours(dots, seeds, w.buckets, w.neighbours);  // II-B.2, Fig. 3

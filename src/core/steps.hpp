@@ -1,8 +1,8 @@
-// Steps that desktops and devices share, in integers; each is a part of the paper's Fig. 1.
+// Steps that desktops and devices share, in integers. Each is a part of Fig. 1 of the paper.
 #pragma once
 
+#include "core/detect/adaptive_threshold.hpp"
 #include "core/detect/blobs.hpp"
-#include "core/detect/light.hpp"
 #include "core/workspace.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
@@ -14,49 +14,48 @@ std::span<T> first(std::span<T, Extent> all, int count) {
     return all.first(static_cast<std::size_t>(count));
 }
 
-Vec image_centre_q8(const Light& light);
+Vec image_centre_q8(const AdaptiveThreshold& threshold);
 
-/// Returns the image point whose pose is wanted, given the image centre.
+/// Returns the image point whose pose is reported, given the image centre.
 Vec reference_q8(Vec centre_q8, const Options& options);
 
-/// Returns ok if a frame can be begun, or an image located, otherwise the reason.
+/// Returns ok if a frame can be started, or an image located. Otherwise returns the reason.
 Status check(int width_px, int height_px, const Options& options, const Workspace& w);
 Status check(const ImageView& image, const Options& options, const Workspace& w);
 
-/// Sets and returns the fix of a frame that is refused before any stage; results of the frame
-/// before are cleared.
+/// Sets and returns the fix of a frame that is refused before any stage. Clears the results of the
+/// previous frame.
 const Fix& refuse(Status reason, Workspace& w);
 
-/// Clears the results of the frame before.
+/// Clears the results of the previous frame.
 void forget_frame(Workspace& w);
 
-/// Starts a frame, whose size the workspace must have room for.
+/// Starts a frame. Its size must be within the capacity of the workspace.
 void begin_frame(int width_px, int height_px, Workspace& w);
 
 /// Detects the blobs in `ready` bands of rows.
 void threshold_bands(int ready, const Options& options, Workspace& w);  // II-B.1
 
-/// Takes the next row of pixels and detects the blobs of the bands that it completes; most rows
+/// Takes the next row of pixels and detects the blobs of the bands that it completes. Most rows
 /// complete none.
 inline void detect_row(const std::uint8_t* pixels, const Options& options, Workspace& w) {
-    const int ready = take_row(pixels, w.light);
+    const int ready = take_row(pixels, w.threshold);
     if (ready > 0) threshold_bands(ready, options, w);
 }
 
 /// Detects the blobs of a whole image.
 void detect_image(const ImageView& image, const Options& options, Workspace& w);
 
-/// Selects the dots among the blobs, and moves them to where a lens without distortion would see
-/// them. Errors: no_contrast, too_few_dots.
+/// Selects the dots among the blobs, and undistorts them. Errors: no_contrast, too_few_dots.
 Status find_dots(const Options& options, Workspace& w);
 
 /// Finds the directions and spacings of the grid from connections between the dots nearest a point.
-Status find_axes(Vec start_q8, int most_seeds, Workspace& w);
+Status find_axes(Vec start_q8, int max_seeds, Workspace& w);
 
-/// Chooses the region of the grid that is decoded, of as many lines as there is memory for.
+/// Chooses the region of the grid that is decoded. It is limited by the memory for lines.
 void choose_region(Workspace& w);
 
-/// Returns `mirrored` if the bits are those of a mirrored pattern, otherwise the reason given.
+/// Returns `mirrored` if the bits are those of a mirrored pattern. Otherwise returns `reason`.
 Status refused(Status reason, const Workspace& w);
 
 }  // namespace dotpose::core

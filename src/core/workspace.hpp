@@ -1,6 +1,6 @@
 // Workspace: the memory of a locator and, after a frame, the output of every stage. Capacities are
-// fixed. It is in the caller's DeviceMemory, SmallMemory or LargeMemory and is reused from frame to
-// frame.
+// fixed. The workspace is in the DeviceMemory, SmallMemory or LargeMemory of the caller and is
+// reused for each frame.
 #pragma once
 
 #include <array>
@@ -16,20 +16,20 @@
 
 namespace dotpose::core {
 
-/// The memory and results of the stages that desktops and devices share, as spans.
+/// Memory and results of the stages that desktops and devices share, as spans.
 struct Workspace {
     std::int16_t max_width_px = 0;
     std::int16_t max_height_px = kMaxFrameSide_px;
-    bool keeps_every_stage = false;  ///< whether each stage has its own memory, so that all of them
-                                     ///< can be shown
+    bool keeps_every_stage = false;  ///< true if each stage has its own memory, so that the output
+                                     ///< of every stage remains
     // detect
     Tracking tracking;
-    Light light;
+    AdaptiveThreshold threshold;
     OpenBlobs open;
     std::span<Dot> dots;  ///< size is the capacity
     int dot_count = 0;
-    int dots_kept_within_px = 0;  ///< distance from the image centre, per axis; shrinks when `dots`
-                                  ///< is full
+    int dots_kept_within_px =
+        0;  ///< distance from the image centre, per axis; decreases when `dots` is full
     // lattice
     std::span<std::uint16_t> seeds;  ///< indices of dots
     int seed_count = 0;

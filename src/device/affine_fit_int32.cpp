@@ -7,12 +7,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns by how many bits a value >= 0 has to be shifted right to fit into `bits` bits.
+/// Returns the number of bits by which a value >= 0 must be shifted right to fit `bits` bits.
 int excess_bits(std::int64_t value, int bits) {
     return std::max(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value))) - bits, 0);
 }
 
-/// Returns n / d. Small numbers are divided in 32 bits, which takes a fifth of the time.
+/// Returns n / d. Divides small numbers in 32 bits, which takes a fifth of the time.
 std::int64_t quotient(std::int64_t n, std::int32_t d) {
     const auto small = static_cast<std::int32_t>(n);
     return small == n ? small / d : n / d;
@@ -46,7 +46,7 @@ bool AffineFitInt32::solve(int bits, PlaneFromImage& plane) {
                                           myy >> shift};
     const std::int64_t determinant = spread.determinant();
     const std::int64_t trace = spread.xx + spread.yy;
-    // Dots that spread less than a 16th as far across as along count as a line.
+    // Dots are on one line if their spread across is less than a 16th of their spread along it.
     if (determinant <= 0 || determinant >> 8 < trace * trace >> 18) return false;
 
     const auto solve_one = [&](std::int32_t sum, std::int64_t of_x, std::int64_t of_y,

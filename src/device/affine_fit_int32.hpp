@@ -1,5 +1,5 @@
-// Least squares of an affine map from image points to the grid, in integers of 32 bits, which small
-// processors add up quickly.
+// Least squares of an affine map from image points to the grid, with 32-bit sums, which are fast on
+// small processors.
 #pragma once
 
 #include "core/math/fixed.hpp"
@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Collects points of the image and their places in the grid, and solves for the affine map.
+/// Accumulates image points and their places in the grid, and solves for the affine map.
 class AffineFitInt32 {
   public:
     template <typename Int>
@@ -15,7 +15,7 @@ class AffineFitInt32 {
         Int xx = 0, xy = 0, yy = 0;
         Int ix = 0, iy = 0, jx = 0, jy = 0;
 
-        /// Adds a point p and its target. `weighted` is p times the point's weight, 1 or -1.
+        /// Adds a point p and its target. `weighted` is p times the weight of the point, 1 or -1.
         [[gnu::always_inline]] void add(const Vec& p, const Vec& weighted, const Vec& target) {
             xx += weighted.x * p.x;
             xy += weighted.x * p.y;
@@ -28,30 +28,30 @@ class AffineFitInt32 {
     };
 
     AffineFitInt32() = default;
-    /// Takes over the sums of `count` points that were added up elsewhere.
+    /// Starts from the given sums over `count` points.
     AffineFitInt32(std::int32_t count, const Vec& p, const Vec& target,
                    const Products<std::int32_t>& sums)
         : changes_(count), p_(p), target_(target), recent_(sums) {}
 
-    /// Adds a point p of the image, in 1/8 px from the plane's centre, within 2048 px, and its
-    /// target in 2^-bits cells (see `solve`), within 2^15.
+    /// Adds an image point p, in 1/8 px from the plane's centre, within 2048 px, and its target in
+    /// 2^-bits cells (see `solve`), within 2^15.
     [[gnu::always_inline]] void add(const Vec& p, const Vec& target) { change(p, p, target); }
-    /// Adds a point with weight 1, or takes it away again with weight -1.
+    /// Adds a point with weight 1, or removes it with weight -1.
     [[gnu::always_inline]] void count(const Vec& p, const Vec& target, int weight) {
         unused_ += 1 - weight;
         change(p, Vec{weight * p.x, weight * p.y}, Vec{weight * target.x, weight * target.y});
     }
     int count() const { return changes_ - unused_; }
-    /// Sets `at_centre`, du and dv of the plane; the other members stay. Targets are in 2^-bits
-    /// cells. Returns false if the points lie on one line.
+    /// Sets `at_centre`, du and dv of the plane, and no other members. Targets are in 2^-bits
+    /// cells. Returns false if the points are on one line.
     bool solve(int bits, PlaneFromImage& plane);
 
   private:
-    /// Points near the centre have coordinates from -kNear to kNear - 1. The products of
-    /// kMostRecent near points and of one far point fit into 32 bits, which small processors add up
-    /// three times as fast as 64.
+    /// Coordinates of near points are from -kNear to kNear - 1. The products of kMaxRecent near
+    /// points and of one far point fit 32 bits, in which small processors add three times as fast
+    /// as in 64.
     static constexpr std::uint32_t kNear = 1024;
-    static constexpr int kMostRecent = 32;
+    static constexpr int kMaxRecent = 32;
     static std::uint32_t offset(std::int32_t a) { return static_cast<std::uint32_t>(a) + kNear; }
 
     [[gnu::always_inline]] void change(const Vec& p, const Vec& weighted, const Vec& target) {
@@ -60,16 +60,16 @@ class AffineFitInt32 {
         recent_.add(p, weighted, target);
         ++changes_;
         const bool is_far = (offset(p.x) | offset(p.y)) / (2 * kNear) != 0;
-        if (is_far || changes_ % kMostRecent == 0) carry_over();
+        if (is_far || changes_ % kMaxRecent == 0) carry_over();
     }
-    /// Adds the recent sums of 32 bits to those of 64 bits.
+    /// Adds the recent 32-bit sums to the 64-bit sums.
     void carry_over();
-    /// Returns n^2 times the covariance of two coordinates from the sum of their products and their
-    /// sums a and b.
+    /// Returns n^2 times the covariance of two coordinates, from the sum of their products and
+    /// their sums a and b.
     std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const;
 
     std::int32_t changes_ = 0;
-    std::int32_t unused_ = 0;  ///< changes minus points
+    std::int32_t unused_ = 0;  ///< number of changes minus number of points
     Vec p_;
     Vec target_;
     Products<std::int32_t> recent_;

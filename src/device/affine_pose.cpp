@@ -8,7 +8,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Dots that tell the displacement and the scatter, evenly spread.
+/// Number of dots, evenly spread, from which the displacement and the scatter are measured.
 constexpr int kSample = 64;
 
 /// Returns vectors of a length in the direction of each symbol.
@@ -21,7 +21,7 @@ std::array<Vec, 4> displacements(std::int32_t length) {
     return all;
 }
 
-/// Offset of a dot from its intersection, in 2^-16 spacings, and the dot's symbol.
+/// Offset of a dot from its intersection, in 2^-16 spacings, and the symbol of the dot.
 struct Offset {
     Vec q16;
     Symbol symbol;
@@ -31,7 +31,7 @@ std::int32_t squared_q16(Vec a_q16) {
     return (a_q16.x >> 8) * (a_q16.x >> 8) + (a_q16.y >> 8) * (a_q16.y >> 8);
 }
 
-/// Adds one point. Not inlined, as small processors would have to free registers for it.
+/// Adds one point. Not inlined: small processors would have to free registers.
 [[gnu::noinline]] void add(AffineFitInt32& fit, Vec p, Vec target) {
     fit.add(p, target);
 }
@@ -57,7 +57,8 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
             values[s] = value(sample[s]);
         return median(std::span(values).first(count));
     };
-    // The displacement is measured: ink spreads and lenses blur differently each time.
+    // The displacement is measured in each frame, because it depends on the spread of ink and on
+    // blur.
     displacement_q16 = sampled_median([](const Offset& offset) {
         return offset.q16.x * dx(offset.symbol) + offset.q16.y * dy(offset.symbol);
     });
@@ -65,14 +66,14 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
     const auto squared_residual_q16 = [&](Vec offset, Symbol symbol) {
         return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
-    // Squared distances of a plane Gaussian have their median at 1.39 sigma^2. So 12 medians lie 4
-    // sigma out, where 1 dot in 3,000 is lost by chance.
+    // Squared distances of a plane Gaussian have their median at 1.39 sigma^2. The limit of 12
+    // medians is therefore at 4 sigma, which excludes 1 dot in 3,000 by chance.
     const std::int32_t limit_q16 = 12 * sampled_median([&](const Offset& offset) {
                                        return squared_residual_q16(offset.q16, offset.symbol);
                                    }) +
                                    1;
 
-    // Targets are the places where dots were printed, in 1/64 cells, which keeps them within 2^15.
+    // Targets are the printed places of the dots in 1/64 cells, which are within 2^15.
     constexpr int kTargetBits = 6;
     const auto targets = displacements(shift_rounded(displacement_q16, 16 - kTargetBits));
     AffineFitInt32 fit;

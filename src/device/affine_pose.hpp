@@ -1,6 +1,5 @@
 // Affine pose: the pose from all dots, in integers, for a camera that looks straight at the paper
-// and whose lens does not distort, or is corrected for. Devices without floating point stop here;
-// others continue with refine_pose.hpp.
+// through a lens without distortion, or with corrected distortion.
 #pragma once
 
 #include "core/pose/observations.hpp"
@@ -8,10 +7,10 @@
 
 namespace dotpose::core {
 
-/// Fits the map from the dots' centres to the places where the code has them printed; dots that are
-/// farther off than most are left out. Returns the number of dots used, or 0 if they do not
-/// determine the map, which then stays as it was. Sets `displacement_q16`, the distance of the
-/// typical dot from its intersection in spacings.
+/// Fits the map from the centres of the dots to their printed places. Leaves out dots with large
+/// residuals. Returns the number of dots used, or 0 if they do not determine the map, which is then
+/// unchanged. Sets `displacement_q16` to the distance of a typical dot from its intersection, in
+/// spacings.
 int fit_affine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                     std::int32_t& displacement_q16);
 

@@ -14,26 +14,26 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of dots from which the grid is searched: it determines the time (docs/firmware.md).
+/// Number of dots from which the grid is searched. It determines the time (docs/firmware.md).
 constexpr int kSeeds = 64;
 
-/// Returns where the search for the grid starts: the image centre, or the centroid of the dots if
-/// that is far from it, as at the edge of a sheet.
+/// Returns the start of the grid search: the image centre, or the centroid of the dots if it is far
+/// from the centre, as at the edge of a sheet.
 Vec start_q8(const Workspace& w) {
-    const Vec centre_q8 = image_centre_q8(w.light);
+    const Vec centre_q8 = image_centre_q8(w.threshold);
     Vec sum_q4;
     for (const Dot& dot : w.found_dots())
         sum_q4 = sum_q4 + Vec{dot.centre_q8.x >> 4, dot.centre_q8.y >> 4};
     const Vec mean_q8{sum_q4.x / w.dot_count * 16, sum_q4.y / w.dot_count * 16};
-    // In a view full of pattern, the centroid is within a few hundredths of half a side.
+    // If the pattern fills the view, the centroid is within a few hundredths of half a side.
     constexpr int kFar = 4;
     const bool is_far = magnitude(mean_q8.x - centre_q8.x) * kFar > centre_q8.x ||
                         magnitude(mean_q8.y - centre_q8.y) * kFar > centre_q8.y;
     return is_far ? mean_q8 : centre_q8;
 }
 
-/// Finds the grid that the dots are on, for a camera that looks straight at the paper. Errors:
-/// no_grid, no_displacement.
+/// Finds the grid of the dots, for a camera that looks straight at the paper. Errors: no_grid,
+/// no_displacement.
 Status find_grid(const Options& options, Workspace& w) {
     const Vec start = start_q8(w);
     const Status status = find_axes(start, kSeeds, w);
@@ -41,15 +41,14 @@ Status find_grid(const Options& options, Workspace& w) {
     find_origin(w.found_dots(), first(w.seeds, w.seed_count), start, w.lattice);
     const Status grown = grow_grid(w.found_dots(), options.lattice, start, w.lattice,
                                    w.grid_from_image);  // II-B.3
-    // Maps of the attempts are counted from the image centre.
-    w.grid_from_image = affine_tangent(w.grid_from_image, image_centre_q8(w.light));
+    // Maps of the attempts are relative to the image centre.
+    w.grid_from_image = affine_tangent(w.grid_from_image, image_centre_q8(w.threshold));
     return grown;
 }
 
 /// Finds the position in the code from the bits.
 Status read_position(const Options& options, Workspace& w) {
-    // The decoder does not use the paper's window, which is only shown; devices save the time for
-    // it.
+    // The decoder does not use the window of the paper. It is computed for display only.
     if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
     choose_region(w);
     const Status status =
@@ -57,14 +56,14 @@ Status read_position(const Options& options, Workspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Checks whether all dots in view agree with the position.
+/// Checks the position against all dots in view.
 Status verify_position(const Options& options, Workspace& w) {
     const Status status = verify_quickly(w.grid, options.profile, w.decoding, options.integrity,
                                          w.line_scores, w.fix);
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Fits the pose to the dots whose position in the code is known.
+/// Fits the pose to the dots, whose positions in the code are known.
 Status measure_pose(const Options& options, Workspace& w) {
     const Nominal nominal(w.grid, options.profile, w.decoding);
     w.pattern_from_image =
@@ -72,7 +71,7 @@ Status measure_pose(const Options& options, Workspace& w) {
     const Observations observations(w.found_dots(), w.grid, nominal);
     w.fix.dots_used = fit_affine_pose(observations, w.pattern_from_image, w.fix.displacement_q16);
     if (w.fix.dots_used == 0) return Status::no_grid;
-    write_affine_pose(w.pattern_from_image, reference_q8(image_centre_q8(w.light), options),
+    write_affine_pose(w.pattern_from_image, reference_q8(image_centre_q8(w.threshold), options),
                       options.profile, w.decoding.place, w.fix);
     w.fix.attempt = Attempt::device;
     return Status::ok;

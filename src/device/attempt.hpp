@@ -1,5 +1,4 @@
-// The attempt of devices: rows come in one by one, all arithmetic is in integers, and the time is
-// bounded.
+// The attempt of devices: takes one row at a time, in integers, and in bounded time.
 #pragma once
 
 #include "core/workspace.hpp"
@@ -7,7 +6,7 @@
 
 namespace dotpose::core {
 
-/// Locates a frame from its blobs; the fix is that of the workspace.
+/// Locates a frame from its blobs. Sets and returns the fix of the workspace.
 const Fix& finish_device_attempt(const Options& options, Workspace& w);
 
 }  // namespace dotpose::core

@@ -13,19 +13,19 @@ void lay_tracked_lines(Profile profile, Tracking& tracking) {
     const Place& corner = tracking.corner;
     const auto lay = [&](std::uint32_t position, int section, std::uint32_t cross,
                          std::span<TrackedLine> lines) {
-        std::array<std::uint8_t, kMostTracked> rolls;
+        std::array<std::uint8_t, kMaxTracked> rolls;
         code::follow_rolls(profile, position, code::roll_from(profile, position, section, cross),
                            rolls);
         for (std::size_t i = 0; i < rolls.size(); ++i)
             lines[i] = {code::kMainWords[rolls[i]], 0, 0};
     };
-    lay(corner.cell.x, corner.section.u, corner.cell.y, tracking.lines.first(kMostTracked));
-    lay(corner.cell.y, corner.section.v, corner.cell.x, tracking.lines.last(kMostTracked));
+    lay(corner.cell.x, corner.section.u, corner.cell.y, tracking.lines.first(kMaxTracked));
+    lay(corner.cell.y, corner.section.v, corner.cell.x, tracking.lines.last(kMaxTracked));
 }
 
 int dots_seen(const Tracking& tracking) {
     int seen = 0;
-    for (const TrackedLine& column : tracking.lines.first(kMostTracked))
+    for (const TrackedLine& column : tracking.lines.first(kMaxTracked))
         seen += bits_in(column.seen);
     return seen;
 }

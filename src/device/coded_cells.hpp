@@ -1,4 +1,4 @@
-// Coded cells: what the code has around a predicted place, line by line, and which dots were read
+// Coded cells: the bits of the code around a predicted place, line by line, and the dots read
 // there.
 #pragma once
 
@@ -7,27 +7,27 @@
 
 namespace dotpose::core {
 
-/// Sets the code of each line, counted from `Tracking::corner`; no dot has been read yet.
+/// Sets the code of each line, from `Tracking::corner` on, and marks all dots as not read.
 void lay_tracked_lines(Profile profile, Tracking& tracking);
 
 inline TrackedLine& column_of(const Tracking& tracking, int i) {
     return tracking.lines[static_cast<std::size_t>(i)];
 }
 inline TrackedLine& row_of(const Tracking& tracking, int j) {
-    return tracking.lines[static_cast<std::size_t>(kMostTracked + j)];
+    return tracking.lines[static_cast<std::size_t>(kMaxTracked + j)];
 }
 
 /// Returns the number of dots read so far.
 int dots_seen(const Tracking& tracking);
 
-/// Returns the symbol that the code has in a cell.
+/// Returns the symbol of the code in a cell.
 inline Symbol coded_symbol(const Tracking& tracking, int i, int j) {
     return make_symbol(static_cast<int>(column_of(tracking, i).code >> j & 1),
                        static_cast<int>(row_of(tracking, j).code >> i & 1));
 }
 
-/// A dot's displacement along the directions of its bits (eq. 7-8), in 2^-12 spacing: positive for
-/// 1.
+/// Displacement of a dot along the directions of its bits (eq. 7-8), in 2^-12 spacing: positive
+/// for 1.
 struct Projections {
     std::int32_t x_q12;
     std::int32_t y_q12;

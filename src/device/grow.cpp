@@ -11,28 +11,28 @@
 namespace dotpose::core {
 namespace {
 
-/// A set of vectors: both components lie between `least` and `least` + `extent`, modulo 2^32.
+/// A set of vectors whose components are both between `low` and `low` + `extent`, modulo 2^32.
 struct Square {
-    std::uint32_t least;
+    std::uint32_t low;
     std::uint32_t extent;
 
     bool holds(std::uint32_t x, std::uint32_t y) const {
-        return x - least <= extent && y - least <= extent;
+        return x - low <= extent && y - low <= extent;
     }
     bool holds(Vec a) const {
         return holds(static_cast<std::uint32_t>(a.x), static_cast<std::uint32_t>(a.y));
     }
 };
 
-/// Returns the points, in spacings, that truncation puts into cells up to `limit` from the middle
+/// Returns the points, in spacings, that truncation assigns to cells up to `limit` from the middle
 /// one.
 Square cells_within(int limit) {
     return {static_cast<std::uint32_t>(-limit * 65536),
             static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};
 }
 
-/// Returns the points, by their fractions times 2^16, whose rounded offset is at most `limit` on
-/// both axes.
+/// Returns the points, as fractions times 2^16, whose rounded offset is at most `limit` on both
+/// axes.
 Square offsets_within(std::int32_t limit_q16) {
     return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
             static_cast<std::uint32_t>(std::min<std::int32_t>(2 * limit_q16, 65535)) << 16};
@@ -42,17 +42,17 @@ bool is_near(Vec rounding_q16, const Square& offsets) {
                          static_cast<std::uint32_t>(rounding_q16.y) << 16);
 }
 
-/// Farthest cell of a dot that may belong to the grid.
+/// Distance of the farthest cell whose dot may belong to the grid.
 constexpr int kFarthest_cells = 500;
 
-/// Calls `use(dot, c, is_within_reach)` for each dot, where c is its place in the plane, which
-/// truncated gives the nearest cell. `near_intersections` of the result is not set.
+/// Calls `use(dot, c, is_within_reach)` for each dot. Truncating its place c in the plane gives the
+/// nearest cell. Does not set `near_intersections` of the result.
 template <typename Use>
 Regularity visit_cells(std::span<const Dot> dots, int reach_cells, const Cells& cells, Use use) {
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
-    // Most dots are within reach, and no farther than dots before them, so this is tested first.
+    // The fast test: most dots are within reach, and no farther than the dots before them.
     Square common = cells_within(0);
     for (const Dot& dot : dots) {
         const Vec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));
@@ -74,7 +74,7 @@ Regularity visit_cells(std::span<const Dot> dots, int reach_cells, const Cells& 
     return found;
 }
 
-/// The cell of a dot that a fit uses, packed into one word; `no` if it is not used.
+/// The cell of a dot, packed into one word; `no` if the fit does not use the dot.
 enum class Used : std::uint32_t { no = 0x80808080 };
 
 Used used(Vec rounding_q16) {
@@ -90,14 +90,14 @@ Vec cell_of(Used used) {
 std::int64_t mean_square_q20(std::int32_t squared_offsets_q14, int dots) {
     return squared_offsets_q14 / std::max(dots, 1) * 64;
 }
-/// Returns the square of one dot's offset from its intersection, in 2^-14 spacing^2.
+/// Returns the square of the offset of a dot from its intersection, in 2^-14 spacing^2.
 std::int32_t squared_offset_q14(Vec rounding_q16) {
     const Vec offset_q8{(rounding_q16.x >> 8 & 255) - 128, (rounding_q16.y >> 8 & 255) - 128};
     return (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
 }
 
-/// Successive fits of the grid. Most dots count in each of them, in the same cells, so only changes
-/// are added up.
+/// Successive fits of the grid. Most dots have the same cell in each fit, so only changes are
+/// added.
 class Fits {
   public:
     Fits(std::span<const Dot> dots, std::int32_t max_offset_q16)
@@ -105,7 +105,7 @@ class Fits {
         if (remembers()) std::fill_n(before_.begin(), dots.size(), Used::no);
     }
 
-    /// Fits the plane to the dots within reach. Returns false if they do not determine one.
+    /// Fits the plane to the dots within reach. Returns false if they do not determine it.
     bool operator()(int reach_cells, Regularity& found, PlaneFromImage& plane) {
         const Cells cells(plane);
         found = remembers() ? sum_up_changes(reach_cells, cells) : sum_up(reach_cells, cells);
@@ -113,7 +113,7 @@ class Fits {
         return sums_.solve(0, plane) && is_nearly_square(plane);
     }
 
-    /// Checks that the dots lie on a grid and are displaced. Errors: no_grid, no_displacement.
+    /// Checks that the dots are on a grid and displaced. Errors: no_grid, no_displacement.
     Status judge(int reach_cells, const PlaneFromImage& plane) const {
         const Square near = near_;
         std::int32_t squared_offsets_q14 = 0;
@@ -163,8 +163,8 @@ class Fits {
     std::span<const Dot> dots_;
     Square near_;
     AffineFitInt32 sums_;
-    std::array<Used, 384> before_;  ///< cell of each dot in the fit before; not used if there are
-                                    ///< too many dots
+    std::array<Used, 384>
+        before_;  ///< cell of each dot in the previous fit; not used if there are too many dots
 };
 
 }  // namespace
@@ -174,9 +174,9 @@ Status grow_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec i
     plane = plane_from_lattice(first, image_centre_q8);
     Fits fits(dots, options.max_offset_q16);
     Regularity found;
-    constexpr int kMostRounds = 3;
+    constexpr int kMaxRounds = 3;
     const auto fit = [&](int reach_cells) { return fits(reach_cells, found, plane); };
-    if (!fit_outwards(kMostRounds, found, fit)) return Status::no_grid;
+    if (!fit_outwards(kMaxRounds, found, fit)) return Status::no_grid;
     return fits.judge(found.farthest_cell, plane);
 }
 

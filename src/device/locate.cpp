@@ -1,5 +1,5 @@
-// The classes and functions of devices: they use nothing of the attempts of desktops, so
-// scripts/export-device leaves those out.
+// Classes and functions of devices. They use no part of the attempts of desktops, which
+// scripts/export-device leaves out.
 #include "device/locate.hpp"
 
 #include "core/steps.hpp"

@@ -1,4 +1,4 @@
-// Locating a frame on a device, with memory and options that are given: the body of DeviceLocator.
+// The body of DeviceLocator: locates a frame with given memory and options.
 #pragma once
 
 #include "core/workspace.hpp"

@@ -1,6 +1,6 @@
-// Near dot: measures the dot of an intersection whose place in the image is known. It does not use
-// the code, so that its result can confirm or contradict the code. Most of it is inline: calls
-// would take a third of what small processors spend on a dot.
+// Near dot: measures the dot of an intersection at a known place in the image. It does not use the
+// code, so its result can confirm or contradict the code. Most of it is inline: calls would take a
+// third of the time per dot on small processors.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 namespace dotpose::core {
 
 /// Half the side of the square around an intersection that contains its dot, and of the square
-/// around the dot's centre that contains the dot; for spacings of 7 to 13 px.
+/// around the dot's centre that contains the dot, for spacings of 7 to 13 px.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kDotHalf_px = 2;
 
@@ -24,7 +24,7 @@ constexpr Vec pixel_at(Vec place_q16) {
     return {(place_q16.x + 32768) >> 16, (place_q16.y + 32768) >> 16};
 }
 
-/// Whether all pixels of a square around `pixel` are kept.
+/// Returns true if all pixels of a square around `pixel` are stored.
 [[gnu::always_inline]] inline bool is_kept(const Tracking& tracking, Vec pixel, int half) {
     return static_cast<unsigned>(pixel.x - half) <
                static_cast<unsigned>(tracking.width_px - 2 * half) &&
@@ -32,8 +32,7 @@ constexpr Vec pixel_at(Vec place_q16) {
                static_cast<unsigned>(tracking.rows_taken - tracking.first_kept - 2 * half);
 }
 
-/// Returns the level of the paper around a pixel, from the corners of its square, which no dot
-/// reaches.
+/// Returns the paper level around a pixel, from the corners of its square, where no dot reaches.
 [[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
                                                         const std::uint8_t* at) {
     constexpr int kSide_px = 2 * kHalf_px;
@@ -42,10 +41,10 @@ constexpr Vec pixel_at(Vec place_q16) {
     return (top[0] + top[kSide_px] + bottom[0] + bottom[kSide_px]) >> 2;
 }
 
-/// Sets the pixels that `read_symbol` reads. Returns false if they lie beyond the squares.
+/// Sets the pixels that `read_symbol` reads. Returns false if they are outside the squares.
 bool lay_dot_pixels(Tracking& tracking);
 
-/// The reading of a dot, in one register.
+/// The reading of a dot, packed into one register.
 class ReadSymbol {
   public:
     static constexpr ReadSymbol unclear() { return ReadSymbol(-1); }
@@ -53,7 +52,7 @@ class ReadSymbol {
     /// dot.
     constexpr ReadSymbol(int symbol, std::int32_t level) : bits_(level * 4 + symbol) {}
 
-    /// Whether one of the four places was clearly the darkest.
+    /// Returns true if one of the four places was clearly the darkest.
     bool is_clear() const { return bits_ >= 0; }
     int symbol() const { return bits_ & 3; }
     std::int32_t level() const { return bits_ >> 2; }
@@ -63,8 +62,8 @@ class ReadSymbol {
     std::int32_t bits_;
 };
 
-/// Reads the four places around an intersection. Its square, and a pixel around that, must be kept.
-/// It is a function of its own so that small processors can keep all it needs in registers.
+/// Reads the four places around an intersection. Its square and a border of one pixel must be
+/// stored. A separate function: small processors then have enough registers.
 DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
                                                const Vec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;
@@ -98,12 +97,13 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
 
 /// The measurement of one dot.
 struct NearDot {
-    Vec off_q8;  ///< distance of its centroid from the expected place, px
+    Vec offset_q8;  ///< offset of the centroid from the predicted place, px
     std::int32_t mass = 0;
 };
 
 /// Measures the centroid of pixels darker than `level` in the square of 2 Half + 1 px around a
-/// place. Returns false if its mass is not that of a dot, or the square leaves the kept pixels.
+/// place. Returns false if its mass is not that of a dot, or if the square is not stored
+/// completely.
 template <int Half>
 [[gnu::always_inline]] inline bool measure_square(const Tracking& tracking, Vec place_q16,
                                                   std::int32_t level, NearDot& dot) {
@@ -111,16 +111,16 @@ template <int Half>
     if (!is_kept(tracking, pixel, Half)) return false;
     const std::uint8_t* const first = kept_row(tracking, pixel.y - Half) + pixel.x - Half;
     const DarkSums sums = dark_sums<Half>(first, tracking.stride_px, level);
-    if (sums.mass < tracking.least_mass || sums.mass > tracking.most_mass) return false;
+    if (sums.mass < tracking.min_mass || sums.mass > tracking.max_mass) return false;
     dot.mass = sums.mass;
     const Inverse inverse(sums.mass);
-    dot.off_q8 = {inverse.quotient_q8(sums.x) + pixel.x * 256 - (place_q16.x >> 8),
-                  inverse.quotient_q8(sums.y) + pixel.y * 256 - (place_q16.y >> 8)};
+    dot.offset_q8 = {inverse.quotient_q8(sums.x) + pixel.x * 256 - (place_q16.x >> 8),
+                     inverse.quotient_q8(sums.y) + pixel.y * 256 - (place_q16.y >> 8)};
     return true;
 }
 
-/// Measures the dot in the whole square around an intersection, with the cut of the tracking.
-/// Returns false as `measure_square`.
+/// Measures the dot in the whole square around an intersection, with the threshold of the tracking.
+/// Returns false like `measure_square`.
 bool measure_around(const Tracking& tracking, Vec intersection_q16, NearDot& dot);
 
 }  // namespace dotpose::core

@@ -1,22 +1,23 @@
-// Newest rows: the only rows of a tracked frame that are kept.
+// Newest rows: the rows of a tracked frame that are stored.
 #pragma once
 
 #include "core/stages.hpp"
 
 namespace dotpose::core {
 
-/// Returns the distance between kept rows, which are whole words.
+/// Returns the distance between stored rows, which consist of whole words.
 constexpr int stride_of(int width_px) {
     return (width_px + 3) & ~3;
 }
 
-/// Keeps a row; there must be room for it.
+/// Stores a row. Requires room for it.
 void keep_row(const std::uint8_t* pixels, Tracking& tracking);
 
-/// Drops the rows before the newest `Tracking::rows_needed`, unless there is room for `rows` more.
+/// Discards the rows before the newest `Tracking::rows_needed`, unless there is room for `rows`
+/// more.
 void make_room(int rows, Tracking& tracking);
 
-/// Returns a kept row; the following kept rows come after it in memory.
+/// Returns a stored row. The next rows follow it in memory.
 inline const std::uint8_t* kept_row(const Tracking& tracking, int v) {
     return tracking.rows.data() + (v - tracking.first_kept) * tracking.stride_px;
 }

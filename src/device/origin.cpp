@@ -5,7 +5,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Farthest cell whose dots count: beyond, the first grid may be off by a third of a cell.
+/// Maximum distance of cells whose dots are used. Farther away, the error of the first grid may be
+/// a third of a cell.
 constexpr int kReach_cells = 4;
 
 /// The mean offset of dots from their intersections along one axis, as a sum of complex numbers.

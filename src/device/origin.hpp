@@ -1,6 +1,6 @@
-// Origin: where the intersections of the first grid lie. Paper section II-B.2. differs: the paper
-// takes a dot whose eight neighbours are all connected as they should; displaced and missing dots
-// leave few of those, so here the phase of all dots near the centre is taken, as in a Fourier
+// Origin: the place of the intersections of the first grid. Paper section II-B.2. differs: the
+// paper takes a dot that is connected to all its eight neighbours. Displaced and missing dots leave
+// few of these, so here the origin is the phase of all dots near the centre, as in a Fourier
 // transform.
 #pragma once
 

@@ -8,14 +8,15 @@
 namespace dotpose::core {
 namespace {
 
-/// Range of spacings in the image that can be tracked, so that dots fit the squares that are read.
+/// Range of spacings in the image that can be tracked, for which dots fit the squares that are
+/// read.
 constexpr int kFinest_px = 7;
 constexpr int kCoarsest_px = 13;
 /// Range of displacements: a twelfth to a third of the spacing.
-constexpr std::int32_t kLeastDisplacement_q16 = 65536 / 12;
-constexpr std::int32_t kMostDisplacement_q16 = 65536 / 3;
+constexpr std::int32_t kMinDisplacement_q16 = 65536 / 12;
+constexpr std::int32_t kMaxDisplacement_q16 = 65536 / 3;
 
-/// Whether the prediction is such that no stage can overflow.
+/// Returns true if no stage can overflow with this prediction.
 bool is_sane(const Prediction& prediction) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
@@ -28,8 +29,8 @@ bool is_sane(const Prediction& prediction) {
            is_within(plane.du_q24, kSteepest_q24) && is_within(plane.dv_q24, kSteepest_q24) &&
            is_within(plane.perspective_q30, kSteepest_q30) && place.cell.x < kPositionsPerAxis &&
            place.cell.y < kPositionsPerAxis && place.section.u < kSections &&
-           place.section.v < kSections && prediction.displacement_q16 >= kLeastDisplacement_q16 &&
-           prediction.displacement_q16 <= kMostDisplacement_q16;
+           place.section.v < kSections && prediction.displacement_q16 >= kMinDisplacement_q16 &&
+           prediction.displacement_q16 <= kMaxDisplacement_q16;
 }
 
 /// Sets the cells of a plane whose centre is at cell (0, 0) + at_q16. Returns false if their
@@ -60,8 +61,8 @@ bool invert(const PlaneFromImage& plane, Vec at_q16, CellMap& cells) {
     return true;
 }
 
-/// Leaves out the edges of a frame that shows more cells than there is room for. Returns the
-/// greatest distance of a cell in the rest from its middle.
+/// Leaves out the edges of a frame with more cells than the capacity. Returns the maximum distance
+/// of a cell in the rest from its middle.
 int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
     int width_px = tracking.width_px;
     int height_px = tracking.height_px;
@@ -69,8 +70,8 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
         const auto squared_px =
             static_cast<std::uint32_t>(width_px * width_px + height_px * height_px);
         const int cells = static_cast<int>(square_root(squared_px)) * 128 / spacing_q8 + 3;
-        if (cells <= kMostTracked / 2) {
-            // As many pixels are left out on either side, so that the centre stays where it is.
+        if (cells <= kMaxTracked / 2) {
+            // The same number of pixels is left out on both sides, which keeps the centre.
             tracking.left_out_px = static_cast<std::int16_t>((tracking.width_px - width_px) >> 1);
             tracking.rows_above = static_cast<std::int16_t>((tracking.height_px - height_px) >> 1);
             tracking.height_px = height_px;
@@ -81,13 +82,13 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
     }
 }
 
-/// Sets what depends on the spacing. Returns false if the memory is too small for it.
+/// Sets the members that depend on the spacing. Returns false if the memory is too small.
 bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     const int cells = leave_out_edges(spacing_q8, tracking);
     const int width_px = tracking.width_px - 2 * tracking.left_out_px;
     if (std::min(width_px, tracking.height_px) < kMinFrameSide_px) return false;
-    tracking.first_cell = kMostTracked / 2 - cells;
-    tracking.last_cell = kMostTracked / 2 + cells - 1;
+    tracking.first_cell = kMaxTracked / 2 - cells;
+    tracking.last_cell = kMaxTracked / 2 + cells - 1;
     tracking.stride_px = stride_of(tracking.width_px);
     tracking.rows_kept = static_cast<int>(tracking.rows.size()) / tracking.stride_px;
     tracking.rows_needed = 2 * kHalf_px + 3;
@@ -97,7 +98,7 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 
-/// Returns the greatest error of the prediction in the middle of the image.
+/// Returns the maximum error of the prediction in the middle of the image.
 int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
     const auto shift_q16 =
@@ -136,9 +137,9 @@ Status lay_predicted_cells(const Prediction& prediction, Profile profile, Tracki
     if (!is_sane(prediction)) return Status::not_tracked;
     const Vec centre_q8{(tracking.width_px - 1) * 128, (tracking.height_px - 1) * 128};
     const PlaneFromImage plane = tangent(prediction.pattern_from_image, centre_q8);
-    // The cells are counted so that the middle of the image is in the middle of them.
+    // Cells are numbered from the middle of the image.
     const Vec at = plane.at_centre_q16;
-    const Vec first{(at.x >> 16) - kMostTracked / 2, (at.y >> 16) - kMostTracked / 2};
+    const Vec first{(at.x >> 16) - kMaxTracked / 2, (at.y >> 16) - kMaxTracked / 2};
     tracking.corner = moved(profile, prediction.place, first.x, first.y);
     const Vec at_q16{at.x - first.x * 65536, at.y - first.y * 65536};
     if (!invert(plane, at_q16, tracking.cells)) return Status::not_tracked;

@@ -25,43 +25,44 @@ TrackedView view_of(const Tracking& tracking) {
     std::int32_t displaced_q16 = 0;
     for (const Vec displaced : tracking.displaced_q16)
         displaced_q16 = std::max(displaced_q16, larger_component(displaced));
-    // A dot is rounded to a pixel, which needs kDotHalf_px others on each side.
+    // A dot is rounded to a pixel, which needs kDotHalf_px further pixels on each side.
     const std::int32_t of_dot_q16 = kDotHalf_px * 65536 - 32768 + displaced_q16;
-    // The square around the pixel of an intersection has to lie in the image, too.
-    const std::int32_t least_q16 = std::max<std::int32_t>(kHalf_px * 65536, of_dot_q16);
+    // The square around the pixel of an intersection must also be in the image.
+    const std::int32_t min_q16 = std::max<std::int32_t>(kHalf_px * 65536, of_dot_q16);
     const auto extent_q16 = [&](int side_px) {
         const std::int32_t end_q16 = std::min<std::int32_t>((side_px - kHalf_px) * 65536,
                                                             (side_px - 1) * 65536 - of_dot_q16);
-        return static_cast<std::uint32_t>(end_q16 - least_q16);
+        return static_cast<std::uint32_t>(end_q16 - min_q16);
     };
-    return {{least_q16 + tracking.left_out_px * 65536, least_q16},
+    return {{min_q16 + tracking.left_out_px * 65536, min_q16},
             extent_q16(tracking.width_px - 2 * tracking.left_out_px),
             extent_q16(tracking.height_px)};
 }
 
-/// Finds where each row of cells, from `j` on in steps of `j_step`, comes into view, until a row
-/// does not. The cells in view of a row are side by side, and near those of the row before.
+/// Finds the first cell in view of each row of cells, from `j` on in steps of `j_step`, up to the
+/// first row without one. The cells in view of a row are adjacent, and near those of the previous
+/// row.
 void lay_rows(Tracking& tracking, int j, int j_step) {
     const TrackedView view = tracking.view;
     const Way way = way_of(tracking);
     const Vec along = tracking.cells.along_y_q16;
     const Vec to_next_q16 = j_step > 0 ? along : -along;
-    const int most = (tracking.last_cell - tracking.first_cell) / 2;
+    const int max_first = (tracking.last_cell - tracking.first_cell) / 2;
     Vec at_q16 = place_q16(tracking.cells, kMiddleCell, j);
     int first = 0;  // in steps from the middle
     for (; j >= tracking.first_cell && j <= tracking.last_cell; j += j_step) {
         const Vec before_q16 = at_q16;
         const int before = first;
-        for (; first < most && !view.has(at_q16); ++first)
+        for (; first < max_first && !view.has(at_q16); ++first)
             at_q16 = at_q16 + way.step_q16;
-        if (first == most) {
+        if (first == max_first) {
             first = before;
             at_q16 = before_q16;
         }
-        for (; first > -most && !view.has(at_q16); --first)
+        for (; first > -max_first && !view.has(at_q16); --first)
             at_q16 = at_q16 - way.step_q16;
-        if (first == -most) return;
-        for (; first > -most && view.has(at_q16 - way.step_q16); --first)
+        if (first == -max_first) return;
+        for (; first > -max_first && view.has(at_q16 - way.step_q16); --first)
             at_q16 = at_q16 - way.step_q16;
         TrackedRow& row = tracking.grid_rows[static_cast<std::size_t>(j)];
         row.next_q16 = at_q16;
@@ -70,7 +71,7 @@ void lay_rows(Tracking& tracking, int j, int j_step) {
     }
 }
 
-/// Notes the symbol that was read in a cell. Returns whether the code has it there.
+/// Records the symbol that was read in a cell. Returns true if it is that of the code.
 DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     TrackedLine& column = column_of(tracking, i);
     TrackedLine& row = row_of(tracking, j);
@@ -86,9 +87,9 @@ DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     return false;
 }
 
-/// Adds the dot that the code has at the next intersection of a row, if it is about where it should
-/// be. Bounds: masses are below 2^12 and dots at most 2 px off in their squares, so that sums over
-/// a row of 32 dots are below 2^30.
+/// Adds the dot at the next intersection of a row, if it agrees with the code and is near its
+/// predicted place. Bounds: masses are below 2^12 and offsets at max_first 2 px in the squares, so
+/// the sums over a row of 32 dots are below 2^30.
 DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
     const auto symbol = static_cast<std::size_t>(read.symbol());
     const Vec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];
@@ -97,24 +98,24 @@ DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& r
         kept_row(tracking, pixel.y - kDotHalf_px) + pixel.x - kDotHalf_px;
     const DarkSums sums = dark_sums<kDotHalf_px>(first, tracking.stride_px, read.level());
     const std::int32_t mass = sums.mass;
-    if (mass < tracking.least_mass || mass > tracking.most_mass) return;
-    // Returns the distance of a place from the middle of its pixel.
+    if (mass < tracking.min_mass || mass > tracking.max_mass) return;
+    // Returns the offset of a place from the middle of its pixel.
     const auto in_pixel_q8 = [](std::int32_t a_q16) {
         return static_cast<std::int16_t>(a_q16) >> 8;
     };
-    const Vec off_q8{sums.x * 256 - mass * in_pixel_q8(place_q16.x),
-                     sums.y * 256 - mass * in_pixel_q8(place_q16.y)};
-    // Printers and lenses rarely move a dot by more than an eighth of the spacing; dirt does.
-    if (!is_within(off_q8, mass * (tracking.spacing_q8 >> 3))) return;
+    const Vec offset_q8{sums.x * 256 - mass * in_pixel_q8(place_q16.x),
+                        sums.y * 256 - mass * in_pixel_q8(place_q16.y)};
+    // Printers and lenses rarely move a dot by more than an eighth of the spacing. Dirt does.
+    if (!is_within(offset_q8, mass * (tracking.spacing_q8 >> 3))) return;
     ++tracking.dots_measured;
-    Vec& of_symbol = tracking.off_q8[symbol];
-    of_symbol = of_symbol + off_q8;
+    Vec& of_symbol = tracking.offset_q8[symbol];
+    of_symbol = of_symbol + offset_q8;
     const int i = row.i - kMiddleCell;
     row.mass += mass;
     row.mass_i += mass * i;
     row.mass_ii += mass * i * i;
-    row.off_q8 = row.off_q8 + off_q8;
-    row.off_i_q8 = row.off_i_q8 + Vec{off_q8.x * i, off_q8.y * i};
+    row.offset_q8 = row.offset_q8 + offset_q8;
+    row.offset_i_q8 = row.offset_i_q8 + Vec{offset_q8.x * i, offset_q8.y * i};
 }
 
 }  // namespace
@@ -130,7 +131,7 @@ bool begin_reading(Tracking& tracking) {
 
 void read_ready_dots(Tracking& tracking) {
     const Way way = way_of(tracking);
-    // A dot may reach a row farther than its square, except in the last row of the image.
+    // A dot may extend one row beyond its square, except in the last row of the image.
     const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
     const std::int32_t ready_q16 = (tracking.rows_taken - ahead - kHalf_px) * 65536 + 32767;
     TrackedRow* row = &tracking.grid_rows[static_cast<std::size_t>(tracking.first_cell)];

@@ -1,16 +1,16 @@
-// Read dots: the bits of a tracked frame, as its rows come in.
+// Read dots: the bits of a tracked frame, read while its rows arrive.
 #pragma once
 
 #include "core/stages.hpp"
 
 namespace dotpose::core {
 
-/// Begins to read, once the cells are fitted. Returns false if dots are too far from their
+/// Starts reading, after the cells are fitted. Returns false if dots are too far from their
 /// intersections.
 bool begin_reading(Tracking& tracking);
 
-/// Reads all dots that the rows taken so far show. Dots that the code has are measured, and how far
-/// they are off the cells is added up.
+/// Reads all dots in the rows taken so far. Measures the dots that agree with the code and
+/// accumulates their offsets from the predicted centres.
 void read_ready_dots(Tracking& tracking);
 
 }  // namespace dotpose::core

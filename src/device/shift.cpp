@@ -11,13 +11,13 @@
 namespace dotpose::core {
 
 Shifts::Shifts(const Tracking& tracking) {
-    // Columns within two spacings of the middle one are used, so that a turn hardly blurs the sums.
+    // Uses the columns within two spacings of the middle one, where a turn hardly blurs the sums.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
     // A turn of 4 degrees, 18/256, about the image centre moves the rows above it sideways.
     const int sideways_px = 18 * ((tracking.height_px - rows_) / 2) >> 8;
     const auto steps = [](int reach_px) {
-        return std::min((reach_px + kStep_px - 1) / kStep_px, kMostSteps);
+        return std::min((reach_px + kStep_px - 1) / kStep_px, kMaxSteps);
     };
     steps_ = {steps(tracking.reach_px + sideways_px), steps(tracking.reach_px)};
     // Dots are at most half a spacing from their intersections.
@@ -29,7 +29,7 @@ Shifts::Shifts(const Tracking& tracking) {
     divide_by_dots();
 }
 
-/// Sets the paper's level: the mean of the pixels that are lighter than the mean.
+/// Sets the paper level: the mean of the pixels that are lighter than the mean.
 void Shifts::measure_paper(const Tracking& tracking) {
     int threshold = 0;
     for (int round = 0; round < 2; ++round) {
@@ -52,7 +52,7 @@ void Shifts::measure_paper(const Tracking& tracking) {
 void Shifts::add_dots(const Tracking& tracking) {
     const int reach = kStep_px * steps_.y;
     // This number of cells around the middle one includes all dots within two spacings of its
-    // column, and those that may be shifted into the rows, however the grid is turned.
+    // column, and the dots that may be shifted into the rows, at any turn of the grid.
     constexpr int kAround = 5;
     const Vec middle = middle_cell(tracking);
     const auto around = [&](int cell) {
@@ -91,10 +91,10 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // With few dots the mean tells little, so it is divided by at least this number.
-    constexpr int kFewest = 6;
+    // Minimum divisor: means of fewer dots are unreliable and are reduced.
+    constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
-        const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kFewest);
+        const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);
         const int inverse_q12 = 4096 / dots;
         std::uint16_t* mean = row_of(y);
         for (const std::uint16_t* end = mean + 2 * steps_.x + 1; mean != end; ++mean)
@@ -102,7 +102,7 @@ void Shifts::divide_by_dots() {
     }
 }
 
-/// Clears the shifts around one that was returned.
+/// Clears the shifts around a returned one.
 void Shifts::forget_around(Vec at) {
     constexpr int kFar = 2;
     for (int y = std::max<std::int32_t>(at.y - kFar, 0);
@@ -128,7 +128,7 @@ bool Shifts::next(Vec& shift_q8) {
     }
     if (best == 0) return false;
     constexpr int kStep_q8 = kStep_px * 256;
-    // The maximum lies between steps; the neighbours show where.
+    // Interpolates the maximum between steps from its neighbours.
     const auto between = [](int before, int here, int after) {
         return (after - before) * kStep_q8 / std::max(before + here + after, 1);
     };

@@ -7,15 +7,15 @@
 
 namespace dotpose::core {
 
-/// Mean darkness at each possible shift, over the places where the code has dots near the middle
-/// column of the image. Dots are displaced, so they agree only with their own places; if few are in
-/// view, those one spacing further may look nearly as good.
+/// Mean darkness at each possible shift, over the places of the dots of the code near the middle
+/// column of the image. The displacements of the dots make the correct shift the darkest. With few
+/// dots in view, shifts by one spacing may be nearly as dark.
 class Shifts {
   public:
-    /// Searches the rows kept by `tracking`.
+    /// Searches the rows stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Returns the likeliest shift that was not returned yet; false if there is nothing dark.
+    /// Returns the darkest shift that was not returned yet. Returns false if there is none.
     bool next(Vec& shift_q8);
 
     int paper_level() const { return paper_; }
@@ -25,27 +25,27 @@ class Shifts {
   private:
     /// Step between sampled pixels, in px: less than half a dot.
     static constexpr int kStep_px = 2;
-    /// Greatest number of steps from the middle of the search.
-    static constexpr int kMostSteps = 8;
-    static constexpr int kMostPerSide = 2 * kMostSteps + 1;
-    static constexpr int kPerRow = kMostPerSide + 2;
+    /// Maximum number of steps from the middle of the search.
+    static constexpr int kMaxSteps = 8;
+    static constexpr int kMaxPerSide = 2 * kMaxSteps + 1;
+    static constexpr int kPerRow = kMaxPerSide + 2;
 
     void measure_paper(const Tracking& tracking);
     void add_dots(const Tracking& tracking);
     void add_dot(const Tracking& tracking, int u, int v);
     void divide_by_dots();
-    /// Returns the sums of a row of steps; the elements before the first and after the last are 0.
+    /// Returns the sums of a row of steps. The elements before the first and after the last are 0.
     std::uint16_t* row_of(int y) { return sums_.data() + (y + 1) * kPerRow + 1; }
     void forget_around(Vec at);
 
     int left_ = 0;
     int right_ = 0;
     int rows_ = 0;
-    Vec steps_;  ///< number of steps to each side
+    Vec steps_;  ///< number of steps on each side
     int paper_ = 0;
     int cut_ = 0;
     int depth_ = 0;
-    std::array<std::uint8_t, kMostPerSide> dots_{};        ///< number of dots summed in each row
+    std::array<std::uint8_t, kMaxPerSide> dots_{};         ///< number of dots summed in each row
     std::array<std::uint16_t, kPerRow * kPerRow> sums_{};  ///< sums of darkness, later means
 };
 

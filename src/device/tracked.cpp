@@ -15,24 +15,24 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of shifts that are tried: the true one is hardly ever beyond the second.
-constexpr int kMostShifts = 4;
+/// Number of shifts that are tried. The correct one is almost always the first or second.
+constexpr int kMaxShifts = 4;
 
-/// Moves the cells to where the first rows show their dots. Errors: not_tracked.
+/// Moves the cells to the dots in the first rows. Errors: not_tracked.
 Status settle(Tracking& tracking) {
     Shifts shifts(tracking);
     const int paper = shifts.paper_level();
     if (paper == 0) return Status::not_tracked;
     const Vec predicted_q16 = tracking.cells.origin_q16;
-    for (int tried = 0; tried < kMostShifts; ++tried) {
+    for (int tried = 0; tried < kMaxShifts; ++tried) {
         Vec shift_q8;
         if (!shifts.next(shift_q8) || shifts.depth() < tracking.min_contrast)
             return Status::not_tracked;
         tracking.cells.origin_q16 = predicted_q16 + Vec{shift_q8.x * 256, shift_q8.y * 256};
-        // Until the size of dots is known, any blob half way between paper and ink may be a dot.
+        // Until the size of dots is measured, the threshold is half way between paper and ink.
         tracking.cut_q8 = 128 * shifts.depth() / paper;
-        tracking.least_mass = paper / 8 + 16;
-        tracking.most_mass = INT16_MAX;
+        tracking.min_mass = paper / 8 + 16;
+        tracking.max_mass = INT16_MAX;
         if (find_turn(tracking)) return Status::ok;
     }
     return Status::not_tracked;
@@ -54,7 +54,7 @@ Status read_rows(Workspace& w) {
     return Status::ok;
 }
 
-/// Finds from bits and dots whether the place is certain, and fits the pose. Errors: not_tracked.
+/// Decides from bits and dots if the place is certain, and fits the pose. Errors: not_tracked.
 Status confirm(const Options& options, Workspace& w) {
     Tracking& t = w.tracking;
     if (t.status != Status::ok) return t.status;
@@ -83,11 +83,12 @@ Status begin_device_tracked(int width_px, int height_px, const Options& options,
     t.first_kept = 0;
     t.min_contrast = static_cast<std::uint8_t>(options.min_contrast);
     t.dots_measured = 0;
-    t.off_q8 = {};
-    // Frames of a bent lens are not tracked, but located without a prediction.
+    t.offset_q8 = {};
+    // Frames with lens distortion are not tracked, but located without the prediction.
     t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.profile, t)
                                        : Status::not_tracked;
-    // Where there is time for a fresh fix of the whole frame, that is more exact than its middle.
+    // Locators with memory for every stage have time for a fresh fix of the whole frame, which is
+    // more exact than its middle.
     if (w.keeps_every_stage && t.left_out_px > 0) t.status = Status::not_tracked;
     t.rows_taken = -t.rows_above;
     if (t.status == Status::ok) lay_tracked_lines(options.profile, t);
@@ -99,7 +100,7 @@ Status push_tracked_row(const std::uint8_t* pixels, Workspace& w) {
     const bool is_tracked =
         static_cast<unsigned>(t.rows_taken) < static_cast<unsigned>(t.height_px);
     if (t.status != Status::ok || !is_tracked) {
-        // A row above the part that is tracked, or below.
+        // A row above or below the tracked part.
         if (t.rows_taken < 0) ++t.rows_taken;
         return t.status;
     }

@@ -11,8 +11,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns by how many bits masses, and sums weighted with them, are to be shifted right. All
-/// masses together are below 2^16 then and all sums below 2^31, as dots are at most 416/256 px off.
+/// Returns the right shift of masses and of the sums weighted with them. After the shift, the sum
+/// of all masses is below 2^16 and all sums are below 2^31, because offsets are at most 416/256 px.
 int excess_bits(const Tracking& tracking) {
     std::uint32_t mass = 0;
     for (const TrackedRow& row : tracking.grid_rows)
@@ -20,12 +20,12 @@ int excess_bits(const Tracking& tracking) {
     return std::max(static_cast<int>(std::bit_width(mass)) - 16, 0);
 }
 
-/// Returns the fit of the dots' offsets from the cells, as a plane over the cells. Its points are
-/// counted by their mass.
+/// Returns the fit of the offsets of the dots from the cells, as a plane over the cells. Points are
+/// weighted with their masses.
 AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     std::int32_t mass = 0;
     Vec cells;
-    Vec off_q8;
+    Vec offset_q8;
     AffineFitInt32::Products<std::int32_t> sums;
     for (int j = tracking.first_cell; j <= tracking.last_cell; ++j) {
         const TrackedRow& row = tracking.grid_rows[static_cast<std::size_t>(j)];
@@ -33,24 +33,24 @@ AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
         const int from_middle = j - kMiddleCell;
         const std::int32_t mass_here = row.mass >> excess;
         const std::int32_t mass_i = row.mass_i >> excess;
-        const Vec off_here{row.off_q8.x >> excess, row.off_q8.y >> excess};
+        const Vec offset_here{row.offset_q8.x >> excess, row.offset_q8.y >> excess};
         mass += mass_here;
         cells = cells + Vec{mass_i, from_middle * mass_here};
-        off_q8 = off_q8 + off_here;
+        offset_q8 = offset_q8 + offset_here;
         sums.xx += row.mass_ii >> excess;
         sums.xy += from_middle * mass_i;
         sums.yy += from_middle * from_middle * mass_here;
-        sums.ix += row.off_i_q8.x >> excess;
-        sums.iy += from_middle * off_here.x;
-        sums.jx += row.off_i_q8.y >> excess;
-        sums.jy += from_middle * off_here.y;
+        sums.ix += row.offset_i_q8.x >> excess;
+        sums.iy += from_middle * offset_here.x;
+        sums.jx += row.offset_i_q8.y >> excess;
+        sums.jy += from_middle * offset_here.y;
     }
-    return {mass, cells, off_q8, sums};
+    return {mass, cells, offset_q8, sums};
 }
 
-/// Returns the cells with the fitted offsets added.
+/// Returns the cells plus the fitted offsets.
 CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
-    // The fit takes points for 1/8 px. Here they are whole cells, so slopes are divided by 8.
+    // The fit expects points in 1/8 px. Here they are whole cells, so slopes are divided by 8.
     constexpr int kShift = 24 + 3 - 16;
     const Vec du_q16{offsets.du_q24.x >> kShift, offsets.du_q24.y >> kShift};
     const Vec dv_q16{offsets.dv_q24.x >> kShift, offsets.dv_q24.y >> kShift};
@@ -59,12 +59,13 @@ CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
             cells.along_x_q16 + du_q16, cells.along_y_q16 + dv_q16};
 }
 
-/// Sets the plane to the inverse of the cells' map. Returns false if cells are less than 1 px^2.
+/// Sets the plane to the inverse of the map of the cells. Returns false if cells are smaller than 1
+/// px^2.
 bool invert(const CellMap& cells, Vec centre_q8, PlaneFromImage& plane) {
     const Vec x = cells.along_x_q16;
     const Vec y = cells.along_y_q16;
     const std::int64_t det_q24 = cross(x, y) >> 8;
-    // A few dots may give any result. With cells of more than 1 px^2 no slope overflows.
+    // A fit to a few dots may have any result. With cells of at least 1 px^2, no slope overflows.
     if (det_q24 < 1 << 24) return false;
     const auto slope_q24 = [&](std::int32_t a_q16) {
         return short_quotient(std::int64_t{a_q16} << 32, det_q24);
@@ -85,13 +86,13 @@ bool invert(const CellMap& cells, Vec centre_q8, PlaneFromImage& plane) {
     return true;
 }
 
-/// Returns by which share of its length the mean displacement exceeds that of the cells, in 2^-12.
-std::int32_t longer_q12(const Tracking& tracking, int excess, std::int32_t mass) {
+/// Returns the relative excess of the mean displacement over that of the cells, in 2^-12.
+std::int32_t relative_excess_q12(const Tracking& tracking, int excess, std::int32_t mass) {
     std::int64_t along = 0;
-    for (std::size_t s = 0; s < tracking.off_q8.size(); ++s) {
+    for (std::size_t s = 0; s < tracking.offset_q8.size(); ++s) {
         const Vec displaced_q16 = tracking.displaced_q16[s];
         along += dot(Vec{displaced_q16.x >> 8, displaced_q16.y >> 8},
-                     Vec{tracking.off_q8[s].x >> excess, tracking.off_q8[s].y >> excess});
+                     Vec{tracking.offset_q8[s].x >> excess, tracking.offset_q8[s].y >> excess});
     }
     const Vec up_q16 = tracking.displaced_q16[static_cast<std::size_t>(Symbol::up)];
     const std::int64_t squared_q16 = squared(Vec{up_q16.x >> 8, up_q16.y >> 8});
@@ -106,12 +107,13 @@ int fit_tracked_pose(const Tracking& tracking, PlaneFromImage& pattern_from_imag
     AffineFitInt32 fit = fit_of_offsets(tracking, excess);
     const std::int32_t length_q12 = tracking.displacement_q12;
     displacement_q16 =
-        16 * (length_q12 + ((length_q12 * longer_q12(tracking, excess, fit.count())) >> 12));
+        16 *
+        (length_q12 + ((length_q12 * relative_excess_q12(tracking, excess, fit.count())) >> 12));
     PlaneFromImage offsets{};
     const Vec centre_q8{(tracking.width_px - 1) * 128, (tracking.height_px - 1) * 128};
-    const bool is_told = fit.solve(8, offsets) &&
-                         invert(corrected(tracking.cells, offsets), centre_q8, pattern_from_image);
-    return is_told ? tracking.dots_measured : 0;
+    const bool is_determined = fit.solve(8, offsets) && invert(corrected(tracking.cells, offsets),
+                                                               centre_q8, pattern_from_image);
+    return is_determined ? tracking.dots_measured : 0;
 }
 
 }  // namespace dotpose::core

@@ -12,17 +12,18 @@ namespace {
 
 /// Number of rings of cells around the middle one.
 constexpr int kRounds = 4;
-/// Fewest dots that must be as in the code, and their least share, in 1/8, of the dots measured.
-constexpr int kLeastDots = 12;
-constexpr int kLeastShare_q3 = 6;
-/// Number of dots from which their share is judged.
-constexpr int kTelling = 8;
+/// Minimum number of dots that agree with the code, and minimum fraction of the measured dots, in
+/// 1/8, that agree.
+constexpr int kMinDots = 12;
+constexpr int kMinFraction_q3 = 6;
+/// Minimum number of measured dots at which the fraction is tested.
+constexpr int kMinMeasured = 8;
 
 /// Least squares of a shift, a turn and a stretch: offset = shift + stretch p + turn J p, where J
 /// is a quarter turn.
 class SimilarityFit {
   public:
-    /// Adds a dot by its place in px from the middle and its offset in 2^-8 px.
+    /// Adds a dot with its place in px from the middle and its offset in 2^-8 px.
     void add(Vec p, Vec offset_q8) {
         ++count_;
         p_ = p_ + p;
@@ -60,8 +61,7 @@ class SimilarityFit {
     std::int32_t across_ = 0;
 };
 
-/// Returns v stretched and turned, minus v.
-/// It is not inlined, because products of 64 bits take much code.
+/// Returns v stretched and turned, minus v. Not inlined: 64-bit products take much code.
 [[gnu::noinline]] Vec change(const SimilarityFit::Similarity& s, Vec v) {
     const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
     return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),
@@ -75,14 +75,14 @@ CellMap changed(const CellMap& cells, Vec middle_q16, const SimilarityFit::Simil
             cells.along_y_q16 + change(s, cells.along_y_q16)};
 }
 
-/// The dots measured, and the fit to those that are as in the code.
+/// The measured dots, and the fit to those that agree with the code.
 class Rounds {
   public:
     Rounds(Tracking& tracking, Vec middle_q16)
         : tracking_(tracking), before_(tracking.cells), middle_q16_(middle_q16) {}
 
-    /// Shifts the cells by the mean distance of the dots nearest the middle from their places,
-    /// whether they agree with the code or not.
+    /// Shifts the cells by the mean offset of the dots nearest the middle, also of those that
+    /// contradict the code.
     void recentre(Vec middle);
     /// Measures the dot of a cell and, if it agrees with the code, adds it to the fit.
     void measure(int i, int j);
@@ -119,7 +119,7 @@ void Rounds::recentre(Vec middle) {
         if (!measure_around(tracking_, place_q16(tracking_.cells, cell.x, cell.y), dot)) continue;
         const Symbol symbol = coded_symbol(tracking_, cell.x, cell.y);
         const Vec displaced_q16 = tracking_.displaced_q16[static_cast<std::size_t>(symbol)];
-        sum_q8 = sum_q8 + dot.off_q8 - Vec{displaced_q16.x >> 8, displaced_q16.y >> 8};
+        sum_q8 = sum_q8 + dot.offset_q8 - Vec{displaced_q16.x >> 8, displaced_q16.y >> 8};
         ++count;
     }
     if (count == 0) return;
@@ -129,19 +129,20 @@ void Rounds::recentre(Vec middle) {
 
 void Rounds::measure(int i, int j) {
     const Vec at_q16 = place_q16(tracking_.cells, i, j);
-    // Most cells around lie beyond the first rows.
+    // Most cells around the middle are outside the first rows.
     if (!is_kept(tracking_, pixel_at(at_q16), kHalf_px)) return;
     NearDot dot;
     if (!measure_around(tracking_, at_q16, dot)) return;
     ++seen_;
-    const Projections p = projections(tracking_, dot.off_q8);
+    const Projections p = projections(tracking_, dot.offset_q8);
     const Symbol symbol = coded_symbol(tracking_, i, j);
     if (symbol_of(p) != symbol) return;
     const Vec displaced_q16 = tracking_.displaced_q16[static_cast<std::size_t>(symbol)];
     const Vec was_q16 = place_q16(before_, i, j);
     const Vec p_q16 = was_q16 - middle_q16_;
     const Vec moved_q16 = at_q16 - was_q16 - displaced_q16;
-    fit_.add({p_q16.x >> 16, p_q16.y >> 16}, dot.off_q8 + Vec{moved_q16.x >> 8, moved_q16.y >> 8});
+    fit_.add({p_q16.x >> 16, p_q16.y >> 16},
+             dot.offset_q8 + Vec{moved_q16.x >> 8, moved_q16.y >> 8});
     masses_ += dot.mass;
     projections_q12_ += magnitude(p.x_q12) + magnitude(p.y_q12);
 }
@@ -183,20 +184,21 @@ bool find_turn(Tracking& tracking) {
     for (int round = 0; round <= kRounds && agree; ++round) {
         const int before = rounds.agreeing();
         visit_round(tracking, middle, round, [&](int i, int j) { rounds.measure(i, j); });
-        agree = rounds.seen() < kTelling || 8 * rounds.agreeing() >= kLeastShare_q3 * rounds.seen();
-        // The cells move only after some rounds: the middle dot alone adds nothing to `recentre`,
-        // and the third round little to the second.
-        const bool tells = round % 2 == 0 ? round > 0 : round == 1;
-        if (tells && rounds.agreeing() > before) rounds.lay_cells();
+        agree = rounds.seen() < kMinMeasured ||
+                8 * rounds.agreeing() >= kMinFraction_q3 * rounds.seen();
+        // The cells move only after some rounds: the middle dot adds nothing to `recentre`, and the
+        // third round little to the second.
+        const bool moves_cells = round % 2 == 0 ? round > 0 : round == 1;
+        if (moves_cells && rounds.agreeing() > before) rounds.lay_cells();
     }
-    if (!agree || rounds.agreeing() < kLeastDots) {
+    if (!agree || rounds.agreeing() < kMinDots) {
         rounds.lay_cells_as_before();
         return false;
     }
     turn_back(rounds.similarity(), tracking);
     set_displacement(rounds.mean_displacement_q12(), tracking);
-    tracking.least_mass = rounds.mean_mass() * 3 / 8;
-    tracking.most_mass = rounds.mean_mass() * 5 / 2;
+    tracking.min_mass = rounds.mean_mass() * 3 / 8;
+    tracking.max_mass = rounds.mean_mass() * 5 / 2;
     return true;
 }
 

@@ -12,62 +12,62 @@
 
 namespace dotpose::core {
 
-/// Capacities of the workspace of a device: frames, dots and what is kept of them.
+/// Capacities of the workspace of a device: frames, dots and the data of the stages.
 struct DeviceCapacity {
     int width_px = 0;
-    int height_px = kMaxFrameSide_px;  ///< frames that are wider than low tiles reach must be lower
+    int height_px =
+        kMaxFrameSide_px;  ///< less for frames that are wider than kMaxSideWithLowTiles_px
     int dots = 0;
     int grid_side = 0;
-    // Runs and blobs of one row: many more than there are dots; those beyond are noise or graphics.
+    // Runs and blobs of one row: many more than dots. Further ones are noise or graphics.
     int runs = 0;
     int blobs = 0;
-    // Runs of a whole frame, limited to bound the time: dots have 500 in 188 x 120 px, and noisy
-    // frames that were located up to 1,900.
-    int most_runs = 0;
+    // Runs of a whole frame, limited to bound the time. Dots have 500 in 188 x 120 px; noisy frames
+    // that were located had up to 1,900.
+    int max_runs = 0;
 };
 
-/// Capacities by size of frame, for dots that are about 11 px apart. A size that is added here is
-/// also added to dotpose/memory.hpp.
+/// Capacities by size of frame, for a spacing of about 11 px. Each size is also listed in
+/// dotpose/memory.hpp.
 template <int Width, int Height>
 inline constexpr DeviceCapacity kDeviceCapacity{};
 template <>
 inline constexpr DeviceCapacity kDeviceCapacity<160, 120>{
-    .width_px = 160, .dots = 216, .grid_side = 20, .runs = 56, .blobs = 48, .most_runs = 1700};
+    .width_px = 160, .dots = 216, .grid_side = 20, .runs = 56, .blobs = 48, .max_runs = 1700};
 template <>
 inline constexpr DeviceCapacity kDeviceCapacity<188, 120>{
-    .width_px = 188, .dots = 256, .grid_side = 24, .runs = 64, .blobs = 56, .most_runs = 2000};
+    .width_px = 188, .dots = 256, .grid_side = 24, .runs = 64, .blobs = 56, .max_runs = 2000};
 template <>
 inline constexpr DeviceCapacity kDeviceCapacity<320, 240>{.width_px = 320,
-                                                          .height_px = kLargestWithLowTiles_px,
+                                                          .height_px = kMaxSideWithLowTiles_px,
                                                           .dots = 720,
                                                           .grid_side = 34,
                                                           .runs = 104,
                                                           .blobs = 96,
-                                                          .most_runs = 6800};
+                                                          .max_runs = 6800};
 
 /// Workspace of a DeviceLocator on a small microcontroller, for frames of one size: about 12 KB for
-/// 188 x 120 px. Stages use the same memory one after the other, so afterwards only what the last
-/// stage left can be shown. It lays spans into its memory and nothing else: the stages are compiled
-/// once for all sizes.
-template <DeviceCapacity kHas>
+/// 188 x 120 px. Stages share memory, so only the output of the last stage remains. The class only
+/// sets spans into its memory; the stages are compiled once for all sizes.
+template <DeviceCapacity kCapacity>
 class DeviceWorkspaceOf : public Workspace {
   public:
-    static_assert(kHas.width_px >= 64, "a size needs its capacities, kDeviceCapacity");
-    static_assert(kHas.width_px <= kLargestWithLowTiles_px ||
-                      kHas.height_px <= kLargestWithLowTiles_px,
+    static_assert(kCapacity.width_px >= 64, "a size needs its capacities, kDeviceCapacity");
+    static_assert(kCapacity.width_px <= kMaxSideWithLowTiles_px ||
+                      kCapacity.height_px <= kMaxSideWithLowTiles_px,
                   "there is room for low tiles only");
 
-    // The braces initialize all members at once: memory is cleared by one call. Code that stores
-    // each member would be 800 bytes longer.
+    // The braces clear all members by one call. Code that stores each member would be 800 bytes
+    // longer.
     DeviceWorkspaceOf() : Workspace{} {
-        max_width_px = kHas.width_px;
-        if constexpr (kHas.height_px != kMaxFrameSide_px) max_height_px = kHas.height_px;
+        max_width_px = kCapacity.width_px;
+        if constexpr (kCapacity.height_px != kMaxFrameSide_px) max_height_px = kCapacity.height_px;
         dots = memory_of<FreshDots>(dot_memory_).dots;
         auto& pixels = memory_of<PixelStages>(memory_);
-        light.rows = pixels.rows;
-        light.tiles = pixels.tiles;
-        light.half_low_levels = pixels.half_low_levels;
-        light.high_levels = pixels.high_levels;
+        threshold.rows = pixels.rows;
+        threshold.tiles = pixels.tiles;
+        threshold.half_low_levels = pixels.half_low_levels;
+        threshold.high_levels = pixels.high_levels;
         open.blobs = pixels.blobs;
         open.runs = pixels.runs;
         auto& lattices = memory_of<LatticeStages>(memory_);
@@ -79,26 +79,26 @@ class DeviceWorkspaceOf : public Workspace {
         auto& decoders = memory_of<DecodeStages>(memory_);
         grid.storage = decoders.cells;
         line_scores = decoders.line_scores;
-        grid.side = kHas.grid_side;
+        grid.side = kCapacity.grid_side;
         auto& tracked = memory_of<TrackedStages>(memory_);
         tracking.rows = tracked.rows;
         tracking.lines = tracked.lines;
         tracking.grid_rows = memory_of<TrackedDots>(dot_memory_).grid_rows;
-        open.most_runs = kHas.most_runs;
+        open.max_runs = kCapacity.max_runs;
     }
     DeviceWorkspaceOf(const DeviceWorkspaceOf&) = delete;
     DeviceWorkspaceOf& operator=(const DeviceWorkspaceOf&) = delete;
 
   private:
-    static constexpr int kTiles = kHas.width_px / kTileWidth_px + 1;
+    static constexpr int kTiles = kCapacity.width_px / kTileWidth_px + 1;
     static constexpr int kLevels = kTiles * kTileWidth_px + kReadAhead_px;
     static constexpr int kSeeds = 64;
 
     struct PixelStages {
         alignas(8)
             std::array<std::uint8_t, 2 * kLowTile_px * kTiles * kTileWidth_px + kReadAhead_px> rows;
-        std::array<OpenBlob, kHas.blobs> blobs;
-        std::array<Run, 2 * kHas.runs> runs;
+        std::array<OpenBlob, kCapacity.blobs> blobs;
+        std::array<Run, 2 * kCapacity.runs> runs;
         alignas(8) std::array<std::uint8_t, kLevels> half_low_levels;
         alignas(8) std::array<std::uint8_t, kLevels> high_levels;
         std::array<Tile, 4 * kTiles> tiles;
@@ -111,18 +111,18 @@ class DeviceWorkspaceOf : public Workspace {
         std::array<std::uint16_t, kSeeds> seeds;
     };
     struct DecodeStages {
-        std::array<GridCell, kHas.grid_side * kHas.grid_side> cells;
-        std::array<ScoredLine, 2 * kHas.grid_side> line_scores;
+        std::array<GridCell, kCapacity.grid_side * kCapacity.grid_side> cells;
+        std::array<ScoredLine, 2 * kCapacity.grid_side> line_scores;
     };
     struct TrackedStages {
-        std::array<std::uint8_t, 36 * kHas.width_px> rows;
-        std::array<TrackedLine, 2 * kMostTracked> lines;
+        std::array<std::uint8_t, 36 * kCapacity.width_px> rows;
+        std::array<TrackedLine, 2 * kMaxTracked> lines;
     };
     struct FreshDots {
-        std::array<Dot, kHas.dots> dots;
+        std::array<Dot, kCapacity.dots> dots;
     };
     struct TrackedDots {
-        std::array<TrackedRow, kMostTracked> grid_rows;
+        std::array<TrackedRow, kMaxTracked> grid_rows;
     };
 
     template <typename Stages, std::size_t Size>

@@ -74,7 +74,7 @@ bool read_hypothesis(const Kernels& kernels, const Options& options, const Patch
     hypothesis.pattern_from_image = turned(quarters, grid.grid_from_image);
     hypothesis.from_centre = from_centre;
     hypothesis.displacement = grid.displacement;
-    hypothesis.depth_q8 = patch.depth_q8;
+    hypothesis.depth_q8 = patch.dot_contrast_q8;
     return true;
 }
 
@@ -133,7 +133,7 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, cons
         return false;
     }
     keep_isolated(patch);
-    if (!count_from_densest(patch, view, from_middle)) return false;
+    if (!move_origin_to_densest(patch, view, from_middle)) return false;
     densest_px = {static_cast<std::int32_t>(middle_u_px(patch) + from_middle.x),
                   static_cast<std::int32_t>(middle_v_px(patch) + from_middle.y)};
     const FloatVec middle = middle_of(patch, image);

@@ -27,7 +27,7 @@ bool fit_pattern(const Options& options, const ImageView& image, DesktopWorkspac
     w.pattern_from_image =
         upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
     w.dot_count = measure_dots(image, options.lens, w.pattern_from_image, nominal, w.grid, w.dots);
-    undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));
+    undistort(options.lens, image_centre_q8(w.threshold), first(w.dots, w.dot_count));
     w.seed_count = 0;  // the seeds refer to the previous dots
     const Observations observations(w.found_dots(), w.grid, nominal, &w.smoothing.paper);
     return refine_pose(observations, w.pattern_from_image, fit);
@@ -36,7 +36,7 @@ bool fit_pattern(const Options& options, const ImageView& image, DesktopWorkspac
 Status measure_pose(const Options& options, const ImageView& image, DesktopWorkspace& w) {
     PoseFit fit;
     if (!fit_pattern(options, image, w, fit)) return Status::no_grid;
-    const Vec reference = reference_q8(image_centre_q8(w.light), options);
+    const Vec reference = reference_q8(image_centre_q8(w.threshold), options);
     const Nominal nominal(w.grid, options.profile, w.decoding);
     fit_uneven(kernels(), {w.found_dots(), w.grid, nominal}, reference, w.measured,
                w.pattern_from_image, fit);

@@ -42,7 +42,7 @@ void detect_filtered(const ImageView& image, const Options& filtered, DesktopWor
 
 /// Finds the grid of the dots, also with tilt and lens distortion. Slower than `find_grid`.
 Status find_grid_thoroughly(const Options& options, DesktopWorkspace& w) {
-    const Vec centre_q8 = image_centre_q8(w.light);
+    const Vec centre_q8 = image_centre_q8(w.threshold);
     Status status = find_axes(centre_q8, kMaxSeeds, w);
     if (status != Status::ok) return status;
     const Lattice estimate = w.lattice;
@@ -124,7 +124,7 @@ Status read_filtered(const ImageView& image, const Options& options, DesktopWork
     const Status status = read_filtered_with(filtered, image, w);
     const int pale = (options.threshold.min_contrast + tuned::kPaleParts - 1) / tuned::kPaleParts;
     const bool may_be_pale = (status == Status::no_contrast || status == Status::too_few_dots) &&
-                             w.light.greatest_contrast >= pale;
+                             w.threshold.max_contrast >= pale;
     if (!may_be_pale) return status;
     const Fix seen = w.fix;
     filtered.threshold.min_contrast = pale;

@@ -100,10 +100,10 @@ class WorkspaceOf : public DesktopWorkspace {
         smoothing.paper.levels = papers_;
         smoothing.paper.brightest = brightest_papers_;
         smoothing.column_sums = smooth_sums_;
-        light.rows = rows_;
-        light.tiles = tiles_;
-        light.half_low_levels = half_low_levels_;
-        light.high_levels = high_levels_;
+        threshold.rows = rows_;
+        threshold.tiles = tiles_;
+        threshold.half_low_levels = half_low_levels_;
+        threshold.high_levels = high_levels_;
         open.runs = runs_;
         open.blobs = blobs_;
         dots = dots_;
@@ -123,9 +123,9 @@ class WorkspaceOf : public DesktopWorkspace {
     WorkspaceOf& operator=(const WorkspaceOf&) = delete;
 
   private:
-    // Small images have low tiles, larger ones high tiles: see `begin_light`.
+    // Small images have low tiles, larger ones high tiles: see `begin_threshold`.
     static constexpr int kBand_px =
-        MaxWidth <= kLargestWithLowTiles_px ? kLowTile_px : kHighTile_px;
+        MaxWidth <= kMaxSideWithLowTiles_px ? kLowTile_px : kHighTile_px;
     static constexpr int kTiles = MaxWidth / kTileWidth_px + 1;
     static constexpr int kLevels = kTiles * kTileWidth_px + kReadAhead_px;
     // Every second pixel may begin a run, and every run a blob.
@@ -163,8 +163,8 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<GridCell, GridSide * GridSide> cells_{};
     std::array<ScoredLine, 2 * std::min(GridSide, kMaxLines)> line_scores_{};
     std::array<std::uint8_t, 36 * std::min(MaxWidth, 376)> tracked_rows_{};
-    std::array<TrackedLine, 2 * kMostTracked> tracked_lines_{};
-    std::array<TrackedRow, kMostTracked> grid_rows_{};
+    std::array<TrackedLine, 2 * kMaxTracked> tracked_lines_{};
+    std::array<TrackedRow, kMaxTracked> grid_rows_{};
     std::array<std::uint8_t, kPushed_px> pushed_;
 };
 

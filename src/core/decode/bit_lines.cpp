@@ -22,7 +22,7 @@ std::uint64_t reversed(std::uint64_t word) {
     return __builtin_bswap64(word);
 }
 
-/// Returns the lines in the opposite order; bits within each stay.
+/// Returns the lines in reverse order. The bits of each line keep their order.
 BitLines in_opposite_order(const BitLines& lines) {
     BitLines result = lines;
     std::reverse(result.bits.begin(), result.bits.end());
@@ -30,8 +30,8 @@ BitLines in_opposite_order(const BitLines& lines) {
     return result;
 }
 
-/// Returns each line read backwards with its bits flipped, as half a turn does; the order of lines
-/// stays.
+/// Returns each line reversed with its bits flipped, as half a turn does. The lines keep their
+/// order.
 BitLines backwards(const BitLines& lines) {
     BitLines result;
     for (std::size_t i = 0; i < lines.bits.size(); ++i) {
@@ -42,8 +42,8 @@ BitLines backwards(const BitLines& lines) {
     return result;
 }
 
-/// Returns the range of lines that have bits; if these are more than `most`, the middle ones.
-LineRange lines_with_bits(const BitLines& lines, int most) {
+/// Returns the range of lines with bits, or the middle `max_count` lines of a longer range.
+LineRange lines_with_bits(const BitLines& lines, int max_count) {
     int first = 0;
     int last = BitBlock::kSide - 1;
     while (first < BitBlock::kSide && lines.valid[static_cast<std::size_t>(first)] == 0)
@@ -51,12 +51,12 @@ LineRange lines_with_bits(const BitLines& lines, int most) {
     while (last > first && lines.valid[static_cast<std::size_t>(last)] == 0)
         --last;
     const int count = std::max(last - first + 1, 0);
-    if (count <= most) return {first, count};
-    return {std::clamp(BitBlock::kMiddle - most / 2, first, last + 1 - most), most};
+    if (count <= max_count) return {first, count};
+    return {std::clamp(BitBlock::kMiddle - max_count / 2, first, last + 1 - max_count), max_count};
 }
 
-/// Returns how much better a line scores backwards than forwards. A line that is exact in one
-/// direction is so by chance if it has six bits, and with each further bit half as often.
+/// Returns the score of a line backwards minus its score forwards. A line of six bits is exact in
+/// one direction by chance; each further bit halves the probability.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);
@@ -74,13 +74,13 @@ int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid
     return backwards.best.score - forwards.best.score;
 }
 
-/// Returns how much better some lines of the middle score backwards than forwards.
+/// Returns the sum of the scores of several middle lines backwards minus their scores forwards.
 int backwardness(const Kernels& kernels, const BitLines& lines) {
     constexpr int kVoters = tuning::turns::kVotersOfBits;
     const LineRange range = lines_with_bits(lines, BitBlock::kSide);
     int sum = 0;
     for (int voter = 0; voter < kVoters; ++voter) {
-        // Voters are from the middle half of the lines, which has the longest ones.
+        // Voters are in the middle half of the lines, where lines are longest.
         const auto i = static_cast<std::size_t>(range.first + range.count / 4 +
                                                 range.count * voter / (2 * kVoters));
         if (i >= lines.bits.size()) break;
@@ -103,8 +103,8 @@ Lines score_lines(const Kernels& kernels, const BitLines& lines, const LineRange
 
 }  // namespace
 
-BlockRanges ranges_with_bits(const BitBlock& block, int most) {
-    return {lines_with_bits(block.columns, most), lines_with_bits(block.rows, most)};
+BlockRanges ranges_with_bits(const BitBlock& block, int max_count) {
+    return {lines_with_bits(block.columns, max_count), lines_with_bits(block.rows, max_count)};
 }
 
 int likeliest_turn(const Kernels& kernels, const BitBlock& block) {
@@ -146,8 +146,8 @@ FloatPlane turned(int quarters, const FloatPlane& p) {
 
 BlockLines score_block(const Kernels& kernels, const BitBlock& block,
                        std::span<ScoredLine> storage) {
-    const int most = static_cast<int>(storage.size() / 2);
-    const auto [columns, rows] = ranges_with_bits(block, most);
+    const int max_count = static_cast<int>(storage.size() / 2);
+    const auto [columns, rows] = ranges_with_bits(block, max_count);
     return {columns.first, rows.first,
             score_lines(kernels, block.columns, columns, rows.first, scores_of(Axis::x, storage)),
             score_lines(kernels, block.rows, rows, columns.first, scores_of(Axis::y, storage))};
@@ -165,8 +165,8 @@ Place place_of_middle(Profile profile, int first_column, int first_row, const Ax
 }
 
 bool find_place(Profile profile, const BlockLines& lines, Place& place) {
-    constexpr int kFewestLines = 6;
-    if (lines.columns.count() < kFewestLines || lines.rows.count() < kFewestLines) return false;
+    constexpr int kMinLines = 6;
+    if (lines.columns.count() < kMinLines || lines.rows.count() < kMinLines) return false;
     AxisReading x;
     AxisReading y;
     if (find_axis_briefly(profile, lines.columns, x) != Status::ok ||

@@ -1,6 +1,6 @@
-// Bit lines: the bits of 64 x 64 cells as words, one for each column or row, so that turning,
-// comparing and counting them takes an instruction. Paper sections II-B.4 to II-B.7, with bits that
-// are read or not instead of probabilities.
+// Bit lines: the bits of 64 x 64 cells as words, one for each column or row. Lines are turned,
+// compared and counted by one instruction each. Paper sections II-B.4 to II-B.7, with hard bits
+// instead of probabilities.
 #pragma once
 
 #include "core/decode/lines.hpp"
@@ -17,7 +17,7 @@ struct BitBlock {
     BitLines rows;
 };
 
-/// Some lines in a row of a block, by index.
+/// Adjacent lines of a block, by index.
 struct LineRange {
     int first = 0;
     int count = 0;
@@ -27,10 +27,10 @@ struct BlockRanges {
     LineRange rows;
 };
 
-/// Returns the columns and rows that have bits; of more than `most` the middle ones.
-BlockRanges ranges_with_bits(const BitBlock& block, int most);
+/// Returns the columns and rows that have bits: at most `max_count` each, from the middle.
+BlockRanges ranges_with_bits(const BitBlock& block, int max_count);
 
-/// The lines of a block that are scored, and the cells that the first ones belong to.
+/// The lines of a block that are scored, and the cell indices of the first ones.
 struct BlockLines {
     int first_column = 0;
     int first_row = 0;
@@ -38,28 +38,28 @@ struct BlockLines {
     Lines rows;
 };
 
-/// Returns the number of quarter turns from the grid to the pattern that most lines near the middle
-/// vote for; apply it by `turned`.
+/// Returns the number of quarter turns from the grid to the pattern, by vote of lines near the
+/// middle. `turned` applies it.
 int likeliest_turn(const Kernels& kernels, const BitBlock& block);
 
-/// Returns the block turned upright on the pattern. After 0 to 3 quarters cell (i, j) is cell (i,
-/// j), (-1 - j, i), (-1 - i, -1 - j) or (j, -1 - i).
+/// Returns the block turned upright on the pattern. 0 to 3 quarter turns map cell (i, j) to (i, j),
+/// (-1 - j, i), (-1 - i, -1 - j) or (j, -1 - i).
 BitBlock turned(int quarters, const BitBlock& block);
-/// Returns the plane turned like the block, so that it gives the cells of the turned block.
+/// Returns the plane turned like the block. It maps image points to cells of the turned block.
 FloatPlane turned(int quarters, const FloatPlane& grid_from_image);
 
-/// Scores the lines of an upright block that have bits: of columns and rows each at most as many as
-/// half of the storage holds, those around the middle.
+/// Scores the lines of an upright block that have bits: at most as many columns, and as many rows,
+/// as half of the storage holds, from the middle.
 BlockLines score_block(const Kernels& kernels, const BitBlock& block,
                        std::span<ScoredLine> storage);
 
-/// Returns the place of cell (0, 0) of an upright block, of which the column `first_column` and the
-/// row `first_row`, by index, are read so.
+/// Returns the place of cell (0, 0) of an upright block, from the readings of the column
+/// `first_column` and the row `first_row`, by index.
 Place place_of_middle(Profile profile, int first_column, int first_row, const AxisReading& column,
                       const AxisReading& row);
 
-/// Finds the place of cell (0, 0) of an upright block. Returns false if the lines spell no
-/// position.
+/// Finds the place of cell (0, 0) of an upright block. Returns false if the lines have no position
+/// in the code.
 bool find_place(Profile profile, const BlockLines& lines, Place& place);
 
 }  // namespace dotpose::core

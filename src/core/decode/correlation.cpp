@@ -7,17 +7,17 @@
 namespace dotpose::core {
 namespace {
 
-/// Weights are summed in groups of kGroup, in all combinations of signs; kGroups groups at a time.
+/// Weights are summed in groups of kGroup, for all combinations of signs, kGroups groups at a time.
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
-/// Weights of two lines, or sums of them, in one number: both fit 16 bits, so a + 65536 b adds up
-/// like a single one.
+/// Weights of two lines, or sums of weights, packed into one number. Both fit 16 bits, so a + 65536
+/// b is added like a single number.
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
-/// The kGroup bits of the main sequence from each index on, the first in the lowest bit. They are
-/// stored as distances in bytes in Sums, to spare small processors a multiplication.
+/// The kGroup bits of the main sequence from each index on, the first in the lowest bit. Stored as
+/// byte offsets in Sums, which saves small processors a multiplication.
 constexpr auto kStrings = [] {
     std::array<std::uint8_t, 2 * kSections + kAtOnce> strings{};
     for (std::size_t i = 0; i < strings.size(); ++i) {
@@ -37,7 +37,7 @@ std::int32_t sum_at(const Sums& sums, std::uint8_t bytes) {
 
 using Line = std::span<const std::int8_t>;
 
-/// Collects the weights of both lines from `first` on, 0 after their ends.
+/// Copies the weights of both lines from `first` on, with 0 after their ends.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
     const auto rest = [&](Line line) {
         line = line.subspan(std::min(first, line.size()));
@@ -57,9 +57,8 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
     ((sums[sizeof...(I) + I] = sums[I] + 2 * weight), ...);
 }
 
-/// Sets the sum of a group of weights for each string of bits; a weight counts negative where the
-/// bit is 0.
-// Not inlined, as it is long: without loops it takes half of the time.
+/// Sets the sum of a group of weights for each string of bits. A weight is negated if its bit is 0.
+// Not inlined because it is long: unrolled, it takes half of the time.
 [[gnu::noinline]] void sum_signed(const std::int32_t* weights, Sums& sums) {
     static_assert(kGroup == 5);
     sums[0] = -(weights[0] + weights[1] + weights[2] + weights[3] + weights[4]);
@@ -81,7 +80,7 @@ void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineSco
         std::int32_t sum = sum_at(sums[0], string[0]);
         for (std::size_t group = 1; group < Groups; ++group)
             sum += sum_at(sums[group], string[group * kGroup]);
-        // This is (sum + 0x8000) >> 16, without a constant that takes a register.
+        // (sum + 0x8000) >> 16, without a constant that needs a register.
         const std::int32_t of_b = ((sum >> 15) + 1) >> 1;
         *a = static_cast<std::int16_t>(Adds ? *a + sum : sum);
         *b = static_cast<std::int16_t>(Adds ? *b + of_b : of_b);
@@ -94,7 +93,7 @@ void correlate_both(Line a, Line b, LineScores& scores_a, LineScores& scores_b) 
     const auto are_zero = [&](std::size_t i) {
         return (i >= a.size() || a[i] == 0) && (i >= b.size() || b[i] == 0);
     };
-    // Lines of a grid that is askew in the image are empty at both ends.
+    // Lines of a grid that is oblique in the image are empty at both ends.
     std::size_t end = std::max(a.size(), b.size());
     std::size_t first = 0;
     while (first < end && are_zero(first))
@@ -124,7 +123,7 @@ void correlate(std::span<const std::int8_t> weights, LineScores& scores) {
     correlate_both(weights, {}, scores, none);
 }
 
-// Not inlined, as it is long when unrolled.
+// Not inlined because it is long when unrolled.
 [[gnu::noinline]] Match next_match(const LineScores& scores, Match last) {
     std::int32_t best = INT32_MIN;
     std::size_t roll = 0;
@@ -156,14 +155,14 @@ BestScore best_score(const LineScores& scores) {
 }
 
 Extremes extremes_of(const LineScores& scores) {
-    std::int32_t most = scores[0];
-    std::int32_t least = scores[0];
+    std::int32_t max = scores[0];
+    std::int32_t min = scores[0];
 #pragma GCC unroll 7
     for (const std::int32_t score : scores) {
-        if (score > most) most = score;
-        if (score < least) least = score;
+        if (score > max) max = score;
+        if (score < min) min = score;
     }
-    return {most, least};
+    return {max, min};
 }
 
 }  // namespace dotpose::core

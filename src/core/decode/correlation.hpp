@@ -14,29 +14,28 @@ struct Match {
     std::uint8_t roll = 0;
 };
 
-/// Sets the score of each roll o: the sum of the weights that agree with the main sequence from
-/// index o on, minus those that do not. Doubtful bits have small weights. At most 256 weights in
-/// [-127, 127].
+/// Sets the score of each roll o: the sum of the weights whose signs agree with the main sequence
+/// from index o on, minus the sum of the others. Doubtful bits have small weights. At most 256
+/// weights in [-127, 127].
 void correlate(std::span<const std::int8_t> weights, LineScores& scores);
 
-/// Correlates two lines in little more time than one.
+/// Correlates two lines in little more time than one line.
 void correlate_both(std::span<const std::int8_t> a, std::span<const std::int8_t> b,
                     LineScores& scores_a, LineScores& scores_b);
 
-/// Returns the roll with the best score, the smallest of equal ones.
+/// Returns the roll with the best score. Ties are broken by the smallest roll.
 Match best_match(const LineScores& scores);
 
-/// Returns the best of the matches after `last`: those with a lower score, or an equal score and a
-/// larger roll.
+/// Returns the best match after `last`: a lower score, or an equal score and a larger roll.
 Match next_match(const LineScores& scores, Match last);
 
 /// Returns the best score and its margin over the second best.
 BestScore best_score(const LineScores& scores);
 
-/// The largest and the smallest score of a line.
+/// The maximum and the minimum score of a line.
 struct Extremes {
-    std::int32_t most = 0;
-    std::int32_t least = 0;
+    std::int32_t max = 0;
+    std::int32_t min = 0;
 };
 
 Extremes extremes_of(const LineScores& scores);

@@ -10,7 +10,7 @@
 namespace dotpose::core {
 namespace {
 
-/// The index in the main sequence of each string of six bits, the first in the lowest bit.
+/// Index in the main sequence of each string of six bits, the first in the lowest bit.
 constexpr auto kIndexOfBits = [] {
     std::array<std::uint8_t, 64> indices{};
     indices.fill(code::kAbsent);
@@ -23,7 +23,7 @@ int below_sections(int roll) {
     return roll < kSections ? roll : roll - kSections;
 }
 
-/// Returns 64 bits of the main sequence from an index on.
+/// Returns the 64 bits of the main sequence from an index on.
 std::uint64_t main_word(int index) {
     const auto next = static_cast<std::size_t>(below_sections(index + 32));
     return code::kMainWords[static_cast<std::size_t>(index)] | std::uint64_t{code::kMainWords[next]}
@@ -42,7 +42,7 @@ bool find_axis_exactly(Profile profile, const BitLines& lines, const LineRange& 
     };
     const auto length = static_cast<std::size_t>(run_length(profile));
     std::array<std::uint8_t, BitBlock::kSide> rolls;
-    // Lines in the middle are longest, and so surest.
+    // The middle lines are longest and therefore most reliable.
     std::size_t end = count / 4;
     for (std::size_t run = 0; run < length; ++end) {
         if (end == count) return false;
@@ -61,7 +61,7 @@ bool find_axis_exactly(Profile profile, const BitLines& lines, const LineRange& 
     int wrong = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const int here = below_sections(reading.roll + rolls[i]);
-        // Most lines have no wrong bit; many processors lack an instruction that counts them.
+        // Most lines have no wrong bit. Many processors lack an instruction that counts bits.
         std::uint64_t differ = (bits(i) ^ main_word(here)) & valid(i);
         for (; differ != 0; differ &= differ - 1)
             ++wrong;

@@ -10,18 +10,19 @@ struct Extent {
     int count = 0;
 };
 
-/// Returns the cells from `least` to `most`, or as many as there is room for around the origin.
-Extent extent(int least, int most, int capacity) {
-    if (most - least < capacity) return {least, most - least + 1};
-    const int first = std::clamp(-capacity / 2, least, most - capacity + 1);
+/// Returns the cells from `min` to `max`, or the `capacity` cells around the origin if there are
+/// more.
+Extent extent(int min, int max, int capacity) {
+    if (max - min < capacity) return {min, max - min + 1};
+    const int first = std::clamp(-capacity / 2, min, max - capacity + 1);
     return {first, capacity};
 }
 
 }  // namespace
 
-void lay_out(Vec least, Vec most, Grid& grid) {
-    const Extent columns = extent(least.x, most.x, grid.side);
-    const Extent rows = extent(least.y, most.y, grid.side);
+void lay_out(Vec min, Vec max, Grid& grid) {
+    const Extent columns = extent(min.x, max.x, grid.side);
+    const Extent rows = extent(min.y, max.y, grid.side);
     grid.i0 = columns.first;
     grid.columns = columns.count;
     grid.j0 = rows.first;
@@ -44,19 +45,19 @@ namespace {
 /// Fills the grid from all dots. `point_of(dot)` returns the place of a dot in the grid.
 template <typename PointOf>
 Status assign(std::span<const Dot> dots, PointOf point_of, Grid& grid) {
-    Vec least{INT32_MAX, INT32_MAX};
-    Vec most{INT32_MIN, INT32_MIN};
+    Vec min{INT32_MAX, INT32_MAX};
+    Vec max{INT32_MIN, INT32_MIN};
     for (const Dot& dot : dots) {
         const Vec cell = point_of(dot).cell;
-        least = {std::min(least.x, cell.x), std::min(least.y, cell.y)};
-        most = {std::max(most.x, cell.x), std::max(most.y, cell.y)};
+        min = {std::min(min.x, cell.x), std::min(min.y, cell.y)};
+        max = {std::max(max.x, cell.x), std::max(max.y, cell.y)};
     }
-    if (dots.empty() || most.x - least.x + 1 < kWindowSide || most.y - least.y + 1 < kWindowSide) {
+    if (dots.empty() || max.x - min.x + 1 < kWindowSide || max.y - min.y + 1 < kWindowSide) {
         return Status::grid_too_small;
     }
-    lay_out(least, most, grid);
+    lay_out(min, max, grid);
 
-    // With a local copy, small processors need not read the grid's members anew for each dot.
+    // A local copy: small processors would reload the members of the grid for each dot.
     const Grid here = grid;
     const auto columns = static_cast<unsigned>(here.columns);
     const auto rows = static_cast<unsigned>(here.rows);
@@ -65,7 +66,7 @@ Status assign(std::span<const Dot> dots, PointOf point_of, Grid& grid) {
         const GridPoint g = point_of(dot);
         const auto i = static_cast<unsigned>(g.cell.x - here.i0);
         const auto j = static_cast<unsigned>(g.cell.y - here.j0);
-        // Eq. 7-8. differs: with y down, left and down mean x bit 1, right and down y bit 1.
+        // Eq. 7-8. differs: with y down, x bit 1 is left and down, y bit 1 is right and down.
         if (i < columns && j < rows) {
             const GridCell read{quasi_probability(g.offset_q16.y - g.offset_q16.x),
                                 quasi_probability(g.offset_q16.y + g.offset_q16.x), index};

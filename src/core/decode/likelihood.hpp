@@ -1,4 +1,4 @@
-// Likelihood: how likely each bit of each dot is 1 or 0. Paper section II-B.4, eq. 7-9, Fig. 7-8.
+// Likelihood: probabilities of the bits of each dot. Paper section II-B.4, eq. 7-9, Fig. 7-8.
 #pragma once
 
 #include "core/stages.hpp"
@@ -10,20 +10,21 @@ namespace dotpose::core {
 /// in [-127, 127].
 std::int8_t quasi_probability(std::int32_t projection_q16);
 
-/// Empties the grid and lays it over the cells from `least` to `most`, or over the middle ones if
-/// there are more than it holds.
-void lay_out(Vec least, Vec most, Grid& grid);
+/// Clears the grid and sets its extent to the cells from `min` to `max`, or to the middle cells if
+/// there are more than its capacity.
+void lay_out(Vec min, Vec max, Grid& grid);
 
-/// Fills the matrices P of Fig. 8 from all dots. Of a larger grid only the middle `grid.side` cells
-/// per axis are kept. Errors: grid_too_small.
+/// Fills the matrices P of Fig. 8 from all dots. A larger grid is cut to the middle `grid.side`
+/// cells per axis. Errors: grid_too_small.
 Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid);
 
-/// Fills the matrices from a grid without perspective and lens, which is faster.
+/// Fills the matrices through a plane without perspective and lens, which is faster.
 Status assign_affine_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
                                  Grid& grid);
 
-/// Returns |P^(x) P^(y)|, how clearly the cell's dot shows its symbol: at most 127 * 127.
+/// Returns the quality |P^(x) P^(y)| of a cell, which is large if its dot shows a symbol clearly:
+/// at most 127 * 127.
 inline int quality(const GridCell& cell) {
     const int product = cell.x * cell.y;
     return product < 0 ? -product : product;

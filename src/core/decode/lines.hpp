@@ -24,28 +24,28 @@ struct Lines {
     const BestScore& best(int line) const { return all[static_cast<std::size_t>(line)].best; }
 };
 
-/// Returns the half of the storage that is for one axis.
+/// Returns the half of the storage that belongs to an axis.
 inline std::span<ScoredLine> scores_of(Axis axis, std::span<ScoredLine> storage) {
     const std::size_t half = storage.size() / 2;
     return axis == Axis::x ? storage.first(half) : storage.last(half);
 }
 
-/// Scores all lines of the region; it may have at most as many as `storage` holds.
+/// Scores all lines of the region, at most as many as `storage` holds.
 Lines score_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
-/// Returns the lines that `score_lines` has left in the storage.
+/// Returns the lines that the last call of `score_lines` stored.
 Lines scored_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
-/// The position that the lines of one axis are read as.
+/// The position of the lines of one axis, with its score.
 struct AxisReading {
-    std::uint32_t position = 0;      ///< of the first line
-    std::uint8_t roll = 0;           ///< of the first line, at the first cell of the crossing lines
-    std::int32_t score = 0;          ///< sum over all lines
-    std::int32_t most_possible = 0;  ///< sum of the best score of each line alone
+    std::uint32_t position = 0;  ///< position of the first line
+    std::uint8_t roll = 0;   ///< roll of the first line, at the first cell of the crossing lines
+    std::int32_t score = 0;  ///< sum of the scores of all lines
+    std::int32_t max_possible = 0;  ///< sum of the best scores of all lines, whatever their rolls
 
-    /// Returns whether the score is so near the most possible that no other reading can come near
-    /// it.
-    bool is_clear() const { return 8 * std::int64_t{score} > 7 * std::int64_t{most_possible}; }
+    /// Returns true if the score is so near the maximum that no other reading can have a similar
+    /// score.
+    bool is_clear() const { return 8 * std::int64_t{score} > 7 * std::int64_t{max_possible}; }
 };
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// Nominal: the symbol that the code puts at every cell of the grid, once the position is known.
+// Nominal: the symbols of the code in every cell of the grid, for a known position.
 #pragma once
 
 #include <array>
@@ -9,20 +9,19 @@
 
 namespace dotpose::core {
 
-/// The symbols that the code has in a grid.
+/// The symbols of the code in a grid.
 class Nominal {
   public:
     Nominal(const Grid& grid, Profile profile, const Decoding& decoding);
 
-    /// Returns the position of a grid cell on the pattern, relative to `Decoding::place`, in
-    /// spacings.
+    /// Returns the position of a grid cell on the pattern, in spacings from `Decoding::place`.
     Vec pattern_step(Vec grid_cell) const { return turn_(grid_cell); }
-    /// Returns the symbol at a position on the pattern that lies in the grid.
+    /// Returns the symbol at a position on the pattern, which must be in the grid.
     Symbol symbol(Vec pattern_step) const;
 
   private:
     Turn turn_;
-    Vec first_;  ///< least pattern step of the grid's cells
+    Vec first_;  ///< minimum pattern step of the cells of the grid
     /// Index in the main sequence of the first cell of each column and row.
     std::array<std::uint8_t, kMaxGridSide> columns_;
     std::array<std::uint8_t, kMaxGridSide> rows_;

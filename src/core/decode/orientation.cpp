@@ -7,11 +7,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Lines of each axis that vote on the turn; they are from the middle half, which has the longest
-/// ones.
+/// Number of lines per axis that vote on the turn. They are in the middle half, where lines are
+/// longest.
 constexpr int kVoters = tuning::turns::kVoters;
 
-/// The voting columns or rows of a region, and which of the bits of their cells is read.
+/// The voting columns or rows of a region, with the bit of their cells that is read.
 class Voters {
   public:
     Voters(const Grid& grid, const Region& region, bool are_columns, std::int8_t GridCell::*bit)
@@ -36,14 +36,14 @@ class Voters {
 
   private:
     const GridCell* first_;
-    int across_;  ///< cells from one line to the next
-    int along_;   ///< cells from one to the next within a line
+    int across_;  ///< index step between adjacent lines
+    int along_;   ///< index step within a line
     int length_;
-    int step_;  ///< lines from one voter to the next
+    int step_;  ///< number of lines between voters
     std::int8_t GridCell::*bit_;
 };
 
-/// Sums over the voters of the best score as they are, and with all bits flipped.
+/// Sums of the best scores of the voters, with their bits as read and with all bits flipped.
 struct Agreement {
     std::int32_t as_is = 0;
     std::int32_t flipped = 0;
@@ -58,8 +58,8 @@ Agreement agreement_by_pairs(const Voters& voters, bool reversed) {
                        scores[0], scores[1]);
         for (const LineScores& of_line : scores) {
             const Extremes extremes = extremes_of(of_line);
-            sum.as_is += extremes.most;
-            sum.flipped -= extremes.least;
+            sum.as_is += extremes.max;
+            sum.flipped -= extremes.min;
         }
     }
     return sum;
@@ -75,8 +75,8 @@ BothWays agreement(const Voters& voters) {
     return {agreement_by_pairs(voters, false), agreement_by_pairs(voters, true)};
 }
 
-/// Returns the most that the voters could agree with any sequence.
-std::int32_t most_possible(const Voters& voters) {
+/// Returns the maximum possible agreement of the voters with any sequence.
+std::int32_t max_possible(const Voters& voters) {
     std::int32_t sum = 0;
     Line storage;
     for (int i = 0; i < kVoters; ++i) {
@@ -96,8 +96,8 @@ std::int32_t best_agreement(const Voters& voters) {
 }  // namespace
 
 Orientation rank_turns(const Grid& grid, const Region& region) {
-    // differs: the paper counts lines that occur in the main sequence exactly. The sum of the best
-    // scores is the same vote, but lines with a misread bit still count.
+    // differs: the paper counts the lines that occur in the main sequence exactly. The sum of the
+    // best scores is the same vote, but includes lines with a misread bit.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
     const BothWays of_columns = agreement(x_columns);
@@ -107,12 +107,13 @@ Orientation rank_turns(const Grid& grid, const Region& region) {
     // Half a turn flips and reverses lines.
     const std::int32_t turned_columns = of_columns.backwards.flipped;
     const std::int32_t turned_rows = of_rows.backwards.flipped;
-    // A quarter turn makes columns of rows and flips one of the two; see `turned` in upright.hpp.
+    // A quarter turn exchanges columns and rows and flips one of them; see `turned` in upright.hpp.
     const std::array<std::int32_t, 4> scores{columns + rows, turned_columns + rows,
                                              turned_columns + turned_rows, columns + turned_rows};
     std::array<Turn, 4> turns{Turn{0}, Turn{1}, Turn{2}, Turn{3}};
     const auto score = [&](Turn t) { return scores[static_cast<std::size_t>(t.quarters)]; };
-    // Sorts the best first and leaves equal ones in order; a library's sort would be long for four.
+    // Sorts the turns by score and keeps the order of ties. A library sort would be long for four
+    // elements.
     for (std::size_t n = 1; n < turns.size(); ++n) {
         for (std::size_t i = n; i > 0 && score(turns[i]) > score(turns[i - 1]); --i)
             std::swap(turns[i], turns[i - 1]);
@@ -121,16 +122,16 @@ Orientation rank_turns(const Grid& grid, const Region& region) {
 }
 
 bool is_mirrored(const Grid& grid, const Region& region, std::int32_t upright) {
-    // In a mirror image the projections of eq. 7 and 8 are exchanged, and lines may run backwards.
+    // A mirror image exchanges the projections of eq. 7 and 8, and may reverse lines.
     const Voters y_columns(grid, region, true, &GridCell::y);
     const Voters x_rows(grid, region, false, &GridCell::x);
-    const auto is_much = [&](std::int32_t mirrored) {
+    const auto is_much_more = [&](std::int32_t mirrored) {
         return 4 * mirrored > tuning::turns::kMirrored_4ths * upright;
     };
-    const std::int32_t most_of_rows = most_possible(x_rows);
-    if (!is_much(most_possible(y_columns) + most_of_rows)) return false;
+    const std::int32_t max_of_rows = max_possible(x_rows);
+    if (!is_much_more(max_possible(y_columns) + max_of_rows)) return false;
     const std::int32_t columns = best_agreement(y_columns);
-    return is_much(columns + most_of_rows) && is_much(columns + best_agreement(x_rows));
+    return is_much_more(columns + max_of_rows) && is_much_more(columns + best_agreement(x_rows));
 }
 
 }  // namespace dotpose::core

@@ -9,10 +9,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Fewest lines that can carry a position.
-constexpr int kFewestLines = 6;
+/// Minimum number of lines that determine a position.
+constexpr int kMinLines = 6;
 
-/// Reads the position of one axis from the best roll of each line alone.
+/// Reads the position of one axis from the best roll of each line, line by line.
 Status read_axis(Profile profile, const Lines& lines, AxisReading& reading) {
     std::array<std::uint8_t, kMaxLines> rolls{};
     for (int i = 0; i < lines.count(); ++i) {
@@ -42,7 +42,7 @@ Status decode_lines(const Grid& grid, Profile profile, std::span<ScoredLine> sto
                     decltype(find_axis) find, Decoding& decoding) {
     const auto [turns, agreement] = rank_turns(grid, decoding.region);
     decoding.agreement = agreement;
-    if (decoding.region.columns < kFewestLines || decoding.region.rows < kFewestLines) {
+    if (decoding.region.columns < kMinLines || decoding.region.rows < kMinLines) {
         return Status::grid_too_small;
     }
     std::int32_t best = INT32_MIN;
@@ -73,9 +73,9 @@ Status decode_window(const Grid& grid, Profile profile, std::span<ScoredLine> st
                      Decoding& decoding) {
     const Region& window = decoding.window;
     decoding.agreement = rank_turns(grid, decoding.region).agreement;
-    constexpr int kFewestDots_q8 = 256 / 3;
+    constexpr int kMinDots_q8 = 256 / 3;
     if (window.columns < kWindowSide || window.rows < kWindowSide ||
-        mean_quality_q8(grid, window) < kFewestDots_q8) {
+        mean_quality_q8(grid, window) < kMinDots_q8) {
         return Status::grid_too_small;
     }
     const Turn turn = rank_turns(grid, window).turns[0];

@@ -21,17 +21,17 @@ Vec place_60th(Symbol symbol) {
     return {10 * dx(symbol), 10 * dy(symbol)};
 }
 
-/// What the image shows at one of a cell's four places.
+/// Measurements at one of the four places of a cell.
 struct PlaceView {
     bool is_seen = false;
     int darkness_q8 = 0;  ///< relative to the paper
-    int shade_q8 = 0;     ///< mean darkness of a square of 2/5 spacing around it
+    int shade_q8 = 0;     ///< mean darkness of a square of 2/5 spacing around the place
 };
 
-/// What the image shows of one cell.
+/// Measurements of one cell.
 struct CellView {
     Vec centre_q8;
-    Vec u_q8;  ///< one spacing along each axis of the grid
+    Vec u_q8;  ///< one spacing along each axis of the grid, in image px
     Vec v_q8;
     int half_px = 0;                  ///< half the side of a square of 2/5 spacing
     std::array<PlaceView, 4> places;  ///< by Symbol
@@ -53,33 +53,33 @@ struct CellView {
     }
 };
 
-/// Samples an image through a grid laid over it.
+/// Samples an image at the cells of a grid.
 class CellSampler {
   public:
     CellSampler(const ImageView& image, const PaperMap& paper, const Lens& lens,
                 const PlaneFromImage& plane)
         : image_(image), paper_(paper), lens_(lens), plane_(plane) {}
 
-    /// Calls `use(cell, view)` for the cells that have a place in the image; views are not sampled
-    /// yet.
+    /// Calls `use(cell, view)` for each cell with a place in the image, before the view is sampled.
     template <typename Use>
     void visit(const Grid& grid, Use use) const;
-    /// Sets darkness and shade of the places that are seen.
+    /// Sets the darkness and shade of the places in the image.
     void sample(CellView& view) const;
-    /// Returns the paper's level at the middle of the cell over that at the middle of the image.
+    /// Returns the paper level at the middle of the cell relative to that at the middle of the
+    /// image.
     int light_q8(const CellView& view) const;
-    /// Returns, for each place that is seen, the shade of the darkest square 2/15 spacing away from
+    /// Returns, for each place in the image, the shade of the darkest square 2/15 spacing away from
     /// it.
     std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
-    /// Returns where the image shows an intersection.
+    /// Returns the image point of an intersection.
     Vec image_of(int i, int j) const {
         return distorted_point_q8(lens_, plane_, {i * 65536, j * 65536});
     }
     /// Returns the mean darkness of a square.
     int shade_q8(Vec centre_q8, int half_px) const;
-    /// Returns the mean darkness of a square from the sum over its pixels.
+    /// Returns the mean darkness of a square, from the sum over its pixels.
     int darkness_q8(Vec centre_q8, int sum, int pixels) const;
     template <typename Shade>
     static std::array<int, 4> darkest_around_q8(const CellView& view, Shade shade_q8);
@@ -90,7 +90,7 @@ class CellSampler {
     const PlaneFromImage& plane_;
 };
 
-/// Returns the distance between the pixels that are taken; of large squares not all are.
+/// Returns the distance between sampled pixels, which is larger than 1 for large squares.
 int step_px(int half_px) {
     return std::max(half_px / 3, 1);
 }
@@ -118,7 +118,7 @@ int CellSampler::shade_q8(Vec centre_q8, int half_px) const {
 
 template <typename Use>
 void CellSampler::visit(const Grid& grid, Use use) const {
-    // An intersection is a corner of four cells, so each row of them is used twice.
+    // An intersection is a corner of four cells, so each row of intersections is used twice.
     std::array<Vec, kMaxGridSide + 1> here;
     std::array<Vec, kMaxGridSide + 1> below;
     const auto find_row = [&](int j, std::array<Vec, kMaxGridSide + 1>& row) {
@@ -169,11 +169,11 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade sh
 }
 
 std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
-    // No square's centre is farther from the middle of the cell than a third of the spacing.
+    // The centres of all squares are within a third of the spacing from the middle of the cell.
     const int reach_px =
         std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
         view.half_px;
-    if (step_px(view.half_px) > 1 || 2 * reach_px >= LevelSums::kMostSide_px) {
+    if (step_px(view.half_px) > 1 || 2 * reach_px >= LevelSums::kMaxSide_px) {
         return darkest_around_q8(view,
                                  [&](Vec point_q8) { return shade_q8(point_q8, view.half_px); });
     }
@@ -190,7 +190,7 @@ int CellSampler::light_q8(const CellView& view) const {
     return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
-/// Returns what a cell's darkest place typically looks like: the medians over the cells.
+/// Returns the typical darkest place of a cell: the medians over the cells.
 PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
     std::array<std::int32_t, tuned::kMedianSample> darkness;
     std::array<std::int32_t, tuned::kMedianSample> shade;
@@ -211,25 +211,24 @@ PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
             std::max<std::int32_t>(median(std::span(shade).first(count)), 1)};
 }
 
-/// How dark dots and graphics are in this image, and what the darkness of a cell's places says of
-/// its bits.
+/// Darkness of dots and graphics in an image, and the weights of the bits that follow from it.
 class Ink {
   public:
     Ink(const CellSampler& sampler, const Grid& grid) : sampler_(sampler) {
         const PlaceView typical = typical_place(sampler, grid);
         contrast_q8_ = typical.darkness_q8;
-        // Graphics are darker than the geometric mean of a dot's shade and that of solid ink.
+        // Graphics are darker than the geometric mean of the shade of a dot and that of solid ink.
         graphics_q8_ = static_cast<int>(
             square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
 
-    /// Darkness of a cell's places, and how far it can be trusted.
+    /// Darkness at the places of a cell, and its reliability.
     struct Sample {
         std::array<int, 4> darkness_q8;  ///< by Symbol
-        int trust_q4 = 16;
+        int reliability_q4 = 16;
         int light_q8 = 256;
     };
-    /// Returns the sample of a cell, and marks in the cell which of its places graphics cover.
+    /// Returns the sample of a cell, and marks the places that graphics cover in the cell.
     Sample sample(const CellView& view, GridCell& cell) const {
         Sample sample;
         unsigned hidden = 0;
@@ -238,7 +237,7 @@ class Ink {
         const std::array<int, 4> darkest_around_q8 = sampler_.darkest_around_q8(view);
         for (std::size_t i = 0; i < view.places.size(); ++i) {
             const PlaceView& place = view.places[i];
-            // Where nothing is seen, a dot is as likely as not.
+            // A place outside the image has half the darkness of a dot, which favours neither bit.
             sample.darkness_q8[i] = contrast_q8_ / 2;
             if (!place.is_seen) continue;
             const int around_q8 = darkest_around_q8[i];
@@ -251,20 +250,22 @@ class Ink {
             beside_q8 = std::max(beside_q8, around_q8);
         }
         if (hidden != 0) cell.dot = static_cast<std::uint16_t>(GridCell::kHidden + hidden);
-        sample.light_q8 = std::min(sampler_.light_q8(view), tuned::kMostLight_q8);
-        sample.trust_q4 = tuned::kTrustBySeen_q4[static_cast<std::size_t>(view.places_seen())];
-        const auto limit = [&](bool applies, int trust_q4) {
-            if (applies) sample.trust_q4 = std::min(sample.trust_q4, trust_q4);
+        sample.light_q8 = std::min(sampler_.light_q8(view), tuned::kMaxLight_q8);
+        sample.reliability_q4 =
+            tuned::kReliabilityBySeen_q4[static_cast<std::size_t>(view.places_seen())];
+        const auto limit = [&](bool applies, int reliability_q4) {
+            if (applies) sample.reliability_q4 = std::min(sample.reliability_q4, reliability_q4);
         };
-        limit(hidden != 0, tuned::kTrustCovered_q4);
+        limit(hidden != 0, tuned::kReliabilityCovered_q4);
         limit(5 * beside_q8 > tuned::kNearGraphics_5ths * graphics_q8_,
-              tuned::kTrustNearGraphics_q4);
-        limit(10 * darkest_q8 > tuned::kDark_10ths * contrast_q8_, tuned::kTrustDark_q4);
-        limit(10 * darkest_q8 > tuned::kTooDark_10ths * contrast_q8_, tuned::kTrustTooDark_q4);
+              tuned::kReliabilityNearGraphics_q4);
+        limit(10 * darkest_q8 > tuned::kDark_10ths * contrast_q8_, tuned::kReliabilityDark_q4);
+        limit(10 * darkest_q8 > tuned::kTooDark_10ths * contrast_q8_,
+              tuned::kReliabilityTooDark_q4);
         return sample;
     }
 
-    /// Returns whether two of the places look like dots.
+    /// Returns true if two of the places look like dots.
     bool is_crowded(const Sample& sample) const {
         std::array<int, 4> sorted = sample.darkness_q8;
         std::sort(sorted.begin(), sorted.end());
@@ -274,14 +275,14 @@ class Ink {
 
     /// Returns the weight of a bit, from the darkness at the places for 1 and for 0.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
-        // Noise is that of the sensor. The difference in grey levels counts, relative to the
+        // Noise is that of the sensor. The weight is the difference in grey levels relative to the
         // contrast; both are proportional to the light.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
-        // Beyond some contrast a bit gets no surer, as its errors are not due to noise.
+        // The weight is limited: above some contrast, errors are not due to noise.
         const int weight = static_cast<int>(
             std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
-        return static_cast<std::int8_t>(weight * sample.trust_q4 / 16);
+        return static_cast<std::int8_t>(weight * sample.reliability_q4 / 16);
     }
 
   private:
@@ -290,22 +291,22 @@ class Ink {
     int graphics_q8_ = 0;
 };
 
-/// Lays the grid over the cells between the outermost points of the image's border.
+/// Sets the extent of the grid to the cells that the border of the image encloses.
 void cover_image(const ImageView& image, const Lens& lens, const PlaneFromImage& plane,
                  Grid& grid) {
-    Vec least{INT32_MAX, INT32_MAX};
-    Vec most{INT32_MIN, INT32_MIN};
+    Vec min{INT32_MAX, INT32_MAX};
+    Vec max{INT32_MIN, INT32_MIN};
     constexpr int kPerSide = 4;
     for (int n = 0; n <= kPerSide; ++n) {
         for (int m = 0; m <= kPerSide; ++m) {
             const Vec point_q8{image.width_px * 256 / kPerSide * n,
                                image.height_px * 256 / kPerSide * m};
             const Vec cell = grid_point(plane, undistorted(lens, plane.centre_q8, point_q8)).cell;
-            least = {std::min(least.x, cell.x), std::min(least.y, cell.y)};
-            most = {std::max(most.x, cell.x), std::max(most.y, cell.y)};
+            min = {std::min(min.x, cell.x), std::min(min.y, cell.y)};
+            max = {std::max(max.x, cell.x), std::max(max.y, cell.y)};
         }
     }
-    lay_out(least, most, grid);
+    lay_out(min, max, grid);
 }
 
 std::int8_t x_weight(const Ink& ink, const Ink::Sample& sample) {
@@ -337,7 +338,7 @@ bool sample_cells(const ImageView& image, const PaperMap& paper, const Lens& len
         ++cells;
         crowded += ink.is_crowded(sample);
     });
-    return 8 * crowded <= tuned::kMostCrowded_8ths * cells;
+    return 8 * crowded <= tuned::kMaxCrowded_8ths * cells;
 }
 
 }  // namespace dotpose::core

@@ -15,7 +15,7 @@ namespace tuned = tuning::search;
 constexpr int kChoices = tuned::kChoices;
 constexpr int kMaxRunLength = 8;
 
-/// Returns the smallest roll with a score, which one of them must have.
+/// Returns the smallest roll with a score. The score occurs in `scores`.
 std::uint8_t roll_of(int score, const LineScores& scores) {
     const std::int16_t* found = scores.data();
     while (*found != score)
@@ -23,8 +23,8 @@ std::uint8_t roll_of(int score, const LineScores& scores) {
     return static_cast<std::uint8_t>(found - scores.data());
 }
 
-/// The rolls of one line, the best score first and of equal ones the smallest. They are found when
-/// they are asked for, which is rarely beyond the first.
+/// The rolls of one line, the best score first and ties by the smallest roll. They are computed on
+/// demand, because rolls after the first are rarely needed.
 class Choices {
   public:
     Choices() = default;
@@ -42,7 +42,7 @@ class Choices {
         }
         return rolls_[static_cast<std::size_t>(i)];
     }
-    /// Returns by how much its score is less than the best.
+    /// Returns the best score minus the score of the `i`-th roll.
     int loss(int i) { return i == 1 ? margin_ : (*scores_)[rolls_[0]] - (*scores_)[roll(i)]; }
 
   private:
@@ -53,7 +53,7 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Returns the sum over all lines if line `line` is at `position` with `roll`.
+/// Returns the reading, with its sum over all lines, if line `line` is at `position` with `roll`.
 AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     std::array<std::uint8_t, kMaxLines> storage;
@@ -69,21 +69,21 @@ AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_
 
 using Run = std::array<Choices, kMaxRunLength>;
 
-/// Returns how many choices of each line of a run are combined: the choice with the least loss is
-/// added as long as there are at most `most_readings` combinations.
-std::array<int, kMaxRunLength> widen(Run& run, int length, int most_readings) {
+/// Returns the number of choices of each line of a run that are combined. Adds the choice with the
+/// smallest loss while there are at most `max_readings` combinations.
+std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     std::array<int, kMaxRunLength> widths;
     widths.fill(1);
     for (int readings = 1;;) {
         int cheapest = -1;
-        int least_loss = INT32_MAX;
+        int min_loss = INT32_MAX;
         for (int i = 0; i < length; ++i) {
             const auto n = static_cast<std::size_t>(i);
             const int width = widths[n];
-            if (width == kChoices || readings * (width + 1) > most_readings * width) continue;
+            if (width == kChoices || readings * (width + 1) > max_readings * width) continue;
             const int loss = run[n].loss(width);
-            if (loss < least_loss) {
-                least_loss = loss;
+            if (loss < min_loss) {
+                min_loss = loss;
                 cheapest = i;
             }
         }
@@ -95,20 +95,20 @@ std::array<int, kMaxRunLength> widen(Run& run, int length, int most_readings) {
 }
 
 /// Reads the lines from `first` on at these rolls, and replaces `best` if the reading has a higher
-/// score over all lines. Returns whether the new one is clear.
+/// score over all lines. Returns true if the new reading is clear.
 bool improve(Profile profile, const Lines& lines, int first, std::span<const std::uint8_t> rolls,
              AxisReading& best) {
     std::uint32_t position = 0;
     if (position_from_rolls(profile, rolls, position) != Status::ok) return false;
     AxisReading reading = evaluate(profile, lines, first, position, rolls[0]);
     if (reading.score <= best.score) return false;
-    reading.most_possible = best.most_possible;
+    reading.max_possible = best.max_possible;
     best = reading;
     return best.is_clear();
 }
 
-/// Reads one run in all combinations of its lines' choices, until a reading is clear.
-void try_run(Profile profile, const Lines& lines, int first, int length, int most_readings,
+/// Reads one run in all combinations of the choices of its lines, until a reading is clear.
+void try_run(Profile profile, const Lines& lines, int first, int length, int max_readings,
              AxisReading& best) {
     Run run;
     std::array<std::uint8_t, kMaxRunLength> storage;
@@ -118,7 +118,7 @@ void try_run(Profile profile, const Lines& lines, int first, int length, int mos
         rolls[n] = run[n].roll(0);
     }
     if (improve(profile, lines, first, rolls, best)) return;
-    const auto widths = widen(run, length, most_readings);
+    const auto widths = widen(run, length, max_readings);
     std::array<int, kMaxRunLength> choice{};
     while (true) {
         // Counts up the choices, those of the last line fastest.
@@ -133,17 +133,17 @@ void try_run(Profile profile, const Lines& lines, int first, int length, int mos
     }
 }
 
-/// Returns the start of the run that has the largest sum of margins and is not taken yet, or -1.
+/// Returns the start of the run with the largest sum of margins that is not taken yet, or -1.
 int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
-    int most = INT32_MIN;
+    int largest = INT32_MIN;
     int margin = 0;
     for (int end = 0; end < lines.count(); ++end) {
         margin += lines.best(end).margin;
         const int first = end + 1 - length;
         if (first < 0) continue;
-        if (margin > most && !taken[static_cast<std::size_t>(first)]) {
-            most = margin;
+        if (margin > largest && !taken[static_cast<std::size_t>(first)]) {
+            largest = margin;
             clearest = first;
         }
         margin -= lines.best(first).margin;
@@ -151,19 +151,19 @@ int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLine
     return clearest;
 }
 
-/// The most runs of lines that are read, and readings of each.
+/// Maximum number of runs of lines that are read, and of readings of each run.
 struct Limits {
     int runs;
-    int readings;  ///< of each run
+    int readings;  ///< per run
 };
 
 /// Reads runs of lines, the clearest first, until a reading is clear.
 void search_by_runs(Profile profile, const Lines& lines, const Limits& limits, AxisReading& best) {
     const int length = run_length(profile);
-    std::int32_t most_possible = 0;
+    std::int32_t max_possible = 0;
     for (int i = 0; i < lines.count(); ++i)
-        most_possible += lines.best(i).score;
-    best = {0, 0, INT32_MIN, most_possible};
+        max_possible += lines.best(i).score;
+    best = {0, 0, INT32_MIN, max_possible};
     std::array<bool, kMaxLines> taken{};
     for (int run = 0; run < limits.runs; ++run) {
         const int first = clearest_run(lines, length, taken);
@@ -198,7 +198,7 @@ AxisReading reading_of_first(Profile profile, std::uint32_t position, int roll, 
 
 Status find_axis(Profile profile, const Lines& lines, AxisReading& best) {
     search_by_runs(profile, lines, {tuned::kRuns, tuned::kReadings}, best);
-    if (best.score < best.most_possible && lines.count() >= run_length(profile)) {
+    if (best.score < best.max_possible && lines.count() >= run_length(profile)) {
         search_by_steps(profile, lines, best);
     }
     return status_of(best);

@@ -1,5 +1,5 @@
-// Search: the position of an axis that agrees best with all lines in view.
-// differs: the paper decodes the best 8 x 8 symbols one line at a time; docs/differs-from-paper.md.
+// Search: the position of an axis that agrees best with all lines in view. differs: the paper
+// decodes the best 8 x 8 symbols one line at a time; docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/lines.hpp"
@@ -7,22 +7,22 @@
 
 namespace dotpose::core {
 
-/// Returns how many consecutive lines carry a position. The misprinted sequence of libdots needs
-/// more lines, as its places are unique only by 7 steps from line to line.
+/// Returns the number of consecutive lines that determine a position. The misprinted sequence of
+/// libdots needs more lines, because its places are unique only by 7 differences.
 int run_length(Profile profile);
 
 /// Returns the reading of the first line if line `line` is at `position` with `roll`. Sets the
-/// rolls of all lines, modulo 63, counted from that of the first.
+/// rolls of all lines, modulo 63, relative to that of the first.
 AxisReading reading_of_first(Profile profile, std::uint32_t position, int roll, int line,
                              std::span<std::uint8_t> rolls);
 
-/// Reads runs of consecutive lines, the clearest first, each in its likeliest ways, and keeps the
-/// position with the largest sum over all lines. If that is not perfect, searches by steps as well.
-/// Errors: not_in_code, if no reading occurs in the code.
+/// Reads runs of consecutive lines, the clearest first, each with its most likely rolls, and keeps
+/// the position with the largest sum over all lines. If that sum is not clear, searches by steps as
+/// well. Errors: not_in_code, if no reading occurs in the code.
 Status find_axis(Profile profile, const Lines& lines, AxisReading& best);
 
-/// Reads only a few runs in a few ways, for first attempts; a position that is not found soon is
-/// rarely certain.
+/// Reads only a few runs with a few readings each, for first attempts. A position that takes longer
+/// to find is rarely certain.
 Status find_axis_briefly(Profile profile, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

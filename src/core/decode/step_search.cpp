@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::size_t kSequences = 4;
 constexpr std::size_t kDigits = 3;
-constexpr std::size_t kStepSizes = code::kLargestDelta - code::kSmallestDelta + 1;
+constexpr std::size_t kStepSizes = code::kMaxDelta - code::kMinDelta + 1;
 
-/// The loss of score, by sequence and digit, if the step between two lines has that digit.
+/// Loss of score, by sequence and digit, if the step between two lines has that digit.
 using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
 
-/// Returns the best sum of the scores of two lines whose rolls differ by `step`.
+/// Returns the maximum sum of the scores of two lines whose rolls differ by `step`.
 int best_agreement(const LineScores& line, const LineScores& next, std::size_t step) {
     std::int16_t best = INT16_MIN;
     const std::size_t whole = kSections - step;
@@ -31,20 +31,21 @@ int best_agreement(const LineScores& line, const LineScores& next, std::size_t s
 StepLosses losses_of(const LineScores& line, const LineScores& next) {
     std::array<std::int32_t, kStepSizes> agreements;
     for (std::size_t i = 0; i < kStepSizes; ++i)
-        agreements[i] = best_agreement(line, next, i + code::kSmallestDelta);
-    const std::int32_t most = *std::max_element(agreements.begin(), agreements.end());
+        agreements[i] = best_agreement(line, next, i + code::kMinDelta);
+    const std::int32_t best = *std::max_element(agreements.begin(), agreements.end());
     StepLosses losses;
     losses.fill({INT32_MAX, INT32_MAX, INT32_MAX});
     for (std::size_t i = 0; i < kStepSizes; ++i) {
         for (std::size_t n = 0; n < kSequences; ++n) {
-            std::int32_t& least = losses[n][code::digit_of_delta(i + code::kSmallestDelta, n)];
-            least = std::min(least, most - agreements[i]);
+            std::int32_t& loss = losses[n][code::digit_of_delta(i + code::kMinDelta, n)];
+            loss = std::min(loss, best - agreements[i]);
         }
     }
     return losses;
 }
 
-/// The likeliest places of the first line in a secondary sequence, the best first.
+/// Number of places of the first line that are kept in each secondary sequence, the most likely
+/// first.
 constexpr std::size_t kChoices = tuning::step_search::kChoices;
 using Choices = std::array<std::uint32_t, kChoices>;
 
@@ -72,7 +73,8 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
     return places;
 }
 
-/// Returns the sum over all lines if the first is at `position`, at the best roll.
+/// Returns the reading, with its sum over all lines, if the first line is at `position`, with the
+/// best roll.
 AxisReading evaluate(Profile profile, const Lines& lines, std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;
     code::follow_rolls(profile, position, 0, std::span(rolls).first(lines.all.size()));
@@ -108,7 +110,7 @@ void search_by_steps(Profile profile, const Lines& lines, AxisReading& best) {
             places[n] = choices[n][rest % kChoices];
         AxisReading reading = evaluate(profile, lines, code::position_at(basis, places));
         if (reading.score <= best.score) continue;
-        reading.most_possible = best.most_possible;
+        reading.max_possible = best.max_possible;
         best = reading;
     }
 }

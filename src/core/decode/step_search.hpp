@@ -1,16 +1,15 @@
-// Step search: the position of an axis from the steps between neighbouring lines, wherever they
-// are.
-// differs: the paper decodes each line by itself; docs/differs-from-paper.md.
+// Step search: the position of an axis from the steps between neighbouring lines, at any lines.
+// differs: the paper decodes each line separately; docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/lines.hpp"
 
 namespace dotpose::core {
 
-/// Finds which digits every step between two lines may have, in each secondary sequence the places
-/// that all steps together speak for, and the best position that combines such places; replaces
-/// `best` if it is better. Finds what runs of lines do not tell, as where graphics hide every sixth
-/// line, or no line is sure of its roll.
+/// Finds the possible digits of every step between two lines, the places in each secondary sequence
+/// that agree best with all steps, and the best position that combines such places. Replaces `best`
+/// if the position is better. Finds positions that runs of lines do not determine: if graphics hide
+/// every sixth line, or no line has a clear roll.
 void search_by_steps(Profile profile, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

@@ -1,9 +1,8 @@
-// Tuning: numbers of finding the position that were found by trying rather than derived, on the
-// frames of `dotpose evaluate --preset hard --frames 4000 --seed 404`, on 3,000 with `--seed 5001`,
-// and on the refused ones of seeds 777 and 778; docs/accuracy.md shows that they suit others. Where
-// a comment says what other values do, it gives frames located by `dotpose evaluate --preset hard
-// --frames 2000 --seed 404`: 1,994 with the values as they are, and none wrong with any. One frame
-// more or less is chance.
+// Tuning: empirical constants of decoding. They were determined on the frames of `dotpose evaluate
+// --preset hard --frames 4000 --seed 404`, on 3,000 with `--seed 5001`, and on the refused ones of
+// seeds 777 and 778. docs/accuracy.md shows that they suit others. Comments give the frames located
+// by `dotpose evaluate --preset hard --frames 2000 --seed 404` with other values. With these values
+// it locates 1,994, and none is wrong with any value. A difference of one frame is chance.
 #pragma once
 
 #include <array>
@@ -11,82 +10,82 @@
 
 namespace dotpose::core::tuning {
 
-/// Bits from the darkness at a cell's four places (decode/sample_cells).
+/// Bits from the darkness at the four places of a cell (decode/sample_cells).
 namespace sample_cells {
-/// Most cells whose median is taken for a typical dot; a quarter of them under graphics hardly
-/// moves it.
+/// Maximum number of cells whose median gives the typical dot. A quarter of them under graphics
+/// hardly changes the median.
 inline constexpr std::size_t kMedianSample = 256;
-/// Part of the spacing that is half the side of the square for a place's shade: the square is wider
-/// than a dot and narrower than the way to the next one.
+/// Half the side of the square for the shade of a place, as a part (1/n) of the spacing: wider than
+/// a dot, and narrower than the distance to the next dot.
 inline constexpr int kShadePart = 5;
-/// How far from a place graphics are looked for, in 1/60 spacings, along the axes and diagonally; a
-/// stroke that touches the dot from either side is seen.
+/// Distances from a place at which graphics are searched, in 1/60 spacings, along the axes and
+/// diagonally. A stroke that touches the dot from any side is found.
 inline constexpr int kBeside_60th = 8;
 inline constexpr int kBesideDiagonally_60th = 5;
-/// Darkness of solid ink, relative to the paper. A shade beyond the geometric mean of this and a
-/// dot's is graphics. With half or twice this value: 1,992.
+/// Darkness of solid ink, relative to the paper. A shade above the geometric mean of solid ink and
+/// a dot is graphics. With half or twice this value: 1,992.
 inline constexpr int kSolidInk_q8 = 230;
-/// Trust in a cell's bits, in 1/16, by how many of its places are seen; in hard frames bits were
-/// this much less sure than those of cells in plain view.
-inline constexpr std::array<int, 5> kTrustBySeen_q4{0, 6, 8, 10, 16};
-/// Trust in the bits of a cell that graphics cover a place of.
-inline constexpr int kTrustCovered_q4 = 10;
-/// Trust in the bits of a cell whose darkest shade beside a place is more than so many fifths of
-/// that of graphics. With a trust of 3: 1,993; with 14: 1,994.
+/// Reliability of the bits of a cell, in 1/16, by the number of its places in the image, relative
+/// to cells with all four. Measured on hard frames.
+inline constexpr std::array<int, 5> kReliabilityBySeen_q4{0, 6, 8, 10, 16};
+/// Reliability of the bits of a cell with a place under graphics.
+inline constexpr int kReliabilityCovered_q4 = 10;
+/// Minimum shade beside a place, in fifths of that of graphics, at which a cell is near graphics,
+/// and the reliability of its bits. With a reliability of 3: 1,993; with 14: 1,994.
 inline constexpr int kNearGraphics_5ths = 3;
-inline constexpr int kTrustNearGraphics_q4 = 7;
-/// Trust in the bits of a cell whose darkest place is more than so many tenths as dark as a typical
-/// dot: it may be dirt.
+inline constexpr int kReliabilityNearGraphics_q4 = 7;
+/// Minimum darkness, in tenths of a typical dot, at which the darkest place of a cell may be dirt,
+/// and the reliability of its bits; the same for darkness that is probably dirt.
 inline constexpr int kDark_10ths = 13;
-inline constexpr int kTrustDark_q4 = 12;
+inline constexpr int kReliabilityDark_q4 = 12;
 inline constexpr int kTooDark_10ths = 16;
-inline constexpr int kTrustTooDark_q4 = 6;
-/// Weight, in 1/127, of a bit whose places differ by the darkness of a dot; weights are then
-/// limited to 127, so from two fifths of that difference on a bit gets no surer. With 150: 1,994;
-/// with 600: 1,992.
+inline constexpr int kReliabilityTooDark_q4 = 6;
+/// Weight, in 1/127, of a bit whose places differ by the darkness of a dot. Weights are limited to
+/// 127, which two fifths of that difference give. With 150: 1,994; with 600: 1,992.
 inline constexpr int kGain = 300;
-/// Light of a cell, over that at the middle of the image, beyond which a bit gets no surer.
-inline constexpr int kMostLight_q8 = 1024;
-/// A cell shows two dots if its second darkest place is darker than so many thirds of a typical dot
-/// and so many fourths of the darkest place. The image shows two patterns if more than so many
-/// eighths of the cells show two dots; in hard frames at most a quarter did.
+/// Maximum light of a cell relative to the middle of the image. Weights do not increase with more
+/// light.
+inline constexpr int kMaxLight_q8 = 1024;
+/// Minimum darkness of the second darkest place of a cell that contains two dots, in thirds of a
+/// typical dot and in fourths of its darkest place. The image shows two patterns if more than this
+/// number of eighths of the cells contain two dots; in hard frames at most a quarter did.
 inline constexpr int kSecondDot_3rds = 2;
 inline constexpr int kSecondDot_4ths = 3;
-inline constexpr int kMostCrowded_8ths = 3;
+inline constexpr int kMaxCrowded_8ths = 3;
 }  // namespace sample_cells
 
-/// The position that all lines speak for (decode/search).
+/// The position that agrees best with all lines (decode/search).
 namespace search {
-/// Rolls of one line that are tried.
+/// Number of rolls of one line that are tried.
 inline constexpr int kChoices = 8;
-/// Runs of lines that are read, and readings of each, in the second attempt. With half or twice as
-/// many of either: 1,994; they protect frames with more misread bits than these have.
+/// Number of runs of lines that are read, and of readings of each, in the second attempt. With half
+/// or twice the number of either: 1,994; they protect frames with more misread bits.
 inline constexpr int kRuns = 24;
 inline constexpr int kReadings = 64;
-/// Runs and readings in the first attempt and on devices. Of 2,000 nominal frames none needed more,
-/// and of 2,000 hard ones 4; frames that cannot be read take hardly longer than others.
+/// Numbers of runs and readings in the first attempt and on devices. Of 2,000 nominal frames none
+/// needed more, and of 2,000 hard ones 4. They limit the time for unreadable frames.
 inline constexpr int kRunsBriefly = 3;
 inline constexpr int kReadingsBriefly = 8;
 }  // namespace search
 
 /// The position from the steps between neighbouring lines (decode/step_search).
 namespace step_search {
-/// Places kept of each of the four secondary sequences; all their combinations are compared.
+/// Number of places kept in each of the four secondary sequences. All their combinations are
+/// compared.
 inline constexpr std::size_t kChoices = 3;
 }  // namespace step_search
 
-/// Which way is up (decode/orientation, decode/bit_lines).
+/// The quarter turn of the grid (decode/orientation, decode/bit_lines).
 namespace turns {
-/// Lines of each axis that vote on the turn; an even number. Several protect from a turn that
-/// misread lines vote for.
+/// Number of lines per axis that vote on the turn; even. Several lines outvote a misread one.
 inline constexpr int kVoters = 4;
-/// Lines of each axis that vote if their bits are hard; an odd number.
+/// Number of lines per axis that vote if bits are hard; odd.
 inline constexpr int kVotersOfBits = 5;
-/// Difference between the scores of both directions from which the others of these need not vote:
-/// 8 bits; a line of 14 makes about 5.
+/// Difference between the scores of both directions at which the vote ends early: 8 bits. A line of
+/// 14 bits contributes about 5.
 inline constexpr int kLandslide = 8 * 127;
-/// How much better, in fourths, a mirror image has to agree for the sheet to be seen from behind;
-/// lines of random bits reach about 60 % of the agreement of lines of the main sequence.
+/// Minimum agreement with the mirrored pattern, in fourths of that with the pattern, of a mirrored
+/// image. Lines of random bits have about 60 % of the agreement of lines of the main sequence.
 inline constexpr int kMirrored_4ths = 5;
 }  // namespace turns
 

@@ -1,5 +1,5 @@
-// Upright: the matrices P turned upright on the pattern, however the grid was found. Paper section
-// II-B.6 (last paragraph: symbols and matrices are rotated accordingly).
+// Upright: the matrices P turned upright on the pattern, independent of the turn of the grid. Paper
+// section II-B.6 (last paragraph: symbols and matrices are rotated accordingly).
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ struct Bits {
     std::int8_t y = 0;
 };
 
-/// Returns the bits of a cell turned upright on the pattern. A quarter turn takes the displacement
-/// (x, y) to (-y, x), and so the projections of eq. 7-8, (y - x, y + x), to (x + y, x - y).
+/// Returns the bits of a cell turned upright on the pattern. A quarter turn maps the displacement
+/// (x, y) to (-y, x), and therefore the projections of eq. 7-8, (y - x, y + x), to (x + y, x - y).
 constexpr Bits turned(Turn pattern_from_grid, const GridCell& cell) {
     const auto minus_x = static_cast<std::int8_t>(-cell.x);
     const auto minus_y = static_cast<std::int8_t>(-cell.y);
@@ -53,7 +53,7 @@ class Upright {
         };
         to_right_ = stride({1, 0});
         downwards_ = stride({0, 1});
-        // These do what `turned` does, for all cells of a line.
+        // Same as `turned`, for all cells of a line.
         x_bit_ = is_sideways() ? &GridCell::y : &GridCell::x;
         y_bit_ = is_sideways() ? &GridCell::x : &GridCell::y;
         x_sign_ = q == 0 || q == 1 ? 1 : -1;

@@ -11,7 +11,7 @@ Region choose_window(const Grid& grid, int side) {
     const int rows = std::min(side, grid.rows);
     Region window{grid.i0, grid.j0, columns, rows};
     if (columns == grid.columns && rows == grid.rows) return window;
-    // Sums over the window's rows, column by column, slide downwards with it.
+    // The sums over the rows of the window, one per column, move down with the window.
     std::array<std::int32_t, kMaxGridSide> column_sums{};
     std::int32_t best = -1;
     const GridCell* cell = grid.storage.data();

@@ -3,41 +3,41 @@
 #include <algorithm>
 #include <array>
 
-#include "core/detect/light.hpp"
+#include "core/detect/adaptive_threshold.hpp"
 #include "core/detect/runs.hpp"
 #include "core/math/fixed.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// Greatest area and side of a dot: a blurred dot at 60 px spacing with a diameter of 0.35 spacing
-/// has fewer pixels and is narrower.
+/// Maximum area and side of a dot. A blurred dot with a diameter of 0.35 spacing at a spacing of 60
+/// px is smaller.
 constexpr int kMaxDotArea_px = 1024;
 constexpr int kMaxDotSide_px = 48;
 constexpr std::uint32_t kMaxMass = 65535;
-/// Marks a blob that was merged into another, in place of its last row.
+/// Marks a merged blob, in place of its last row.
 constexpr std::uint16_t kNoRow = UINT16_MAX;
 
-/// Returns a distance from the image centre within which all dots of an image are.
-int all_within_px(const Light& light) {
-    return std::max(light.width_px, light.height_px);
+/// Returns a distance from the image centre that contains all dots of an image.
+int all_within_px(const AdaptiveThreshold& threshold) {
+    return std::max(threshold.width_px, threshold.height_px);
 }
 
-/// Predicate: whether a dot is as near the image's centre as those that are kept.
+/// Predicate: true if a dot is within the distance at which dots are kept.
 struct IsKept {
     Vec image_centre_q8;
     std::int32_t within_q8;
 
-    IsKept(const Light& light, const DotList& list)
-        : image_centre_q8{(light.width_px - 1) * 128, (light.height_px - 1) * 128},
+    IsKept(const AdaptiveThreshold& threshold, const DotList& list)
+        : image_centre_q8{(threshold.width_px - 1) * 128, (threshold.height_px - 1) * 128},
           within_q8(list.kept_within_px * 256) {}
     bool operator()(const Dot& dot) const {
         return is_within(dot.centre_q8 - image_centre_q8, within_q8);
     }
 };
 
-/// Drops all dots but those that satisfy the predicate; the order stays.
-/// std::remove_if is not used because libraries unroll it, which takes a kilobyte on small devices.
+/// Removes all dots that do not satisfy the predicate, and keeps the order. std::remove_if is not
+/// used because libraries unroll it, which takes a kilobyte on small devices.
 template <typename Predicate>
 void keep_dots(DotList list, Predicate is_to_keep) {
     Dot* kept = list.dots.data();
@@ -49,50 +49,49 @@ void keep_dots(DotList list, Predicate is_to_keep) {
     list.count = static_cast<int>(kept - list.dots.data());
 }
 
-/// Drops the outer dots, and all that would follow there, so that inner ones find room. Returns
-/// false if there are no outer dots left.
-/// It is not inlined, so that small devices keep their registers for the frequent case.
-[[gnu::noinline]] bool make_room(const Light& light, DotList list) {
+/// Reduces the distance at which dots are kept and removes the dots beyond it, which makes room for
+/// inner ones. Returns false if the distance is 0. Not inlined: small devices need their registers
+/// for the frequent case.
+[[gnu::noinline]] bool make_room(const AdaptiveThreshold& threshold, DotList list) {
     if (list.kept_within_px == 0) return false;
     list.kept_within_px -= list.kept_within_px / 8 + 1;
-    keep_dots(list, IsKept(light, list));
+    keep_dots(list, IsKept(threshold, list));
     return true;
 }
 
-/// Returns sum / mass in 1/256, rounded. 32 bits are enough; for the largest blobs the lowest one
-/// or two bits are dropped.
+/// Returns sum / mass in 1/256, rounded. Drops the lowest one or two bits for the largest blobs, to
+/// stay within 32 bits.
 std::int32_t mean_q8(std::uint32_t sum, std::uint32_t mass) {
     for (; sum >= 1U << 23; sum /= 2)
         mass /= 2;
     return static_cast<std::int32_t>((sum * 256 + mass / 2) / mass);
 }
 
-/// Whether a blob is small, away from the border, and has a pixel below the high threshold.
-bool may_be_dot(const OpenBlob& blob, const Light& light) {
+/// Returns true if a blob is small, away from the border, and has a pixel below the high threshold.
+bool may_be_dot(const OpenBlob& blob, const AdaptiveThreshold& threshold) {
     return blob.passes_high && blob.area_px <= kMaxDotArea_px && blob.first_v > 0 &&
-           blob.left > 0 && blob.right < light.width_px &&
+           blob.left > 0 && blob.right < threshold.width_px &&
            blob.right - blob.left <= kMaxDotSide_px && blob.last_v - blob.first_v < kMaxDotSide_px;
 }
 
-void close_blob(const OpenBlob& blob, const Light& light, DotList list) {
-    if (!may_be_dot(blob, light)) return;
-    // Coordinates are relative to the blob's corner, so that the sums, which are modulo 2^32, are
-    // small.
+void close_blob(const OpenBlob& blob, const AdaptiveThreshold& threshold, DotList list) {
+    if (!may_be_dot(blob, threshold)) return;
+    // Coordinates are relative to the corner of the blob, because the sums are modulo 2^32.
     const Dot dot{{blob.left * 256 + mean_q8(blob.sum_x - blob.mass * blob.left, blob.mass),
                    blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
                   static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
                   static_cast<std::uint16_t>(blob.area_px)};
-    // As long as all dots had room, their distance does not matter.
-    while (list.kept_within_px == all_within_px(light) || IsKept(light, list)(dot)) {
+    // Distances are not compared until the list has been full.
+    while (list.kept_within_px == all_within_px(threshold) || IsKept(threshold, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
             list.dots[static_cast<std::size_t>(list.count++)] = dot;
             return;
         }
-        if (!make_room(light, list)) return;
+        if (!make_room(threshold, list)) return;
     }
 }
 
-/// Returns an unused blob; none if there are too many already.
+/// Returns an unused blob, or null if all are in use.
 OpenBlob* unused_blob(OpenBlobs& open) {
     OpenBlob* const blob = open.first_unused;
     if (blob != nullptr) {
@@ -102,7 +101,7 @@ OpenBlob* unused_blob(OpenBlobs& open) {
     return open.blobs_begun < open.blobs.size() ? &open.blobs[open.blobs_begun++] : nullptr;
 }
 
-/// Returns a new blob that begins with a run of row `v`; none if there are too many already.
+/// Returns a new blob that begins with a run of row `v`, or null if all are in use.
 OpenBlob* open_blob(const Run& run, int v, OpenBlobs& open) {
     OpenBlob* const blob = unused_blob(open);
     if (blob == nullptr) return nullptr;
@@ -130,7 +129,7 @@ void add_run(const Run& run, int v, OpenBlob& blob) {
     blob.passes_high |= run.passes_high;
 }
 
-/// Merges `other` into `blob`, because both belong to the same dark spot.
+/// Merges `other` into `blob`: both are parts of one dark spot.
 void unite(OpenBlob& blob, OpenBlob& other) {
     blob.sum_x += other.sum_x;
     blob.sum_y += other.sum_y;
@@ -144,20 +143,20 @@ void unite(OpenBlob& blob, OpenBlob& other) {
     other.last_v = kNoRow;
 }
 
-/// Returns the blob that a run belongs to, after all merging.
+/// Returns the blob that a run belongs to after all merges.
 OpenBlob* whole(OpenBlob* blob) {
     while (blob != nullptr && blob->part_of != nullptr)
         blob = blob->part_of;
     return blob;
 }
 
-/// Ends a row of runs with a sentinel to the right of all others.
+/// Ends a row of runs with a sentinel to the right of all runs.
 void end_row(Run& after_last) {
     after_last.begin = after_last.end = UINT16_MAX;
 }
 
-/// Adds each run of row `v` to the blob of the runs above that it touches (corners count), or opens
-/// a new blob for it.
+/// Adds each run of row `v` to the blob of the runs above that it touches, also at corners, or
+/// opens a new blob for it.
 void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
     bool some_united = false;
     for (Run& run : below) {
@@ -190,20 +189,20 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
 }
 
 /// Closes the blobs of the row above that row `v` does not continue.
-void close_blobs(std::span<const Run> above, int v, const Light& light, OpenBlobs& open,
-                 DotList list) {
+void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& threshold,
+                 OpenBlobs& open, DotList list) {
     for (const Run& run : above) {
         OpenBlob* const blob = run.blob;
         if (blob == nullptr || blob->last_v == v) continue;
-        if (blob->part_of == nullptr) close_blob(*blob, light, list);
-        blob->last_v = static_cast<std::uint16_t>(v);  // other runs of the blob then pass over it
+        if (blob->part_of == nullptr) close_blob(*blob, threshold, list);
+        blob->last_v = static_cast<std::uint16_t>(v);  // other runs of the blob then skip it
         blob->part_of = open.first_unused;
         open.first_unused = blob;
     }
 }
 
-/// Returns the upper quartile of a member over some of the dots. Blobs of noise may be as many as
-/// dots, but hardly any blob is larger than a dot.
+/// Returns the upper quartile of a member over a sample of the dots. Blobs of noise may be as
+/// frequent as dots, but few blobs are larger than dots.
 std::int32_t typical(std::span<const Dot> dots, std::uint16_t Dot::*member) {
     constexpr std::size_t kSample = 128;
     const std::size_t step = dots.size() / kSample + 1;
@@ -216,18 +215,18 @@ std::int32_t typical(std::span<const Dot> dots, std::uint16_t Dot::*member) {
 
 }  // namespace
 
-void begin_blobs(const Light& light, OpenBlobs& open, DotList list) {
+void begin_blobs(const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list) {
     open.run_count = 0;
     open.newest_in_second_half = false;
     end_row(open.runs[0]);
-    open.runs_left = open.most_runs;
+    open.runs_left = open.max_runs;
     open.blobs_begun = 0;
     open.first_unused = nullptr;
     list.count = 0;
-    list.kept_within_px = all_within_px(light);
+    list.kept_within_px = all_within_px(threshold);
 }
 
-void grow_blobs(int v, const Light& light, OpenBlobs& open, DotList list) {
+void grow_blobs(int v, const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list) {
     const std::size_t half = open.runs.size() / 2;
     const auto newest = [&] { return open.runs.subspan(half * open.newest_in_second_half, half); };
     const auto older = newest();
@@ -236,12 +235,12 @@ void grow_blobs(int v, const Light& light, OpenBlobs& open, DotList list) {
 
     const auto above = older.first(static_cast<std::size_t>(open.run_count));
     const auto room = newer.first(std::min(half - 1, static_cast<std::size_t>(open.runs_left)));
-    open.run_count = find_runs(v, light, room);
+    open.run_count = find_runs(v, threshold, room);
     open.runs_left -= open.run_count;
     const auto below = newer.first(static_cast<std::size_t>(open.run_count));
     end_row(newer[below.size()]);
     connect(above.data(), below, v, open);
-    close_blobs(above, v, light, open, list);
+    close_blobs(above, v, threshold, open, list);
 }
 
 void sift_dots(const BlobOptions& options, DotList list) {

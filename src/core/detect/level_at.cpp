@@ -9,12 +9,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of pixels per axis that the level at one point is made of.
+/// Number of pixels per axis that contribute to the level at a point.
 constexpr int kTaps = 4;
 
-/// Returns the binomial (1 2 1) moved by a fraction of a pixel, in 1/1024.
-/// Dots blur into the neighbouring places: a wider window collects more light, but also more of the
-/// neighbour's and of the surroundings.
+/// Returns the weights of the binomial (1 2 1) shifted by a fraction of a pixel, in 1/1024. A wider
+/// window would collect more of a blurred dot, but also more of its neighbours and surroundings.
 std::array<int, kTaps> taps(std::int32_t position_q8) {
     constexpr std::array<int, kTaps + 1> kBinomial{0, 1, 2, 1, 0};
     const int fraction = position_q8 & 255;
@@ -25,8 +24,8 @@ std::array<int, kTaps> taps(std::int32_t position_q8) {
     return weights;
 }
 
-/// Returns a pixel without its defect; at the border, where it has too few neighbours, the nearest
-/// one that has them.
+/// Returns a pixel with defects corrected. Pixels at the border have too few neighbours; the
+/// nearest inner pixel replaces them.
 int level_near(const ImageView& image, int u, int v) {
     return without_defect(image, std::clamp(u, 1, image.width_px - 2),
                           std::clamp(v, 1, image.height_px - 2));

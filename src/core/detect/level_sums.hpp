@@ -18,7 +18,7 @@ struct PixelBox {
     int top;
     int bottom;
 
-    /// Makes the box around a point, cut at the image's border.
+    /// Makes the box around a point, clipped to the image.
     PixelBox(const ImageView& image, Vec point_q8, int half_px) {
         const int u = (point_q8.x + 128) >> 8;
         const int v = (point_q8.y + 128) >> 8;
@@ -32,12 +32,12 @@ struct PixelBox {
     int pixels() const { return columns() * rows(); }
 };
 
-/// A summed-area table (Crow 1984): sums of the grey levels of any box within another one.
+/// A summed-area table (Crow 1984): gives the sum of the grey levels of any box within `all`.
 class LevelSums {
   public:
-    static constexpr int kMostSide_px = 48;
+    static constexpr int kMaxSide_px = 48;
 
-    /// `all` must have at most kMostSide_px rows and columns.
+    /// `all` has at most kMaxSide_px rows and columns.
     LevelSums(const ImageView& image, const PixelBox& all) : left_(all.left), top_(all.top) {
         std::fill_n(sums_[0].begin(), all.columns() + 1, 0U);
         for (int j = 0; j < all.rows(); ++j) {
@@ -51,7 +51,7 @@ class LevelSums {
             }
         }
     }
-    /// Returns the sum of grey levels in a box that is not empty.
+    /// Returns the sum of the grey levels of a non-empty box.
     int of(const PixelBox& box) const {
         return static_cast<int>(at(box.right + 1, box.bottom + 1) - at(box.left, box.bottom + 1) -
                                 at(box.right + 1, box.top) + at(box.left, box.top));
@@ -64,7 +64,7 @@ class LevelSums {
 
     int left_;
     int top_;
-    std::array<std::array<std::uint32_t, kMostSide_px + 1>, kMostSide_px + 1> sums_;
+    std::array<std::array<std::uint32_t, kMaxSide_px + 1>, kMaxSide_px + 1> sums_;
 };
 
 }  // namespace dotpose::core

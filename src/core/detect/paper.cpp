@@ -16,7 +16,7 @@ int blocks_along(int length_px, int side) {
     return (length_px - 1) / side + 1;
 }
 
-/// Returns the level that a part of a block's pixels exceed, from some of them, evenly spread.
+/// Returns the paper level of a block: a quantile of an evenly spaced sample of its pixels.
 std::uint8_t paper_of_block(const ImageView& image, int u0, int v0, int side) {
     static_assert(kSamplesPerSide * kSamplesPerSide <= UINT8_MAX);
     std::array<std::uint8_t, 256> pixels_of_level{};
@@ -34,7 +34,7 @@ std::uint8_t paper_of_block(const ImageView& image, int u0, int v0, int side) {
     return static_cast<std::uint8_t>(level);
 }
 
-/// Calls `use` for the level of the block and of each of the eight around it.
+/// Calls `use` with the level of the block and of each of the eight blocks around it.
 template <typename Use>
 void visit_around(const PaperMap& map, int column, int row, Use use) {
     for (int r = std::max(row - 1, 0); r <= std::min(row + 1, map.rows - 1); ++r) {

@@ -13,7 +13,8 @@ namespace {
 
 namespace tuned = tuning::patch;
 
-/// Returns 2^24 / (n + 1), rounded up; a division for each tile would take a microsecond in all.
+/// Returns 2^24 / (n + 1), rounded up. A table, because the divisions of all tiles would take a
+/// microsecond.
 constexpr std::uint32_t reciprocal_q24(std::uint32_t n) {
     return ((1U << 24) + n) / (n + 1);
 }
@@ -26,7 +27,7 @@ std::size_t relative_darkness(int darkness, int paper) {
         24);
 }
 
-/// Returns where a stretch of `length` px around `centre` begins, moved into [0, size).
+/// Returns the begin of a stretch of `length` px around `centre`, shifted into [0, size).
 int begin_of(int centre, int length, int size) {
     return std::clamp(centre - length / 2, 0, size - length);
 }
@@ -36,11 +37,11 @@ int begin_of(int centre, int length, int size) {
 bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int width_px,
                  int height_px, int scale, Patch& patch) {
     patch.scale = scale;
-    patch.width_px = std::min({width_px, image.width_px, Patch::kMostWidth_px * scale}) / scale;
-    patch.height_px = std::min({height_px, image.height_px, Patch::kMostHeight_px * scale}) / scale;
+    patch.width_px = std::min({width_px, image.width_px, Patch::kMaxWidth_px * scale}) / scale;
+    patch.height_px = std::min({height_px, image.height_px, Patch::kMaxHeight_px * scale}) / scale;
     patch.left_px = begin_of(centre_u_px, patch.width_px * scale, image.width_px);
     patch.top_px = begin_of(centre_v_px, patch.height_px * scale, image.height_px);
-    return patch.width_px >= tuned::kFewest_px && patch.height_px >= tuned::kFewest_px;
+    return patch.width_px >= tuned::kMin_px && patch.height_px >= tuned::kMin_px;
 }
 
 bool measure_contrast(Patch& patch) {
@@ -49,33 +50,33 @@ bool measure_contrast(Patch& patch) {
     const auto tile = [](int column, int row) {
         return static_cast<std::size_t>(row * Patch::kTilesPerRow + column);
     };
-    // Number of tiles with each darkness relative to their paper, in 1/64; the last one is of those
-    // without contrast.
+    // Number of tiles by their darkness relative to their paper level, in 1/64. The last bin counts
+    // tiles without contrast.
     constexpr std::size_t kFlat = 65;
     std::array<int, kFlat + 1> counts{};
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
             const int paper = patch.brightest[tile(column, row)];
             const int darkness = paper + patch.darkness[tile(column, row)] - 255;
-            const bool is_dark = darkness >= tuned::kLeastDarkness;
+            const bool is_dark = darkness >= tuned::kMinDarkness;
             ++counts[is_dark ? relative_darkness(darkness, paper) : kFlat];
         }
     }
     const int dark_tiles = rows * columns - counts[kFlat];
-    if (dark_tiles < tuned::kFewestTiles) return false;
+    if (dark_tiles < tuned::kMinTiles) return false;
     std::size_t median = 0;
     for (int below = counts[0]; 2 * below <= dark_tiles; below += counts[++median]) {
     }
-    patch.depth_q8 = 4 * static_cast<int>(median) + 2;
-    const int share_q16 = patch.depth_q8 * tuned::kThreshold_q8;
+    patch.dot_contrast_q8 = 4 * static_cast<int>(median) + 2;
+    const int contrast_q16 = patch.dot_contrast_q8 * tuned::kThreshold_q8;
     for (int row = 0; row < rows; ++row) {
-        // The whole row, used or not, is a vector.
+        // The whole row is one vector, including its unused tiles.
         const auto paper = std::span(patch.brightest).subspan(tile(0, row), Patch::kTilesPerRow);
         std::array<std::uint8_t, Patch::kTilesPerRow> thresholds;
         for (std::size_t i = 0; i < thresholds.size(); ++i)
-            thresholds[i] = static_cast<std::uint8_t>(paper[i] - (paper[i] * share_q16 >> 16));
-        // Strips have two tiles; if the last strip has one, no pixel is darker than the threshold
-        // of the other.
+            thresholds[i] = static_cast<std::uint8_t>(paper[i] - (paper[i] * contrast_q16 >> 16));
+        // Strips have two tiles. If the last strip has one, the threshold of the missing tile
+        // accepts no pixel.
         if (columns % 2 != 0) thresholds[static_cast<std::size_t>(columns)] = 0;
         std::copy(thresholds.begin(), thresholds.end(),
                   patch.thresholds.begin() + static_cast<std::ptrdiff_t>(tile(0, row)));
@@ -102,13 +103,13 @@ void keep_isolated(Patch& patch) {
     };
     std::size_t kept = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
-        // On a plateau the parabola has no vertex, and the minimum no finite place.
+        // On a plateau the parabola has no vertex, and the minimum has no finite place.
         if (!(std::abs(dots.x[i]) < kNoDot_px && std::abs(dots.y[i]) < kNoDot_px)) continue;
         const int u = pixel_of(dots.x[i], patch.width_px);
         const int v = pixel_of(dots.y[i], patch.height_px);
         const auto tile = static_cast<std::size_t>(v / Patch::kTileHeight_px * Patch::kTilesPerRow +
                                                    u / Patch::kTileWidth_px);
-        if (patch.brightest[tile] + patch.darkness[tile] - 255 < tuned::kLeastDarkness) continue;
+        if (patch.brightest[tile] + patch.darkness[tile] - 255 < tuned::kMinDarkness) continue;
         const int threshold = patch.thresholds[tile];
         int dark = 0;
         for (const auto& [du, dv] : kAround) {
@@ -116,7 +117,7 @@ void keep_isolated(Patch& patch) {
             const int y = std::clamp(v + dv, 0, patch.height_px - 1);
             dark += patch.row(patch.smoothed, y)[x] < threshold ? 1 : 0;
         }
-        if (dark > tuned::kMostDark) continue;
+        if (dark > tuned::kMaxDark) continue;
         dots.x[kept] = dots.x[i];
         dots.y[kept++] = dots.y[i];
     }

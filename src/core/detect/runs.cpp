@@ -1,6 +1,6 @@
 #include "core/detect/runs.hpp"
 
-#include "core/detect/light.hpp"
+#include "core/detect/adaptive_threshold.hpp"
 #include "core/detect/words.hpp"
 
 namespace dotpose::core {
@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kWord_px = sizeof(Word);
 
-/// Sets the top bit of each pixel that is light; the other bits mean nothing.
+/// Sets the top bit of each pixel that is light. The other bits are undefined.
 Word light_tops(Word pixels, Word half_low) {
     return (pixels >> 1 | kTops) - half_low;
 }
@@ -25,7 +25,7 @@ bool is_group_light(const std::uint8_t* pixels, const std::uint8_t* half_low_lev
     return tops == kTops;
 }
 
-/// Returns the first dark pixel of a row from `begin` on. There is always one after the last pixel.
+/// Returns the first dark pixel of a row from `begin` on. The row has one after its last pixel.
 const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row,
                               const std::uint8_t* half_low_levels) {
     const auto before = static_cast<std::size_t>(begin - row) % kWord_px;
@@ -50,20 +50,20 @@ const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row
     return pixels;
 }
 
-/// Writes the run that begins at `pixel`; returns where it ends.
+/// Writes the run that begins at `pixel` and returns its end.
 const std::uint8_t* write_run(const std::uint8_t* pixel, const std::uint8_t* row,
-                              const Light& light, Run& run) {
-    const std::uint8_t* const row_end = row + whole_width(light);
+                              const AdaptiveThreshold& threshold, Run& run) {
+    const std::uint8_t* const row_end = row + whole_width(threshold);
     run.begin = static_cast<std::uint16_t>(pixel - row);
     bool passes_high = false;
     std::uint32_t mass = 0;
-    std::uint32_t moment = 0;  // sum of weight times (last - u): each weight counts again for every
-                               // pixel after it
+    std::uint32_t moment =
+        0;  // sum of weight times (last - u): each weight is added again for every pixel after it
     const std::uint8_t* tile_end = nullptr;
     do {
         const auto column = static_cast<std::size_t>(pixel - row);
-        const unsigned low = 2U * light.half_low_levels[column];
-        const unsigned high = light.high_levels[column];
+        const unsigned low = 2U * threshold.half_low_levels[column];
+        const unsigned high = threshold.high_levels[column];
         tile_end = row + (column / kTileWidth_px + 1) * kTileWidth_px;
         unsigned deepest = 0;
         for (; pixel != tile_end && *pixel < low; ++pixel) {
@@ -84,15 +84,15 @@ const std::uint8_t* write_run(const std::uint8_t* pixel, const std::uint8_t* row
 
 }  // namespace
 
-int find_runs(int v, const Light& light, std::span<Run> runs) {
-    const std::uint8_t* const row = kept_row(light, v);
-    const std::uint8_t* const row_end = row + whole_width(light);
+int find_runs(int v, const AdaptiveThreshold& threshold, std::span<Run> runs) {
+    const std::uint8_t* const row = kept_row(threshold, v);
+    const std::uint8_t* const row_end = row + whole_width(threshold);
     const std::uint8_t* pixel = row;
     std::size_t count = 0;
     for (; count < runs.size(); ++count) {
-        pixel = find_dark(pixel, row, light.half_low_levels.data());
+        pixel = find_dark(pixel, row, threshold.half_low_levels.data());
         if (pixel == row_end) break;
-        pixel = write_run(pixel, row, light, runs[count]);
+        pixel = write_run(pixel, row, threshold, runs[count]);
     }
     return static_cast<int>(count);
 }

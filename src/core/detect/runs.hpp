@@ -1,4 +1,4 @@
-// Runs: stretches of dark pixels in a row, with sums over each. Second half of the thresholding of
+// Runs: stretches of dark pixels in a row, with their sums. Second half of the thresholding of
 // paper section II-B.1.
 #pragma once
 
@@ -8,12 +8,12 @@
 
 namespace dotpose::core {
 
-/// Number of pixels that are compared together; all have the same thresholds.
+/// Number of pixels that are compared together. All have the same thresholds.
 inline constexpr std::size_t kGroup_px = 8;
 static_assert(kTileWidth_px % kGroup_px == 0);
 
-/// Finds the runs of row `v` from left to right, as many as there is room for, and returns their
-/// number. A run that reaches the image's right border may end beyond it.
-int find_runs(int v, const Light& light, std::span<Run> runs);
+/// Finds the runs of row `v` from left to right while `runs` has room, and returns their number. A
+/// run at the right border of the image may end beyond it.
+int find_runs(int v, const AdaptiveThreshold& threshold, std::span<Run> runs);
 
 }  // namespace dotpose::core

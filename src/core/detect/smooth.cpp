@@ -20,7 +20,7 @@ std::uint16_t* line(const Smoothing& smoothing, int v, int width_px) {
     return smoothing.lines.data() + static_cast<std::ptrdiff_t>(v % kRows) * width_px;
 }
 
-/// Limits pixels to the range of their neighbours, which removes single impulses.
+/// Clamps pixels to the range of their neighbours, which removes single impulses.
 void clip_impulses(const ImageView& image, int v, std::uint8_t* out) {
     const std::uint8_t* above = image.row(std::max(v - 1, 0));
     const std::uint8_t* here = image.row(v);
@@ -69,20 +69,20 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
     }
 }
 
-/// Returns half the side of the surroundings. They reach over two spacings wherever 8 dots are in
-/// view. Towards the border they shrink, so that they stay symmetric around the pixel and a
-/// gradient of the light does no harm.
-int half_side(int at, int length, int largest) {
-    return std::max(std::min({largest, at, length - 1 - at}), tuned::kSmallestHalf_px);
+/// Returns half the side of the surroundings. They include two spacings if 8 dots are in view. Near
+/// the border they are smaller but still symmetric around the pixel, so that a gradient of the
+/// light cancels.
+int half_side(int at, int length, int max_half) {
+    return std::max(std::min({max_half, at, length - 1 - at}), tuned::kMinHalf_px);
 }
 
 /// Adds a row to the sums of the columns, or subtracts it. A pixel much darker than the paper
-/// around it counts as paper, because strokes of graphics are not shadow.
+/// around it counts as paper: a stroke of graphics is not shadow.
 void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     const std::uint8_t* row = image.row(v);
     std::uint32_t* sums = smoothing.column_sums.data();
     const int block_px = smoothing.paper.block_px;
-    // x ^ flip - flip is -x where flip is -1.
+    // x ^ flip - flip is -x if flip is -1.
     const std::uint32_t flip = add ? 0 : UINT32_MAX;
     for (int begin = 0; begin < image.width_px; begin += block_px) {
         const auto paper =
@@ -96,7 +96,7 @@ void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     }
 }
 
-/// Moves the window of rows over which the columns are summed.
+/// Moves the window of rows that the column sums contain.
 void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing) {
     while (smoothing.sums_end < end)
         add_row(image, smoothing.sums_end++, true, smoothing);
@@ -104,12 +104,12 @@ void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing)
         add_row(image, smoothing.sums_begin++, false, smoothing);
 }
 
-/// Darkest level of the evened image; darker pixels get this level.
-constexpr std::uint32_t kDarkest = kEvenLevel * tuned::kDarkest_5ths / 5;
+/// Minimum level of the normalised image; darker pixels are set to it.
+constexpr std::uint32_t kMinLevel = kNormalLevel * tuned::kMinLevel_5ths / 5;
 
-/// Computes quotients, rounded down, without dividing. For n / d < 256 and d < 2^20 they are exact:
-/// the factor is too large by less than one, which makes n / d larger by less than n / 2^48 < 1 /
-/// d.
+/// Computes quotients, rounded down, by multiplication. They are exact for n / d < 256 and d <
+/// 2^20: the factor is too large by less than one, which increases n / d by less than n / 2^48 < 1
+/// / d.
 class Divider {
   public:
     std::uint32_t quotient(std::uint32_t n, std::uint32_t d) {
@@ -126,16 +126,16 @@ class Divider {
     std::uint64_t factor_ = 0;
 };
 
-/// Returns kEvenLevel / mean in 2^-24, rounded up; its product with a pixel is too large by less
-/// than 1 / 256. No mean is 0.
-constexpr std::uint32_t evened_q24(std::uint32_t mean) {
-    return mean == 0 ? 0 : ((std::uint32_t{kEvenLevel} << 24) - 1) / mean + 1;
+/// Returns kNormalLevel / mean in 2^-24, rounded up. Its product with a pixel is too large by less
+/// than 1 / 256. The mean is not 0.
+constexpr std::uint32_t normalising_factor_q24(std::uint32_t mean) {
+    return mean == 0 ? 0 : ((std::uint32_t{kNormalLevel} << 24) - 1) / mean + 1;
 }
 
-/// Divides each pixel by the mean of its surroundings, times kEvenLevel.
-void even_out(const ImageView& image, int v, Smoothing& smoothing) {
-    const int largest = smoothing.paper.block_px;
-    const int half_height = half_side(v, image.height_px, largest);
+/// Divides each pixel by the mean of its surroundings, times kNormalLevel.
+void normalise_light(const ImageView& image, int v, Smoothing& smoothing) {
+    const int max_half = smoothing.paper.block_px;
+    const int half_height = half_side(v, image.height_px, max_half);
     move_sums(image, std::max(v - half_height, 0), std::min(v + half_height + 1, image.height_px),
               smoothing);
     const auto rows = static_cast<std::uint32_t>(smoothing.sums_end - smoothing.sums_begin);
@@ -144,31 +144,32 @@ void even_out(const ImageView& image, int v, Smoothing& smoothing) {
     Divider divider;
     const int width_px = image.width_px;
     std::uint32_t sum = 0;
-    const auto even = [&](int u, int columns_in_sum) {
+    const auto normalise = [&](int u, int columns_in_sum) {
         const std::uint32_t area = rows * static_cast<std::uint32_t>(columns_in_sum);
         const std::uint32_t mean = std::max<std::uint32_t>(divider.quotient(sum, area), 1U);
-        const std::uint64_t evened = std::uint64_t{pixels[u]} * tabled<evened_q24, 256>(mean) >> 24;
+        const std::uint64_t normalised =
+            std::uint64_t{pixels[u]} * tabled<normalising_factor_q24, 256>(mean) >> 24;
         pixels[u] = static_cast<std::uint8_t>(
-            std::clamp<std::uint32_t>(static_cast<std::uint32_t>(evened), kDarkest, 255U));
+            std::clamp<std::uint32_t>(static_cast<std::uint32_t>(normalised), kMinLevel, 255U));
     };
     int begin = 0;
     int end = 0;
-    const auto even_near_border = [&](int u) {
-        const int half_width = half_side(u, width_px, largest);
+    const auto normalise_near_border = [&](int u) {
+        const int half_width = half_side(u, width_px, max_half);
         while (end < std::min(u + half_width + 1, width_px))
             sum += columns[end++];
         while (begin < u - half_width)
             sum -= columns[begin++];
-        even(u, end - begin);
+        normalise(u, end - begin);
     };
-    for (int u = 0; u <= largest; ++u)
-        even_near_border(u);
-    for (int u = largest + 1; u < width_px - largest; ++u) {
+    for (int u = 0; u <= max_half; ++u)
+        normalise_near_border(u);
+    for (int u = max_half + 1; u < width_px - max_half; ++u) {
         sum += columns[end++] - columns[begin++];
-        even(u, 2 * largest + 1);
+        normalise(u, 2 * max_half + 1);
     }
-    for (int u = width_px - largest; u < width_px; ++u)
-        even_near_border(u);
+    for (int u = width_px - max_half; u < width_px; ++u)
+        normalise_near_border(u);
 }
 
 }  // namespace
@@ -194,7 +195,7 @@ const std::uint8_t* next_smooth_row(const ImageView& image, Smoothing& smoothing
         return line(smoothing, std::clamp(row, 0, image.height_px - 1), image.width_px);
     };
     weight_down({at(v - 2), at(v - 1), at(v), at(v + 1), at(v + 2)}, image.width_px, out);
-    even_out(image, v, smoothing);
+    normalise_light(image, v, smoothing);
     return out;
 }
 

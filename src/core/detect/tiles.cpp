@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "core/detect/light.hpp"
+#include "core/detect/adaptive_threshold.hpp"
 #include "core/detect/words.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// Every n-th row is measured: some dots are always crossed by such a row.
+/// Row step: every n-th row is measured. Some dots always span one of these rows.
 constexpr int kRowsEvery = 4;
 
 /// The rows of a band that are measured.
@@ -17,12 +17,12 @@ struct Rows {
     std::ptrdiff_t stride;
     int count;
 
-    Rows(int band, const Light& light) {
-        const int rows = band_end(light, band) - band_begin(light, band);
-        // The rows lie evenly about the middle; in a narrow last band, from its first row.
+    Rows(int band, const AdaptiveThreshold& threshold) {
+        const int rows = band_end(threshold, band) - band_begin(threshold, band);
+        // The rows are centred in the band. A narrow last band is measured from its first row.
         const int first = rows > kRowsEvery / 2 ? kRowsEvery / 2 : 0;
-        begin = kept_row(light, band_begin(light, band) + first);
-        stride = kRowsEvery * whole_width(light);
+        begin = kept_row(threshold, band_begin(threshold, band) + first);
+        stride = kRowsEvery * whole_width(threshold);
         count = (rows - first + kRowsEvery - 1) / kRowsEvery;
     }
 };
@@ -42,25 +42,24 @@ class Means {
     std::uint32_t inverse_q20_;
 };
 
-/// Returns the darkness of the pair of pixels with the least sum.
-constexpr std::uint8_t darkness_of_pair(std::uint32_t least) {
-    return static_cast<std::uint8_t>(255 - least / 2);
+/// Returns the darkness of the pair of pixels with the minimum sum.
+constexpr std::uint8_t darkness_of_pair(std::uint32_t min) {
+    return static_cast<std::uint8_t>(255 - min / 2);
 }
 
-/// Words hold sums of two adjacent pixels side by side in 16 bits each, or sums of many such pairs.
+/// A word contains sums of two adjacent pixels in fields of 16 bits, or sums of many such pairs.
 constexpr Word kPairs = static_cast<Word>(0x00FF00FF00FF00FF);
 constexpr Word kPairTops = static_cast<Word>(0x8000800080008000);
 
-/// Returns a - b in each pair, or 0 where that is negative; top bits of `a` must be set, those of
-/// `b` clear.
+/// Returns max(a - b, 0) in each pair. Requires set top bits of `a` and clear top bits of `b`.
 constexpr Word excess_of_pairs(Word a, Word b) {
     const Word difference = a - b;
     const Word is_positive = difference & kPairTops;
     return difference & (is_positive - (is_positive >> 15));
 }
 
-/// Returns the least of all pairs, whose top bits must be set.
-constexpr std::uint32_t least_of_pairs(Word pairs) {
+/// Returns the minimum of all pairs. Requires set top bits.
+constexpr std::uint32_t min_of_pairs(Word pairs) {
     for (std::size_t shift = 4 * sizeof pairs; shift >= 16; shift /= 2)
         pairs -= excess_of_pairs(pairs, pairs >> shift & ~kPairTops);
     return static_cast<std::uint32_t>(pairs) & 0x7FFF;
@@ -74,13 +73,13 @@ constexpr std::uint32_t sum_of_pairs(Word pairs) {
 
 }  // namespace
 
-void measure_tiles(int band, const Light& light, std::span<Tile> tiles) {
-    const Rows rows(band, light);
+void measure_tiles(int band, const AdaptiveThreshold& threshold, std::span<Tile> tiles) {
+    const Rows rows(band, threshold);
     const Means means(rows.count);
     const std::uint8_t* column = rows.begin;
     for (Tile& tile : tiles) {
         Word sums = 0;
-        Word least = ~Word{0};
+        Word min = ~Word{0};
         const std::uint8_t* pixels = column;
         for (int n = rows.count; n > 0; --n, pixels += rows.stride) {
 #pragma GCC unroll 4
@@ -88,10 +87,10 @@ void measure_tiles(int band, const Light& light, std::span<Tile> tiles) {
                 const Word word = word_at(pixels + k);
                 const Word pairs = (word & kPairs) + (word >> 8 & kPairs);
                 sums += pairs;
-                least -= excess_of_pairs(least, pairs);
+                min -= excess_of_pairs(min, pairs);
             }
         }
-        tile = {means(sum_of_pairs(sums)), darkness_of_pair(least_of_pairs(least))};
+        tile = {means(sum_of_pairs(sums)), darkness_of_pair(min_of_pairs(min))};
         column += kTileWidth_px;
     }
 }

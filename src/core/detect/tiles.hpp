@@ -1,4 +1,4 @@
-// Tiles: the mean and the darkest pixels of each tile, from which the light is measured.
+// Tiles: the mean and the darkest pixels of each tile, from which the thresholds are computed.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Measures the tiles of a band whose rows are kept.
-void measure_tiles(int band, const Light& light, std::span<Tile> tiles);
+/// Measures the tiles of a band whose rows are stored.
+void measure_tiles(int band, const AdaptiveThreshold& threshold, std::span<Tile> tiles);
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// Undistort: moves dots to where a lens without distortion would have put them, and back. Paper eq.
+// Undistort: conversion of image points to those of a lens without distortion, and back. Paper eq.
 // 1-2.
 #pragma once
 
@@ -7,18 +7,18 @@
 
 namespace dotpose::core {
 
-/// Returns where a lens without distortion would put an image point, by eq. 1-2.
+/// Returns the image point that a lens without distortion would give, by eq. 1-2.
 Vec undistorted(const Lens& lens, Vec image_centre_q8, Vec point_q8);
 
-/// Moves dots to where a lens without distortion would have put them.
+/// Replaces the centres of dots by their undistorted points.
 void undistort(const Lens& lens, Vec image_centre_q8, std::span<Dot> dots);
 
-/// Returns where the lens puts an undistorted point, the inverse of eq. 2: r_d = 2 r_u / (1 +
-/// sqrt(1 - 4 k r_u^2)).
+/// Returns the distorted image point of an undistorted one, by the inverse of eq. 2: r_d = 2 r_u /
+/// (1 + sqrt(1 - 4 k r_u^2)).
 Vec distorted(const Lens& lens, Vec image_centre_q8, Vec point_q8);
 
-/// Returns where an image, whose centre is that of the plane, shows a point of the plane, in 2^-8
-/// px.
+/// Returns the distorted image point of a plane point, in 2^-8 px. The centre of the plane is the
+/// image centre.
 Vec distorted_point_q8(const Lens& lens, const PlaneFromImage& plane, Vec plane_point_q16);
 
 }  // namespace dotpose::core

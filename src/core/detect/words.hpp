@@ -1,4 +1,4 @@
-// Words: as many pixels as fit a register, handled together, the first in the lowest byte.
+// Words: the pixels that fit a register, processed together. The first pixel is in the lowest byte.
 #pragma once
 
 #include <bit>
@@ -11,15 +11,16 @@ namespace dotpose::core {
 using Word = std::size_t;
 static_assert(std::endian::native == std::endian::little);
 
-/// Returns a word with the same value in every byte.
+/// Returns the word with this value in every byte.
 constexpr Word in_all_bytes(std::uint8_t byte) {
     return static_cast<Word>(0x0101010101010101) * byte;
 }
 
-/// The top bit of every byte. Pixels are compared in seven bits, and the eighth holds the result.
+/// The top bit of every byte. Comparisons use the seven lower bits of the pixels and store the
+/// result in the top bit.
 inline constexpr Word kTops = in_all_bytes(0x80);
 
-/// Loads a word; `pixels` must be a multiple of the word's size.
+/// Loads a word. `pixels` must be aligned to the size of a word.
 inline Word word_at(const std::uint8_t* pixels) {
     Word word = 0;
     std::memcpy(&word, __builtin_assume_aligned(pixels, sizeof(Word)), sizeof word);

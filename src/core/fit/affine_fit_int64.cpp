@@ -7,8 +7,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the sum of (a - mean a)(b - mean b) from the plain sums. Integers near the means are
-/// taken off first, which keeps every product within 64 bits.
+/// Returns the sum of (a - mean a)(b - mean b) from the plain sums. Subtracts integers near the
+/// means first, which keeps every product within 64 bits.
 std::int64_t centred(std::int64_t sum_ab, std::int64_t sum_a, std::int64_t sum_b, std::int64_t n) {
     const std::int64_t a = sum_a / n;
     const std::int64_t b = sum_b / n;
@@ -16,8 +16,8 @@ std::int64_t centred(std::int64_t sum_ab, std::int64_t sum_a, std::int64_t sum_b
     return about_ab - divide_rounded((sum_a - n * a) * (sum_b - n * b), n);
 }
 
-/// Returns the shift to the left (to the right if negative) that brings the value into [2^29,
-/// 2^30).
+/// Returns the left shift that brings the value into [2^29, 2^30). Negative shifts are to the
+/// right.
 int normalising_shift(std::int64_t value) {
     return value == 0 ? 0
                       : 30 - static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value)));
@@ -64,7 +64,8 @@ bool AffineFitInt64::solve(int fraction_bits, AffineMap& map) const {
     const Symmetric2<std::int64_t> spread{shifted(m.xx, source_shift), shifted(m.xy, source_shift),
                                           shifted(m.yy, source_shift)};
     const std::int64_t determinant = spread.determinant();
-    // Points that spread a thousandth as far across as along count as a line.
+    // Points are on one line if their spread across is at most a thousandth of their spread along
+    // it.
     if (determinant < std::int64_t{1} << 40) return false;
 
     const auto solve_one = [&](std::int64_t sx_t, std::int64_t sy_t, std::int32_t& dx,

@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// An affine map, target = offset + dx * source.x + dy * source.y; all members are times
+/// An affine map: target = offset + dx * source.x + dy * source.y. All members are times
 /// 2^fraction_bits.
 struct AffineMap {
     Vec dx;
@@ -16,17 +16,17 @@ struct AffineMap {
     std::int64_t offset_y = 0;
 };
 
-/// Collects at most 2^14 pairs of points, with |source|, |target| < 2^24, and solves for the affine
-/// map.
+/// Accumulates at most 2^14 pairs of points, with |source|, |target| < 2^24, and solves for the
+/// affine map.
 class AffineFitInt64 {
   public:
     void add(Vec source, Vec target);
     int count() const { return static_cast<int>(n_); }
-    /// Sets the map of least squares. Returns false if the points lie on one line. The entries of
-    /// dx and dy must fit 31 bits.
+    /// Sets the map to the least-squares solution. Returns false if the points are on one line. The
+    /// entries of dx and dy must fit 31 bits.
     bool solve(int fraction_bits, AffineMap& map) const;
 
-    /// Second moments of the sources about their mean: n times their covariance.
+    /// Second moments of the sources about their mean: n times their covariance matrix.
     struct Moments {
         std::int64_t xx = 0;
         std::int64_t xy = 0;

@@ -3,7 +3,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Fraction bits of the reduced maps. Targets in 2^-16 spacings over points in 2^-8 px, times 2^16,
+/// Fraction bits of the reduced maps: targets in 2^-16 spacings over points in 2^-8 px, times 2^16,
 /// give slopes in 2^-24 spacings per px.
 constexpr int kBits = 16;
 
@@ -33,14 +33,14 @@ class SmallSystem {
     bool solve(std::array<std::int32_t, 3>& solution_q30) const {
         const std::int64_t whole = determinant(matrix_);
         const std::int64_t diagonal = matrix_[0][0] * matrix_[1][1] * matrix_[2][2];
-        // Regressors that are nearly multiples of each other cannot be told apart.
+        // Regressors that are nearly proportional do not determine their terms.
         if (whole <= 0 || whole < diagonal / 4096) return false;
         for (std::size_t k = 0; k < size_; ++k) {
             Matrix replaced = matrix_;
             for (std::size_t i = 0; i < 3; ++i)
                 replaced[i][k] = right_[i];
             const std::int64_t part = determinant(replaced);
-            // Terms over 1/2 would put the horizon into the image.
+            // A term over 1/2 would put the horizon into the image.
             if (part > whole / 2 || part < -whole / 2) return false;
             solution_q30[k] =
                 part < 0 ? -scaled_quotient(-part, whole, 30) : scaled_quotient(part, whole, 30);
@@ -73,7 +73,7 @@ std::array<Vec, 4> PlaneFitInt64::regressors(Vec p, Vec target_q16) const {
     const auto times = [&](std::int64_t factor, int bits) {
         return Vec{shift_rounded(factor * target.x, bits), shift_rounded(factor * target.y, bits)};
     };
-    // x / 2^scale has 8 + scale fraction bits; r^2 / 2^(2 scale) has as many after the shift.
+    // x / 2^scale has 8 + scale fraction bits. The shift gives r^2 / 2^(2 scale) the same number.
     const int bits = 8 + scale_;
     return {target, times(p.x, bits), times(p.y, bits), times(squared(p) >> bits, bits)};
 }
@@ -113,8 +113,8 @@ void PlaneFitInt64::add_residual(Vec image_point_q8, Vec target_q16) {
 }
 
 bool PlaneFitInt64::solve(PlaneFromImage& plane) const {
-    // The equation is target * (1 + sum of terms) = affine: the terms take off what the regressors
-    // share with the target beyond an affine map.
+    // The equation is target * (1 + sum of terms) = affine. The terms subtract the part that the
+    // regressors share with the target beyond an affine map.
     std::array<std::int32_t, kExtra> terms_q30{};
     if (extra() > 0 && !SmallSystem(normal_, right_, extra()).solve(terms_q30)) return false;
     std::array<std::int64_t, 6> sum{maps_[0].offset_x, maps_[0].offset_y, maps_[0].dx.x,
@@ -124,7 +124,7 @@ bool PlaneFitInt64::solve(PlaneFromImage& plane) const {
         const std::array<std::int64_t, 6> part{m.offset_x, m.offset_y, m.dx.x,
                                                m.dx.y,     m.dy.x,     m.dy.y};
         for (std::size_t i = 0; i < sum.size(); ++i) {
-            // Offsets have up to 41 bits and need not be as fine as slopes, which have up to 31.
+            // Offsets have up to 41 bits and need less resolution than slopes, which have up to 31.
             const int coarser = i < 2 ? 11 : 0;
             sum[i] -= (part[i] >> coarser) * terms_q30[k] >> (30 - coarser);
         }
@@ -133,7 +133,7 @@ bool PlaneFitInt64::solve(PlaneFromImage& plane) const {
     plane.perspective_q30 = {-(terms_q30[0] >> scale_), -(terms_q30[1] >> scale_)};
     plane.lens_q40 = static_cast<std::int32_t>(-(std::int64_t{terms_q30[2]} << 10) >> (2 * scale_));
     // (at + du x + dv y) / divisor equals at + (du - at * perspective.x) x + ..., except for the
-    // lens's share of what is left of `at`, which the next fit makes smaller still.
+    // lens term of the remaining `at`, which the next fit reduces further.
     const Vec at{shift_rounded(sum[0], kBits), shift_rounded(sum[1], kBits)};
     plane.at_centre_q16 = at_centre_q16_ + at;
     const auto slope = [&](std::int64_t own, std::int32_t at_q16, std::int32_t perspective_q30) {
@@ -146,9 +146,9 @@ bool PlaneFitInt64::solve(PlaneFromImage& plane) const {
 }
 
 PlaneFromImage between(const PlaneFromImage& from, const PlaneFromImage& to,
-                       std::int64_t share_q8) {
+                       std::int64_t weight_q8) {
     const auto value = [&](std::int64_t a, std::int64_t b) {
-        return static_cast<std::int32_t>(a + ((b - a) * share_q8 >> 8));
+        return static_cast<std::int32_t>(a + ((b - a) * weight_q8 >> 8));
     };
     const auto vector = [&](Vec a, Vec b) { return Vec{value(a.x, b.x), value(a.y, b.y)}; };
     return {from.centre_q8,

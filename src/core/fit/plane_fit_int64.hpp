@@ -8,7 +8,7 @@
 
 namespace dotpose::core {
 
-/// Which terms of a plane are fitted; each includes those before it.
+/// Terms of a plane that are fitted. Each value includes the terms before it.
 enum class Terms : std::uint8_t { affine, perspective, lens };
 
 /// Returns the number of parameters of a plane with these terms.
@@ -16,25 +16,25 @@ constexpr std::size_t parameters(Terms terms) {
     return terms == Terms::affine ? 6U : terms == Terms::perspective ? 8U : 9U;
 }
 
-/// Least squares of a PlaneFromImage. Multiplied out, its equation is linear in the parameters if
-/// `target` is counted from where the centre is believed to be, so that `at` is small:
+/// Least squares of a PlaneFromImage. Multiplied out, the equation is linear in the parameters if
+/// `target` is relative to the estimated centre, which makes `at` small:
 ///
-///     target = at + du x + dv y - perspective.x (x target) - perspective.y (y target) - lens (r^2
-///     target).
+///     target = at + du x + dv y - perspective.x (x target) - perspective.y (y target)
+///              - lens (r^2 target)
 ///
 /// Two passes over the points: `add` each, then `reduce`, then `add_residual` each, then `solve`.
 class PlaneFitInt64 {
   public:
-    /// `estimate` gives the centre and about where in the plane it lies. Image points must be
+    /// `estimate` gives the centre and its approximate place in the plane. Image points must be
     /// within `reach_px` of the centre.
     PlaneFitInt64(const PlaneFromImage& estimate, int reach_px, Terms terms);
 
-    /// Adds a point. `target_q16` are its coordinates in the plane, within 256 spacings of the
-    /// centre's.
+    /// Adds a point. `target_q16` is its place in the plane, within 256 spacings of that of the
+    /// centre.
     void add(Vec image_point_q8, Vec target_q16);
     int count() const { return fits_[0].count(); }
-    /// Takes the affine part off all regressors. Returns false if the points do not determine an
-    /// affine map.
+    /// Subtracts the affine part from all regressors. Returns false if the points do not determine
+    /// an affine map.
     bool reduce();
     /// Adds a point again, for the equations of the terms beyond the affine map.
     void add_residual(Vec image_point_q8, Vec target_q16);
@@ -59,11 +59,12 @@ class PlaneFitInt64 {
     std::array<std::int64_t, kExtra> right_{};
 };
 
-/// Returns the plane that is `share_q8` / 256 of the way from one plane to another with the same
+/// Returns the plane at `weight_q8` / 256 of the way from one plane to another. Both have the same
 /// centre.
-PlaneFromImage between(const PlaneFromImage& from, const PlaneFromImage& to, std::int64_t share_q8);
+PlaneFromImage between(const PlaneFromImage& from, const PlaneFromImage& to,
+                       std::int64_t weight_q8);
 
-/// A fit with those terms only that are significant.
+/// A fit with only those terms that are significant.
 struct FittedPlane {
     PlaneFromImage plane;
     Terms terms = Terms::affine;
@@ -71,12 +72,11 @@ struct FittedPlane {
     std::int64_t squared_residuals = 0;  ///< sum over points and axes, 2^-32 spacing^2
 };
 
-/// Fits a plane to the points that `visit(use)` shows by calling use(image_point_q8, target_q16);
-/// it has to show the same points each time. Terms are added as far as they explain more than
-/// chance would, the curvature of a lens only if it is beyond doubt. Returns false if the points do
-/// not determine even an affine map.
+/// Fits a plane to points. `visit(use)` calls use(image_point_q8, target_q16) for each point, and
+/// is called several times. A term is added if it explains more than chance does; the lens term
+/// needs six times as much. Returns false if the points do not determine an affine map.
 template <typename Visit>
-bool fit_significant_plane(const PlaneFromImage& estimate, Terms most, Visit visit,
+bool fit_significant_plane(const PlaneFromImage& estimate, Terms max_terms, Visit visit,
                            FittedPlane& best) {
     int reach_px = 1;
     visit([&](Vec point_q8, Vec) {
@@ -85,7 +85,7 @@ bool fit_significant_plane(const PlaneFromImage& estimate, Terms most, Visit vis
     });
     bool found = false;
     for (const Terms terms : {Terms::affine, Terms::perspective, Terms::lens}) {
-        if (terms > most) break;
+        if (terms > max_terms) break;
         PlaneFitInt64 fit(estimate, reach_px, terms);
         visit([&](Vec point_q8, Vec target) { fit.add(point_q8, target); });
         if (!fit.reduce()) break;
@@ -96,8 +96,8 @@ bool fit_significant_plane(const PlaneFromImage& estimate, Terms most, Visit vis
             fitted.squared_residuals += squared(plane_point_q16(fitted.plane, point_q8) - target);
         });
         if (found) {
-            // Each parameter explains by chance 1 in units of the mean square. Terms are kept in
-            // the share that is more than chance (James and Stein 1961).
+            // By chance, each parameter explains one mean square of the residuals. The fraction of
+            // a term beyond chance is kept (James and Stein 1961).
             const int more = static_cast<int>(parameters(terms) - parameters(best.terms));
             const int freedom =
                 std::max(2 * fitted.points - static_cast<int>(parameters(terms)), 1);

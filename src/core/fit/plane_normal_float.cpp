@@ -6,7 +6,7 @@ namespace dotpose::core {
 
 void PlaneSumsFloat::add(const FourVecs& places, const Residuals& residuals) {
     const auto& [u, v] = places;
-    const auto& [x, y] = residuals.off;
+    const auto& [x, y] = residuals.offset;
     const Four w = residuals.weight;
     less_points_ += w > 0.0F;
     const Four q = u * u + v * v;
@@ -69,16 +69,16 @@ void PlaneNormalFloat::leave_out(std::size_t parameter) {
 }
 
 bool PlaneNormalFloat::decompose() {
-    // The part of a diagonal element that must be left after elimination of the parameters before
-    // it, for its parameter to count as determined.
+    // Minimum fraction of a diagonal element that is left after elimination of the parameters
+    // before it. Below it, the parameter is not determined.
     constexpr float kDetermined = 1e-4F;
-    Parameters least;
+    Parameters minima;
     for (std::size_t i = 0; i < kPoseParameters; ++i)
-        least[i] = kDetermined * m_[i].at(i);
+        minima[i] = kDetermined * m_[i].at(i);
     for (std::size_t i = 0; i < kPoseParameters; ++i) {
         Column& column = m_[i];
-        // This also leaves out parameters that the caller did not ask for, whose element is 0.
-        if (!(column.at(i) > least[i])) {
+        // Parameters that the caller did not add have the element 0 and are left out as well.
+        if (!(column.at(i) > minima[i])) {
             if (i < 4) return false;
             leave_out(i);
             continue;
@@ -104,7 +104,7 @@ Parameters PlaneNormalFloat::whitened(const Parameters& of) const {
 }
 
 Parameters PlaneNormalFloat::unwhitened(const Parameters& column) const {
-    // Each number waits for the one before it, so that comes last into the sum.
+    // Each element depends on the one before it, which is therefore subtracted last.
     Parameters result{};
     for (std::size_t i = kPoseParameters; i-- > 0;) {
         float rest = column[i];

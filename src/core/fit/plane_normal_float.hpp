@@ -9,24 +9,23 @@
 
 namespace dotpose::core {
 
-/// How far four points lie off their places, in spacings, and the weight of each; 0 leaves a point
-/// out.
+/// Residuals of four points, in spacings, with their weights. Points of weight 0 are left out.
 struct Residuals {
-    FourVecs off;
+    FourVecs offset;
     Four weight;
 };
 
-/// The sums of `FitSums` that the normal equations consist of, with a weight for each point.
+/// Weighted sums of the points and residuals, of which the normal equations consist.
 class PlaneSumsFloat {
   public:
     void add(const FourVecs& places, const Residuals& residuals);
     FitSums all() const;
 
   private:
-    /// Minus the number of points: a comparison of vectors gives -1 where it is true.
+    /// Minus the number of points: a comparison of vectors gives -1 for true.
     FourInts less_points_{};
     std::array<Four, 4> places_{};
-    std::array<Four, 3> residuals_{};  ///< and their squares
+    std::array<Four, 3> residuals_{};  ///< includes the squared residuals
 };
 
 /// The normal equations M p = right, solved by Cholesky's decomposition M = L L^T.
@@ -35,8 +34,8 @@ class PlaneNormalFloat {
     PlaneNormalFloat() = default;
     explicit PlaneNormalFloat(const FitSums& sums);
 
-    /// Replaces M by L. Returns false if the points do not determine the first four parameters; of
-    /// the others, those that are not determined are left out.
+    /// Replaces M by L. Leaves out parameters that the points do not determine. Returns false if
+    /// these include one of the first four.
     bool decompose();
 
     /// Returns L^-1 column. The inner product of two such columns a and b is a . M^-1 . b.
@@ -52,11 +51,11 @@ class PlaneNormalFloat {
     const Parameters& right() const { return right_; }
     float squared_residuals() const { return squared_residuals_; }
     int points() const { return points_; }
-    /// Returns whether the points determine the parameter; call `decompose` first.
+    /// Returns whether the points determine the parameter. Requires `decompose`.
     bool determines(std::size_t parameter) const { return m_[parameter].at(parameter) > 0; }
 
   private:
-    /// A column of M or L, in whole vectors. Those of L are 0 above the diagonal.
+    /// A column of M or L, in whole vectors. Columns of L are 0 above the diagonal.
     class Column {
       public:
         Column() = default;
@@ -91,7 +90,8 @@ class PlaneNormalFloat {
     void leave_out(std::size_t parameter);
     void set_rows(const std::array<Parameters, kPoseParameters>& lower);
 
-    std::array<Column, kPoseParameters> m_{};  ///< of M on and below the diagonal, later of L
+    std::array<Column, kPoseParameters>
+        m_{};  ///< columns of M on and below the diagonal; of L after `decompose`
     Parameters right_{};
     float squared_residuals_ = 0;
     int points_ = 0;

@@ -9,7 +9,7 @@ namespace dotpose::core {
 namespace {
 
 /// First line and first cell of the middle, as a cell number and as an index of the block.
-constexpr int kFirst = -kMostTracked / 2;
+constexpr int kFirst = -kMaxTracked / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 
 /// Returns the longest run of ones.
@@ -38,7 +38,7 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
     // Cells before `first_cell` have no bits, so their rolls do not matter.
     const int ahead = ((kFirst - first_cell) % kSections + kSections) % kSections;
     const int begin = std::max(first_line, kFirst);
-    const int end = std::min(first_line + count, kFirst + kMostTracked);
+    const int end = std::min(first_line + count, kFirst + kMaxTracked);
     for (int line = begin; line < end; ++line) {
         const auto i = static_cast<std::size_t>(line - kFirst);
         const auto seen =

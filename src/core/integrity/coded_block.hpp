@@ -18,8 +18,8 @@ class CodedBlock {
 
   private:
     struct Half {
-        std::array<TrackedLine, kMostTracked> lines;
-        std::array<std::uint8_t, kMostTracked> rolls;
+        std::array<TrackedLine, kMaxTracked> lines;
+        std::array<std::uint8_t, kMaxTracked> rolls;
         std::size_t first = 0;  ///< first line that has bits
         std::size_t end = 0;    ///< end of the lines that have bits
         AxisReading reading;    ///< reading of line `first`

@@ -20,7 +20,7 @@ constexpr int distance_of(std::size_t first, std::size_t other, std::size_t leng
 /// Minimum distance of a substring of the main sequence from the others of its length, and the
 /// number of substrings at that distance.
 struct NearestSubstrings {
-    int distance = kMostTracked + 1;
+    int distance = kMaxTracked + 1;
     int count = 0;
 
     constexpr void add(int other_distance) {
@@ -42,7 +42,7 @@ constexpr auto kGrowingDistances = [] {
     std::array<std::uint32_t, kSections> grows{};
     for (std::size_t first = 0; first < grows.size(); ++first) {
         int before = 0;
-        for (std::size_t i = 0; i < kMostTracked; ++i) {
+        for (std::size_t i = 0; i < kMaxTracked; ++i) {
             const int distance = nearest_of(first, i + 1).distance;
             if (distance > before) grows[first] |= std::uint32_t{1} << i;
             before = distance;
@@ -52,7 +52,7 @@ constexpr auto kGrowingDistances = [] {
 }();
 static_assert([] {
     for (std::size_t first = 0; first < kSections; ++first) {
-        const int distance = nearest_of(first, kMostTracked).distance;
+        const int distance = nearest_of(first, kMaxTracked).distance;
         if (bits_in(kGrowingDistances[first]) != distance) return false;
     }
     return true;
@@ -61,7 +61,7 @@ static_assert([] {
 /// Upper bound, by length, of log2 of the number of substrings at the minimum distance from
 /// another, in 2^-8.
 constexpr auto kLog2OfNearest = [] {
-    std::array<std::uint16_t, kMostTracked + 1> log2{};
+    std::array<std::uint16_t, kMaxTracked + 1> log2{};
     for (std::size_t length = 0; length < log2.size(); ++length) {
         int max_count = 1;
         for (std::size_t first = 0; first < kSections; ++first)

@@ -129,7 +129,7 @@ class LikelihoodRatios {
     int hopeless_score_ = 0;
     std::array<std::uint8_t, kMaxLines> rolls_{};
     std::array<std::int16_t, kMaxLines> min_losses_{};
-    std::array<std::int16_t, kMostTracked> log2_of_nearest_q8_;  ///< for hard bits only
+    std::array<std::int16_t, kMaxTracked> log2_of_nearest_q8_;  ///< for hard bits only
 };
 
 /// Roll offsets of an alternative by line: its roll minus that of the reading, modulo 63. They are

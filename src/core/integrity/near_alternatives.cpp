@@ -28,7 +28,7 @@ class TwinPlaces {
                 twins_[count_++] = since_run(lines, sequence, first, run);
             };
             for (std::uint32_t word = 0; 32 * word < a.length; ++word)
-                visit_places(a.places_like(own, digits, word), word, add);
+                visit_places(a.equal_places(own, digits, word), word, add);
         }
     }
 
@@ -68,7 +68,8 @@ float odds_of_twins(const RankedLines& lines, EightOffsets first, const OneOfEac
         for (const TwinPlaces::Twin* twin : twins)
             further += twin->offsets->all[static_cast<std::size_t>(rank)] - twin->at_run;
         lost += lines.loss(
-            rank, static_cast<int>(code::few_modulo_sections(static_cast<std::uint32_t>(further))));
+            rank,
+            static_cast<int>(code::short_modulo_sections(static_cast<std::uint32_t>(further))));
     }
     return lines.ratios.is_hopeless(lost) ? kNegligible : lines.ratios.odds(lost);
 }

@@ -21,7 +21,7 @@ class Bounds {
     /// n for each place.
     float operator[](std::size_t sequence) const {
         const LikelihoodRatios& ratios = unshared_.ratios();
-        const auto& max_with = code::kMostWith[unshared_.tables() - 1][sequence];
+        const auto& max_with = code::kMaxPositionsWith[unshared_.tables() - 1][sequence];
         // The alternatives beyond the table. Each shares a line at no more shifts than there are
         // lines.
         float sum =
@@ -36,7 +36,7 @@ class Bounds {
     const UnsharedLines& unshared_;
     /// Element n bounds the odds of an alternative with n unshared lines. The last element bounds
     /// those with as many or more.
-    std::array<float, code::kMostCounted + 2> odds_;
+    std::array<float, code::kMaxCounted + 2> odds_;
 };
 
 }  // namespace

@@ -173,7 +173,7 @@ struct TrackedAxis {
 
 TrackedAxis tracked_axis(Profile profile, const Tracking& tracking, Axis axis) {
     const auto all =
-        axis == Axis::x ? tracking.lines.first(kMostTracked) : tracking.lines.last(kMostTracked);
+        axis == Axis::x ? tracking.lines.first(kMaxTracked) : tracking.lines.last(kMaxTracked);
     std::size_t begin = 0;
     std::size_t end = all.size();
     while (begin < end && all[begin].seen == 0)

@@ -10,16 +10,16 @@ namespace dotpose::core {
 namespace {
 
 constexpr int kMaxIterations = 10;  // Fig. 5
-constexpr std::size_t kMostEdges = 2 * std::size_t{kMaxSeeds};
-constexpr std::size_t kFewestEdges = 12;
+constexpr std::size_t kMaxEdges = 2 * std::size_t{kMaxSeeds};
+constexpr std::size_t kMinEdges = 12;
 
 using Values = std::span<std::int32_t>;
 
-/// Returns the median length of the edges in 2^-8 px; 0 if none is short enough.
+/// Returns the median length of the edges in 2^-8 px, or 0 if no edge is short enough.
 std::int32_t median_length(std::span<const Edge> edges, Values memory) {
     std::size_t n = 0;
     for (const Edge& edge : edges) {
-        // Within 128 px per axis, as neighbours are, half of the square fits into 32 bits.
+        // Neighbours are within 128 px per axis, so half of the square fits 32 bits.
         if (!is_within(edge.step_q8, (1 << 15) - 1)) continue;
         const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
         const auto y = static_cast<std::uint32_t>(edge.step_q8.y * edge.step_q8.y);
@@ -29,7 +29,7 @@ std::int32_t median_length(std::span<const Edge> edges, Values memory) {
     return static_cast<std::int32_t>(square_root(half_square * 2));
 }
 
-/// Returns the direction of the grid, modulo a quarter turn: the fourth powers of the edges, as
+/// Returns the direction of the grid, modulo a quarter turn. The fourth powers of the edges, as
 /// complex numbers, have the same direction for all four directions of a grid.
 std::int32_t common_direction_bam(std::span<const Edge> edges, std::int32_t length_q8) {
     const std::int32_t inverse_q16 = 1024 * 65536 / length_q8;
@@ -41,30 +41,30 @@ std::int32_t common_direction_bam(std::span<const Edge> edges, std::int32_t leng
         const std::int32_t x = (step.x * inverse_q16) >> 16;
         const std::int32_t y = (step.y * inverse_q16) >> 16;
         const std::int32_t squared_length = x * x + y * y;
-        // Diagonals are left out: they would pull in the wrong direction and count fourfold.
+        // Diagonals are left out: their fourth powers are opposite and four times as large.
         if (squared_length > 1280 * 1280 || squared_length < 512 * 512) continue;
         const std::int32_t re = (x * x - y * y) >> 10;
         const std::int32_t im = (2 * x * y) >> 10;
         sum_re += (re * re - im * im) >> 10;
         sum_im += (2 * re * im) >> 10;
     }
-    // The sums fit: at most 2^9 edges of at most (5/4)^4 2^10.
+    // The sums are at most 2^9 edges times (5/4)^4 2^10.
     return angle_bam({sum_re, sum_im}) / 4;
 }
 
-/// The cluster of an edge, and on which side of the origin it lies.
+/// Cluster of an edge, and its side of the origin.
 enum class Side : std::uint8_t { first, second, opposite_first, opposite_second, unknown };
 
 std::size_t cluster_of(Side side) {
     return static_cast<std::size_t>(side) & 1;
 }
-/// Returns the edge, reversed if it lies opposite to its cluster.
+/// Returns the edge, reversed if it is opposite to its cluster.
 Vec turned(Vec edge, Side side) {
     return side >= Side::opposite_first ? -edge : edge;
 }
-using Sides = std::array<Side, kMostEdges>;
+using Sides = std::array<Side, kMaxEdges>;
 
-/// Sum of the edges on one side.
+/// Sum of the edges of one side.
 struct Sum {
     Vec total;
     std::int32_t count = 0;
@@ -76,8 +76,8 @@ struct Sum {
 };
 using Sums = std::array<Sum, 5>;  ///< by Side
 
-/// The two of the four clusters that are kept: the others are their mirror images in the origin,
-/// which is the constraint of Fig. 5.
+/// Two of the four clusters. The other two are their mirror images about the origin, which is the
+/// constraint of Fig. 5.
 class Clusters {
   public:
     explicit Clusters(const std::array<Vec, 2>& means_q8) : means_q8_(means_q8) {
@@ -90,7 +90,7 @@ class Clusters {
         farther_ = half_squares[1] - half_squares[0];
     }
 
-    /// Assigns each edge to its nearest cluster, and keeps `sums` up to date.
+    /// Assigns each edge to its nearest cluster and updates `sums`.
     DOTPOSE_NOINLINE void assign(std::span<const Edge> edges, Side* side, Sums& sums) const {
         for (const Edge& edge : edges) {
             const Side now = nearest(edge.step_q8);
@@ -98,7 +98,7 @@ class Clusters {
             *side++ = now;
         }
     }
-    /// Returns the means of the sums; a cluster without edges stays where it is.
+    /// Returns the means of the sums. A cluster without edges keeps its mean.
     std::array<Vec, 2> means_q8(const Sums& sums) const {
         std::array<Vec, 2> means = means_q8_;
         for (std::size_t k = 0; k < 2; ++k) {
@@ -126,11 +126,11 @@ class Clusters {
     }
 
     std::array<Vec, 2> means_q8_;
-    std::array<Vec, 2> means_q6_;  ///< in 2^-6, so that products fit into 32 bits
+    std::array<Vec, 2> means_q6_;  ///< in 2^-6: products fit 32 bits
     std::int32_t farther_;         ///< half the difference of the squared means, second minus first
 };
 
-/// Finds the side of each edge by k-means under that constraint (Fig. 5).
+/// Finds the side of each edge by k-means with the constraint (Fig. 5).
 void constrained_k_means(std::span<const Edge> edges, Clusters clusters, Sides& sides) {
     std::fill_n(sides.begin(), edges.size(), Side::unknown);
     Sums sums{};
@@ -142,7 +142,7 @@ void constrained_k_means(std::span<const Edge> edges, Clusters clusters, Sides& 
     }
 }
 
-/// Returns the medians of the edges of one cluster, in x and in y (last lines of Fig. 5).
+/// Returns the medians of x and of y of the edges of one cluster (last lines of Fig. 5).
 Vec cluster_median(std::span<const Edge> edges, const Sides& sides, std::size_t cluster,
                    Values memory) {
     const Values x = memory.first(edges.size());
@@ -167,7 +167,7 @@ std::array<Vec, 2> medians(std::span<const Edge> edges, const Clusters& clusters
 }  // namespace
 
 Status estimate_axes(std::span<const Edge> edges, Values memory, Lattice& lattice) {
-    if (edges.size() < kFewestEdges) return Status::no_grid;
+    if (edges.size() < kMinEdges) return Status::no_grid;
     const std::int32_t length_q8 = median_length(edges, memory);
     if (length_q8 == 0) return Status::no_grid;
     const Vec unit = unit_q30(common_direction_bam(edges, length_q8));
@@ -175,12 +175,12 @@ Status estimate_axes(std::span<const Edge> edges, Values memory, Lattice& lattic
                     shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
     const Clusters clusters({along, Vec{-along.y, along.x}});
     const auto [u, v] = medians(edges, clusters, memory);
-    // Symmetric edges are 4 % too short on average: each dot chose its nearest neighbours, which
-    // favours displacements that shorten an edge.
+    // Symmetric edges are 4 % too short on average: the nearest neighbours of a dot tend to be
+    // displaced towards it.
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
     // differs: the paper keeps both axes. Their deviation from a square is scatter of the medians
-    // rather than tilt, so they are averaged, which halves the variance.
+    // rather than tilt. Averaging them halves the variance.
     const Vec twice_u{u.x + v.y, u.y - v.x};
     lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};
     lattice.v_q16 = {-lattice.u_q16.y, lattice.u_q16.x};
@@ -188,8 +188,7 @@ Status estimate_axes(std::span<const Edge> edges, Values memory, Lattice& lattic
 }
 
 bool is_nearly_square(Vec u, Vec v) {
-    // Fourteen bits of the longest component are enough, and fourth powers of them fit into 64
-    // bits.
+    // Fourteen bits of the longest component suffice, and their fourth powers fit 64 bits.
     const auto longest =
         static_cast<std::uint32_t>(std::max(larger_component(u), larger_component(v)));
     const int shift = std::max(static_cast<int>(std::bit_width(longest)) - 14, 0);
@@ -198,7 +197,7 @@ bool is_nearly_square(Vec u, Vec v) {
     const std::int32_t uu = u.x * u.x + u.y * u.y;
     const std::int32_t vv = v.x * v.x + v.y * v.y;
     const std::int32_t area = u.x * v.y - u.y * v.x;
-    // The lengths must be within 3:2, and the sine of the angle between them at least 0.9.
+    // The ratio of the lengths is at most 3:2, and the sine of the angle between them at least 0.9.
     const std::int64_t squared_area = std::int64_t{area} * area;
     return area > 0 && std::int64_t{4} * uu <= std::int64_t{9} * vv &&
            std::int64_t{4} * vv <= std::int64_t{9} * uu &&
@@ -206,10 +205,9 @@ bool is_nearly_square(Vec u, Vec v) {
 }
 
 bool is_nearly_square(const PlaneFromImage& plane) {
-    constexpr std::int32_t kSmallestSpacing_px = 4;
+    constexpr std::int32_t kMinSpacing_px = 4;
     return is_nearly_square(plane.du_q24, plane.dv_q24) &&
-           squared(plane.du_q24) * kSmallestSpacing_px * kSmallestSpacing_px <= std::int64_t{1}
-                                                                                    << 48;
+           squared(plane.du_q24) * kMinSpacing_px * kMinSpacing_px <= std::int64_t{1} << 48;
 }
 
 }  // namespace dotpose::core

@@ -7,15 +7,16 @@
 
 namespace dotpose::core {
 
-/// Sets u and v of the lattice (right-handed: v is u turned from +x to +y) but not its origin.
-/// `memory` must hold two values for each edge. Errors: no_grid, if the edges do not have two
-/// directions at about a right angle with about the same length.
+/// Sets u and v of the lattice but not its origin. The lattice is right-handed: v is u turned from
+/// +x to +y. `memory` has two values for each edge. Errors: no_grid, if the edges do not have two
+/// directions at about a right angle and with about the same length.
 Status estimate_axes(std::span<const Edge> edges, std::span<std::int32_t> memory, Lattice& lattice);
 
-/// Whether two directions may belong to a square grid that is seen at a tilt of up to about 35
+/// Returns true if two directions may be those of a square grid at a tilt of up to about 35
 /// degrees.
 bool is_nearly_square(Vec u, Vec v);
-/// Whether the grid at the centre of a plane may be a square grid, with spacings of at least 4 px.
+/// Returns true if the grid at the centre of a plane may be a square grid with a spacing of at
+/// least 4 px.
 bool is_nearly_square(const PlaneFromImage& plane);
 
 }  // namespace dotpose::core

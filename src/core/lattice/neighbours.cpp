@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kDistanceBins = 64;
 
-/// The seeds, sorted into square buckets row by row, so that near ones lie together in memory.
+/// The seeds, sorted row by row into square buckets, so that near seeds are near in memory.
 class Buckets {
   public:
     Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
@@ -22,14 +22,13 @@ class Buckets {
     int column(Vec at_q8) const { return at_q8.x >> shift_; }
     int row(Vec at_q8) const { return at_q8.y >> shift_; }
     std::span<const BucketedSeed> all() const { return memory_.first(count_); }
-    /// Returns the first seed in a column of a row, or the first after that.
+    /// Returns the first seed in the bucket at this column of a row, or the first seed after it.
     const BucketedSeed* in_row(int row, int column) const {
         return &memory_[memory_[static_cast<std::size_t>(row * columns_ + column)].begin];
     }
 
   private:
-    const std::span<BucketedSeed> memory_;  ///< the entry after the last bucket holds where that
-                                            ///< ends
+    const std::span<BucketedSeed> memory_;  ///< the entry after the last bucket contains its end
     const std::size_t count_;
     int shift_ = 0;
     int columns_ = 1;
@@ -46,15 +45,14 @@ Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds
         corner = {std::min(corner.x, p.x), std::min(corner.y, p.y)};
         end = {std::max(end.x, p.x), std::max(end.y, p.y)};
     }
-    // One to four seeds fall into a bucket, so the four nearest usually lie in the 3 x 3 buckets
-    // around.
-    const int most = static_cast<int>(seeds.size());
+    // A bucket has one to four seeds, so the four nearest are usually in the 3 x 3 buckets around.
+    const int max_buckets = static_cast<int>(seeds.size());
     do {
         ++shift_;
         columns_ = ((end.x - corner.x) >> shift_) + 1;
         rows_ = ((end.y - corner.y) >> shift_) + 1;
-    } while (columns_ > most || rows_ > most || columns_ * rows_ > most);
-    // Counting sort: seeds are counted, then the ends of buckets set, then buckets filled
+    } while (columns_ > max_buckets || rows_ > max_buckets || columns_ * rows_ > max_buckets);
+    // Counting sort: counts the seeds, sets the ends of the buckets, then fills the buckets
     // backwards.
     const auto buckets = static_cast<std::size_t>(columns_ * rows_);
     for (BucketedSeed& bucket : memory_.first(buckets + 1))
@@ -74,18 +72,18 @@ Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds
     }
 }
 
-/// Greatest distance of a neighbour per axis, in 2^-8 px (128 px): no grid is coarser.
+/// Maximum distance of a neighbour per axis, in 2^-8 px (128 px). No grid has a larger spacing.
 constexpr std::int32_t kFarthest_q8 = 1 << 15;
 
 std::uint32_t wrapped_square(std::int32_t a) {
     return static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(a);
 }
 
-/// The four seeds nearest to one seed, among those tested so far, nearest first.
+/// The four seeds nearest to one seed among those tested so far, nearest first.
 class Nearest {
   public:
-    /// Only seeds nearer than the square root of `within_q16` are kept. `may_be_far` says that
-    /// others may be 128 px away or more.
+    /// Keeps only seeds nearer than the square root of `within_q16`. `may_be_far` is true if seeds
+    /// may be 128 px away or more.
     Nearest(const BucketedSeed& self, std::uint32_t within_q16, bool may_be_far)
         : self_(self), may_be_far_(may_be_far) {
         for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -98,22 +96,23 @@ class Nearest {
         const auto [x, y] = self_.at_q8;
         std::uint32_t farthest_q16 = squared_q16_[3];
         for (; p != end; ++p) {
-            // The square of a far seed may overflow and look near, but `consider` drops such seeds.
+            // The square of a far seed may overflow and appear small, but `consider` rejects such
+            // seeds.
             const std::uint32_t squared_q16 =
                 wrapped_square(p->at_q8.x - x) + wrapped_square(p->at_q8.y - y);
             if (squared_q16 < farthest_q16) farthest_q16 = consider(p, squared_q16);
         }
     }
-    bool are_four() const { return points_[3] != nullptr; }
-    /// Writes the four seeds; -1 where there are none.
-    void tell(std::array<std::int16_t, 4>& seeds) const {
+    bool has_four() const { return points_[3] != nullptr; }
+    /// Writes the four seeds; -1 for missing ones.
+    void write(std::array<std::int16_t, 4>& seeds) const {
         for (std::size_t k = 0; k < seeds.size(); ++k)
             seeds[k] = points_[k] == nullptr ? -1 : static_cast<std::int16_t>(points_[k]->seed);
     }
 
   private:
-    /// Keeps the point if it is another seed and not too far. Returns the square that the next must
-    /// undercut.
+    /// Keeps the point if it is another seed and not too far. Returns the squared distance that the
+    /// next seed must be below.
     DOTPOSE_NOINLINE std::uint32_t consider(const BucketedSeed* p, std::uint32_t squared_q16) {
         const bool is_far = may_be_far_ && larger_component(p->at_q8 - self_.at_q8) >= kFarthest_q8;
         if (p != &self_ && !is_far) insert<3>(p, squared_q16);
@@ -150,7 +149,7 @@ void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
 }  // namespace
 
 int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16_t> seeds) {
-    // Bins are as narrow as possible, as long as the last one holds the farthest dot.
+    // Bins are as narrow as possible while the last bin contains the farthest dot.
     std::array<std::uint16_t, kDistanceBins> histogram{};
     int shift = 0;
     for (const Dot& dot : dots) {
@@ -181,24 +180,24 @@ void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> s
                      std::span<std::array<std::int16_t, 4>> neighbours) {
     if (seeds.empty()) return;
     const Buckets buckets(dots, seeds, memory);
-    const int most_reach = std::max(buckets.columns(), buckets.rows());
+    const int max_reach = std::max(buckets.columns(), buckets.rows());
     for (const BucketedSeed& p : buckets.all()) {
         const int column = buckets.column(p.at_q8);
         const int row = buckets.row(p.at_q8);
         for (int reach = 1;; ++reach) {
             const std::int32_t sure_q8 = reach * buckets.size_q8();
-            const bool is_last = reach >= most_reach || sure_q8 >= kFarthest_q8;
+            const bool is_last = reach >= max_reach || sure_q8 >= kFarthest_q8;
             const auto within_q16 =
                 is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8);
-            // Seeds are at most one bucket beyond `reach`, and so at most twice as far.
+            // Seeds are at most one bucket beyond `reach`, and therefore at most twice as far.
             Nearest nearest(p, within_q16, 2 * sure_q8 > kFarthest_q8);
             const int left = std::max(column - reach, 0);
             const int right = std::min(column + reach, buckets.columns() - 1);
             const int bottom = std::min(row + reach, buckets.rows() - 1);
             for (int r = std::max(row - reach, 0); r <= bottom; ++r)
                 nearest.search(buckets.in_row(r, left), buckets.in_row(r, right + 1));
-            if (!nearest.are_four() && !is_last) continue;
-            nearest.tell(neighbours[p.seed]);
+            if (!nearest.has_four() && !is_last) continue;
+            nearest.write(neighbours[p.seed]);
             break;
         }
     }
@@ -206,7 +205,7 @@ void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> s
 
 namespace {
 
-/// A pair of seeds; the index of the first is the lower one.
+/// A pair of seeds. The first has the lower index.
 struct Pair {
     std::int16_t from;
     std::int16_t to;

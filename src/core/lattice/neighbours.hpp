@@ -1,30 +1,30 @@
 // Neighbours: the four nearest dots of each dot near the image centre, and the symmetric edges
-// among them. Paper section II-B.2. differs: the paper connects all dots; here the dots nearest the
-// centre (seeds), at most kMaxSeeds, give the first grid, which then grows outwards (grow.hpp,
-// refine_grid.hpp). The time stays bounded in any image.
+// between them. Paper section II-B.2. differs: the paper connects all dots; here the dots nearest
+// the centre (seeds), at most kMaxSeeds, give the first grid, which is then extended outwards
+// (grow.hpp, refine_grid.hpp). This bounds the time for any image.
 #pragma once
 
 #include "core/stages.hpp"
 
 namespace dotpose::core {
 
-/// Finds the dots nearest to a point (in squares around it), at most as many as `seeds` holds. Sets
-/// `seeds` to their indices and returns their number.
+/// Chooses the dots nearest to a point, by square distance, up to the size of `seeds`. Sets `seeds`
+/// to their indices and returns their number.
 int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16_t> seeds);
 
-/// Finds for each seed the four nearest other seeds, nearest first, within 128 px per axis; -1
-/// where there are none. `memory` holds one element more than there are seeds.
+/// Finds the four nearest other seeds of each seed, nearest first, within 128 px per axis; -1 for
+/// missing ones. `memory` has one element more than there are seeds.
 void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
                      std::span<BucketedSeed> memory,
                      std::span<std::array<std::int16_t, 4>> neighbours);
 
-/// Finds the pairs of seeds that are neighbours in both directions, each once, pointing down.
-/// Returns their number.
+/// Finds the pairs of seeds that are neighbours of each other, each once, pointing down. Returns
+/// their number.
 int connect_symmetric(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
                       std::span<const std::array<std::int16_t, 4>> neighbours,
                       std::span<Edge> edges);
 
-/// Whether `to` is among the four nearest of `from`.
+/// Returns true if `to` is among the four nearest seeds of `from`.
 inline bool counts(std::span<const std::array<std::int16_t, 4>> neighbours, int from, int to) {
     for (const std::int16_t n : neighbours[static_cast<std::size_t>(from)]) {
         if (n == to) return true;
@@ -32,7 +32,7 @@ inline bool counts(std::span<const std::array<std::int16_t, 4>> neighbours, int 
     return false;
 }
 
-/// Whether both seeds count each other among their four nearest.
+/// Returns true if each seed is among the four nearest of the other.
 inline bool are_connected(std::span<const std::array<std::int16_t, 4>> neighbours, int a, int b) {
     return counts(neighbours, a, b) && counts(neighbours, b, a);
 }

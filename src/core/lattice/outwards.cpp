@@ -18,24 +18,24 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     const PatchDots& dots = patch.dots;
     const auto scale = static_cast<float>(patch.scale);
     if (spacing < tuned::kFinest_px * scale || spacing > tuned::kCoarsest_px * scale) return {};
-    // The central dots are those in a disc that holds `central_dots` at this spacing.
+    // The central dots are those in the disc that contains `central_dots` cells at this spacing.
     const float radius_2 = view.central_dots * spacing * spacing / 3.14159265F;
-    alignas(64) std::array<float, tuned::kMostCentralDots + 8> x;
-    alignas(64) std::array<float, tuned::kMostCentralDots + 8> y;
+    alignas(64) std::array<float, tuned::kMaxCentralDots + 8> x;
+    alignas(64) std::array<float, tuned::kMaxCentralDots + 8> y;
     std::size_t count = 0;
     for (std::size_t i = 0;
-         i < static_cast<std::size_t>(dots.count) && count < tuned::kMostCentralDots; ++i) {
+         i < static_cast<std::size_t>(dots.count) && count < tuned::kMaxCentralDots; ++i) {
         x[count] = dots.x[i];
         y[count] = dots.y[i];
         count += dots.x[i] * dots.x[i] + dots.y[i] * dots.y[i] < radius_2 ? 1 : 0;
     }
-    if (count < tuned::kFewestCentralDots) return {};
+    if (count < tuned::kMinCentralDots) return {};
     std::fill_n(x.begin() + count, 8, kNoDot_px);
     std::fill_n(y.begin() + count, 8, 0.0F);
     const float unit = static_cast<float>(count) * static_cast<float>(count);
     Waves best;
-    // Missing or false dots make the spacing look larger or smaller, so other spacings are tried
-    // too.
+    // Missing dots increase the estimated spacing and false dots reduce it, so other spacings are
+    // tried as well.
     for (const float by : {1.0F, 0.93F, 1.07F, 0.87F, 1.14F, 0.81F}) {
         const Waves waves =
             kernels.strongest_waves(x.data(), y.data(), static_cast<int>(count), by / spacing);
@@ -46,7 +46,7 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     return best;
 }
 
-/// Returns the phase of a wave in turns, from -1/2 to 1/2, to a thousandth.
+/// Returns the phase of a wave in turns, from -1/2 to 1/2, with an error of a thousandth.
 float phase_in_turns(const Waves& waves, std::size_t i) {
     const float x = std::abs(waves.phase_cos[i]);
     const float y = std::abs(waves.phase_sin[i]);
@@ -98,9 +98,9 @@ float inner(const std::array<float, 3>& a, const std::array<float, 3>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Solves the least squares of i (1 + g x + h y) = a x + b y + c and of j likewise, with d, e, f:
-/// a, b, c and d, e, f are eliminated, and two equations for g, h are left. Without perspective g =
-/// h = 0. Returns false if the dots do not determine the plane.
+/// Solves the least squares of i (1 + g x + h y) = a x + b y + c, and of j with d, e, f. Eliminates
+/// a, b, c and d, e, f, which leaves two equations for g and h. Without perspective, g = h = 0.
+/// Returns false if the dots do not determine the plane.
 bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane) {
     const Inverse inverse(sums.one);
     if (!inverse.is_regular) return false;
@@ -142,25 +142,25 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
     return true;
 }
 
-/// Whether the fitted plane is still near the first one and does not fold within reach.
+/// Returns true if the fitted plane is near the first plane and does not fold within the reach.
 bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
     const float spacing = spacing_px(plane);
     const float fold = (std::abs(plane.tilt_x) + std::abs(plane.tilt_y)) * reach;
-    return spacing > tuned::kLeastSpacing * first_spacing &&
-           spacing < tuned::kMostSpacing * first_spacing && fold < tuned::kMostFold;
+    return spacing > tuned::kMinSpacing * first_spacing &&
+           spacing < tuned::kMaxSpacing * first_spacing && fold < tuned::kMaxFold;
 }
 
-/// Returns the factor on the reach for the next round, from the share of dots near their places.
-float growth(float share) {
-    if (share > tuned::kWellShare) return tuned::kWellGrowth;
-    return share > tuned::kFairShare ? tuned::kFairGrowth : tuned::kPoorGrowth;
+/// Returns the factor on the reach for the next round, from the fraction of dots near their places.
+float growth(float fraction) {
+    if (fraction > tuned::kGoodFraction) return tuned::kGoodGrowth;
+    return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// Number of nearest dots, including the dot itself, from which the spacing is estimated.
+/// Number of nearest dots, the dot itself included, from which the spacing is estimated.
 constexpr std::size_t kNearest = 20;
 
 float squared_reach_of_nearest(const PatchDots& dots, FloatVec of) {
-    std::array<float, PatchDots::kMost> squares{};
+    std::array<float, PatchDots::kMax> squares{};
     const auto count = static_cast<std::size_t>(dots.count);
     for (std::size_t i = 0; i < count; ++i) {
         const float x = dots.x[i] - of.x;
@@ -182,24 +182,24 @@ PatchView whole_view(const Patch& patch) {
             static_cast<float>(std::max(patch.width_px, patch.height_px) * patch.scale) / 2 + 1};
 }
 
-bool count_from_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px) {
+bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px) {
     PatchDots& dots = patch.dots;
     const int count = dots.count;
-    if (count < tuned::kFewestDots) return false;
-    // A sample of the dots is tried; if there are many, as in noise, fewer are.
-    constexpr int kMostCandidates = 64;
-    constexpr int kFewestCandidates = 16;
-    constexpr int kMostDistances = 32768;
-    const int candidates = std::clamp(kMostDistances / count, kFewestCandidates, kMostCandidates);
+    if (count < tuned::kMinDots) return false;
+    // Tests a sample of the dots as origins. In noise, with many dots, the sample is smaller.
+    constexpr int kMaxCandidates = 64;
+    constexpr int kMinCandidates = 16;
+    constexpr int kMaxDistances = 32768;
+    const int candidates = std::clamp(kMaxDistances / count, kMinCandidates, kMaxCandidates);
     const int step = count / candidates + 1;
-    float least = kNoDot_px;
+    float min_reach_2 = kNoDot_px;
     for (int i = 0; i < count; i += step) {
         const auto k = static_cast<std::size_t>(i);
         const FloatVec candidate{dots.x[k], dots.y[k]};
         const float reach_2 = squared_reach_of_nearest(dots, candidate);
-        if (reach_2 >= least) continue;
-        least = reach_2;
-        // Whole pixels, so that counting planes from there loses no precision.
+        if (reach_2 >= min_reach_2) continue;
+        min_reach_2 = reach_2;
+        // Whole pixels: planes can be moved to this origin without loss of precision.
         from_middle_px = {std::floor(candidate.x), std::floor(candidate.y)};
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
@@ -208,47 +208,49 @@ bool count_from_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px)
     }
     view = whole_view(patch);
     view.full_reach_px += std::max(std::abs(from_middle_px.x), std::abs(from_middle_px.y));
-    // A disc with this number of dots has the area of as many cells.
-    view.spacing_px = std::sqrt(3.14159265F * least / (kNearest + 0.5F));
+    // A disc with n dots has the area of n cells.
+    view.spacing_px = std::sqrt(3.14159265F * min_reach_2 / (kNearest + 0.5F));
     return true;
 }
 
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid) {
-    if (patch.dots.count < tuned::kFewestDots) return false;
+    if (patch.dots.count < tuned::kMinDots) return false;
     const std::optional<Waves> waves = find_waves(kernels, patch, view);
     if (!waves) return false;
     FloatPlane& plane = grid.grid_from_image;
     plane = plane_from_waves(*waves);
     const float spacing = spacing_px(plane);
     const float full = view.full_reach_px;
-    // Only cells are used at first; displacements count as noise.
-    CellPass pass{tuned::kFirstReach * spacing, tuned::kFirstMostOff, 0};
+    // The first rounds fit the intersections; displacements count as noise.
+    CellPass pass{tuned::kFirstReach * spacing, tuned::kFirstMaxOffset, 0};
     CellSums sums;
     for (int round = 0; round < 2; ++round) {
         sums = kernels.sum_cells(patch.dots, plane, pass);
-        if (sums.used < tuned::kFewestUsed || !solve_plane(sums, false, plane)) return false;
+        if (sums.used < tuned::kMinUsed || !solve_plane(sums, false, plane)) return false;
     }
     constexpr float kUndisplaced = 1.0F / 256;
     const float mean_square = sums.squares / sums.used;
     if (mean_square < kUndisplaced) return false;
     grid.displacement =
-        std::clamp(std::sqrt(mean_square), tuned::kLeastDisplacement, tuned::kMostDisplacement);
-    // Then the nearest of four places counts, which leaves a fifth of that noise.
+        std::clamp(std::sqrt(mean_square), tuned::kMinDisplacement, tuned::kMaxDisplacement);
+    // The next rounds fit the nearest of the four places of each cell, which leaves a fifth of that
+    // noise.
     pass.displacement = grid.displacement;
-    pass.max_off = std::min(tuned::kMostOffPart * grid.displacement, tuned::kMostOff);
-    for (int round = 0; round < tuned::kMostRounds; ++round) {
+    pass.max_off = std::min(tuned::kMaxOffsetPart * grid.displacement, tuned::kMaxOffset);
+    for (int round = 0; round < tuned::kMaxRounds; ++round) {
         pass.with_perspective = pass.reach_px > 4 * spacing;
         sums = kernels.sum_cells(patch.dots, plane, pass);
-        const float share = sums.used / std::max(sums.seen, 1.0F);
-        if (sums.used < tuned::kFewestUsed || share < tuned::kLeastShare ||
+        const float fraction = sums.used / std::max(sums.seen, 1.0F);
+        if (sums.used < tuned::kMinUsed || fraction < tuned::kMinFraction ||
             !solve_plane(sums, pass.with_perspective, plane))
             return false;
         if (!is_plausible(plane, spacing, full)) return false;
-        if (pass.reach_px >= full && (share > tuned::kWellShare || round + 1 == tuned::kMostRounds))
+        if (pass.reach_px >= full &&
+            (fraction > tuned::kGoodFraction || round + 1 == tuned::kMaxRounds))
             break;
-        pass.reach_px = std::min(std::max(pass.reach_px * growth(share), 4 * spacing), full);
+        pass.reach_px = std::min(std::max(pass.reach_px * growth(fraction), 4 * spacing), full);
     }
-    // Graphics may stop the growth; the bits can be read from the grid as far as it reaches.
+    // Graphics may stop the growth. Bits can be read within the reach of the grid.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     return true;

@@ -54,19 +54,19 @@ class Periodogram {
     }
 
     std::int64_t power(const Wave& wave) const { return squared(sum(wave)); }
-    /// Returns the power of the wave and the one across it, as of a square grid.
+    /// Returns the sum of the powers of the wave and of the wave at right angles to it.
     std::int64_t power_of_square(const Wave& wave) const {
         return power(wave) + power(wave.turned(kQuarter_bam));
     }
 
   private:
-    std::array<Vec, kMaxSeeds> points_q8_;  ///< from the centre
+    std::array<Vec, kMaxSeeds> points_q8_;  ///< relative to the centre
     std::size_t count_ = 0;
 };
 
 constexpr std::int32_t kDegree_bam = 11930465;
 
-/// Steps of a raster around a wave, and their number to either side.
+/// Steps of a raster around a wave, and their number on each side.
 struct Raster {
     std::int32_t turn_bam;
     std::int32_t stretch_q16;
@@ -74,18 +74,18 @@ struct Raster {
     int stretches;
 };
 
-/// Returns the wave with the greatest power in the raster.
+/// Returns the wave of maximum power in the raster.
 template <typename Power>
 Wave best_around(const Wave& around, const Raster& raster, Power power) {
     Wave best = around;
-    std::int64_t most = -1;
+    std::int64_t max_power = -1;
     for (int t = -raster.turns; t <= raster.turns; ++t) {
         for (int s = -raster.stretches; s <= raster.stretches; ++s) {
             Wave wave = around.turned(t * raster.turn_bam);
             wave.spacing_q16 += s * raster.stretch_q16;
             const std::int64_t here = power(wave);
-            if (here > most) {
-                most = here;
+            if (here > max_power) {
+                max_power = here;
                 best = wave;
             }
         }
@@ -93,7 +93,8 @@ Wave best_around(const Wave& around, const Raster& raster, Power power) {
     return best;
 }
 
-/// Returns the wave at the maximum of the power near `wave`, by rasters of ever finer steps.
+/// Returns the wave at the local maximum of the power near `wave`, by rasters of finer and finer
+/// steps.
 template <typename Power>
 Wave ascend(Wave wave, Power power) {
     const std::int32_t spacing_q16 = wave.spacing_q16;
@@ -106,14 +107,14 @@ Wave ascend(Wave wave, Power power) {
     return wave;
 }
 
-/// Returns the lattice whose rows are the crests of both waves, with its origin near the centre.
+/// Returns the lattice whose rows are the crests of both waves. Its origin is near the centre.
 Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave& second,
                    Vec centre_q8) {
     const Vec a = first.vector_q30();
     const Vec b = second.vector_q30();
     const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
-    // Two waves in the same direction span no grid: the result is refused later, but must not
-    // overflow.
+    // Two waves in the same direction span no grid. The caller refuses the result later, but it
+    // must not overflow.
     constexpr std::int32_t kLongest_q16 = 4096 << 16;
     const auto entry = [&](std::int32_t part_q30) {
         return limited((std::int64_t{part_q30} << 30) / area_q44, kLongest_q16);
@@ -121,7 +122,7 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     Lattice lattice;
     lattice.u_q16 = {entry(b.y), entry(-b.x)};
     lattice.v_q16 = {entry(-a.y), entry(a.x)};
-    // Dots lie at whole turns of both waves, apart from the phase of their sum.
+    // The phases of both waves at a dot are whole turns, apart from the phase of their sum.
     const std::int64_t i_q16 = angle_bam(periodogram.sum(first)) >> 16;
     const std::int64_t j_q16 = angle_bam(periodogram.sum(second)) >> 16;
     lattice.origin_q16 = {
@@ -133,19 +134,19 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
 }  // namespace
 
 void search_periodogram(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
-                        Vec centre_q8, int most_turn_deg, Lattice& lattice) {
+                        Vec centre_q8, int max_turn_deg, Lattice& lattice) {
     const std::uint32_t length_q16 = square_root(
         static_cast<std::uint64_t>(squared(lattice.u_q16) / 2 + squared(lattice.v_q16) / 2));
     Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
                          lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
               static_cast<std::int32_t>(length_q16)};
-    // Within a few cells the peak is broad enough for a coarse raster to hit it.
+    // Within a few cells the peak is broad enough for a coarse raster.
     const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * tuned::kNear_cells);
     wave = best_around(wave,
                        {tuned::kTurn_deg * kDegree_bam, wave.spacing_q16 / tuned::kStretchPart,
-                        most_turn_deg / tuned::kTurn_deg, tuned::kStretches},
+                        max_turn_deg / tuned::kTurn_deg, tuned::kStretches},
                        [&](const Wave& w) { return near.power_of_square(w); });
-    // A tilted camera sees the two directions with spacings and angles of their own.
+    // A tilted camera gives the two directions different spacings and angles.
     const Raster tilt{tuned::kTiltTurn_deg * kDegree_bam,
                       wave.spacing_q16 / tuned::kTiltStretchPart, tuned::kTiltSteps,
                       tuned::kTiltSteps};

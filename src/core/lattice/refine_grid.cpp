@@ -12,12 +12,12 @@ namespace {
 
 namespace tuned = tuning::refine_grid;
 
-/// Farthest cell that is used: see PlaneFitInt64.
+/// Distance of the farthest cell that is used: see PlaneFitInt64.
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Corrects the origin by eq. 6: the median offset of the dots near the origin is its error. It is
-/// measured from the estimate, so the paper's o - median becomes a plus.
+/// Corrects the origin by eq. 6: its error is the median offset of the dots near it. The offset is
+/// relative to the estimate, so the paper's o - median becomes a sum.
 void centre_origin(std::span<const Dot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
@@ -32,7 +32,7 @@ void centre_origin(std::span<const Dot> dots, PlaneFromImage& plane) {
         plane.at_centre_q16 - Vec{median(std::span(x).first(n)), median(std::span(y).first(n))};
 }
 
-/// How well the dots within reach agree with the grid.
+/// Agreement of the dots within reach with the grid.
 struct Judged : Regularity {
     std::int64_t squared_offsets_q20 = 0;
 };
@@ -53,7 +53,7 @@ Judged judge(std::span<const Dot> dots, int reach_cells, const LatticeOptions& o
     return found;
 }
 
-/// The place in the grid that a dot is assigned to, in spacings.
+/// Place in the grid that a dot is assigned to, in spacings.
 struct Target {
     bool is_used = false;
     std::int16_t cell_x = 0;
@@ -71,12 +71,13 @@ struct Target {
     Vec place_q16() const { return {cell_x * 65536 + x_q16, cell_y * 65536 + y_q16}; }
 };
 
-/// Fits the plane to dots and their targets: `target_of(g)`, where g is the dot's GridPoint.
+/// Fits the plane to dots and their targets. `target_of(g)` returns the target of a dot with the
+/// GridPoint g.
 template <typename TargetOf>
-void fit_to_targets(std::span<const Dot> dots, Terms most, PlaneFromImage& plane,
+void fit_to_targets(std::span<const Dot> dots, Terms max_terms, PlaneFromImage& plane,
                     TargetOf target_of) {
-    // The fit visits the dots many times. The targets of this number of dots are computed once,
-    // which is enough for common images.
+    // The fit visits the dots several times. Targets are computed once for the dots of most images;
+    // larger images recompute those of further dots.
     std::array<Target, 2048> targets;
     const std::size_t known = std::min(dots.size(), targets.size());
     const PlaneFromImage before = plane;
@@ -92,24 +93,25 @@ void fit_to_targets(std::span<const Dot> dots, Terms most, PlaneFromImage& plane
         }
     };
     FittedPlane fitted;
-    if (fit_significant_plane(before, most, visit, fitted)) plane = fitted.plane;
+    if (fit_significant_plane(before, max_terms, visit, fitted)) plane = fitted.plane;
 }
 
 /// Fits the plane to the dots within reach. differs: eq. 6 continues with median lengths between
-/// neighbours; here a least-squares fit, which treats displacements as noise, gives all terms at
-/// once, and the reach grows from there.
+/// neighbours. Here a least-squares fit, with displacements as noise, gives all terms, and the
+/// reach grows from round to round.
 void fit(std::span<const Dot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
-    const Terms most = reach_cells < tuned::kLensReach_cells ? Terms::perspective : Terms::lens;
-    fit_to_targets(dots, most, plane, [&](const GridPoint& g) {
+    const Terms max_terms =
+        reach_cells < tuned::kLensReach_cells ? Terms::perspective : Terms::lens;
+    fit_to_targets(dots, max_terms, plane, [&](const GridPoint& g) {
         const bool is_near = larger_component(g.cell) <= reach_cells &&
                              larger_component(g.offset_q16) <= options.max_offset_q16;
         return is_near ? Target(g.cell, {}) : Target();
     });
 }
 
-/// Fits the plane to the places of displaced dots: each dot is assigned to the nearest of its
-/// cell's four places. Dots far from all of them are left out.
+/// Fits the plane to the places of displaced dots. Each dot is assigned to the nearest of the four
+/// places of its cell. Dots far from all four are left out.
 void fit_places(std::span<const Dot> dots, PlaneFromImage& plane) {
     constexpr std::int32_t kFar_q16 = tuned::kFar_q16;
     fit_to_targets(dots, Terms::lens, plane, [](const GridPoint& g) {
@@ -136,7 +138,7 @@ Status refine_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec
         found = judge(dots, reach_cells, options, plane);
         return true;
     };
-    if (!fit_outwards(tuned::kMostRounds, found, fit_and_judge)) return Status::no_grid;
+    if (!fit_outwards(tuned::kMaxRounds, found, fit_and_judge)) return Status::no_grid;
     fit(dots, found.farthest_cell, options, plane);
     found = judge(dots, found.farthest_cell, options, plane);
     const Status verdict = found.verdict(found.squared_offsets_q20 / std::max(found.dots, 1));

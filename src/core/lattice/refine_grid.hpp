@@ -1,5 +1,5 @@
-// Refine grid: extends the grid from its first estimate to the last dot, with perspective and lens.
-// Paper section II-B.3, eq. 6.
+// Refine grid: extends the first estimate of the grid to all dots, with perspective and lens. Paper
+// section II-B.3, eq. 6.
 #pragma once
 
 #include "core/stages.hpp"
@@ -9,9 +9,8 @@
 namespace dotpose::core {
 
 /// Sets the map from the image to the grid, with perspective, and with the curvature of an unknown
-/// lens where the dots suffice to determine it.
-/// Errors: no_grid, if the dots do not lie near intersections; no_displacement, if they lie on them
-/// (a plain dot grid).
+/// lens if the dots determine it. Errors: no_grid, if the dots are not near intersections;
+/// no_displacement, if they are on the intersections (a plain dot grid).
 Status refine_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec image_centre_q8,
                    const Lattice& first, PlaneFromImage& grid_from_image);
 

@@ -1,4 +1,4 @@
-// Regularity: how well dots agree with a grid that is fitted to more and more of them.
+// Regularity: agreement of dots with a grid that is fitted to more and more of them.
 #pragma once
 
 #include <algorithm>
@@ -9,31 +9,31 @@
 
 namespace dotpose::core {
 
-/// Usual displacement of a dot from its intersection, in spacings.
+/// Nominal displacement of a dot from its intersection, in spacings.
 inline constexpr std::int32_t kDisplacement_q16 = 65536 / 6;
 
-/// Distance, in cells, within which the first estimate can be trusted: errors of 3 % of the
-/// spacing, 1 degree in the direction and 1/20 cell in the origin add up to less than the 1/3 cell
-/// that distinguishes a displaced dot from one of the next cell.
+/// Distance, in cells, within which the first estimate is reliable. Errors of 3 % of the spacing, 1
+/// degree in the direction and 1/20 cell in the origin add up to less than 1/3 cell, the distance
+/// of a displaced dot from the next cell.
 inline constexpr int kFirstReach_cells = 4;
 
 /// Counts of the dots within reach.
 struct Regularity {
     int dots = 0;
     int near_intersections = 0;
-    int farthest_cell = 0;  ///< farthest cell of all dots, within reach or not
+    int farthest_cell = 0;  ///< farthest cell of all dots, also beyond the reach
 
     bool is_settled() const {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
     }
 
-    /// Returns the verdict from the mean square of all offsets, in spacings^2. Dots at random
-    /// places would be near an intersection in half of the cases, with a mean square of 1/6;
-    /// displaced dots always, at 1/36; those of a plain grid always, at 0.
+    /// Returns the status for the mean square of all offsets, in spacings^2. Dots at random places
+    /// are near an intersection in half of the cases, with a mean square of 1/6. Displaced dots are
+    /// always near one, with 1/36, and those of a plain grid with 0.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
         constexpr std::int64_t kUndisplaced_q20 = (1 << 20) / 256;
-        if (10 * near_intersections < tuning::regularity::kFewest_10ths * dots ||
+        if (10 * near_intersections < tuning::regularity::kMin_10ths * dots ||
             mean_square_q20 > kScattered_q20) {
             return Status::no_grid;
         }
@@ -43,12 +43,12 @@ struct Regularity {
 
 /// Extends a fit from the first reach to the farthest dot. `fit(reach_cells)` fits the grid to the
 /// dots within the reach and sets `found`. It is called for each reach until the dots are settled,
-/// at most `most_rounds` times: each better fit puts more dots into the right cells. Returns false
+/// at most `max_rounds` times: a better fit assigns more dots to the correct cells. Returns false
 /// if a fit fails.
 template <typename Fit>
-bool fit_outwards(int most_rounds, const Regularity& found, Fit fit) {
+bool fit_outwards(int max_rounds, const Regularity& found, Fit fit) {
     for (int reach = kFirstReach_cells;; reach += reach / 2 + 1) {
-        for (int round = 0; round < most_rounds; ++round) {
+        for (int round = 0; round < max_rounds; ++round) {
             if (!fit(reach)) return false;
             if (found.is_settled()) break;
         }

@@ -1,4 +1,5 @@
-// Cells: the grid cells of many points, for a plane without perspective or lens, in 32 bits.
+// Cells: the grid cells of many points through a plane without perspective or lens, in 32-bit
+// arithmetic.
 #pragma once
 
 #include "core/math/plane.hpp"
@@ -13,22 +14,22 @@ class Cells {
           du_q18_{plane.du_q24.x >> 6, plane.du_q24.y >> 6},
           dv_q18_{plane.dv_q24.x >> 6, plane.dv_q24.y >> 6} {}
 
-    /// Returns the offset from the centre in 1/8 px, which when rounded is 1/100 of the finest
-    /// spacing.
+    /// Returns the offset from the centre in 1/8 px. The rounding error is at most 1/100 of the
+    /// smallest spacing.
     Vec from_centre_q3(Vec image_point_q8) const {
         const Vec p = image_point_q8 - rounding_centre_q8_;
         return {p.x >> 5, p.y >> 5};
     }
-    /// Returns the place in spacings, which is valid within 512 spacings of the centre.
+    /// Returns the plane point in spacings. Valid within 512 spacings of the centre.
     Vec plane_point_q16(Vec from_centre_q3) const {
         return rounding_plane_point_q16(from_centre_q3) - Vec{kHalf_q16, kHalf_q16};
     }
-    /// Returns the place plus half a spacing, so that truncating it gives the nearest cell.
+    /// Returns the plane point plus half a spacing, which truncates to the nearest cell.
     Vec rounding_plane_point_q16(Vec p) const {
         return {rounding_at_centre_q16_.x + ((du_q18_.x * p.x + dv_q18_.x * p.y) >> 5),
                 rounding_at_centre_q16_.y + ((du_q18_.y * p.x + dv_q18_.y * p.y) >> 5)};
     }
-    /// Returns the cell and the offset from it: eq. 3-5.
+    /// Returns the nearest cell and the offset from it: eq. 3-5.
     GridPoint operator()(Vec from_centre_q3) const {
         const Vec c = rounding_plane_point_q16(from_centre_q3);
         return {{c.x >> 16, c.y >> 16}, {(c.x & 0xFFFF) - kHalf_q16, (c.y & 0xFFFF) - kHalf_q16}};
@@ -37,7 +38,7 @@ class Cells {
   private:
     static constexpr std::int32_t kHalf_q16 = 1 << 15;
 
-    // Half a unit less, and half a cell more, so that truncation rounds to nearest.
+    // Half a unit less, and half a cell more, make truncation round to nearest.
     Vec rounding_centre_q8_;
     Vec rounding_at_centre_q16_;
     Vec du_q18_;

@@ -6,14 +6,14 @@
 namespace dotpose::core {
 namespace {
 
-/// Angles of CORDIC (Volder 1959): atan(2^-i) as binary angles, i = 0..29.
+/// Angles of CORDIC (Volder 1959): atan(2^-i) as binary angles, for i = 0..29.
 constexpr std::array<std::int32_t, 30> kAtan{
     536870912, 316933406, 167458907, 85004756, 42667331, 21354465, 10679838, 5340245,
     2670163,   1335087,   667544,    333772,   166886,   83443,    41722,    20861,
     10430,     5215,      2608,      1304,     652,      326,      163,      81,
     41,        20,        10,        5,        3,        1};
 
-/// Product of cos(atan(2^-i)), times 2^30: the inverse of the factor by which the rotations below
+/// Product of cos(atan(2^-i)), times 2^30. Its inverse is the factor by which the rotations below
 /// lengthen a vector.
 constexpr std::int32_t kCordicGain_q30 = 652032874;
 
@@ -23,7 +23,7 @@ std::int32_t middle(std::int32_t a, std::int32_t b, std::int32_t c) {
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
-/// Returns the value at index `rank` of the sorted values (Hoare's FIND, 1961); reorders them.
+/// Returns the element of index `rank` in sorted order (Hoare's FIND, 1961). Reorders the values.
 std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
     std::int32_t* const wanted = &values[rank];
     std::int32_t* first = values.data();
@@ -39,7 +39,7 @@ std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
                 --high;
             if (low <= high) std::swap(*low++, *high--);
         }
-        // The values between the two are equal to the pivot.
+        // All values between `high` and `low` equal the pivot.
         if (wanted > high) first = low;
         if (wanted < low) last = high;
         if (wanted > high && wanted < low) break;
@@ -68,7 +68,7 @@ std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
 
 std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
     if (shift > 0) {
-        // The numerator is shifted up to 62 bits, as far as the shift allows.
+        // Shifts the numerator as far left as 62 bits and the shift allow.
         const auto bits = std::bit_width(static_cast<std::uint64_t>(magnitude(numerator)));
         const int up = std::clamp(62 - static_cast<int>(bits), 0, shift);
         numerator *= std::int64_t{1} << up;
@@ -83,7 +83,7 @@ std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, i
 }
 
 std::int64_t log2_q16(std::uint32_t n) {
-    // The logarithm is found bit by bit: squaring doubles it.
+    // Computes the logarithm bit by bit: squaring doubles it.
     int whole = 0;
     while (n >> whole > 1)
         ++whole;
@@ -118,8 +118,8 @@ std::int32_t angle_bam(Vec direction) {
         y = -y;
         angle = static_cast<std::uint32_t>(kHalfTurn);
     }
-    // The vector is scaled to 41 bits, so that the sum of the truncation errors stays far below the
-    // last step.
+    // The vector is scaled to 41 bits. The sum of the truncation errors is then far below the last
+    // step.
     const auto bits = std::bit_width(static_cast<std::uint64_t>(x + magnitude(y)));
     x <<= 41 - static_cast<int>(bits);
     y *= std::int64_t{1} << (41 - bits);
@@ -134,9 +134,8 @@ std::int32_t angle_bam(Vec direction) {
             angle -= static_cast<std::uint32_t>(kAtan[i]);
         }
     };
-    // Before step i, |y| is at most 2^(1 - i) of the length, which these rotations bring up to 1.65
-    // times 2^41: from step 12 on, |y| fits into 32 bits, and so does the amount subtracted from
-    // it.
+    // Before step i, |y| is at most 2^(1 - i) of the length, which these rotations increase to at
+    // most 1.65 * 2^41. From step 12 on, |y| and the amount subtracted from it fit 32 bits.
     constexpr std::size_t kNarrow = 12;
     for (std::size_t i = 0; i < kNarrow; ++i)
         turn(x, y, x >> i, i);

@@ -31,7 +31,7 @@ constexpr std::int64_t squared(Vec a) {
     return dot(a, a);
 }
 
-/// Returns |a| of any signed integer.
+/// Returns |a| for any signed integer.
 template <typename T>
 constexpr T magnitude(T a) {
     return a < 0 ? -a : a;
@@ -40,36 +40,36 @@ constexpr T magnitude(T a) {
 constexpr std::int32_t larger_component(Vec a) {
     return std::max(magnitude(a.x), magnitude(a.y));
 }
-/// Whether |x| <= limit and |y| <= limit, for limit < 2^30.
+/// Returns true if |x| <= limit and |y| <= limit, for limit < 2^30.
 constexpr bool is_within(Vec a, std::int32_t limit) {
     const auto reach = static_cast<std::uint32_t>(limit);
     return static_cast<std::uint32_t>(a.x) + reach <= 2 * reach &&
            static_cast<std::uint32_t>(a.y) + reach <= 2 * reach;
 }
 
-/// Returns n / d rounded to nearest, halves away from zero; d > 0.
+/// Returns n / d, rounded to nearest, with halves away from zero. Requires d > 0.
 constexpr std::int64_t divide_rounded(std::int64_t n, std::int64_t d) {
     return (n >= 0 ? n + d / 2 : n - d / 2) / d;
 }
 
-/// Returns n / d, rounded towards zero, for d > 0 and a quotient that fits into 31 bits. On
-/// processors without a divider it takes half as long as a division of 64 bits.
+/// Returns n / d, rounded towards zero. Requires d > 0 and a quotient of at most 31 bits. Takes
+/// half the time of a 64-bit division on processors without a divider.
 std::int32_t short_quotient(std::int64_t n, std::int64_t d);
 
-/// Returns numerator * 2^shift / denominator, rounded to nearest. |numerator| < 2^62, 0 <
-/// denominator < 2^62; the result must fit into 31 bits.
+/// Returns numerator * 2^shift / denominator, rounded to nearest. Requires |numerator| < 2^62, 0 <
+/// denominator < 2^62 and a result of at most 31 bits.
 std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift);
 
 inline constexpr std::int64_t kOne_q30 = std::int64_t{1} << 30;
 
-/// Returns both components divided by d, each rounded to nearest; d > 0 in 2^-30.
+/// Returns both components divided by d_q30 / 2^30, each rounded to nearest. Requires d_q30 > 0.
 constexpr Vec divided_q30(Vec n, std::int64_t d_q30) {
     return {static_cast<std::int32_t>(divide_rounded(n.x * kOne_q30, d_q30)),
             static_cast<std::int32_t>(divide_rounded(n.y * kOne_q30, d_q30))};
 }
 
-/// Returns how many bits are set, counted in fields of two, four and eight bits side by side, which
-/// suits small processors best.
+/// Returns the number of set bits. Counts in fields of two, four and eight bits in parallel, which
+/// is the fastest way on small processors.
 constexpr int bits_in(std::uint32_t word) {
     word -= word >> 1 & 0x55555555;
     word = (word & 0x33333333) + (word >> 2 & 0x33333333);
@@ -77,17 +77,17 @@ constexpr int bits_in(std::uint32_t word) {
     return static_cast<int>(word * 0x01010101 >> 24);
 }
 
-/// Returns the value, limited to [-limit, limit].
+/// Returns the value clamped to [-limit, limit].
 constexpr std::int32_t limited(std::int64_t value, std::int32_t limit) {
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(value, -limit, limit));
 }
 
-/// Returns n / 2^bits, rounded to nearest, halves up; bits > 0.
+/// Returns n / 2^bits, rounded to nearest, with halves up. Requires bits > 0.
 constexpr std::int32_t shift_rounded(std::int64_t n, int bits) {
     return static_cast<std::int32_t>((n + (std::int64_t{1} << (bits - 1))) >> bits);
 }
 
-/// Returns the largest r with r * r <= n, for 32 or 64 bits.
+/// Returns the largest r with r * r <= n. `Unsigned` has 32 or 64 bits.
 template <typename Unsigned>
 constexpr std::uint32_t square_root(Unsigned n) {
     Unsigned root = 0;
@@ -105,31 +105,31 @@ constexpr std::uint32_t square_root(Unsigned n) {
 /// Returns log2(n) in 2^-16, rounded down, for n >= 1.
 std::int64_t log2_q16(std::uint32_t n);
 
-/// Returns 2^(n / 256) in 2^-16, exact to 2 %, for 0 <= n < 47 * 256: linear between whole powers,
-/// with a correction.
+/// Returns 2^(n / 256) in 2^-16 with an error of at most 2 %, for 0 <= n < 47 * 256. Interpolates
+/// linearly between whole powers and subtracts a correction.
 constexpr std::int64_t exp2_q16(int n_q8) {
     const std::int32_t fraction_q8 = n_q8 & 255;
-    // 2^f is below 1 + f by at most 0.086, about f (1 - f) / 3: 21846 / 2^16 is as good as a third.
+    // 1 + f exceeds 2^f by at most 0.086, about f (1 - f) / 3; 21846 / 2^16 is a third.
     const std::int32_t mantissa_q16 =
         65536 + fraction_q8 * 256 - (fraction_q8 * (256 - fraction_q8) * 21846 >> 16);
     return std::int64_t{mantissa_q16} << (n_q8 >> 8);
 }
 
-/// Stands for the log2 of zero, in 2^-8.
+/// Represents the log2 of zero, in 2^-8.
 inline constexpr int kNever_q8 = -(1 << 20);
 
-/// log2(1 + 2^-d) in 2^-8 for d = 0, 1, ...; it is convex, so it lies below the chord in between.
-/// It stands outside of the function, because inside, each call would copy it.
+/// log2(1 + 2^-d) in 2^-8 for d = 0, 1, ... The function is convex, so it is below its chords. The
+/// table is outside the function because each inlined call would copy it.
 inline constexpr std::array<std::uint8_t, 12> kGain{255, 150, 83, 44, 23, 12, 6, 3, 2, 1, 1, 1};
 
-/// Returns log2(n) in 2^-8, rounded up, for 0 < n < 2^24: log2(1 + f) is at most f + 0.087.
+/// Returns an upper bound of log2(n) in 2^-8, for 0 < n < 2^24: log2(1 + f) is at most f + 0.087.
 constexpr int log2_at_most_q8(std::uint32_t n) {
     if (n == 1) return 0;
     const int whole = static_cast<int>(std::bit_width(n)) - 1;
     return whole * 256 + static_cast<int>(n << 8 >> whole) - 256 + 23;
 }
 
-/// Returns log2(2^a + 2^b) in 2^-8, rounded up.
+/// Returns an upper bound of log2(2^a + 2^b) in 2^-8.
 constexpr int add_log2(int a_q8, int b_q8) {
     const int larger = std::max(a_q8, b_q8);
     const int d = larger - std::min(a_q8, b_q8);
@@ -139,13 +139,16 @@ constexpr int add_log2(int a_q8, int b_q8) {
     return larger + kGain[whole] + 1 - (fall >> 8);
 }
 
-/// Returns the median (of two, the lower one), 0 if there are no values; reorders the values.
+/// Returns the median, or 0 if there are no values. An even number of values has the lower median.
+/// Reorders the values.
 std::int32_t median(std::span<std::int32_t> values);
 
-/// Returns the value that a quarter of all exceed, 0 if there are no values; reorders the values.
+/// Returns the value that a quarter of the values exceed, or 0 if there are no values. Reorders the
+/// values.
 std::int32_t upper_quartile(std::span<std::int32_t> values);
 
-/// Returns a sine, times 2^14, exact to 6 %: two parabolas. Phases are in 2^-16 turns.
+/// Returns a sine times 2^14 with an error of at most 6 %, from two parabolas. Phases are in 2^-16
+/// turns.
 constexpr std::int32_t rough_sine(std::int32_t phase_q16) {
     const std::int32_t x = static_cast<std::int16_t>(phase_q16 & 0xFFFF);
     return x * (32768 - magnitude(x)) >> 14;
@@ -154,8 +157,8 @@ constexpr std::int32_t rough_cosine(std::int32_t phase_q16) {
     return rough_sine(phase_q16 + 16384);
 }
 
-/// Returns the angle of a vector from +x towards +y, exact to about 1e-9 turns; (0, 0) gives 0.
-/// |x|, |y| < 2^29.
+/// Returns the angle of a vector from +x towards +y, with an error of about 1e-9 turns; the angle
+/// of (0, 0) is 0. Requires |x|, |y| < 2^29.
 std::int32_t angle_bam(Vec direction);
 
 /// Returns (cosine, sine) of an angle, times 2^30.

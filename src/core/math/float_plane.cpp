@@ -33,18 +33,19 @@ FloatPlane recentred(const FloatPlane& plane, FloatVec to_px) {
 }
 
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px) {
-    // The limit of spacings in a PlaneFromImage, within which cells are counted in whole numbers.
+    // Largest coordinate of a PlaneFromImage, in spacings, within which cells are counted as
+    // integers.
     constexpr float kFarthest = 32768;
     constexpr float kFinest_px = 3;
     constexpr float kCoarsest_px = 400;
-    // Least area of a square of the grid, relative to the rectangle with sides as long.
+    // Minimum area of a square of the grid, relative to the rectangle with the same sides.
     constexpr float kFlattest = 1.0F / 4;
     const float area = plane.du_x * plane.dv_y - plane.dv_x * plane.du_y;
     const float sides = std::sqrt((plane.du_x * plane.du_x + plane.du_y * plane.du_y) *
                                   (plane.dv_x * plane.dv_x + plane.dv_y * plane.dv_y));
     const float fold =
         std::abs(plane.tilt_x) * half_width_px + std::abs(plane.tilt_y) * half_height_px;
-    // Comparisons with a value that is not a number are false, so such planes are refused.
+    // Comparisons with NaN are false, so planes with NaN are refused.
     return std::abs(plane.at_x) < kFarthest && std::abs(plane.at_y) < kFarthest &&
            area * kFinest_px * kFinest_px < 1 && area * kCoarsest_px * kCoarsest_px > 1 &&
            area > kFlattest * sides && fold < 0.75F && std::isfinite(plane.bend);

@@ -1,4 +1,4 @@
-// Planes in single precision, as the attempts of desktops use them.
+// Planes in single precision, for the attempts of desktops.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct FloatPlane {
     float bend = 0;
 };
 
-/// The lens of eq. 1-2, for points counted from the plane's centre, in px.
+/// The lens of eq. 1-2, for points relative to the plane's centre, in px.
 struct FloatLens {
     float k = 0;  ///< per px^2
     float centre_x = 0;
@@ -33,22 +33,22 @@ struct FloatVec {
     float y = 0;
 };
 
-/// Returns the place, in spacings, of an image point in px from the centre. The divisor is limited
-/// to at least a quarter, because planes fold farther away.
+/// Returns the plane point, in spacings, of an image point in px from the centre. The divisor is at
+/// least 1/4, because planes fold farther away.
 FloatVec plane_point(const FloatPlane& plane, FloatVec px);
 
-/// Returns the same plane counted from another point of the image; with a bend it is an
-/// approximation.
+/// Returns the same plane relative to another point of the image. The result is an approximation if
+/// the plane has a lens term.
 FloatPlane recentred(const FloatPlane& plane, FloatVec to_px);
 
-/// Returns the px per spacing at the centre.
+/// Returns the spacing at the centre, in px.
 inline float spacing_px(const FloatPlane& plane) {
     return 1 / std::sqrt(std::abs(plane.du_x * plane.dv_y - plane.dv_x * plane.du_y));
 }
 
-/// Whether a camera may see paper like this: the grid is neither finer nor coarser than dots can be
-/// measured, not seen from behind or from the side, not folded within the image, and counted from
-/// nearby. Returns false if any value is not a number.
+/// Returns true if a camera can see paper like this: the spacing is measurable, the paper faces the
+/// camera and is not seen from the side, the map does not fold within the image, and the
+/// coordinates are small. Returns false if any value is NaN.
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px);
 
 PlaneFromImage fixed_plane(const FloatPlane& plane, Vec centre_q8);

@@ -1,4 +1,4 @@
-// Odds: conversion between floating-point numbers and powers of two.
+// Odds: conversion between floating-point numbers and logarithms to base 2.
 #pragma once
 
 #include <algorithm>
@@ -9,19 +9,20 @@
 
 namespace dotpose::core {
 
-/// Returns 2^n exactly, for n < 128; for less than 2^-126 it returns that.
+/// Returns 2^n exactly, for n < 128; n is clamped to at least -126.
 constexpr float power_of_two_exactly(int n) {
     return __builtin_bit_cast(float, static_cast<std::uint32_t>(std::max(n, -126) + 127) << 23);
 }
 
-/// Returns 2^(n / 256), exact to 2 %, and 2^-100 for any less; n < 127 * 256.
+/// Returns 2^(n / 256) with an error of at most 2 %, for n < 127 * 256; the result is at least
+/// 2^-100.
 inline float power_of_two(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;
     return static_cast<float>(exp2_q16(n - whole * 256)) * power_of_two_exactly(whole - 16);
 }
 
-/// Returns the log2 of odds in 2^-8, rounded up.
+/// Returns an upper bound of the log2 of odds, in 2^-8.
 inline int log2_of_odds_q8(float odds) {
     int exponent = 0;
     const float mantissa = std::frexp(std::max(odds, 1e-30F), &exponent);

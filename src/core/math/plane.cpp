@@ -8,8 +8,8 @@ Vec linear_q16(const PlaneFromImage& plane, Vec from_centre_q8) {
     const std::int64_t x = from_centre_q8.x;
     const std::int64_t y = from_centre_q8.y;
     const auto component = [&](std::int64_t du_q24, std::int64_t dv_q24) {
-        constexpr std::int64_t kMost_q32 = std::int64_t{kBeyondReason} << 16;
-        return shift_rounded(std::clamp(du_q24 * x + dv_q24 * y, -kMost_q32, kMost_q32), 16);
+        constexpr std::int64_t kMax_q32 = std::int64_t{kBeyondReason} << 16;
+        return shift_rounded(std::clamp(du_q24 * x + dv_q24 * y, -kMax_q32, kMax_q32), 16);
     };
     return {component(plane.du_q24.x, plane.dv_q24.x), component(plane.du_q24.y, plane.dv_q24.y)};
 }
@@ -52,13 +52,13 @@ GridPoint grid_point(const PlaneFromImage& plane, Vec image_point_q8) {
 }
 
 Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point) {
-    // Newton's method with the slope at the current point; for an affine plane one round is exact
+    // Newton's method with the slope at the current point. For an affine plane, one round is exact
     // except for the truncation of the division.
-    constexpr int kMostRounds = 12;
-    // Where the map folds, the search may leave the range of all images.
+    constexpr int kMaxRounds = 12;
+    // The search may leave the range of all images where the map folds.
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
     Vec point_q8 = plane.centre_q8;
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMaxRounds; ++round) {
         const PlaneFromImage here = is_affine(plane) ? plane : tangent(plane, point_q8);
         const std::int64_t area_q32 =
             std::max<std::int64_t>(cross(here.du_q24, here.dv_q24) >> 16, 1);
@@ -90,7 +90,7 @@ PlaneFromImage tangent(const PlaneFromImage& plane, Vec image_point_q8) {
     const Vec p = image_point_q8 - plane.centre_q8;
     const std::int64_t divisor = divisor_q30(plane, p);
     const Vec from_centre_q16 = result.at_centre_q16 - plane.at_centre_q16;
-    // Quotient rule, with d(divisor) = perspective + 2 lens (x, y).
+    // Quotient rule, with the derivative of the divisor, perspective + 2 lens (x, y).
     const auto slope = [&](Vec linear_q24, std::int32_t perspective_q30, std::int32_t along_q8) {
         const std::int64_t bend_q30 = (std::int64_t{plane.lens_q40} * along_q8) >> 17;
         constexpr std::int64_t kSteepest_q30 = std::int64_t{1} << 31;

@@ -12,27 +12,29 @@ struct GridPoint {
     Vec offset_q16;  ///< eq. 5, in spacings, each in [-1/2, 1/2)
 };
 
-/// Greatest place in 2^-16 spacing, and greatest slope in 2^-24 spacings per px: more than any
-/// image shows. Planes fitted to false dots may exceed it; four times as much fits into 32 bits.
+/// Limit of coordinates in 2^-16 spacing and of slopes in 2^-24 spacings per px. No image shows
+/// more, but planes fitted to false dots may exceed it. Four times the limit fits 32 bits.
 inline constexpr std::int32_t kBeyondReason = 1 << 28;
 
-/// Returns k r^2 in 2^-48; beyond 4096 px, the value there. Images hardly reach so far, but planes
-/// seen from the side do; with the limit, any k gives a result of 64 bits.
+/// Returns k r^2 in 2^-48, with r clamped to 4096 px. Points of images are rarely farther from the
+/// centre, but points of planes seen from the side may be. The limit keeps the result within 64
+/// bits for any k.
 inline std::int64_t bend_q48(std::int32_t k_q40, Vec r_q8) {
     constexpr std::int64_t kFarthest_q8 = 0xFFFFFFFF;
     return k_q40 * std::min(squared(r_q8) >> 8, kFarthest_q8);
 }
 
-/// Whether a plane has neither perspective nor lens.
+/// Returns true if a plane has neither perspective nor lens.
 inline bool is_affine(const PlaneFromImage& plane) {
     return plane.perspective_q30 == Vec{} && plane.lens_q40 == 0;
 }
 
-/// Returns the plane of a lattice, without perspective or lens. |u x v| > 0.
+/// Returns the plane of a lattice, without perspective or lens. Requires |u x v| > 0.
 PlaneFromImage plane_from_lattice(const Lattice& lattice, Vec centre_q8);
 
-/// Returns the place of an image point by eq. 3, in 2^-16 spacing. differs: the paper projects on u
-/// and v, which is right only where these are at right angles and the camera is not tilted.
+/// Returns the plane point of an image point by eq. 3, in 2^-16 spacing. differs: the paper
+/// projects on u and v, which is correct only if they are at right angles and the camera is not
+/// tilted.
 Vec plane_point_q16(const PlaneFromImage& plane, Vec image_point_q8);
 
 /// Returns the nearest intersection and the offset from it, by eq. 3-5.
@@ -41,8 +43,8 @@ GridPoint grid_point(const PlaneFromImage& plane, Vec image_point_q8);
 /// Returns the inverse of plane_point_q16, in 2^-8 px.
 Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point_q16);
 
-/// Returns the tangent of the plane at an image point: without perspective or lens, with the same
-/// value and slope there.
+/// Returns the tangent of the plane at an image point: the plane without perspective or lens that
+/// has the same value and slope there.
 PlaneFromImage tangent(const PlaneFromImage& plane, Vec image_point_q8);
 
 /// Returns the tangent of a plane that has neither perspective nor lens.

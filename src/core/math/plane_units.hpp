@@ -1,4 +1,4 @@
-// Units of the fixed-point maps as floating-point numbers.
+// Conversion of the fixed-point numbers of planes to and from floating point.
 #pragma once
 
 #include <algorithm>
@@ -13,13 +13,12 @@ inline constexpr float kPower24 = 16777216.0F;
 inline constexpr float kPower30 = 1073741824.0F;
 inline constexpr float kPower40 = kPower24 * kPower16;
 
-/// Returns the nearest whole number, limited to +-kBeyondReason; for a value that is not a number,
-/// the lower limit.
+/// Returns the nearest integer, clamped to +-kBeyondReason. NaN gives the lower limit.
 inline std::int32_t rounded(float value) {
-    constexpr float kMost = kBeyondReason;
+    constexpr float kMax = kBeyondReason;
     const float whole = value + (value < 0 ? -0.5F : 0.5F);
-    // The order of min and max matters for a value that is not a number.
-    return static_cast<std::int32_t>(std::min(std::max(-kMost, whole), kMost));
+    // The order of min and max determines the result for NaN.
+    return static_cast<std::int32_t>(std::min(std::max(-kMax, whole), kMax));
 }
 
 }  // namespace dotpose::core

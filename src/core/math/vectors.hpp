@@ -24,7 +24,7 @@ inline FourInts four_at(const std::int32_t* first) {
     return vector_at<FourInts>(first);
 }
 
-/// Adds to each of four sums its four values, in order.
+/// Adds the four elements of a to the first sum, those of b to the second, and so on, in order.
 inline void add_each(Four& sums, Four a, Four b, Four c, Four d) {
     const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
     const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);

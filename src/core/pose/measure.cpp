@@ -59,9 +59,9 @@ struct Window {
     }
 };
 
-constexpr int kMostSide_px = 2 * kMaxHalf_px + 1;
+constexpr int kMaxSide_px = 2 * kMaxHalf_px + 1;
 /// Columns, padded to a multiple of four.
-constexpr std::size_t kMaxInFours = kMostSide_px + 3;
+constexpr std::size_t kMaxInFours = kMaxSide_px + 3;
 
 /// Grey levels of the pixels of a box, without defective pixels.
 class Patch {
@@ -84,7 +84,7 @@ class Patch {
 
   private:
     Box box_{0, -1, 0, -1};
-    std::array<std::array<float, kMaxInFours>, kMostSide_px> levels_;
+    std::array<std::array<float, kMaxInFours>, kMaxSide_px> levels_;
 };
 
 /// Paper level around a dot, in grey levels: a plane through the border of the window.

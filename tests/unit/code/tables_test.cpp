@@ -28,7 +28,7 @@ TEST(ModuloSections, LeavesWhatADivisionLeaves) {
     for (const std::uint32_t n : many_numbers())
         ASSERT_EQ(code::modulo_sections(n), n % 63) << n;
     for (std::uint32_t n = 0; n < 4095; ++n)
-        ASSERT_EQ(code::few_modulo_sections(n), n % 63) << n;
+        ASSERT_EQ(code::short_modulo_sections(n), n % 63) << n;
 }
 
 TEST(Secondary, HasThePlaceThatADivisionLeaves) {

@@ -63,7 +63,7 @@ TEST(UnsharedLines, AreAsCounted) {
     }
 }
 
-using Counts = std::array<int, kMostCounted>;
+using Counts = std::array<int, kMaxCounted>;
 
 /// Returns by n - 1 how many other positions of one sequence leave exactly n lines unshared, each
 /// counted at every shift at which it shares a line.
@@ -77,7 +77,7 @@ Counts counted_by_unshared(const Secondary& a, std::uint32_t place, std::size_t 
                 (a.rolls[other + line] - a.rolls[place + line] + kSections) % kSections)];
         for (const std::size_t n : shared) {
             EXPECT_LT(n, lines);
-            if (n > 0 && lines - n <= kMostCounted) ++counts[lines - n - 1];
+            if (n > 0 && lines - n <= kMaxCounted) ++counts[lines - n - 1];
         }
     }
     return counts;
@@ -97,7 +97,7 @@ TEST(UnsharedLines, AreOfAsManyPositionsAsCounted) {
                 }
             }
             for (std::size_t n = 0; n < most.size(); ++n)
-                EXPECT_EQ(most[n], kMostWith[row][k][n]) << row << ' ' << k << ' ' << n + 1;
+                EXPECT_EQ(most[n], kMaxPositionsWith[row][k][n]) << row << ' ' << k << ' ' << n + 1;
         }
     }
 }

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/detect/adaptive_threshold.hpp"
 #include "core/detect/blobs.hpp"
-#include "core/detect/light.hpp"
 #include "dotpose/tools/grey_image.hpp"
 #include "geometry.hpp"
 #include "locate/workspace.hpp"
@@ -62,27 +62,28 @@ struct Levels {
     int low = 0;
     int high = 0;
 };
-inline Levels levels_at(const Light& light, int u) {
+inline Levels levels_at(const AdaptiveThreshold& threshold, int u) {
     const auto column = static_cast<std::size_t>(u);
-    return {2 * light.half_low_levels[column], light.high_levels[column]};
+    return {2 * threshold.half_low_levels[column], threshold.high_levels[column]};
 }
-inline Levels levels_of_tile(const Light& light, int tile) {
-    return levels_at(light, tile * kTileWidth_px);
+inline Levels levels_of_tile(const AdaptiveThreshold& threshold, int tile) {
+    return levels_at(threshold, tile * kTileWidth_px);
 }
 
 /// Returns the blobs of an image that may be dots, before the size filter.
 inline std::vector<Dot> blobs_of(const GreyImage& image, Workspace& w,
                                  const ThresholdOptions& options = {}) {
     const core::DotList list{w.dots, w.dot_count, w.dots_kept_within_px};
-    core::begin_light(image.width_px, image.height_px, w.light);
-    core::begin_blobs(w.light, w.open, list);
+    core::begin_threshold(image.width_px, image.height_px, w.threshold);
+    core::begin_blobs(w.threshold, w.open, list);
     int band = 0;
     for (int row = 0; row < image.height_px; ++row) {
-        for (int ready = core::take_row(image.view().row(row), w.light); ready > 0;
+        for (int ready = core::take_row(image.view().row(row), w.threshold); ready > 0;
              --ready, ++band) {
-            core::measure_levels(band, options, w.light);
-            for (int v = core::band_begin(w.light, band); v < core::band_end(w.light, band); ++v) {
-                core::grow_blobs(v, w.light, w.open, list);
+            core::measure_levels(band, options, w.threshold);
+            for (int v = core::band_begin(w.threshold, band); v < core::band_end(w.threshold, band);
+                 ++v) {
+                core::grow_blobs(v, w.threshold, w.open, list);
             }
         }
     }

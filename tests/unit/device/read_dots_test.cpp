@@ -19,7 +19,7 @@ using namespace core;
 TEST(ReadDots, LooksAtAllCellsInView) {
     Rng rng(4);
     for (int round = 0; round < 500; ++round) {
-        std::array<TrackedRow, kMostTracked> rows{};
+        std::array<TrackedRow, kMaxTracked> rows{};
         Tracking tracking;
         tracking.grid_rows = rows;
         tracking.width_px = 188;
@@ -46,7 +46,7 @@ TEST(ReadDots, LooksAtAllCellsInView) {
         std::set<std::pair<int, int>> looked_at;
         const Vec x = tracking.cells.along_x_q16;
         const int way = x.y < 0 ? -1 : 1;
-        for (int j = 0; j < kMostTracked; ++j) {
+        for (int j = 0; j < kMaxTracked; ++j) {
             const TrackedRow& row = rows[static_cast<std::size_t>(j)];
             if (row.next_q16.y == TrackedRow::kNever_q16) continue;
             const Vec first_q16 = place_q16(tracking.cells, row.i, j);
@@ -55,8 +55,8 @@ TEST(ReadDots, LooksAtAllCellsInView) {
             for (int i = row.i; tracking.view.has(place_q16(tracking.cells, i, j)); i += way)
                 looked_at.emplace(i, j);
         }
-        for (int j = 0; j < kMostTracked; ++j) {
-            for (int i = 0; i < kMostTracked; ++i) {
+        for (int j = 0; j < kMaxTracked; ++j) {
+            for (int i = 0; i < kMaxTracked; ++i) {
                 const Vec at_q16 = place_q16(tracking.cells, i, j);
                 // Squares of 9 x 9 px around intersections and of 5 x 5 px around dots have to be
                 // in the image.

@@ -44,15 +44,16 @@ struct Frame {
         row.mass += mass;
         row.mass_i += mass * from_middle;
         row.mass_ii += mass * from_middle * from_middle;
-        row.off_q8 = {row.off_q8.x + off.x, row.off_q8.y + off.y};
-        row.off_i_q8 = {row.off_i_q8.x + from_middle * off.x, row.off_i_q8.y + from_middle * off.y};
-        Vec& of_symbol = tracking.off_q8[static_cast<std::size_t>(symbol)];
+        row.offset_q8 = {row.offset_q8.x + off.x, row.offset_q8.y + off.y};
+        row.offset_i_q8 = {row.offset_i_q8.x + from_middle * off.x,
+                           row.offset_i_q8.y + from_middle * off.y};
+        Vec& of_symbol = tracking.offset_q8[static_cast<std::size_t>(symbol)];
         of_symbol = {of_symbol.x + off.x, of_symbol.y + off.y};
         ++tracking.dots_measured;
     }
 
     Tracking tracking;
-    std::array<TrackedRow, kMostTracked> rows{};
+    std::array<TrackedRow, kMaxTracked> rows{};
 };
 
 double at(std::int32_t origin, std::int32_t x, std::int32_t y, double i, double j) {

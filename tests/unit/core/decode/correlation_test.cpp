@@ -37,8 +37,8 @@ TEST(Correlation, IsWhatAgreesMinusWhatDoesNot) {
         EXPECT_EQ(match.score, *best);
         EXPECT_EQ(match.roll, best - scores.begin());
         const Extremes extremes = extremes_of(scores);
-        EXPECT_EQ(extremes.most, *best);
-        EXPECT_EQ(extremes.least, *std::min_element(scores.begin(), scores.end()));
+        EXPECT_EQ(extremes.max, *best);
+        EXPECT_EQ(extremes.min, *std::min_element(scores.begin(), scores.end()));
     }
 }
 

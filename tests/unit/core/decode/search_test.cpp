@@ -114,7 +114,7 @@ TEST(FindAxis, CleanLinesGiveAllThatThereIsToBeHad) {
         EXPECT_EQ(reading.position, place.cell.x) << columns;
         EXPECT_EQ(reading.roll, roll_at(Profile::anoto, place)) << columns;
         EXPECT_EQ(reading.score, 127 * 12 * columns);
-        EXPECT_EQ(reading.most_possible, reading.score);
+        EXPECT_EQ(reading.max_possible, reading.score);
         EXPECT_TRUE(reading.is_clear());
     }
 }
@@ -161,7 +161,7 @@ TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
         // read gets this, the 14 other lines get nothing on average, and the best of 9 runs a
         // little more.
         EXPECT_FALSE(reading.is_clear()) << i << ", seed " << kSeed;
-        EXPECT_LT(reading.score, reading.most_possible * 7 / 10) << i << ", seed " << kSeed;
+        EXPECT_LT(reading.score, reading.max_possible * 7 / 10) << i << ", seed " << kSeed;
     }
 }
 

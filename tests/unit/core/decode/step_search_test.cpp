@@ -81,7 +81,7 @@ TEST(SearchBySteps, KeepsWhatIsAsGood) {
     AxisReading worse{7, 8, most - 1, most};
     search_by_steps(c.profile, c.lines(), worse);
     EXPECT_TRUE(is_true(worse, c));
-    EXPECT_EQ(worse.most_possible, most);
+    EXPECT_EQ(worse.max_possible, most);
 }
 
 }  // namespace

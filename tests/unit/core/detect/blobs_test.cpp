@@ -232,11 +232,11 @@ TEST(Blobs, NoMoreRunsAreLookedAtThanTheWorkspaceSays) {
     }
     LargeWorkspace w;
     for (const int rows : {0, 3, 7}) {
-        w.open.most_runs = rows * 20;
+        w.open.max_runs = rows * 20;
         EXPECT_EQ(static_cast<int>(blobs_of(image, w).size()), rows * 10);
     }
     // A row without room for all its runs ends the dots in it there.
-    w.open.most_runs = 3 * 20 + 5;
+    w.open.max_runs = 3 * 20 + 5;
     EXPECT_EQ(blobs_of(image, w).size(), 35u);
 }
 

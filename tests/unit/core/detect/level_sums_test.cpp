@@ -23,7 +23,7 @@ TEST(LevelSums, AreThoseOfThePixels) {
     const auto random_q8 = [&](int most_px) {
         return static_cast<std::int32_t>(rng.below(static_cast<std::uint32_t>(256 * most_px)));
     };
-    constexpr int kHalf_px = (LevelSums::kMostSide_px - 1) / 2;
+    constexpr int kHalf_px = (LevelSums::kMaxSide_px - 1) / 2;
     for (int i = 0; i < 500; ++i) {
         SCOPED_TRACE(testing::Message() << "box " << i << ", seed " << kSeed);
         const Vec middle_q8{random_q8(63), random_q8(69)};

@@ -52,8 +52,8 @@ TEST(Patch, LiesAroundItsCentreWithinTheImage) {
 TEST(Patch, IsNeverLargerThanItsMemory) {
     const auto patch = std::make_unique<Patch>();
     EXPECT_TRUE(core::place_patch({nullptr, 4096, 4096, 0}, 2048, 2048, 4000, 4000, 1, *patch));
-    EXPECT_EQ(patch->width_px, Patch::kMostWidth_px);
-    EXPECT_EQ(patch->height_px, Patch::kMostHeight_px);
+    EXPECT_EQ(patch->width_px, Patch::kMaxWidth_px);
+    EXPECT_EQ(patch->height_px, Patch::kMaxHeight_px);
 }
 
 /// Returns a patch whose tiles have these levels of paper and of the darkest pixel.
@@ -75,7 +75,7 @@ TEST(PatchContrast, IsThatOfTheTypicalTile) {
         for (std::size_t i = 5; i < 8; ++i)
             patch->darkness[i] = 55;
         ASSERT_TRUE(core::measure_contrast(*patch));
-        EXPECT_NEAR(patch->depth_q8, 256.0 * (200 - darkest) / 200, 4.1);
+        EXPECT_NEAR(patch->dot_contrast_q8, 256.0 * (200 - darkest) / 200, 4.1);
         // The threshold lies between dot and paper, nearer to the dot; in a darker tile it is in
         // proportion.
         const double depth = (200 - darkest) / 200.0;

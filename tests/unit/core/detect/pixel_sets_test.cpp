@@ -27,19 +27,19 @@ struct Marked {
     std::vector<char> is_below_high;
 };
 
-Marked marked(const GreyImage& image, Light& light) {
+Marked marked(const GreyImage& image, AdaptiveThreshold& threshold) {
     Marked result;
     result.is_dark.resize(image.pixels.size());
     result.is_below_high.resize(image.pixels.size());
-    begin_light(image.width_px, image.height_px, light);
+    begin_threshold(image.width_px, image.height_px, threshold);
     int band = 0;
     for (int row = 0; row < image.height_px; ++row) {
-        for (int ready = take_row(image.view().row(row), light); ready > 0; --ready, ++band) {
-            measure_levels(band, {}, light);
-            for (int v = band_begin(light, band); v < band_end(light, band); ++v) {
+        for (int ready = take_row(image.view().row(row), threshold); ready > 0; --ready, ++band) {
+            measure_levels(band, {}, threshold);
+            for (int v = band_begin(threshold, band); v < band_end(threshold, band); ++v) {
                 for (int u = 0; u < image.width_px; ++u) {
                     const auto p = static_cast<std::size_t>(v * image.width_px + u);
-                    const Levels level = levels_at(light, u);
+                    const Levels level = levels_at(threshold, u);
                     result.is_dark[p] = image.pixels[p] < level.low;
                     result.is_below_high[p] = image.pixels[p] < level.high;
                 }
@@ -76,8 +76,8 @@ Set flood(Marked& pixels, int width, int height, int u, int v) {
 }
 
 /// Returns the sets away from the border that have a pixel below the high threshold.
-std::vector<Set> expected_sets(const GreyImage& image, Light& light) {
-    Marked pixels = marked(image, light);
+std::vector<Set> expected_sets(const GreyImage& image, AdaptiveThreshold& threshold) {
+    Marked pixels = marked(image, threshold);
     std::vector<Set> sets;
     for (int v = 0; v < image.height_px; ++v) {
         for (int u = 0; u < image.width_px; ++u) {
@@ -94,7 +94,7 @@ std::vector<Set> expected_sets(const GreyImage& image, Light& light) {
 
 void expect_sets(const GreyImage& image) {
     static LargeWorkspace workspace;
-    const auto sets = expected_sets(image, workspace.light);
+    const auto sets = expected_sets(image, workspace.threshold);
     const auto dots = blobs_of(image, workspace);
     ASSERT_GT(sets.size(), 20u);
     ASSERT_EQ(dots.size(), sets.size());

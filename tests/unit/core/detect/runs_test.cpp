@@ -20,21 +20,22 @@ constexpr std::uint64_t kSeed = 61;
 /// A row of an image and levels that change from tile to tile.
 struct Row {
     LargeWorkspace workspace;
-    Light& light = workspace.light;
+    AdaptiveThreshold& threshold = workspace.threshold;
 
     void draw(Rng& rng, int width_px) {
         std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width_px));
         // Rows range from rare specks to hardly any paper, with grey levels at and about the
         // thresholds.
         const double dark_share = rng.uniform(0, 1);
-        begin_light(width_px, kMinFrameSide_px, light);
-        for (int u = 0; u < whole_width(light); u += kTileWidth_px) {
+        begin_threshold(width_px, kMinFrameSide_px, threshold);
+        for (int u = 0; u < whole_width(threshold); u += kTileWidth_px) {
             const std::uint32_t half_low = rng.below(6) == 0 ? 0 : rng.below(128);
             const std::uint32_t high = rng.below(2 * half_low + 1);
             for (int k = u; k < u + kTileWidth_px; ++k) {
-                light.half_low_levels[static_cast<std::size_t>(k)] =
+                threshold.half_low_levels[static_cast<std::size_t>(k)] =
                     static_cast<std::uint8_t>(half_low);
-                light.high_levels[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(high);
+                threshold.high_levels[static_cast<std::size_t>(k)] =
+                    static_cast<std::uint8_t>(high);
             }
             const bool is_close = rng.below(2) == 0;
             for (int k = u; k < std::min(u + kTileWidth_px, width_px); ++k) {
@@ -48,16 +49,16 @@ struct Row {
                     static_cast<std::uint8_t>(std::clamp(level, 0, 255));
             }
         }
-        take_row(pixels.data(), light);
+        take_row(pixels.data(), threshold);
     }
 };
 
-std::vector<dotpose::core::Run> expected_runs(const Light& light) {
-    const std::uint8_t* row = kept_row(light, 0);
+std::vector<dotpose::core::Run> expected_runs(const AdaptiveThreshold& threshold) {
+    const std::uint8_t* row = kept_row(threshold, 0);
     std::vector<dotpose::core::Run> runs;
     bool is_dark = false;
-    for (int u = 0; u < whole_width(light); ++u) {
-        const Levels level = levels_at(light, u);
+    for (int u = 0; u < whole_width(threshold); ++u) {
+        const Levels level = levels_at(threshold, u);
         const int weight = level.low - row[u];
         const bool was_dark = std::exchange(is_dark, weight > 0);
         if (!is_dark) continue;
@@ -93,9 +94,9 @@ TEST(Runs, AreTheStretchesOfDarkPixels) {
         const int width = 64 + static_cast<int>(rng.below(i % 10 == 0 ? 4033 : 200));
         SCOPED_TRACE(testing::Message() << "row " << i << ", seed " << kSeed << ", " << width);
         row.draw(rng, width);
-        const auto expected = expected_runs(row.light);
+        const auto expected = expected_runs(row.threshold);
         most = std::max(most, expected.size());
-        const auto count = static_cast<std::size_t>(find_runs(0, row.light, storage));
+        const auto count = static_cast<std::size_t>(find_runs(0, row.threshold, storage));
         expect_runs(std::span(storage).first(count), expected);
         if (testing::Test::HasFatalFailure()) return;
     }
@@ -109,10 +110,10 @@ TEST(Runs, AreTheFirstOnesWhereThereIsNoRoomForAll) {
     for (int i = 0; i < 500; ++i) {
         SCOPED_TRACE(testing::Message() << "row " << i << ", seed " << kSeed + 1);
         row.draw(rng, 64 + static_cast<int>(rng.below(200)));
-        const auto expected = expected_runs(row.light);
+        const auto expected = expected_runs(row.threshold);
         for (const std::size_t room : {std::size_t{0}, std::size_t{1}, expected.size() / 2}) {
             const auto runs = std::span(storage).first(std::min(room, expected.size()));
-            const auto count = static_cast<std::size_t>(find_runs(0, row.light, runs));
+            const auto count = static_cast<std::size_t>(find_runs(0, row.threshold, runs));
             expect_runs(runs.first(count), std::span(expected).first(runs.size()));
             if (testing::Test::HasFatalFailure()) return;
         }

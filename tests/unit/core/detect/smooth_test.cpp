@@ -26,7 +26,7 @@ GreyImage smoothed(const GreyImage& image) {
 void expect_even(const GreyImage& image, int tolerance) {
     for (int v = 0; v < image.height_px; ++v) {
         for (int u = 0; u < image.width_px; ++u) {
-            ASSERT_NEAR(image.view().row(v)[u], kEvenLevel, tolerance) << u << ", " << v;
+            ASSERT_NEAR(image.view().row(v)[u], kNormalLevel, tolerance) << u << ", " << v;
         }
     }
 }
@@ -51,15 +51,15 @@ TEST(Smooth, SinglePixelsVanish) {
         for (int v = 0; v < 120; ++v) {
             for (int u = 0; u < 188; ++u) {
                 // The mean of at least 5 x 5 pixels around still counts a bright one: 55 / 25.
-                ASSERT_NEAR(found.view().row(v)[u], kEvenLevel, 3) << u << ", " << v;
+                ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 3) << u << ", " << v;
             }
         }
-        EXPECT_NEAR(found.view().row(60)[90], kEvenLevel, 1);
+        EXPECT_NEAR(found.view().row(60)[90], kNormalLevel, 1);
     }
     // Two pixels that touch are not an impulse but a dark spot.
     GreyImage image = blank(188, 120);
     fill(image, 90, 60, 92, 61, 0);
-    EXPECT_LT(smoothed(image).view().row(60)[90], kEvenLevel - 30);
+    EXPECT_LT(smoothed(image).view().row(60)[90], kNormalLevel - 30);
 }
 
 TEST(Smooth, DotsAreWeightedWithTheBinomial) {
@@ -68,9 +68,9 @@ TEST(Smooth, DotsAreWeightedWithTheBinomial) {
     GreyImage image = blank(400, 400);
     fill(image, 199, 199, 202, 202, pixel(image, 0, 0) * 7 / 8);
     const GreyImage found = smoothed(image);
-    EXPECT_NEAR(found.view().row(200)[200], kEvenLevel * (1 - 14.0 * 14 / 256 / 8), 2);
-    EXPECT_NEAR(found.view().row(200)[202], kEvenLevel * (1 - 14.0 * 5 / 256 / 8), 2);
-    EXPECT_NEAR(found.view().row(200)[204], kEvenLevel, 2);
+    EXPECT_NEAR(found.view().row(200)[200], kNormalLevel * (1 - 14.0 * 14 / 256 / 8), 2);
+    EXPECT_NEAR(found.view().row(200)[202], kNormalLevel * (1 - 14.0 * 5 / 256 / 8), 2);
+    EXPECT_NEAR(found.view().row(200)[204], kNormalLevel, 2);
 }
 
 TEST(Smooth, GraphicsAreNoDarkerThanAFifth) {
@@ -78,8 +78,8 @@ TEST(Smooth, GraphicsAreNoDarkerThanAFifth) {
     fill(image, 0, 50, 188, 66, 5);
     const GreyImage found = smoothed(image);
     for (int u = 0; u < 188; ++u) {
-        ASSERT_EQ(found.view().row(58)[u], kEvenLevel * 4 / 5) << u;
-        ASSERT_NEAR(found.view().row(30)[u], kEvenLevel, 2) << u;
+        ASSERT_EQ(found.view().row(58)[u], kNormalLevel * 4 / 5) << u;
+        ASSERT_NEAR(found.view().row(30)[u], kNormalLevel, 2) << u;
     }
 }
 
@@ -96,7 +96,7 @@ TEST(Smooth, AGradientOfTheLightBecomesEven) {
         const GreyImage found = smoothed(image);
         for (int v = 4; v < 116; ++v) {
             for (int u = 4; u < 184; ++u) {
-                ASSERT_NEAR(found.view().row(v)[u], kEvenLevel, 2) << u << ", " << v;
+                ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 2) << u << ", " << v;
             }
         }
         // Nearer to the border the surroundings reach only 4 px inwards: 2 px of the slope.

@@ -17,14 +17,14 @@ constexpr std::uint64_t kSeed = 71;
 
 /// Returns the mean over every fourth row about the middle, and the darkest mean of two adjacent
 /// pixels, the first in an even column. Rows go on after the last column.
-Tile expected_tile(const Light& light, int band, int tile) {
-    const int begin = band_begin(light, band);
-    const int end = band_end(light, band);
+Tile expected_tile(const AdaptiveThreshold& threshold, int band, int tile) {
+    const int begin = band_begin(threshold, band);
+    const int end = band_end(threshold, band);
     int sum = 0;
     int pixels = 0;
     int darkest = 255;
     for (int v = end - begin > 2 ? begin + 2 : begin; v < end; v += 4) {
-        const std::uint8_t* row = kept_row(light, v);
+        const std::uint8_t* row = kept_row(threshold, v);
         for (int u = tile * kTileWidth_px; u < (tile + 1) * kTileWidth_px; u += 2, pixels += 2) {
             const int pair = row[u] + row[u + 1];
             sum += pair;
@@ -44,18 +44,18 @@ TEST(Tiles, AreMeasuredInPairsOfPixels) {
                      << "image " << i << ", seed " << kSeed << ", " << width << " x " << height);
         const int spread = 1 + static_cast<int>(rng.below(255));
         std::vector<std::uint8_t> row(static_cast<std::size_t>(width));
-        begin_light(width, height, w.light);
-        std::vector<Tile> tiles(static_cast<std::size_t>(w.light.tiles_per_band));
+        begin_threshold(width, height, w.threshold);
+        std::vector<Tile> tiles(static_cast<std::size_t>(w.threshold.tiles_per_band));
         for (int v = 0; v < height; ++v) {
             for (std::uint8_t& level : row)
                 level = static_cast<std::uint8_t>(255 - rng.below(static_cast<unsigned>(spread)));
-            take_row(row.data(), w.light);
-            const int band = v / w.light.band_px;
-            if (v + 1 != band_end(w.light, band)) continue;
-            measure_tiles(band, w.light, tiles);
-            for (int t = 0; t < w.light.tiles_per_band; ++t) {
+            take_row(row.data(), w.threshold);
+            const int band = v / w.threshold.band_px;
+            if (v + 1 != band_end(w.threshold, band)) continue;
+            measure_tiles(band, w.threshold, tiles);
+            for (int t = 0; t < w.threshold.tiles_per_band; ++t) {
                 const Tile tile = tiles[static_cast<std::size_t>(t)];
-                const Tile expected = expected_tile(w.light, band, t);
+                const Tile expected = expected_tile(w.threshold, band, t);
                 ASSERT_EQ(tile.mean, expected.mean) << "tile " << t << ", band " << band;
                 ASSERT_EQ(tile.darkness, expected.darkness) << t << ", band " << band;
             }

@@ -154,8 +154,8 @@ struct Problem {
             for (int k = 0; k < 4 && first + k < kPoints; ++k) {
                 const Vec2 off = explained_by(step, jacobian(places, static_cast<std::size_t>(k)));
                 squared_residuals += off.x * off.x + off.y * off.y;
-                residuals.off.x[k] = static_cast<float>(off.x);
-                residuals.off.y[k] = static_cast<float>(off.y);
+                residuals.offset.x[k] = static_cast<float>(off.x);
+                residuals.offset.y[k] = static_cast<float>(off.y);
                 residuals.weight[k] = 1;
             }
             sums.add(places, residuals);
@@ -217,8 +217,8 @@ TEST(PlaneNormalFloat, IsThatOfItsDefinition) {
             const auto [a, b] = jacobian(places, static_cast<std::size_t>(point));
             const auto weight = static_cast<double>(residuals.weight[point]);
             for (std::size_t i = 0; i < kPoseParameters; ++i) {
-                right[i] += weight * (product(a[i], residuals.off.x[point]) +
-                                      product(b[i], residuals.off.y[point]));
+                right[i] += weight * (product(a[i], residuals.offset.x[point]) +
+                                      product(b[i], residuals.offset.y[point]));
                 for (std::size_t j = 0; j < kPoseParameters; ++j)
                     expected[i][j] += weight * (product(a[i], a[j]) + product(b[i], b[j]));
             }

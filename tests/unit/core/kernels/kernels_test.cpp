@@ -31,8 +31,8 @@ class KernelsTest : public ::testing::Test {
 
 void record_patch(Patch& patch, Record& record) {
     for (int v = 0; v < patch.height_px; ++v) {
-        record.add(std::span(patch.row(patch.pixels, v), Patch::kMostWidth_px), patch.width_px);
-        record.add(std::span(patch.row(patch.smoothed, v), Patch::kMostWidth_px), patch.width_px);
+        record.add(std::span(patch.row(patch.pixels, v), Patch::kMaxWidth_px), patch.width_px);
+        record.add(std::span(patch.row(patch.smoothed, v), Patch::kMaxWidth_px), patch.width_px);
     }
     const int columns = (patch.width_px + Patch::kTileWidth_px - 1) / Patch::kTileWidth_px;
     for (int v = 0; v < patch.height_px; v += Patch::kTileHeight_px) {

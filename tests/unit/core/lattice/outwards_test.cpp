@@ -31,7 +31,7 @@ std::unique_ptr<Patch> empty_patch(int scale = 1) {
 }
 
 void finish_patch(Patch& patch, const std::vector<Vec2>& dots) {
-    patch.dots.count = static_cast<int>(std::min<std::size_t>(dots.size(), PatchDots::kMost));
+    patch.dots.count = static_cast<int>(std::min<std::size_t>(dots.size(), PatchDots::kMax));
     patch.dots.x.fill(kNoDot_px);
     patch.dots.y.fill(kNoDot_px);
     for (std::size_t i = 0; i < static_cast<std::size_t>(patch.dots.count); ++i) {

@@ -1,12 +1,12 @@
 // Paper level and thresholds of the tiles.
-#include "core/detect/light.hpp"
+#include "core/detect/adaptive_threshold.hpp"
 
 #include <gtest/gtest.h>
 
 #include "../canvas.hpp"
 #include "locate/workspace.hpp"
 
-namespace dotpose::core_test::light_test {
+namespace dotpose::core_test::adaptive_threshold_test {
 namespace {
 
 using namespace core;
@@ -24,36 +24,36 @@ GreyImage dotted(int width_px, int height_px, int paper, int ink) {
 
 /// Calls `visit(band)` for every band, in the order in which bands become ready.
 template <typename Visit>
-void for_each_band(const GreyImage& image, const ThresholdOptions& options, Light& light,
-                   Visit visit) {
-    begin_light(image.width_px, image.height_px, light);
+void for_each_band(const GreyImage& image, const ThresholdOptions& options,
+                   AdaptiveThreshold& threshold, Visit visit) {
+    begin_threshold(image.width_px, image.height_px, threshold);
     int next = 0;
     for (int v = 0; v < image.height_px; ++v) {
-        const int ready = take_row(image.view().row(v), light);
+        const int ready = take_row(image.view().row(v), threshold);
         ASSERT_GE(ready, 0);
         for (int i = 0; i < ready; ++i, ++next) {
             // All rows that a band and its lower neighbour cover have been seen.
-            ASSERT_LE(std::min(band_end(light, next + 1), image.height_px), v + 1);
-            measure_levels(next, options, light);
+            ASSERT_LE(std::min(band_end(threshold, next + 1), image.height_px), v + 1);
+            measure_levels(next, options, threshold);
             visit(next);
         }
     }
-    ASSERT_EQ(next, band_count(light));
+    ASSERT_EQ(next, band_count(threshold));
 }
 
-TEST(Light, EveryBandBecomesReadyOnceWhateverTheHeight) {
+TEST(AdaptiveThreshold, EveryBandBecomesReadyOnceWhateverTheHeight) {
     LargeWorkspace w;
     for (const auto& [width, heights] : {std::pair{64, 64}, std::pair{300, 250}}) {
         for (int height = heights; height < heights + 35; ++height) {
             SCOPED_TRACE(testing::Message() << width << " x " << height);
             const GreyImage image = blank(width, height);
             int covered = 0;
-            for_each_band(image, {}, w.light, [&](int band) {
-                EXPECT_EQ(band_begin(w.light, band), covered);
-                covered = band_end(w.light, band);
+            for_each_band(image, {}, w.threshold, [&](int band) {
+                EXPECT_EQ(band_begin(w.threshold, band), covered);
+                covered = band_end(w.threshold, band);
                 // The rows of the band are still kept.
-                for (int v = band_begin(w.light, band); v < covered; ++v) {
-                    EXPECT_EQ(kept_row(w.light, v)[image.width_px - 1], 200);
+                for (int v = band_begin(w.threshold, band); v < covered; ++v) {
+                    EXPECT_EQ(kept_row(w.threshold, v)[image.width_px - 1], 200);
                 }
             });
             EXPECT_EQ(covered, height);
@@ -61,31 +61,33 @@ TEST(Light, EveryBandBecomesReadyOnceWhateverTheHeight) {
     }
 }
 
-TEST(Light, ThresholdsLieAtTheirSharesOfTheContrast) {
+TEST(AdaptiveThreshold, ThresholdsLieAtTheirSharesOfTheContrast) {
     SmallWorkspace w;
     const ThresholdOptions options;
     for (const auto& [paper, ink] : {std::pair{200, 30}, std::pair{255, 0}, std::pair{90, 20},
                                      std::pair{60, 40}, std::pair{230, 150}}) {
         SCOPED_TRACE(testing::Message() << "paper " << paper << ", ink " << ink);
-        for_each_band(dotted(128, 80, paper, ink), options, w.light, [&, p = paper, i = ink](int) {
-            for (int t = 0; t < 8; ++t) {
-                const Levels level = levels_of_tile(w.light, t);
-                // The third and seventh row of a tile count; ink is a quarter of the third.
-                const double mean = std::floor(p - (p - i) / 8.0);
-                // The contrast is known in steps of 1/64 of the paper's level.
-                const double step = mean / 64 + 1;
-                const double low = mean - (mean - i) * options.low_q8 / 256;
-                const double high = mean - (mean - i) * options.high_q8 / 256;
-                // Rounded down to an even level.
-                ASSERT_NEAR(level.low, low - 0.5, step * options.low_q8 / 256 + 2);
-                ASSERT_EQ(level.low % 2, 0);
-                ASSERT_NEAR(level.high, high, step * options.high_q8 / 256 + 1.5);
-            }
-        });
+        for_each_band(dotted(128, 80, paper, ink), options, w.threshold,
+                      [&, p = paper, i = ink](int) {
+                          for (int t = 0; t < 8; ++t) {
+                              const Levels level = levels_of_tile(w.threshold, t);
+                              // The third and seventh row of a tile count; ink is a quarter of the
+                              // third.
+                              const double mean = std::floor(p - (p - i) / 8.0);
+                              // The contrast is known in steps of 1/64 of the paper's level.
+                              const double step = mean / 64 + 1;
+                              const double low = mean - (mean - i) * options.low_q8 / 256;
+                              const double high = mean - (mean - i) * options.high_q8 / 256;
+                              // Rounded down to an even level.
+                              ASSERT_NEAR(level.low, low - 0.5, step * options.low_q8 / 256 + 2);
+                              ASSERT_EQ(level.low % 2, 0);
+                              ASSERT_NEAR(level.high, high, step * options.high_q8 / 256 + 1.5);
+                          }
+                      });
     }
 }
 
-TEST(Light, LevelsAreTheSameInAllColumnsOfATile) {
+TEST(AdaptiveThreshold, LevelsAreTheSameInAllColumnsOfATile) {
     LargeWorkspace w;
     // Tiles are low and high, whole and cut; the light changes from tile to tile.
     for (const auto& [width, height] :
@@ -98,20 +100,20 @@ TEST(Light, LevelsAreTheSameInAllColumnsOfATile) {
                 level = static_cast<std::uint8_t>(level * (2 * width - u) / (2 * width));
             }
         }
-        for_each_band(image, {}, w.light, [&](int) {
-            for (int u = 0; u < whole_width(w.light); ++u) {
-                const Levels of_tile = levels_of_tile(w.light, u / kTileWidth_px);
-                const Levels here = levels_at(w.light, u);
+        for_each_band(image, {}, w.threshold, [&](int) {
+            for (int u = 0; u < whole_width(w.threshold); ++u) {
+                const Levels of_tile = levels_of_tile(w.threshold, u / kTileWidth_px);
+                const Levels here = levels_at(w.threshold, u);
                 ASSERT_EQ(here.low, of_tile.low) << "column " << u;
                 ASSERT_EQ(here.high, of_tile.high) << "column " << u;
             }
-            EXPECT_GT(levels_of_tile(w.light, 0).low, levels_of_tile(w.light, 5).low);
-            EXPECT_GT(levels_of_tile(w.light, 0).high, levels_of_tile(w.light, 5).high);
+            EXPECT_GT(levels_of_tile(w.threshold, 0).low, levels_of_tile(w.threshold, 5).low);
+            EXPECT_GT(levels_of_tile(w.threshold, 0).high, levels_of_tile(w.threshold, 5).high);
         });
     }
 }
 
-TEST(Light, RowsAreFilledUpToWholeTiles) {
+TEST(AdaptiveThreshold, RowsAreFilledUpToWholeTiles) {
     LargeWorkspace w;
     for (const int width : {64, 65, 71, 72, 93}) {
         GreyImage image = blank(width, 70);
@@ -119,9 +121,9 @@ TEST(Light, RowsAreFilledUpToWholeTiles) {
             for (int u = 0; u < width; ++u)
                 pixel(image, u, v) = static_cast<std::uint8_t>(u + v);
         }
-        for_each_band(image, {}, w.light, [&](int band) {
-            for (int v = band_begin(w.light, band); v < band_end(w.light, band); ++v) {
-                const std::uint8_t* row = kept_row(w.light, v);
+        for_each_band(image, {}, w.threshold, [&](int band) {
+            for (int v = band_begin(w.threshold, band); v < band_end(w.threshold, band); ++v) {
+                const std::uint8_t* row = kept_row(w.threshold, v);
                 EXPECT_EQ(reinterpret_cast<std::uintptr_t>(row) % 8, 0u);
                 for (int u = 0; u < (width + 15) / 16 * 16; ++u)
                     ASSERT_EQ(row[u], std::min(u, width - 1) + v) << u << ", " << v;
@@ -130,7 +132,7 @@ TEST(Light, RowsAreFilledUpToWholeTiles) {
     }
 }
 
-TEST(Light, ADefectPixelIsHalfAsDarkAsInk) {
+TEST(AdaptiveThreshold, ADefectPixelIsHalfAsDarkAsInk) {
     SmallWorkspace w;
     for (int u = 30; u < 38; ++u) {
         for (const int width : {1, 2}) {
@@ -139,9 +141,9 @@ TEST(Light, ADefectPixelIsHalfAsDarkAsInk) {
             // The ink has 180 levels less than the paper, and also lowers the paper's mean.
             for (const int min_contrast : {70, 100}) {
                 int dark_tiles = 0;
-                for_each_band(image, {.min_contrast = min_contrast}, w.light, [&](int) {
-                    for (int t = 0; t < w.light.tiles_per_band; ++t)
-                        dark_tiles += levels_of_tile(w.light, t).low > 0;
+                for_each_band(image, {.min_contrast = min_contrast}, w.threshold, [&](int) {
+                    for (int t = 0; t < w.threshold.tiles_per_band; ++t)
+                        dark_tiles += levels_of_tile(w.threshold, t).low > 0;
                 });
                 const bool is_pair = width == 2 && u % 2 == 0;
                 // The tile of the mark and the eight around it count as dark; if the mark is split
@@ -156,12 +158,12 @@ TEST(Light, ADefectPixelIsHalfAsDarkAsInk) {
     }
 }
 
-TEST(Light, BlankAreasHaveNoInk) {
+TEST(AdaptiveThreshold, BlankAreasHaveNoInk) {
     SmallWorkspace w;
     for (const int level : {0, 1, 7, 100, 255}) {
-        for_each_band(blank(100, 70, level), {}, w.light, [&](int) {
-            for (int t = 0; t < w.light.tiles_per_band; ++t) {
-                EXPECT_EQ(levels_of_tile(w.light, t).low, 0) << level;
+        for_each_band(blank(100, 70, level), {}, w.threshold, [&](int) {
+            for (int t = 0; t < w.threshold.tiles_per_band; ++t) {
+                EXPECT_EQ(levels_of_tile(w.threshold, t).low, 0) << level;
             }
         });
     }
@@ -172,17 +174,17 @@ TEST(Light, BlankAreasHaveNoInk) {
     for (const int ink : {185, 150}) {
         GreyImage image = blank(120, 80);
         fill(image, 18, 18, 20, 20, ink);
-        for_each_band(image, options, w.light, [&](int band) {
-            for (int t = 0; t < w.light.tiles_per_band; ++t) {
+        for_each_band(image, options, w.threshold, [&](int band) {
+            for (int t = 0; t < w.threshold.tiles_per_band; ++t) {
                 const bool is_near = std::abs(t - 1) <= 1 && std::abs(band - 2) <= 1;
-                EXPECT_EQ(levels_of_tile(w.light, t).low > 0, is_near && ink == 150)
+                EXPECT_EQ(levels_of_tile(w.threshold, t).low > 0, is_near && ink == 150)
                     << "tile " << t << ", band " << band << ", ink " << ink;
             }
         });
     }
 }
 
-TEST(Light, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
+TEST(AdaptiveThreshold, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
     SmallWorkspace w;
     ThresholdOptions options;
     options.min_contrast = 8;
@@ -193,15 +195,15 @@ TEST(Light, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
     fill(image, 18, 98, 20, 100, 190);
     int inked_above = 0;
     int inked_below = 0;
-    for_each_band(image, options, w.light, [&](int band) {
-        if (levels_of_tile(w.light, 1).low == 0) return;
-        ++(band_begin(w.light, band) < 50 ? inked_above : inked_below);
+    for_each_band(image, options, w.threshold, [&](int band) {
+        if (levels_of_tile(w.threshold, 1).low == 0) return;
+        ++(band_begin(w.threshold, band) < 50 ? inked_above : inked_below);
     });
     EXPECT_GT(inked_above, 0);
     EXPECT_EQ(inked_below, 0);
 }
 
-TEST(Light, ThresholdsFollowAShadow) {
+TEST(AdaptiveThreshold, ThresholdsFollowAShadow) {
     // The right half gets a third of the light.
     SmallWorkspace w;
     GreyImage image = dotted(160, 80, 210, 30);
@@ -209,14 +211,14 @@ TEST(Light, ThresholdsFollowAShadow) {
         for (int u = 80; u < 160; ++u)
             pixel(image, u, v) = static_cast<std::uint8_t>(pixel(image, u, v) / 3);
     }
-    for_each_band(image, {}, w.light, [&](int) {
+    for_each_band(image, {}, w.threshold, [&](int) {
         for (const int t : {0, 2, 4}) {
-            const Levels level = levels_of_tile(w.light, t);
+            const Levels level = levels_of_tile(w.threshold, t);
             EXPECT_GT(level.high, 30);
             EXPECT_LT(level.low, 210);
         }
         for (const int t : {6, 7, 9}) {
-            const Levels level = levels_of_tile(w.light, t);
+            const Levels level = levels_of_tile(w.threshold, t);
             EXPECT_GT(level.high, 10);
             EXPECT_LT(level.low, 70);
         }
@@ -224,4 +226,4 @@ TEST(Light, ThresholdsFollowAShadow) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test::light_test
+}  // namespace dotpose::core_test::adaptive_threshold_test

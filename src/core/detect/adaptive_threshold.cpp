@@ -1,0 +1,214 @@
+#include "core/detect/adaptive_threshold.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "core/detect/inverses.hpp"
+#include "core/detect/tiles.hpp"
+#include "core/detect/words.hpp"
+
+namespace dotpose::core {
+namespace {
+
+constexpr int kBandsKept = 4;  // three are needed; a power of two is faster
+constexpr unsigned kContrastBins = 64;
+
+std::span<Tile> tiles_of(const AdaptiveThreshold& threshold, int band) {
+    const auto n = static_cast<std::size_t>(threshold.tiles_per_band);
+    return threshold.tiles.subspan(static_cast<std::size_t>(band & (kBandsKept - 1)) * n, n);
+}
+
+/// Copies blocks while they fit, and advances both pointers.
+template <std::size_t kBlock>
+void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_t*& to) {
+    for (; end - from >= static_cast<std::ptrdiff_t>(kBlock); from += kBlock, to += kBlock)
+        std::memcpy(__builtin_assume_aligned(to, 4), __builtin_assume_aligned(from, 4), kBlock);
+}
+
+/// Stores a row and fills its last tile with the last pixel.
+void keep_row(const std::uint8_t* pixels, const AdaptiveThreshold& threshold, std::uint8_t* row) {
+    const std::uint8_t* const end = pixels + threshold.width_px;
+    std::uint8_t* const whole = row + whole_width(threshold);
+    if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
+        // The C libraries of small devices copy byte by byte, which is slower.
+        copy_blocks<28>(pixels, end, row);
+        copy_blocks<12>(pixels, end, row);
+        copy_blocks<4>(pixels, end, row);
+    }
+    while (pixels != end)
+        *row++ = *pixels++;
+    const std::uint8_t last = end[-1];
+    while (reinterpret_cast<std::uintptr_t>(row) % sizeof(Word) != 0)
+        *row++ = last;
+    const Word words = in_all_bytes(last);
+    for (; row != whole; row += sizeof words)
+        std::memcpy(__builtin_assume_aligned(row, sizeof words), &words, sizeof words);
+}
+
+/// The tiles of a band and of the bands above and below. At the border of the image, the band
+/// replaces a missing one.
+struct ThreeBands {
+    const Tile* above;
+    const Tile* here;
+    const Tile* below;
+};
+
+ThreeBands three_bands(const AdaptiveThreshold& threshold, int band) {
+    const Tile* here = tiles_of(threshold, band).data();
+    return {band > 0 ? tiles_of(threshold, band - 1).data() : here, here,
+            band + 1 < band_count(threshold) ? tiles_of(threshold, band + 1).data() : here};
+}
+
+/// Computes the brightest mean and the largest darkness of each tile and the tiles above and below
+/// it.
+void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
+                std::uint8_t* darknesses) {
+    for (std::size_t t = 0; t < count; ++t) {
+        const int mean = std::max<int>(bands.above[t].mean, bands.here[t].mean);
+        const int darkness = std::max<int>(bands.above[t].darkness, bands.here[t].darkness);
+        means[t] = static_cast<std::uint8_t>(std::max<int>(mean, bands.below[t].mean));
+        darknesses[t] = static_cast<std::uint8_t>(std::max<int>(darkness, bands.below[t].darkness));
+    }
+}
+
+/// Replaces each number by the maximum of it and its two neighbours.
+void join_neighbours(std::uint8_t* number, std::size_t count) {
+    std::uint8_t* const last = number + count - 1;
+    int here = *number;
+    int of_two = here;
+    for (; number != last; ++number) {
+        const int next = number[1];
+        *number = static_cast<std::uint8_t>(std::max(of_two, next));
+        of_two = std::max(here, next);
+        here = next;
+    }
+    *last = static_cast<std::uint8_t>(of_two);
+}
+
+/// Sets the columns of a tile to a level. Returns the columns of the next tile.
+inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
+    const Word word = in_all_bytes(1) * level;
+    for (std::size_t k = 0; k < kTileWidth_px; k += sizeof word)
+        std::memcpy(__builtin_assume_aligned(column + k, sizeof word), &word, sizeof word);
+    return column + kTileWidth_px;
+}
+
+/// Number of tiles by their contrast relative to their paper level, in steps of 1/kContrastBins.
+using Histogram = std::array<std::uint16_t, kContrastBins>;
+
+/// Adds each tile with contrast to the histogram, and sets the mean of the others to 0. Returns the
+/// number of tiles with contrast.
+int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
+                   int min_contrast, int& max_contrast, Histogram& histogram) {
+    int blank = 0;
+    int largest = max_contrast;
+    for (std::size_t t = 0; t < tiles; ++t) {
+        const int mean = means[t];
+        const int contrast = mean + darknesses[t] - 255;
+        largest = std::max(largest, contrast);
+        if (contrast >= min_contrast) {
+            static_assert(kContrastBins == 64);
+            const std::uint32_t bins_q16 =
+                tabled<inverse_q22, 256>(static_cast<std::uint32_t>(mean));
+            ++histogram[(static_cast<std::uint32_t>(contrast) * bins_q16) >> 16];
+        } else {
+            means[t] = 0;
+            ++blank;
+        }
+    }
+    max_contrast = largest;
+    return static_cast<int>(tiles) - blank;
+}
+
+/// Returns the contrast of dots relative to paper in a band, in 1/256, or 0 if no tile has
+/// contrast. Ink reflects the same fraction of the light everywhere, so all tiles have the same
+/// relative contrast. Strokes of graphics increase the contrast of the tiles around them; the lower
+/// tercile over a band is that of dots even if strokes cross the band.
+unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
+                             int min_contrast, int& max_contrast) {
+    Histogram histogram{};
+    const int count =
+        take_contrasts(means, darknesses, tiles, min_contrast, max_contrast, histogram);
+    if (count == 0) return 0;
+    unsigned bin = 0;
+    for (int below = 0; bin < kContrastBins - 1; ++bin) {
+        below += histogram[bin];
+        if (10 * below > 3 * count) break;
+    }
+    return (2 * bin + 1) * (256 / (2 * kContrastBins));
+}
+
+/// Sets the levels of all columns from contrasts relative to paper, in 2^-16.
+void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q16,
+                unsigned to_high_q16, AdaptiveThreshold& threshold) {
+    std::uint8_t* half_low_levels = threshold.half_low_levels.data();
+    std::uint8_t* high_levels = threshold.high_levels.data();
+    for (const std::uint8_t* const end = papers + tiles; papers != end; ++papers) {
+        const unsigned paper = *papers;
+        // The low threshold is even, because runs compare seven bits.
+        const unsigned half_low = (paper - (paper * to_low_q16 >> 16)) >> 1;
+        const unsigned high = std::min(paper - (paper * to_high_q16 >> 16), 2 * half_low);
+        half_low_levels = fill(half_low_levels, half_low);
+        high_levels = fill(high_levels, high);
+    }
+}
+
+}  // namespace
+
+int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold) {
+    // A smaller divisor would reject more noise, but also pale dots in uneven light.
+    constexpr int kContrastPart = 6;
+    return std::clamp(threshold.max_contrast / kContrastPart, options.min_contrast,
+                      2 * options.min_contrast);
+}
+
+void begin_threshold(int width_px, int height_px, AdaptiveThreshold& threshold) {
+    threshold.width_px = width_px;
+    threshold.height_px = height_px;
+    threshold.band_px =
+        std::min(width_px, height_px) <= kMaxSideWithLowTiles_px ? kLowTile_px : kHighTile_px;
+    threshold.band_shift = std::countr_zero(static_cast<unsigned>(threshold.band_px));
+    threshold.tiles_per_band = (width_px + kTileWidth_px - 1) / kTileWidth_px;
+    threshold.rows_taken = 0;
+    threshold.has_contrast = false;
+    threshold.max_contrast = 0;
+    std::fill_n(threshold.half_low_levels.begin() + whole_width(threshold), kReadAhead_px,
+                kAlwaysDark);
+}
+
+int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold) {
+    const int v = threshold.rows_taken++;
+    keep_row(pixels, threshold, kept_row(threshold, v));
+    const bool is_last = v + 1 == threshold.height_px;
+    const bool ends_band = ((v + 1) & (threshold.band_px - 1)) == 0;
+    if (!ends_band && !is_last) return 0;
+    const int band = v >> threshold.band_shift;
+    measure_tiles(band, threshold, tiles_of(threshold, band));
+    return (band > 0 ? 1 : 0) + (is_last ? 1 : 0);
+}
+
+void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold) {
+    const auto tiles = static_cast<std::size_t>(threshold.tiles_per_band);
+    // Until the levels of all columns are set, their memory contains values per tile. The paper
+    // levels are at its end, which is overwritten last.
+    std::uint8_t* const papers = threshold.half_low_levels.data() + whole_width(threshold) - tiles;
+    std::uint8_t* const darknesses = threshold.high_levels.data();
+    join_bands(three_bands(threshold, band), tiles, papers, darknesses);
+    // The darkest pixel is taken from the tiles on both sides as well, because dots may be farther
+    // apart than the width of a tile. Each tile contains paper, and the brightest of several would
+    // be too bright.
+    join_neighbours(darknesses, tiles);
+    // A tile with less than half of its columns in the image consists mostly of the repeated last
+    // pixel.
+    if (whole_width(threshold) - threshold.width_px > kTileWidth_px / 2)
+        papers[tiles - 1] = std::max(papers[tiles - 2], papers[tiles - 1]);
+    const unsigned contrast_q8 = typical_contrast_q8(
+        papers, darknesses, tiles, min_tile_contrast(options, threshold), threshold.max_contrast);
+    if (contrast_q8 > 0) threshold.has_contrast = true;
+    set_levels(papers, tiles, contrast_q8 * static_cast<unsigned>(options.low_q8),
+               contrast_q8 * static_cast<unsigned>(options.high_q8), threshold);
+}
+
+}  // namespace dotpose::core
