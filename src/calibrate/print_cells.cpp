@@ -84,8 +84,6 @@ struct Coverage {
     int seen = 0;
     int dots = 0;
     int right = 0;
-
-    double right_share() const { return double(right) / std::max(seen, 1); }
 };
 
 /// Removes outer columns and rows from a grid until the outermost ones read right.
@@ -131,10 +129,15 @@ class Trimmer {
                                   Outer{row(j_begin_), longest_row_, &j_begin_, 1},
                                   Outer{row(j_end_ - 1), longest_row_, &j_end_, -1}};
         const Outer* worst = nullptr;
+        double worst_share = 1;
         for (const Outer& one : outer) {
             if (is_enough(one.line, one.longest)) continue;
-            if (worst == nullptr || one.line.right_share() < worst->line.right_share())
-                worst = &one;
+            // The share of a short line says little.
+            const double share =
+                is_long(one.line, one.longest) ? double(one.line.right) / one.line.seen : 0;
+            if (worst != nullptr && share >= worst_share) continue;
+            worst = &one;
+            worst_share = share;
         }
         if (worst == nullptr) return false;
         *worst->end += worst->step;
@@ -161,11 +164,14 @@ class Trimmer {
         return coverage;
     }
 
+    static bool is_long(const Coverage& line, int longest) {
+        return line.right > kLeastLength * longest;
+    }
     /// Whether a line belongs to the field; a few cells of a cut-off line, or of other print, are
     /// not enough.
     static bool is_enough(const Coverage& line, int longest) {
         return line.right >= kLeastLineShare * line.seen &&
-               line.right >= kLeastRightShare * line.dots && line.right > kLeastLength * longest;
+               line.right >= kLeastRightShare * line.dots && is_long(line, longest);
     }
 
     const CellGrid& grid_;
