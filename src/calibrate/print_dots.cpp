@@ -23,19 +23,6 @@ constexpr double kReach = 1.0 / 3;
 /// share of a dot's darkness, and darker than this number of standard deviations of blank paper.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
-/// Points on the border of a cell, in spacings from its intersection.
-constexpr std::array<std::array<double, 2>, 12> kBorder = {{{-0.5, -0.5},
-                                                            {-0.25, -0.5},
-                                                            {0.25, -0.5},
-                                                            {0.5, -0.5},
-                                                            {0.5, -0.25},
-                                                            {0.5, 0.25},
-                                                            {0.5, 0.5},
-                                                            {0.25, 0.5},
-                                                            {-0.25, 0.5},
-                                                            {-0.5, 0.5},
-                                                            {-0.5, 0.25},
-                                                            {-0.5, -0.25}}};
 /// Displacement by which the levels are measured, in spacings; it need not be exact.
 constexpr double kUsualDisplacement = 1.0 / 6;
 constexpr int kCentrings = 4;
@@ -169,10 +156,17 @@ class Meter {
     /// tile is filled with grey, lighter. The middles of the cell's sides do not count, because
     /// swollen dots may run together there.
     bool is_covered(const Vector2d& intersection_px, double least_darkness) const {
-        return std::ranges::any_of(kBorder, [&](const std::array<double, 2>& step) {
-            const Vector2d p = intersection_px + map_.px_per_cell * Vector2d(step[0], step[1]);
-            return std::abs(darkness_at(scan_, p, paper_)) > least_darkness;
-        });
+        const Vector2d x = map_.px_per_cell.col(0);
+        const Vector2d y = map_.px_per_cell.col(1);
+        for (const double along : {-0.5, -0.25, 0.25}) {
+            for (const Vector2d& step :
+                 {Vector2d(along * x - 0.5 * y), Vector2d(0.5 * x + along * y),
+                  Vector2d(0.5 * y - along * x), Vector2d(-0.5 * x - along * y)}) {
+                const double darkness = darkness_at(scan_, intersection_px + step, paper_);
+                if (std::abs(darkness) > least_darkness) return true;
+            }
+        }
+        return false;
     }
 
     /// Returns the mean darkness of five points around `p`.

@@ -81,7 +81,7 @@ double TileLocator::find_spacing_px() {
                 kFirstLook_px / (probe.side_px * probe.side_px * probe.zoom * probe.zoom);
             const int step = thorough ? std::max(tiling.count() / first_look, 1) : 1;
             const double spacing_px = probe_spacing_px(tiling, step);
-            if (spacing_px > 0) return spacing_px;
+            if (spacing_px > 0 || is_mirrored_) return spacing_px;
         }
     }
     return 0;
