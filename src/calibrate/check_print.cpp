@@ -1,22 +1,20 @@
-// Checks a print: from crops to anchors, fields, dots, and then scale, sizes and faults.
+// Checks a print: from located tiles to fields, their cells, and then scale, sizes and faults.
 #include "dotpose/tools/check_print.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include <fmt/core.h>
 
-#include "calibrate/print_anchors.hpp"
 #include "calibrate/print_cells.hpp"
 #include "calibrate/print_field.hpp"
 #include "calibrate/print_findings.hpp"
 #include "calibrate/print_measures.hpp"
+#include "calibrate/print_tiles.hpp"
 #include "calibrate/print_view.hpp"
 #include "dotpose/files/profile_names.hpp"
 #include "dotpose/files/sheet_file.hpp"
-#include "dotpose/tools/flip.hpp"
 #include "dotpose/tools/test_page.hpp"
 
 namespace dotpose {
@@ -87,10 +85,11 @@ std::optional<std::size_t> sheet_at(const CheckPrintOptions& options, Section se
 /// Finds how a field was printed; on test pages and known sheets, its place in the code tells.
 void identify(const Field& field, const CheckPrintOptions& options, PrintField& result) {
     result.pattern = options.pattern;
-    for (const auto& map : field.maps) {
-        if (!map) continue;
-        const Cell cell{static_cast<std::uint32_t>(std::max(map->centre_cell.x(), 0.0)),
-                        static_cast<std::uint32_t>(std::max(map->centre_cell.y(), 0.0))};
+    for (const auto& tile : field.tiles) {
+        if (!tile) continue;
+        const Eigen::Vector2d& centre = tile->map.centre_cell;
+        const Cell cell{static_cast<std::uint32_t>(std::max(centre.x(), 0.0)),
+                        static_cast<std::uint32_t>(std::max(centre.y(), 0.0))};
         const auto patch = test_patch_at(options.pattern.profile, cell);
         result.is_patch = patch.has_value();
         result.sheet = sheet_at(options, field.code.section, cell);
@@ -107,9 +106,9 @@ void identify(const Field& field, const CheckPrintOptions& options, PrintField& 
 double spacing_px(const Field& field) {
     double sum = 0;
     int count = 0;
-    for (const auto& map : field.maps) {
-        if (!map) continue;
-        sum += map->spacing_px();
+    for (const auto& tile : field.tiles) {
+        if (!tile) continue;
+        sum += tile->map.spacing_px();
         ++count;
     }
     return count > 0 ? sum / count : 0;
@@ -178,29 +177,18 @@ double PrintField::bad_share() const {
 namespace {
 
 /// If bits contradict the given profile, checks whether the page has another one, and reports it.
-void look_for_another_code(const ImageView& scan, const CropDone& done, PrintCheck& check) {
+void look_for_another_code(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;
     const bool is_suspicious = std::ranges::any_of(
         check.fields, [](const PrintField& field) { return field.wrong_share() > kSuspicious; });
     if (!is_suspicious) return;
-    CropLocator locator(scan, std::nullopt);
-    static_cast<void>(locator.choose_tiling(done));
-    const Profile code = locator.code().code();
-    if (code == check.code || locator.code().evidence().p_wrong(code) > kSure) return;
+    const CodeReader reader = locator.read_without_code(tiles);
+    const Profile code = reader.code();
+    if (code == check.code || reader.evidence().p_wrong(code) > kSure) return;
     check.findings.push_back({FindingKind::bits_wrong, false, std::nullopt,
                               fmt::format("the page is of code {}, not {}: check it with --code {}",
                                           name(code), name(check.code), name(code))});
-}
-
-/// Whether the flipped image shows a pattern.
-bool is_mirrored(const ImageView& scan, const CheckPrintOptions& options, const CropDone& done) {
-    const GreyImage image = flipped(scan);
-    const ImageView view = image.view();
-    CropLocator locator(view,
-                        options.any_code ? std::nullopt : std::optional(options.pattern.profile));
-    const auto tiling = locator.choose_tiling(done);
-    return tiling && !locator.find_anchors(*tiling, done).empty();
 }
 
 /// A field with all its cells and the result for it.
@@ -210,29 +198,17 @@ struct CollectedField {
     PrintField result;
 };
 
-/// Collects the fields, each part of the page once, the largest field first.
-std::vector<CollectedField> collect_fields(const ImageView& scan, const Tiling& tiling,
-                                           const std::vector<Anchor>& anchors,
-                                           const CheckPrintOptions& options, const CropDone& done) {
-    std::vector<Field> fields = group_anchors(anchors, tiling);
-    const auto tiles = [](const Field& field) {
-        return std::ranges::count_if(field.maps, [](const auto& map) { return map.has_value(); });
-    };
-    std::ranges::stable_sort(fields, std::ranges::greater{}, tiles);
+/// Measures the cells of all fields.
+std::vector<CollectedField> collect_fields(const ImageView& scan, const LocatedTiles& tiles,
+                                           const CheckPrintOptions& options, const TileDone& done) {
     std::vector<CollectedField> collected;
-    for (auto field = fields.begin(); field != fields.end(); ++field) {
-        if (tiles(*field) == 0) continue;  // another field has taken over its tiles
+    for (Field& field : join_tiles(tiles)) {
         PrintField result;
-        identify(*field, options, result);
-        field->code.profile = result.pattern.profile;
-        field->code.displacement = result.pattern.displacement_mm / result.pattern.spacing_mm;
-        bool is_borne_out = follow(scan, tiling, *field);
-        for (auto other = std::next(field); is_borne_out && other != fields.end(); ++other) {
-            if (take_over(*field, *other)) is_borne_out = follow(scan, tiling, *field);
-        }
-        if (!is_borne_out) continue;
-        CellGrid grid = collect_cells(scan, tiling, *field);
-        collected.push_back({std::move(*field), std::move(grid), std::move(result)});
+        identify(field, options, result);
+        field.code.profile = result.pattern.profile;
+        field.code.displacement = result.pattern.displacement_mm / result.pattern.spacing_mm;
+        CellGrid grid = collect_cells(scan, tiles.tiling, field);
+        collected.push_back({std::move(field), std::move(grid), std::move(result)});
         done();
     }
     return collected;
@@ -299,23 +275,24 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& asked) {
     check.is_photo = asked.is_photo;
     if (asked.is_photo) options.resolution.reset();
     Work work(asked);
-    const CropDone done = [&work] { work.step(); };
-    CropLocator locator(scan, asked.any_code ? std::nullopt : std::optional(asked.pattern.profile));
-    if (const auto tiling = locator.choose_tiling(done)) {
-        const auto anchors = locator.find_anchors(*tiling, done);
+    const TileDone done = [&work] { work.step(); };
+    TileLocator locator(scan, asked.any_code ? std::nullopt : std::optional(asked.pattern.profile),
+                        done);
+    const auto tiles = locator.locate();
+    if (tiles) {
         check.code = options.pattern.profile = locator.code().code();
         if (asked.any_code)
             check.code_p_wrong = double(locator.code().evidence().p_wrong(check.code));
-        measure_fields(scan, collect_fields(scan, *tiling, anchors, options, done), options, check);
+        measure_fields(scan, collect_fields(scan, *tiles, options, done), options, check);
     }
     if (check.fields.empty()) {
         check.resolution.reset();
-        check.is_mirrored = is_mirrored(scan, asked, done);
+        check.is_mirrored = locator.is_mirrored();
     }
     check.is_test_page = std::ranges::any_of(check.fields, &PrintField::is_patch);
     if (check.is_test_page) rank_patches(options.pattern.profile, check);
     add_findings(options, check);
-    if (!asked.any_code) look_for_another_code(scan, done, check);
+    if (tiles && !asked.any_code) look_for_another_code(*tiles, locator, check);
     return check;
 }
 

@@ -1,6 +1,7 @@
 #include "calibrate/print_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -15,27 +16,34 @@ constexpr double kLeastLineShare = 0.5;
 /// They must also have more than this share of the dots of the longest line.
 constexpr double kLeastLength = 0.15;
 
-/// A part of the scan, and the map by which its cells are found.
-struct View {
-    LocalMap map;
-    PixelRect rect;
-};
+/// Least share of the dots of a line that must read right. A quarter would by chance, and half of
+/// them in another region if its columns happen to agree.
+constexpr double kLeastRightShare = 0.7;
 
-/// Returns a tile with its own map; if it has none, with those of its neighbours, because a tile
-/// that shows only the edge of a field, beside other print, has no map.
-std::vector<View> views_of(int tile, const Tiling& tiling, const Field& field) {
-    const PixelRect rect = tiling.rect(tile);
-    if (const auto& own = field.maps[static_cast<std::size_t>(tile)]) return {{*own, rect}};
-    std::vector<View> views;
+/// Returns the located tiles by whose maps the cells of a tile are found: its own; if it was not
+/// located, those around it, because a tile that shows only the edge of a field has no fix.
+std::vector<const LocatedTile*> views_of(int tile, const Tiling& tiling, const Field& field) {
+    if (const auto& own = field.tiles[static_cast<std::size_t>(tile)]) return {&*own};
+    std::vector<const LocatedTile*> views;
     const int column = tile % tiling.columns;
     const int row = tile / tiling.columns;
     for (int j = std::max(row - 1, 0); j <= std::min(row + 1, tiling.rows - 1); ++j) {
         for (int i = std::max(column - 1, 0); i <= std::min(column + 1, tiling.columns - 1); ++i) {
-            const auto& map = field.maps[static_cast<std::size_t>(j * tiling.columns + i)];
-            if (map) views.push_back({*map, part_near(rect, tiling, *map)});
+            const auto& beside = field.tiles[static_cast<std::size_t>(j * tiling.columns + i)];
+            if (beside) views.push_back(&*beside);
         }
     }
     return views;
+}
+
+/// Whether no other of the views is nearer to a cell than `view`.
+bool is_nearest(const LocatedTile& view, const SeenCell& cell,
+                const std::vector<const LocatedTile*>& views) {
+    const Vector2d pixel = view.map.pixel(Vector2d(cell.x, cell.y));
+    const double distance_px2 = (view.map.centre_px - pixel).squaredNorm();
+    return std::ranges::none_of(views, [&](const LocatedTile* other) {
+        return (other->map.centre_px - pixel).squaredNorm() < distance_px2;
+    });
 }
 
 /// Returns the rectangle of cells that the maps of a field can reach, none of them seen yet.
@@ -43,10 +51,11 @@ CellGrid empty_grid(const Tiling& tiling, const Field& field) {
     Vector2d low = Vector2d::Constant(1e18);
     Vector2d high = -low;
     for (int t = 0; t < tiling.count(); ++t) {
-        for (const View& view : views_of(t, tiling, field)) {
-            for (const int u : {view.rect.u_begin, view.rect.u_end}) {
-                for (const int v : {view.rect.v_begin, view.rect.v_end}) {
-                    const Vector2d cell = view.map.cell(Vector2d(u, v));
+        const PixelRect rect = tiling.rect(t);
+        for (const LocatedTile* view : views_of(t, tiling, field)) {
+            for (const int u : {rect.u_begin, rect.u_end}) {
+                for (const int v : {rect.v_begin, rect.v_end}) {
+                    const Vector2d cell = view->map.cell(Vector2d(u, v));
                     low = low.cwiseMin(cell - Vector2d::Constant(2));
                     high = high.cwiseMax(cell + Vector2d::Constant(2));
                 }
@@ -90,13 +99,7 @@ class Trimmer {
     }
 
     CellGrid trimmed() {
-        bool changed = true;
-        while (changed && i_begin_ < i_end_ && j_begin_ < j_end_) {
-            changed = false;
-            if (!has_column(i_begin_)) changed = true, ++i_begin_;
-            if (i_begin_ < i_end_ && !has_column(i_end_ - 1)) changed = true, --i_end_;
-            if (!has_row(j_begin_)) changed = true, ++j_begin_;
-            if (j_begin_ < j_end_ && !has_row(j_end_ - 1)) changed = true, --j_end_;
+        while (i_begin_ < i_end_ && j_begin_ < j_end_ && remove_worst_line()) {
         }
         CellGrid result;
         result.origin = {grid_.origin.x + static_cast<std::uint32_t>(i_begin_),
@@ -111,6 +114,36 @@ class Trimmer {
     }
 
   private:
+    /// Removes the worst of the four outer lines that do not belong to the field. Returns false if
+    /// all of them do. One after the other, because a column of the field reads wrong as long as it
+    /// continues through many rows beside the field.
+    bool remove_worst_line() {
+        struct Outer {
+            Coverage line;
+            int longest;
+            int* end;
+            int step;
+        };
+        const std::array outer = {Outer{column(i_begin_), longest_column_, &i_begin_, 1},
+                                  Outer{column(i_end_ - 1), longest_column_, &i_end_, -1},
+                                  Outer{row(j_begin_), longest_row_, &j_begin_, 1},
+                                  Outer{row(j_end_ - 1), longest_row_, &j_end_, -1}};
+        const Outer* worst = nullptr;
+        double worst_share = 1;
+        for (const Outer& one : outer) {
+            if (is_enough(one.line, one.longest)) continue;
+            // The share of a short line says little.
+            const double share =
+                is_long(one.line, one.longest) ? double(one.line.right) / one.line.seen : 0;
+            if (worst != nullptr && share >= worst_share) continue;
+            worst = &one;
+            worst_share = share;
+        }
+        if (worst == nullptr) return false;
+        *worst->end += worst->step;
+        return true;
+    }
+
     void count(int i, int j, Coverage& coverage) const {
         const auto index = static_cast<std::size_t>(j) * static_cast<std::size_t>(grid_.columns) +
                            static_cast<std::size_t>(i);
@@ -131,14 +164,15 @@ class Trimmer {
         return coverage;
     }
 
+    static bool is_long(const Coverage& line, int longest) {
+        return line.right > kLeastLength * longest;
+    }
     /// Whether a line belongs to the field; a few cells of a cut-off line, or of other print, are
     /// not enough.
     static bool is_enough(const Coverage& line, int longest) {
         return line.right >= kLeastLineShare * line.seen &&
-               line.right >= kLeastRightShare * line.dots && line.right > kLeastLength * longest;
+               line.right >= kLeastRightShare * line.dots && is_long(line, longest);
     }
-    bool has_column(int i) const { return is_enough(column(i), longest_column_); }
-    bool has_row(int j) const { return is_enough(row(j), longest_row_); }
 
     const CellGrid& grid_;
     const std::vector<bool>& seen_;
@@ -156,15 +190,16 @@ CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field&
     CellGrid grid = empty_grid(tiling, field);
     std::vector<bool> seen(grid.cells.size());
     for (int t = 0; t < tiling.count(); ++t) {
-        for (const View& view : views_of(t, tiling, field)) {
-            const SeenTile tile = measure_tile(scan, view.rect, view.map, field.code,
-                                               field.strengths[static_cast<std::size_t>(t)]);
-            for (const SeenCell& cell : tile.cells) {
+        const auto views = views_of(t, tiling, field);
+        for (const LocatedTile* view : views) {
+            for (const SeenCell& cell :
+                 measure_cells(scan, tiling.rect(t), view->map, view->levels, field.code)) {
+                if (!is_nearest(*view, cell, views)) continue;
                 const std::int64_t i = std::int64_t{cell.x} - grid.origin.x;
                 const std::int64_t j = std::int64_t{cell.y} - grid.origin.y;
                 if (i < 0 || j < 0 || i >= grid.columns || j >= grid.rows) continue;
                 const auto index = static_cast<std::size_t>(j * grid.columns + i);
-                // Views overlap; a cell that reads right in one of them counts.
+                // Tiles overlap by half a cell; a cell that reads right in one of them counts.
                 if (!grid.cells[index].is_right()) grid.cells[index] = cell;
                 seen[index] = true;
             }

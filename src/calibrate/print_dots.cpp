@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "calibrate/least_squares.hpp"
-
 namespace dotpose::calibrate {
 namespace {
 
@@ -25,9 +23,10 @@ constexpr double kReach = 1.0 / 3;
 /// share of a dot's darkness, and darker than this number of standard deviations of blank paper.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
+/// Displacement by which the levels are measured, in spacings; it need not be exact.
+constexpr double kUsualDisplacement = 1.0 / 6;
 constexpr int kCentrings = 4;
 constexpr double kCentred_px = 0.01;
-constexpr int kLeastToFit = 30;
 
 /// Returns the median; reorders the values.
 double median(std::vector<double>& values) {
@@ -37,10 +36,21 @@ double median(std::vector<double>& values) {
     return *middle;
 }
 
-/// Returns the mean of the middle half of the values.
-double middle_mean(std::vector<double>& values) {
-    if (values.empty()) return 0;
-    std::ranges::sort(values);
+/// Removes the levels of grey areas beside the paper from sorted levels at the corners of cells, of
+/// which a quarter must show paper: those below a normal distribution with these quantiles.
+void keep_paper(std::vector<double>& levels) {
+    constexpr double kSigmas = 3.6;
+    constexpr double kSigmasPerRange = 1.6449 - 0.6745;
+    const auto quantile = [&](double share) {
+        return levels[static_cast<std::size_t>(share * static_cast<double>(levels.size() - 1))];
+    };
+    const double low =
+        quantile(0.75) - kSigmas / kSigmasPerRange * (quantile(0.95) - quantile(0.75));
+    levels.erase(levels.begin(), std::ranges::lower_bound(levels, low));
+}
+
+/// Returns the mean of the middle half of sorted values.
+double middle_mean(const std::vector<double>& values) {
     const std::size_t quarter = values.size() / 4;
     double sum = 0;
     for (std::size_t i = quarter; i < values.size() - quarter; ++i)
@@ -70,7 +80,7 @@ struct CellRange {
 };
 
 /// Returns the cells that may lie in a rectangle.
-CellRange cells_in(const PixelRect& rect, const LocalMap& map) {
+CellRange cells_in(const PixelRect& rect, const TileMap& map) {
     Vector2d low = Vector2d::Constant(1e18);
     Vector2d high = -low;
     for (const int u : {rect.u_begin, rect.u_end}) {
@@ -92,10 +102,9 @@ CellRange cells_in(const PixelRect& rect, const LocalMap& map) {
 /// Measures dots in one tile, relative to its paper.
 class Meter {
   public:
-    Meter(const ImageView& scan, const LocalMap& map, double displacement, double paper)
+    Meter(const ImageView& scan, const TileMap& map, double displacement, double paper)
         : scan_(scan),
           map_(map),
-          cells_per_px_(map.px_per_cell.inverse()),
           displacement_(displacement),
           reach_px_(kReach * map.spacing_px()),
           inner_px2_(std::pow(std::max(reach_px_ - 0.5, 0.0), 2)),
@@ -104,8 +113,9 @@ class Meter {
           paper_(paper),
           per_paper_(1 / paper) {}
 
-    /// Returns the greatest darkness among the four places of a dot; sets `place_px` to that place.
-    double likeliest(const Vector2d& intersection_px, Vector2d& place_px) const {
+    /// Returns the darkest of the four places of a dot.
+    Vector2d likeliest(const Vector2d& intersection_px) const {
+        Vector2d likeliest_px = intersection_px;
         double best = -1e9;
         for (const Symbol symbol : kSymbols) {
             const Vector2d offset(dx(symbol), dy(symbol));
@@ -113,52 +123,52 @@ class Meter {
             const double strength = strength_at(place);
             if (strength <= best) continue;
             best = strength;
-            place_px = place;
+            likeliest_px = place;
         }
-        return best;
+        return likeliest_px;
     }
 
-    /// Measures the dot near `place_px`, after moving to its centroid from there.
-    void measure(const Vector2d& intersection_px, Vector2d place_px, double strength,
-                 SeenCell& cell) const {
+    /// Measures the dot at the likeliest of its places, after moving to its centroid from there.
+    /// `strength` is the expected darkness of a dot. Returns the dot's offset from its intersection
+    /// in spacings.
+    Vector2d measure(const Vector2d& intersection_px, double strength, SeenCell& cell) const {
+        Vector2d place_px = likeliest(intersection_px);
         double moved_px = 1;
         for (int i = 0; i < kCentrings && moved_px > kCentred_px; ++i) {
             const Vector2d before = place_px;
             place_px = centroid(place_px, kFloorShare * strength);
             moved_px = (place_px - before).norm();
         }
-        const Vector2d offset = cells_per_px_ * (place_px - intersection_px);
+        const Vector2d offset = map_.cells_per_px * (place_px - intersection_px);
         cell.strength = static_cast<float>(strength_at(place_px) / strength);
         cell.has_dot =
             double(cell.strength) >= kLeastShare && offset.cwiseAbs().maxCoeff() <= kFarthest;
-        if (!cell.has_dot) return;
-        const bool is_horizontal = std::abs(offset.x()) > std::abs(offset.y());
-        cell.read = is_horizontal ? (offset.x() > 0 ? Symbol::right : Symbol::left)
-                                  : (offset.y() > 0 ? Symbol::down : Symbol::up);
+        if (!cell.has_dot) return offset;
         cell.u_px = static_cast<float>(place_px.x());
         cell.v_px = static_cast<float>(place_px.y());
         cell.paper = static_cast<float>(paper_);
         cell.peak = static_cast<float>(darkness_at(scan_, place_px, paper_));
         cell.mass_px2 = static_cast<float>(mass(place_px));
+        return offset;
     }
 
     /// Whether the border of a cell is not blank: darker by `least_darkness` or, where most of the
     /// tile is filled with grey, lighter. The middles of the cell's sides do not count, because
     /// swollen dots may run together there.
-    bool is_covered(const Vector2d& cell, double least_darkness) const {
-        for (const double along : {-0.5, -0.25, 0.25, 0.5}) {
-            for (const double across : {-0.5, 0.5}) {
-                for (const Vector2d& step : {Vector2d(along, across), Vector2d(across, along)}) {
-                    const Vector2d p = map_.pixel(cell + step);
-                    const double darkness = darkness_at(scan_, p, paper_);
-                    if (std::abs(darkness) > least_darkness) return true;
-                }
+    bool is_covered(const Vector2d& intersection_px, double least_darkness) const {
+        const Vector2d x = map_.px_per_cell.col(0);
+        const Vector2d y = map_.px_per_cell.col(1);
+        for (const double along : {-0.5, -0.25, 0.25}) {
+            for (const Vector2d& step :
+                 {Vector2d(along * x - 0.5 * y), Vector2d(0.5 * x + along * y),
+                  Vector2d(0.5 * y - along * x), Vector2d(-0.5 * x - along * y)}) {
+                const double darkness = darkness_at(scan_, intersection_px + step, paper_);
+                if (std::abs(darkness) > least_darkness) return true;
             }
         }
         return false;
     }
 
-  private:
     /// Returns the mean darkness of five points around `p`.
     double strength_at(const Vector2d& p) const {
         double sum = darkness_at(scan_, p, paper_);
@@ -169,6 +179,7 @@ class Meter {
         return sum / 5;
     }
 
+  private:
     /// Visits the pixels within reach of a point, with their darkness and a weight that fades out
     /// over the last pixel, so that sums change smoothly with the point.
     template <typename Visit>
@@ -210,8 +221,7 @@ class Meter {
     }
 
     const ImageView& scan_;
-    const LocalMap& map_;
-    Eigen::Matrix2d cells_per_px_;
+    const TileMap& map_;
     double displacement_;
     double reach_px_;
     double inner_px2_;  ///< squared distances between which pixels count in part
@@ -221,25 +231,31 @@ class Meter {
     double per_paper_;
 };
 
-/// Sets the level of the paper, from the corners of the cells, which no dot comes near, and its
-/// noise.
-void measure_paper(const ImageView& scan, const PixelRect& rect, const LocalMap& map,
-                   SeenTile& tile) {
-    const CellRange range = cells_in(rect, map);
-    std::vector<double> levels;
-    for (std::int64_t y = range.y_begin; y < range.y_end; ++y) {
-        for (std::int64_t x = range.x_begin; x < range.x_end; ++x) {
-            const auto corner = map.pixel(Vector2d(double(x) + 0.5, double(y) + 0.5));
-            if (rect.contains(corner, 0)) levels.push_back(level_at(scan, corner));
-        }
+Symbol nearest_symbol(const Vector2d& offset) {
+    if (std::abs(offset.x()) > std::abs(offset.y()))
+        return offset.x() > 0 ? Symbol::right : Symbol::left;
+    return offset.y() > 0 ? Symbol::down : Symbol::up;
+}
+
+/// Reads the dots from their offsets in spacings. The mean error of the offsets is subtracted: a
+/// renderer or scanner that puts dots on whole pixels displaces all of them, which the map of a fix
+/// does not follow.
+void read_symbols(const std::vector<Vector2d>& offsets, double displacement,
+                  std::vector<SeenCell>& cells) {
+    constexpr double kFarthestError = 0.25;
+    Vector2d error_sum = Vector2d::Zero();
+    double count = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (!cells[i].has_dot) continue;
+        const Symbol nominal = cells[i].nominal;
+        const Vector2d error = offsets[i] - displacement * Vector2d(dx(nominal), dy(nominal));
+        if (error.norm() > kFarthestError) continue;
+        error_sum += error;
+        ++count;
     }
-    tile.paper = middle_mean(levels);
-    if (tile.paper <= 0) return;
-    // Half of a normal distribution lies within 0.6745 standard deviations.
-    constexpr double kSigmaPerQuartiles = 1 / (2 * 0.6745);
-    const std::size_t quarter = levels.size() / 4;
-    tile.noise =
-        kSigmaPerQuartiles * (levels[levels.size() - 1 - quarter] - levels[quarter]) / tile.paper;
+    const Vector2d mean_error = error_sum / std::max(count, 1.0);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        cells[i].read = nearest_symbol(offsets[i] - mean_error);
 }
 
 }  // namespace
@@ -258,76 +274,61 @@ double darkness_at(const ImageView& scan, const Vector2d& pixel, double paper) {
     return 1 - level_at(scan, pixel) / paper;
 }
 
-SeenTile measure_tile(const ImageView& scan, const PixelRect& rect, const LocalMap& map,
-                      const Code& code, std::optional<double> strength) {
-    SeenTile tile;
-    measure_paper(scan, rect, map, tile);
-    if (tile.paper <= 0) return tile;
-    const Meter meter(scan, map, code.displacement, tile.paper);
+PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
+                           const std::vector<Vector2d>& dots_px) {
+    if (dots_px.empty()) return {};
+    std::vector<double> levels;
+    std::vector<double> strengths;
+    for (const Vector2d& dot_px : dots_px) {
+        // No dot comes near the corner of a cell.
+        const Vector2d cell = map.cell(dot_px);
+        const double level =
+            level_at(scan, map.pixel({std::round(cell.x()) + 0.5, std::round(cell.y()) + 0.5}));
+        levels.push_back(level);
+        const Meter meter(scan, map, kUsualDisplacement, level);
+        if (level > 0) strengths.push_back(meter.strength_at(dot_px));
+    }
+    std::ranges::sort(levels);
+    keep_paper(levels);
+    PrintLevels result;
+    result.dot = median(strengths);
+    result.paper = middle_mean(levels);
+    if (result.paper <= 0) return result;
+    // Half of a normal distribution lies within 0.6745 standard deviations.
+    constexpr double kSigmaPerQuartiles = 1 / (2 * 0.6745);
+    const std::size_t quarter = levels.size() / 4;
+    result.noise =
+        kSigmaPerQuartiles * (levels[levels.size() - 1 - quarter] - levels[quarter]) / result.paper;
+    return result;
+}
+
+std::vector<SeenCell> measure_cells(const ImageView& scan, const PixelRect& rect,
+                                    const TileMap& map, const PrintLevels& levels,
+                                    const Code& code) {
+    std::vector<SeenCell> cells;
+    std::vector<Vector2d> offsets;
+    if (levels.paper <= 0) return cells;
+    // However great the noise, print as dark as a dot counts as other print.
+    const double other_print = std::max(kOtherPrintShare * levels.dot,
+                                        std::min(kOtherPrint_sigmas * levels.noise, levels.dot));
+    const Meter meter(scan, map, code.displacement, levels.paper);
     const CellRange range = cells_in(rect, map);
     const PixelRect whole{0, 0, scan.width_px, scan.height_px};
     const double half_px = 0.5 * map.spacing_px();
-    std::vector<Vector2d> places_px;
-    std::vector<double> strengths;
     for (std::int64_t y = range.y_begin; y < range.y_end; ++y) {
         for (std::int64_t x = range.x_begin; x < range.x_end; ++x) {
             const Vector2d p = map.pixel(Vector2d(double(x), double(y)));
             if (!rect.contains(p, half_px) || !whole.contains(p, -half_px)) continue;
-            SeenCell& cell = tile.cells.emplace_back();
+            SeenCell& cell = cells.emplace_back();
             cell.x = static_cast<std::uint32_t>(x);
             cell.y = static_cast<std::uint32_t>(y);
             cell.nominal = code.symbol(x, y);
-            strengths.push_back(meter.likeliest(p, places_px.emplace_back()));
+            cell.is_covered = meter.is_covered(p, other_print);
+            offsets.push_back(meter.measure(p, levels.dot, cell));
         }
     }
-    tile.strength = median(strengths);
-    const double expected = strength.value_or(tile.strength);
-    // However great the noise, print as dark as a dot counts as other print.
-    const double other_print =
-        std::max(kOtherPrintShare * expected, std::min(kOtherPrint_sigmas * tile.noise, expected));
-    for (std::size_t i = 0; i < tile.cells.size(); ++i) {
-        SeenCell& cell = tile.cells[i];
-        meter.measure(map.pixel(Vector2d(cell.x, cell.y)), places_px[i], expected, cell);
-        cell.is_covered = meter.is_covered(Vector2d(cell.x, cell.y), other_print);
-        tile.dots += cell.has_dot ? 1 : 0;
-        tile.right += cell.is_right() ? 1 : 0;
-    }
-    return tile;
-}
-
-std::optional<LocalMap> fit_map(const SeenTile& tile, const Code& code,
-                                const Perspective& perspective) {
-    if (tile.right < kLeastToFit) return std::nullopt;
-    Vector2d middle = Vector2d::Zero();
-    for (const SeenCell& cell : tile.cells) {
-        if (cell.is_right()) middle += code.dot_cell(cell.x, cell.y, cell.nominal) / tile.right;
-    }
-    LocalMap map;
-    map.centre_cell = middle;
-    map.perspective_per_cell = perspective.at(middle);
-    // With the perspective known, the map is linear in the cells as they would be without it.
-    const auto without = [&](const SeenCell& cell) {
-        const Vector2d d = code.dot_cell(cell.x, cell.y, cell.nominal) - middle;
-        return Vector2d(d / (1 + map.perspective_per_cell.dot(d)));
-    };
-    NormalEquations along_u(3);
-    NormalEquations along_v(3);
-    Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-    for (const SeenCell& cell : tile.cells) {
-        if (!cell.is_right()) continue;
-        const Vector2d step = without(cell);
-        const std::array row{step.x(), step.y(), 1.0};
-        along_u.add(row, double(cell.u_px));
-        along_v.add(row, double(cell.v_px));
-        spread += step * step.transpose();
-    }
-    // A single line of dots does not determine the map across it.
-    if (spread.determinant() < 1e-3 * spread.trace() * spread.trace()) return std::nullopt;
-    const std::vector<double> u = along_u.solution();
-    const std::vector<double> v = along_v.solution();
-    map.px_per_cell << u[0], u[1], v[0], v[1];
-    map.centre_px = {u[2], v[2]};
-    return map;
+    read_symbols(offsets, code.displacement, cells);
+    return cells;
 }
 
 }  // namespace dotpose::calibrate

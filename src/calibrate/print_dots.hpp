@@ -1,8 +1,7 @@
-// Print dots: measures the dots of one tile of a scan where a map expects them.
+// Print dots: measures the dots of a part of a scan where a map expects them.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "calibrate/print_map.hpp"
@@ -42,27 +41,24 @@ struct SeenCell {
     bool is_right() const { return has_dot && read == nominal; }
 };
 
-/// The measurement of one tile.
-struct SeenTile {
-    std::vector<SeenCell> cells;
-    double paper = 0;     ///< grey level of the blank paper between dots; 0: no paper is visible
-    double noise = 0;     ///< standard deviation of the darkness of blank paper
-    double strength = 0;  ///< median over the cells of the darkness of the likeliest place
-    int dots = 0;
-    int right = 0;  ///< number of dots that read right
+/// How bright paper and dots are in a part of a scan.
+struct PrintLevels {
+    double paper = 0;  ///< grey level of the blank paper between dots; 0: no paper is visible
+    double noise = 0;  ///< standard deviation of the darkness of blank paper
+    double dot = 0;    ///< median darkness of a dot's middle
 };
 
+/// Returns the levels around dots that were read, given by their centres in px.
+PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
+                           const std::vector<Eigen::Vector2d>& dots_px);
+
 /// Measures all cells of the code plane whose intersections lie in `rect` or within half a spacing
-/// of it. `strength` is the expected darkness of a dot; without it, that of the tile itself is
-/// used.
-SeenTile measure_tile(const ImageView& scan, const PixelRect& rect, const LocalMap& map,
-                      const Code& code, std::optional<double> strength);
+/// of it. Returns none if no paper is visible.
+std::vector<SeenCell> measure_cells(const ImageView& scan, const PixelRect& rect,
+                                    const TileMap& map, const PrintLevels& levels,
+                                    const Code& code);
 
 /// Returns the darkness at a point, 0 for paper and 1 for black, by interpolation.
 double darkness_at(const ImageView& scan, const Eigen::Vector2d& pixel, double paper);
-
-/// Returns the map fitted to the dots that read right; none if there are too few.
-std::optional<LocalMap> fit_map(const SeenTile& tile, const Code& code,
-                                const Perspective& perspective);
 
 }  // namespace dotpose::calibrate

@@ -1,42 +1,66 @@
-// Print map: where the cells of the code are seen in a scan, around one place.
+// Print map: where the cells of the code are seen in the tiles of a scan.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
 
-#include "dotpose/code.hpp"
+#include "dotpose/fix.hpp"
+#include "dotpose/geometry.hpp"
 
 namespace dotpose::calibrate {
 
-/// Maps between the code plane, in cells, and the scan, in px, within some tens of cells: pixel =
-/// centre + (px_per_cell * d) / (1 + perspective . d), with d = cell - centre.
-struct LocalMap {
+/// Maps between the scan, in px, and the code plane, in cells, in and around one tile: cell =
+/// centre_cell + cells_per_px q / (1 + perspective_per_px . q + lens_per_px2 q^2), with q = pixel -
+/// centre_px. It is the map of a fix (PlaneFromImage) in the pixels of the scan.
+struct TileMap {
     Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
     Eigen::Vector2d centre_cell = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d px_per_cell = Eigen::Matrix2d::Identity();
-    Eigen::Vector2d perspective_per_cell = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d cells_per_px = Eigen::Matrix2d::Identity();
+    Eigen::Matrix2d px_per_cell = Eigen::Matrix2d::Identity();  ///< inverse of `cells_per_px`
+    Eigen::Vector2d perspective_per_px = Eigen::Vector2d::Zero();
+    double lens_per_px2 = 0;
 
-    Eigen::Vector2d pixel(const Eigen::Vector2d& cell) const {
-        const Eigen::Vector2d d = cell - centre_cell;
-        return centre_px + px_per_cell * d / (1 + perspective_per_cell.dot(d));
-    }
+    /// Returns the map of a fix in a crop of the scan that begins at `first_px` and is magnified by
+    /// `zoom`.
+    static TileMap of(const Fix& fix, const Eigen::Vector2d& first_px, int zoom);
+
     Eigen::Vector2d cell(const Eigen::Vector2d& pixel) const {
-        const Eigen::Vector2d q = px_per_cell.inverse() * (pixel - centre_px);
-        return centre_cell + q / (1 - perspective_per_cell.dot(q));
+        const Eigen::Vector2d q = pixel - centre_px;
+        return centre_cell +
+               cells_per_px * q / (1 + perspective_per_px.dot(q) + lens_per_px2 * q.squaredNorm());
+    }
+    Eigen::Vector2d pixel(const Eigen::Vector2d& cell) const {
+        const Eigen::Vector2d flat = px_per_cell * (cell - centre_cell);
+        const Eigen::Vector2d q = flat / (1 - perspective_per_px.dot(flat));
+        return centre_px + q * (1 + lens_per_px2 * q.squaredNorm());
     }
     double spacing_px() const { return std::sqrt(std::abs(px_per_cell.determinant())); }
 };
 
-/// The perspective in which a camera sees the whole paper; `at` gives that of the map around a
-/// place.
-struct Perspective {
-    Eigen::Vector2d centre_cell = Eigen::Vector2d::Zero();
-    Eigen::Vector2d per_cell = Eigen::Vector2d::Zero();
+/// Returns the place in a scan of a pixel in a crop that begins at `first_px` and is magnified by
+/// `zoom`.
+inline Eigen::Vector2d in_scan(const Vec& pixel_q8, const Eigen::Vector2d& first_px, int zoom) {
+    const Eigen::Vector2d from_edge(pixel_q8.x / 256.0 + 0.5, pixel_q8.y / 256.0 + 0.5);
+    return first_px + from_edge / zoom - Eigen::Vector2d::Constant(0.5);
+}
 
-    Eigen::Vector2d at(const Eigen::Vector2d& cell) const {
-        return per_cell / (1 + per_cell.dot(cell - centre_cell));
-    }
-};
+inline TileMap TileMap::of(const Fix& fix, const Eigen::Vector2d& first_px, int zoom) {
+    const PlaneFromImage& plane = fix.pattern_from_image;
+    TileMap map;
+    map.centre_px = in_scan(plane.centre_q8, first_px, zoom);
+    map.centre_cell = {fix.place.cell.x + plane.at_centre_q16.x * 0x1p-16,
+                       fix.place.cell.y + plane.at_centre_q16.y * 0x1p-16};
+    map.cells_per_px << plane.du_q24.x, plane.dv_q24.x, plane.du_q24.y, plane.dv_q24.y;
+    map.cells_per_px *= zoom * 0x1p-24;
+    map.px_per_cell = map.cells_per_px.inverse();
+    map.perspective_per_px = {plane.perspective_q30.x * (zoom * 0x1p-30),
+                              plane.perspective_q30.y * (zoom * 0x1p-30)};
+    map.lens_per_px2 = plane.lens_q40 * (zoom * zoom * 0x1p-40);
+    return map;
+}
 
 /// A rectangle of pixels, ends exclusive.
 struct PixelRect {
@@ -55,7 +79,7 @@ struct PixelRect {
     }
 };
 
-/// The tiles of a scan, in which cells are searched one after the other.
+/// The tiles of a scan.
 struct Tiling {
     int width_px = 0;
     int height_px = 0;
@@ -74,6 +98,16 @@ struct Tiling {
         const int u = tile % columns * side_px;
         const int v = tile / columns * side_px;
         return {u, v, std::min(u + side_px, width_px), std::min(v + side_px, height_px)};
+    }
+    /// Returns a tile with a sixth of its side around it, in a rectangle that is moved rather than
+    /// cut at the edges of the scan. What no tile shows whole is whole in some of these.
+    PixelRect overlapping_rect(int tile) const {
+        const int around_px = side_px / 6;
+        const int full_px = side_px + 2 * around_px;
+        const PixelRect inner = rect(tile);
+        const int u = std::clamp(inner.u_begin - around_px, 0, std::max(width_px - full_px, 0));
+        const int v = std::clamp(inner.v_begin - around_px, 0, std::max(height_px - full_px, 0));
+        return {u, v, std::min(u + full_px, width_px), std::min(v + full_px, height_px)};
     }
 };
 

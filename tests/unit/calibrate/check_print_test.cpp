@@ -132,6 +132,26 @@ TEST(CheckPrint, tells_other_print_from_faults) {
     EXPECT_LT(field.covered_share(), bars + edge);
 }
 
+// Blank paper around the card is most of what its tiles show.
+TEST(CheckPrint, dots_of_a_small_card_on_a_noisy_scan_are_not_covered) {
+    SheetOptions options;
+    options.paper = {20, 20};
+    options.margin_mm = 1;
+    Sheet card = make_sheet(options);
+    card.width_mm = card.height_mm = 60;
+    card.origin_x_mm += 20;
+    card.origin_y_mm += 20;
+    ScanSettings settings;
+    settings.noise_sigma = 15;
+    const PrintCheck result = check(scan_page(card, settings), 600);
+    ASSERT_EQ(result.fields.size(), 1U);
+    EXPECT_EQ(result.fields[0].columns, card.columns);
+    EXPECT_EQ(result.fields[0].rows, card.rows);
+    EXPECT_LT(result.fields[0].covered_share(), 0.01);
+    EXPECT_LT(result.fields[0].missing_share(), 0.01);
+    EXPECT_THAT(faults(result), IsEmpty());
+}
+
 TEST(CheckPrint, maps_distortion) {
     SheetOptions options;
     options.paper = {120, 210};
