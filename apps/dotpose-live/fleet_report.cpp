@@ -62,7 +62,7 @@ draw::Map map_of(const FleetState& fleet, const std::string& map_id,
     for (const auto& [name, robot] : fleet.robots()) {
         const RobotState& state = robot.newest;
         if (state.is_localized && state.map_id != map_id) continue;
-        // One path at a time, to let messages in between.
+        // Copies one path at a time, to release the lock for incoming messages between copies.
         std::vector<draw::Point> path_mm = fleet.path_mm(name);
         if (path_mm.empty()) continue;
         draw::MapRobot drawn;

@@ -1,4 +1,4 @@
-/// The state of a robot, from what `dotpose watch` sees.
+/// The state of a robot, derived from the readings of `dotpose watch`.
 #pragma once
 
 #include <string>

@@ -19,7 +19,7 @@ enum class Attempt : std::uint8_t {
     tracked,  ///< dots were measured where a prediction expected them
     first,    ///< without a prediction, from patches of the image
     second,   ///< on the filtered image, after the first attempt failed
-    device,   ///< in integers, as on a microcontroller
+    device,   ///< in integer arithmetic, as on a microcontroller
 };
 /// Returns the identifier, such as "tracked".
 const char* name(Attempt attempt) noexcept;
@@ -52,11 +52,12 @@ struct Fix {
     std::int32_t theta_bam = 0;         ///< binary angle: 2^31 is half a turn, in [-2^31, 2^31)
     Section section;                    ///< section in which `cell` was read
     std::int32_t spacing_px_q16 = 0;    ///< grid spacing in the image, in 2^-16 px
-    std::int32_t spacing_nm = 508'000;  ///< spacing of the printed grid, from Options; 0: not known
+    std::int32_t spacing_nm = 508'000;  ///< spacing of the printed grid, from Options; 0 if unknown
 
-    int dots_seen = 0;     ///< blobs that have the size of a dot
-    int dots_used = 0;     ///< dots that the pose was fitted to
-    int bit_errors = 0;    ///< bits, two for each cell read, that contradict the position found
+    int dots_seen = 0;  ///< blobs that have the size of a dot
+    int dots_used = 0;  ///< dots that the pose was fitted to
+    /// Number of bits that contradict the position. Each cell read has two bits.
+    int bit_errors = 0;
     int p_wrong_log2 = 0;  ///< the position is wrong with probability at most 2^p_wrong_log2
     /// Root mean square distance of the dots from their fitted places, per axis.
     float residual_px = 0;
@@ -70,10 +71,11 @@ struct Fix {
 
     /// Covariance of (x, y, theta), in squares and products of (spacing, spacing, radian).
     float covariance[3][3] = {};
-    /// Whether the covariance is known; a DeviceLocator gives neither covariance nor residual.
+    /// Returns true if the covariance is known. A DeviceLocator provides neither covariance nor
+    /// residual.
     bool has_covariance() const { return covariance[0][0] > 0; }
 
-    /// Whether there is a pose.
+    /// Returns true if there is a pose.
     explicit operator bool() const { return status == Status::ok; }
 
     // Double precision is used only in these functions, which are not part of the core's object

@@ -15,16 +15,16 @@ constexpr int kLensRounds = 3;
 constexpr double kOutlier_sigmas = 4;
 /// Standard deviation of the residuals that is assumed before any is known.
 constexpr double kFirstSigma_px = 0.3;
-/// What is known of cameras before the first frame: the distortion centre is within about 5 % of
-/// the image's diagonal from its centre, the field of view is about 55 degrees, pixels are square
-/// to 2 %. These priors matter only where the frames determine nothing: the centre without
+/// Prior knowledge of the camera, before the first frame: the distortion centre is within about 5 %
+/// of the image's diagonal from its centre, the field of view is about 55 degrees, pixels are
+/// square to 2 %. These priors matter only where the frames determine nothing: the centre without
 /// distortion, the focal length without tilt, the shape of pixels where the tilt never changes.
 constexpr double kCentrePrior = 0.1;  // reaches (half diagonals)
 constexpr double kReachPerFocal = 0.5;
 constexpr double kReachPerFocalPrior = 0.5;
 constexpr double kSquarePrior = 0.02;
 
-/// One dot in the form that the residuals need.
+/// One dot, as input of the residuals.
 struct Seen {
     double u;  ///< reaches, from the image centre
     double v;
@@ -43,7 +43,8 @@ struct Seen {
         const T stretch = reach_px / (1.0 + lens[0] * (x * x + y * y));  // eq. 2
         return {stretch * x, stretch * y};
     }
-    /// Returns the printed place as seen from the frame's pose, turned by minus its angle, in mm.
+    /// Returns the printed place in the coordinates of the frame's pose, in mm: relative to its
+    /// position and rotated by its negative angle.
     template <typename T>
     std::array<T, 2> printed(const T& displacement, const T* pose) const {
         using std::cos;
@@ -151,7 +152,7 @@ Seen seen_of(const LocatedDot& dot, const LocatedFrame& frame, const FitSetting&
             mm / frame.spacing_px};
 }
 
-/// Returns the similarity from undistorted px to mm that fits best: place, turn, mm per px.
+/// Returns the best-fitting similarity from undistorted px to mm: place, turn, mm per px.
 std::array<double, 6> first_pose(const LocatedFrame& frame, const FitSetting& setting,
                                  const SharedModel& camera) {
     using Complex = std::complex<double>;

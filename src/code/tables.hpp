@@ -41,7 +41,7 @@ struct Secondary {
     /// continues beyond the end of the sequence by `kLinesAhead` lines and a vector.
     const std::uint8_t* rolls;
     const std::uint8_t*
-        first_place_of;  ///< first place by the key of 5 digits; kAbsent if there is none
+        first_place_of;  ///< first place of each string of 5 digits, indexed by its key, or kAbsent
     /// Bit set of the places of each digit, from the lowest bit on. The table continues beyond the
     /// end of the sequence, with 256 bits from each of `kLinesAhead` places.
     const std::uint32_t* const* places_of;

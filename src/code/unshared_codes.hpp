@@ -1,5 +1,6 @@
-// Number of lines in which a position differs from positions of the other code variants with
-// another place in a4. Generated; tests/unit/code/unshared_codes_test.cpp recomputes the table.
+// Minimum number of lines whose rolls differ between a position in one code variant and any
+// position in another variant, by place in a4. The same place is excluded if both variants have it
+// with the same rolls. Generated; tests/unit/code/unshared_codes_test.cpp recomputes the table.
 #pragma once
 
 #include <array>

@@ -34,8 +34,8 @@ inline constexpr std::uint8_t kAlwaysDark = 128;
 inline constexpr int kMaxSeeds = 256;
 /// Maximum number of cells per axis in the grid of any workspace.
 inline constexpr int kMaxGridSide = 256;
-/// Maximum number of columns and of rows that are decoded. If more are in view, those read most
-/// clearly are decoded.
+/// Maximum number of columns and of rows that are decoded. If more lines are in view, the lines
+/// read most clearly are decoded.
 inline constexpr int kMaxLines = 64;
 
 /// Grey levels of one tile.
@@ -123,11 +123,11 @@ struct OpenBlobs {
     int runs_left = 0;
     std::span<OpenBlob> blobs;
     std::size_t blobs_begun = 0;       ///< number of blobs used in this image so far
-    OpenBlob* first_unused = nullptr;  ///< first unused blob among these
+    OpenBlob* first_unused = nullptr;  ///< first unused blob among `blobs`
 };
 
-/// Two unrelated records that share an index: a seed in the order of buckets, row by row, and a
-/// bucket.
+/// Element n of two unrelated arrays: the n-th seed, sorted by bucket in row-major order, and the
+/// n-th bucket.
 struct BucketedSeed {
     Vec at_q8;                ///< place of the seed relative to the corner of the first bucket
     std::uint16_t seed = 0;   ///< index of the seed

@@ -1,4 +1,5 @@
-// Steps that desktops and devices share, in integers. Each is a part of Fig. 1 of the paper.
+// Processing steps shared by desktops and devices, in integer arithmetic. Each step is part of Fig.
+// 1 of the paper.
 #pragma once
 
 #include "core/detect/adaptive_threshold.hpp"
@@ -36,8 +37,8 @@ void begin_frame(int width_px, int height_px, Workspace& w);
 /// Detects the blobs in `ready` bands of rows.
 void threshold_bands(int ready, const Options& options, Workspace& w);  // II-B.1
 
-/// Takes the next row of pixels and detects the blobs of the bands that it completes. Most rows
-/// complete none.
+/// Processes the next row of pixels, and detects the blobs of the bands that the row completes.
+/// Most rows complete no band.
 inline void detect_row(const std::uint8_t* pixels, const Options& options, Workspace& w) {
     const int ready = take_row(pixels, w.threshold);
     if (ready > 0) threshold_bands(ready, options, w);

@@ -5,12 +5,12 @@
 
 namespace dotpose::core {
 
-/// Returns the distance between stored rows, which consist of whole words.
+/// Returns the stride of the stored rows in bytes: the width, rounded up to whole 32-bit words.
 constexpr int stride_of(int width_px) {
     return (width_px + 3) & ~3;
 }
 
-/// Stores a row. Requires room for it.
+/// Stores a row. Requires room for the row.
 void keep_row(const std::uint8_t* pixels, Tracking& tracking);
 
 /// Discards the rows before the newest `Tracking::rows_needed`, unless there is room for `rows`

@@ -1,4 +1,4 @@
-// Tracked pose: the map from the image to the pattern of a tracked frame, in integers.
+// Tracked pose: computes the map from image to pattern of a tracked frame in integer arithmetic.
 #pragma once
 
 #include "core/stages.hpp"

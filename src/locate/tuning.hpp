@@ -16,8 +16,8 @@ inline constexpr int kPatchHeight_px = 160;
 /// Minimum spacing for which a patch predicts dots exactly enough for direct sampling. Dots of
 /// finer grids are measured more accurately in centroid windows of their own size.
 inline constexpr float kMinSpacingForPrediction_px = 9.5F;
-/// Maximum number of hypotheses elsewhere whose bits contradict them. Each is one more chance of a
-/// wrong fix.
+/// Maximum number of hypotheses elsewhere whose bits contradict them. Each hypothesis is one more
+/// chance of a wrong fix.
 inline constexpr int kMaxTries = 4;
 /// For patches elsewhere: numbers of dots near the middle in which waves are searched, and factors
 /// of the spacing. If large displacements weaken the waves, only some of these subsets show the
@@ -28,9 +28,11 @@ inline constexpr float kSpacings[] = {1, 0.965F};
 
 /// Constants of the tracked attempt (locate/tracked).
 namespace tracked {
-/// Distance, in spacings, of the dots near one point that determine the error of the prediction,
-/// and their minimum number. Near enough that an error of the angle does not confuse dots.
+/// Maximum distance, in spacings, from a point to the dots that determine the error of the
+/// prediction there. Small enough that an angular error does not match a dot to the wrong
+/// intersection.
 inline constexpr float kNear = 2.6F;
+/// Minimum number of dots that determine a correction of the prediction.
 inline constexpr int kMinNear = 10;
 /// Maximum error of a prediction, in spacings. Beyond half a spacing the next dot is closer.
 inline constexpr float kMaxOff = 0.6F;
@@ -43,15 +45,16 @@ inline constexpr float kMaxDisplacement = 0.4F;
 /// Maximum distance of a dot from its place in the first and in the second fit, in spacings.
 inline constexpr float kFirstOff = 0.30F;
 inline constexpr float kSecondOff = 0.15F;
-/// Centroid windows of predicted dots: maximum offset of a dot that is measured; distance at which
-/// the moment of a typical dot equals its weight, within 20 %; shift of the image border by a
-/// correction above which the dots are measured again; and the maximum number of measurements.
+/// Maximum offset of a dot that is measured in a centroid window.
 inline constexpr float kMaxOffset_px = 1.5F;
+/// Offset that corresponds to a moment-to-weight ratio of 1 for a typical dot, within 20 %.
 inline constexpr float kWeight_px = 0.84F;
+/// Shift of the image border by a correction above which the dots are measured again.
 inline constexpr float kTurned_px = 2;
+/// Maximum number of measurements of the dots.
 inline constexpr int kMaxLooks = 3;
 /// Points around which dots are searched, relative to the image centre, in fractions of the sides
-/// of the image. If one is covered, another may not be.
+/// of the image. If one point is covered, another may be visible.
 inline constexpr FloatVec kPoints[] = {
     {0, 0}, {-0.25F, -0.22F}, {0.25F, 0.22F}, {0.25F, -0.22F}, {-0.25F, 0.22F}};
 }  // namespace tracked
@@ -63,9 +66,9 @@ namespace confirm {
 inline constexpr float kDense = 10;
 /// Half the side of an image, in spacings, up to which it is measured completely in one round.
 inline constexpr float kDenseAtMost = 17;
-/// If the pattern may end anywhere: distance, in spacings, of the dots measured first, and of those
-/// whose bits must make the place certain.
+/// Reach of the first round, in spacings, in a partial view, where the pattern may end anywhere.
 inline constexpr float kDenseOfPart = 6;
+/// Reach, in spacings, within which the bits of a partial view must make the position certain.
 inline constexpr float kDecidingOfPart = 32;
 /// Factor by which a plane is extrapolated beyond the dots it was fitted to.
 inline constexpr float kFarther = 3.5F;
@@ -78,9 +81,10 @@ inline constexpr int kDotsPerWrong = 200;
 inline constexpr float kOutlier = 8.3F;
 /// Distance, in spacings, between the planes before and after a fit, in a corner of the part
 /// measured, above which small centroid windows miss a part of the offsets and the dots are
-/// measured again; and the maximum number of measurements. docs/accuracy.md, "Dots that fall on the
-/// pixels alike", has the remaining errors.
+/// measured again.
 inline constexpr float kFar = 0.055F;
+/// Maximum number of measurements of the dots. docs/accuracy.md, "Dots that fall on the pixels
+/// alike", lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
 /// Windows darker than this fraction of the paper level show the table beyond the sheet, where
 /// noise is as dark as dots.
@@ -91,10 +95,10 @@ inline constexpr float kTable = 0.4F;
 /// sample each.
 inline constexpr float kMaxSpacingForSmallWindow_px = 13;
 inline constexpr float kMinSpacingForDirectSampling_px = 8;
-/// Radius of a centroid window, in dot radii and at least in px. It includes the edge of the dot,
-/// and is large enough that the result does not depend on the sub-pixel phase (`dotpose_tables
-/// alike`).
+/// Radius of a centroid window, in dot radii. The window includes the edge of the dot, and is large
+/// enough that the result does not depend on the sub-pixel phase (`dotpose_tables alike`).
 inline constexpr float kWindowRadii = 2.4F;
+/// Minimum radius of a centroid window.
 inline constexpr float kMinWindowRadius_px = 3.3F;
 /// Fraction of the distance between facing dots that a centroid window must reach for them to bias
 /// each other.
@@ -129,7 +133,7 @@ inline constexpr float kRough = 0.027F;
 namespace second {
 /// Factors of the thresholds for the filtered image, in which noise is a third and dots are paler
 /// and wider. Of frames with dirt over 5 % of the area (docs/limits.md, 200 frames), 93 % were
-/// located with these and 80 % with the thresholds of the options.
+/// located with these factors and 80 % with the thresholds of the options.
 inline constexpr int kLow_3rds = 2;
 inline constexpr int kHigh_10ths = 9;
 /// Divisor of the minimum contrast for a second detection in an image with too few dots: noise is a
@@ -148,9 +152,9 @@ inline constexpr float kBetterOdds = 2;
 /// Minimum number of bits per contradicting bit for which a reading in another code is reported.
 /// Apart from misread bits, less than one in a hundred contradicts.
 inline constexpr int kBitsPerError = 50;
-/// Minimum odds of a place in another code for which it is reported beside a certain fix:
-/// elsewhere, and at the same place.
+/// Minimum odds of a different place in another code to be reported beside a certain fix.
 inline constexpr float kNamedElsewhere = 0.99F;
+/// Minimum odds of the same place in another code to be reported beside a certain fix.
 inline constexpr float kNamedHere = 1024;
 }  // namespace cascade
 

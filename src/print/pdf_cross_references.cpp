@@ -19,8 +19,8 @@ namespace {
 
 using Token = QPDFTokenizer::Token;
 
-/// Reads the cross-reference tables and streams of a document from its end: `startxref` gives the
-/// offset of the newest, /Prev and /XRefStm those of others.
+/// Reads the cross-reference tables and streams of a document from its end. `startxref` is the
+/// offset of the newest section. /Prev and /XRefStm are the offsets of the other sections.
 class CrossReferences {
   public:
     CrossReferences(const std::filesystem::path& path, UnpackedBytes& unpacked)

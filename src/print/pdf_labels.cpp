@@ -54,13 +54,13 @@ double width_mm(const std::string& text, double size_pt) {
     return thousandths * size_pt / 1000 / kPointsPerMm;
 }
 
-/// Number of bytes of the character that begins with this byte of UTF-8.
+/// Returns the number of bytes of the UTF-8 character that begins with this byte.
 std::size_t length_of(char first) {
     const auto byte = static_cast<unsigned char>(first);
     return byte < 0xC0 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
 }
 
-/// Returns the beginning of a text, cut between characters.
+/// Returns the first `most_characters` characters of a UTF-8 text. Never splits a character.
 std::string beginning(const std::string& utf8, std::size_t most_characters) {
     std::size_t end = 0;
     for (std::size_t i = 0; i < most_characters && end < utf8.size(); ++i)
@@ -75,7 +75,7 @@ std::optional<std::string> in_helvetica(const std::string& utf8) {
     return std::nullopt;
 }
 
-/// Breaks text between words into lines that `fits` accepts; a word that is wider is cut.
+/// Breaks text between words into lines that `fits` accepts. Cuts wider words.
 template <typename Fits>
 std::vector<std::string> wrap(const std::string& text, const Fits& fits) {
     std::vector<std::string> lines = {""};
@@ -112,7 +112,7 @@ bool has_ruler(const Sheet& sheet, Side side) {
     return free_margin_mm(sheet, side) >= kRulerRoom_mm;
 }
 
-/// Where the arrows that show x and y of the page lie, outside of both rulers.
+/// Positions of the arrows that show x and y of the page, outside both rulers.
 struct Arrows {
     double x_of_y_arrow_mm = 0;
     double y_of_x_arrow_mm = 0;
@@ -120,7 +120,7 @@ struct Arrows {
     double y_end_mm() const { return y_of_x_arrow_mm + kArrow_mm; }
 };
 
-/// Returns none if there is no room.
+/// Returns the positions of the arrows, or none if there is no room.
 std::optional<Arrows> arrows_of(const Sheet& sheet) {
     const double x_mm = free_margin_mm(sheet, Side::left) - kRulerRoom_mm - kArrowGap_mm;
     const double y_mm = free_margin_mm(sheet, Side::top) - kRulerRoom_mm - kArrowGap_mm;
@@ -128,7 +128,7 @@ std::optional<Arrows> arrows_of(const Sheet& sheet) {
     return Arrows{x_mm, y_mm};
 }
 
-/// Returns the pattern coordinates of the corner from which those of the sheet count.
+/// Returns the pattern coordinates of the corner that is the origin of the sheet's coordinates.
 std::string corner_text(const Sheet& sheet) {
     const double spacing_mm = sheet.pattern.spacing_mm;
     return fmt::format("x_mm {:.3f}, y_mm {:.3f}", sheet.origin.x * spacing_mm - sheet.origin_x_mm,
@@ -183,7 +183,8 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     }
     std::vector<std::string> lines = wrap(base::printable(text), fits);
     const std::vector<std::string> command = wrap(base::printable(options.command), fits);
-    // The command is left out unless all of it fits: a part of it would print another sheet.
+    // The command is omitted unless it fits completely: a part of the command would print another
+    // sheet.
     if (!options.command.empty() && lines.size() + command.size() <= most_lines) {
         lines.insert(lines.end(), command.begin(), command.end());
     }

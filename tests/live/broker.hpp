@@ -1,4 +1,4 @@
-/// A real mosquitto on loopback, on a port that was free.
+/// A real mosquitto broker on a free port of the loopback interface.
 #pragma once
 
 #include <chrono>
@@ -35,9 +35,9 @@ inline int free_port() {
 
 class Broker {
   public:
-    /// `users`: a file of mosquitto_passwd; empty: everybody may come in. With TLS the broker has a
-    /// certificate of its own making, cert.pem in the directory. `more`: lines for its
-    /// configuration.
+    /// `users` is a password file of mosquitto_passwd. If it is empty, anonymous clients are
+    /// allowed. With TLS, the broker uses a self-signed certificate, cert.pem in `directory`.
+    /// `more` is appended to the configuration.
     explicit Broker(const std::filesystem::path& directory, const std::string& users = {},
                     bool has_tls = false, const std::string& more = {})
         : port_(free_port()), directory_(directory), has_tls_(has_tls) {
@@ -70,7 +70,7 @@ class Broker {
             const int nowhere = open("/dev/null", O_RDWR);
             dup2(nowhere, STDOUT_FILENO);
             dup2(nowhere, STDERR_FILENO);
-            // Debian keeps it where only root looks.
+            // Debian installs mosquitto in /usr/sbin, which is in the PATH of root only.
             setenv("PATH", (std::string(std::getenv("PATH")) + ":/usr/sbin").c_str(), 1);
             execlp("mosquitto", "mosquitto", "-c", file.c_str(), nullptr);
             _exit(127);

@@ -1,4 +1,4 @@
-// `dotpose fleet`: what it makes of the states that robots publish to a real broker.
+// Tests `dotpose fleet` with the states that robots publish to a real broker.
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -26,7 +26,7 @@ using testing::HasSubstr;
 
 using Fleet = Mqtt;
 
-/// What a robot says of itself.
+/// State message of a robot.
 struct Message {
     std::string robot;
     int header_id = 0;
@@ -54,7 +54,7 @@ std::string topic_of(const std::string& robot) {
     return "uagv/v2/dotpose/" + robot + "/visualization";
 }
 
-/// This moment, as messages tell it.
+/// Returns the current time in the format of state messages.
 std::string time_now() {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     const auto us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
@@ -107,7 +107,7 @@ TEST_F(Fleet, TwoHundredRobots) {
     }
     for (const auto& robot : robots)
         EXPECT_TRUE(robot->flush(20s));
-    // Their last states say that they are lost.
+    // The last state of each robot reports that the robot is lost.
     const auto are_all_lost = [&] {
         const std::string map = file("fleet.svg");
         int lost = 0;
@@ -160,17 +160,17 @@ TEST_F(Fleet, ASenderWhoseClockWasSetBackIsFollowed) {
         sender.publish(topic_of(robot), message.json());
         EXPECT_TRUE(sender.flush(20s));
     };
-    // Its numbers go on.
+    // The clock was set back, but the message numbers continue.
     send("anna", 7, "2026-11-24T16:00:00Z");
     send("anna", 8, "2026-11-24T15:00:00Z");
-    // It was switched on again: the numbers begin anew as well.
+    // The sender restarted with its clock set back, so its message numbers restart too.
     send("bert", 700, "2026-11-24T16:00:00Z");
     for (int i = 0; i < 6; ++i)
         send("bert", i, fmt::format("2026-11-24T15:00:0{}Z", i).c_str());
-    // One message that came late is none of the newest.
+    // A single late message does not replace the newest state.
     send("carl", 9, "2026-11-24T16:00:01Z");
     send("carl", 8, "2026-11-24T16:00:00Z");
-    // One that is missing, and one that came twice.
+    // One message is missing, and one is repeated.
     for (const int number : {1, 2, 2, 4})
         send("dora", number, fmt::format("2026-11-24T16:00:0{}Z", number).c_str());
     std::this_thread::sleep_for(500ms);
@@ -196,7 +196,7 @@ TEST_F(Fleet, SubscribesWithTls) {
         sender.publish(topic_of("anna"), Message{"anna", i, time_now()}.json());
     EXPECT_TRUE(sender.flush(20s));
     std::this_thread::sleep_for(500ms);
-    // Some are late: of those that wait, the newest are sent first.
+    // Some states are late: among the queued states, the newest are sent first.
     EXPECT_THAT(fleet.table(), HasSubstr("1 robots, 200 states, 0 bad, 0 missed, "));
 }
 

@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
-/// Weights of two lines, or sums of weights, packed into one number. Both fit 16 bits, so a + 65536
-/// b is added like a single number.
+/// Weights of two lines, or sums of weights, packed into one number. Both values fit 16 bits, so a
+/// + 65536 b is added like a single number.
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
@@ -37,7 +37,7 @@ std::int32_t sum_at(const Sums& sums, std::uint8_t bytes) {
 
 using Line = std::span<const std::int8_t>;
 
-/// Copies the weights of both lines from `first` on, with 0 after their ends.
+/// Copies the weights of both lines from `first` on, padded with zeros.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
     const auto rest = [&](Line line) {
         line = line.subspan(std::min(first, line.size()));

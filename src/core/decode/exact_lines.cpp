@@ -61,7 +61,8 @@ bool find_axis_exactly(Profile profile, const BitLines& lines, const LineRange& 
     int wrong = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const int here = below_sections(reading.roll + rolls[i]);
-        // Most lines have no wrong bit. Many processors lack an instruction that counts bits.
+        // Counts wrong bits in a loop: most lines have none, and many processors lack a popcount
+        // instruction.
         std::uint64_t differ = (bits(i) ^ main_word(here)) & valid(i);
         for (; differ != 0; differ &= differ - 1)
             ++wrong;

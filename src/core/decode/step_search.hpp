@@ -8,8 +8,8 @@ namespace dotpose::core {
 
 /// Finds the possible digits of every step between two lines, the places in each secondary sequence
 /// that agree best with all steps, and the best position that combines such places. Replaces `best`
-/// if the position is better. Finds positions that runs of lines do not determine: if graphics hide
-/// every sixth line, or no line has a clear roll.
+/// if the position is better. Also finds positions that the search by runs of lines misses, for
+/// example if graphics hide every sixth line or if no line has a clear roll.
 void search_by_steps(Profile profile, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

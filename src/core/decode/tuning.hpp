@@ -30,15 +30,19 @@ inline constexpr int kSolidInk_q8 = 230;
 inline constexpr std::array<int, 5> kReliabilityBySeen_q4{0, 6, 8, 10, 16};
 /// Reliability of the bits of a cell with a place under graphics.
 inline constexpr int kReliabilityCovered_q4 = 10;
-/// Minimum shade beside a place, in fifths of that of graphics, at which a cell is near graphics,
-/// and the reliability of its bits. With a reliability of 3: 1,993; with 14: 1,994.
+/// Minimum shade beside a place, in fifths of the shade of graphics, at which a cell is near
+/// graphics.
 inline constexpr int kNearGraphics_5ths = 3;
+/// Reliability of the bits of a cell near graphics. With 3: 1,993; with 14: 1,994.
 inline constexpr int kReliabilityNearGraphics_q4 = 7;
-/// Minimum darkness, in tenths of a typical dot, at which the darkest place of a cell may be dirt,
-/// and the reliability of its bits; the same for darkness that is probably dirt.
+/// Minimum darkness, in tenths of a typical dot, at which the darkest place of a cell may be dirt.
 inline constexpr int kDark_10ths = 13;
+/// Reliability of the bits of a cell whose darkest place may be dirt.
 inline constexpr int kReliabilityDark_q4 = 12;
+/// Minimum darkness, in tenths of a typical dot, at which the darkest place of a cell is probably
+/// dirt.
 inline constexpr int kTooDark_10ths = 16;
+/// Reliability of the bits of a cell whose darkest place is probably dirt.
 inline constexpr int kReliabilityTooDark_q4 = 6;
 /// Weight, in 1/127, of a bit whose places differ by the darkness of a dot. Weights are limited to
 /// 127, which two fifths of that difference give. With 150: 1,994; with 600: 1,992.
@@ -58,12 +62,13 @@ inline constexpr int kMaxCrowded_8ths = 3;
 namespace search {
 /// Number of rolls of one line that are tried.
 inline constexpr int kChoices = 8;
-/// Number of runs of lines that are read, and of readings of each, in the second attempt. With half
-/// or twice the number of either: 1,994; they protect frames with more misread bits.
+/// Maximum number of runs of lines that are read, and of readings per run, in the second attempt.
+/// With half or twice either number: 1,994. The margin serves frames with more misread bits.
 inline constexpr int kRuns = 24;
 inline constexpr int kReadings = 64;
-/// Numbers of runs and readings in the first attempt and on devices. Of 2,000 nominal frames none
-/// needed more, and of 2,000 hard ones 4. They limit the time for unreadable frames.
+/// Maximum number of runs, and of readings per run, in the first attempt and on devices. None of
+/// 2,000 nominal frames and 4 of 2,000 hard frames needed more. These limits bound the time for
+/// unreadable frames.
 inline constexpr int kRunsBriefly = 3;
 inline constexpr int kReadingsBriefly = 8;
 }  // namespace search
@@ -77,15 +82,17 @@ inline constexpr std::size_t kChoices = 3;
 
 /// The quarter turn of the grid (decode/orientation, decode/bit_lines).
 namespace turns {
-/// Number of lines per axis that vote on the turn; even. Several lines outvote a misread one.
+/// Number of lines per axis that vote on the turn, an even number. Several lines outvote a misread
+/// line.
 inline constexpr int kVoters = 4;
-/// Number of lines per axis that vote if bits are hard; odd.
+/// Number of lines per axis that vote if bits are hard, an odd number.
 inline constexpr int kVotersOfBits = 5;
 /// Difference between the scores of both directions at which the vote ends early: 8 bits. A line of
 /// 14 bits contributes about 5.
 inline constexpr int kLandslide = 8 * 127;
-/// Minimum agreement with the mirrored pattern, in fourths of that with the pattern, of a mirrored
-/// image. Lines of random bits have about 60 % of the agreement of lines of the main sequence.
+/// Minimum ratio, in fourths, of the agreement with the mirrored pattern to the agreement with the
+/// upright pattern. An image above this ratio is mirrored. Lines of random bits have about 60 % of
+/// the agreement of lines of the main sequence.
 inline constexpr int kMirrored_4ths = 5;
 }  // namespace turns
 

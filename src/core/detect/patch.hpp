@@ -8,8 +8,8 @@
 namespace dotpose::core {
 
 /// Places a patch of the given size in px around a point of the image, clipped to the image and to
-/// the memory of the patch, and reduced by `scale`: 1, 2 or 4. Returns false if the rest is too
-/// small to show a grid.
+/// the memory of the patch, and reduced by `scale`: 1, 2 or 4. Returns false if the clipped patch
+/// is too small to contain a grid.
 bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int width_px,
                  int height_px, int scale, Patch& patch);
 

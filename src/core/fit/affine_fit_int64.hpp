@@ -1,4 +1,4 @@
-// Least squares of an affine map between two sets of points, in integers of 64 bits.
+// Least squares of an affine map between two sets of points, in 64-bit integer arithmetic.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// An affine map: target = offset + dx * source.x + dy * source.y. All members are times
+/// An affine map: target = offset + dx * source.x + dy * source.y. All members are scaled by
 /// 2^fraction_bits.
 struct AffineMap {
     Vec dx;

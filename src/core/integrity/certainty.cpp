@@ -87,7 +87,7 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
     const auto count = static_cast<std::size_t>(ratios.count());
     std::array<std::uint8_t, kMaxLines> bits;
     // Counting sort: first the number of lines that lose b bits, then the index of the first of
-    // them.
+    // these lines.
     std::array<std::uint8_t, kMaxBits + 1> begin{};
     for (std::size_t line = 0; line < count; ++line) {
         const int loss = ratios.min_loss(static_cast<int>(line)) / kBit;
@@ -157,19 +157,20 @@ float seam_alternatives(const Kernels& kernels, const UnsharedLines& unshared) {
         std::max(seam_alternatives_log2_q8(kernels, unshared), -100 * 256));
 }
 
-/// Parameters of the judgement that both axes have in common.
+/// Parameters of the judgement that are common to both axes.
 struct Query {
     Profile profile;
     int odds_per_bit_q8;
     int limit_log2;
-    OtherCodes* others;  ///< odds of the other codes; null if they are not wanted
+    OtherCodes* others;  ///< odds of the other codes; null if not requested
 };
 
 bool is_code_in_question(const Query& query) {
     return query.others != nullptr && query.others->log2_in_question_q8 >= 0;
 }
 
-/// Returns the bound of the probability that random bits agree as well.
+/// Returns an upper bound of the probability that random bits agree with the code at least as well
+/// as the bits read.
 float chance_of(const Confidence& bits, const Query& query) {
     if (!is_code_in_question(query))
         return power_of_two_exactly(chance_log2(bits, query.odds_per_bit_q8));
@@ -184,8 +185,8 @@ float codes_in_question(const Query& query) {
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
-/// Returns the bound of the probability that one axis is wrong, or 1 if it exceeds the limit. With
-/// hard bits alone it is never smaller than with scores.
+/// Returns an upper bound of the probability that one axis is wrong, or 1 if the bound exceeds the
+/// limit. With hard bits alone, the bound is never smaller than with scores.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
                  const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();

@@ -8,8 +8,9 @@ namespace {
 
 /// See kUnevenness in expected_alternatives.cpp.
 constexpr float kUnevenness = 1.03F;
-/// Lower bounds of odds and sums, because processors are slow at very small products. Sums start at
-/// a large number, so that the bounds add little even where other rolls fit some lines much better.
+/// Lower bounds of odds and sums. They avoid denormal products, which are slow. Sums start at
+/// kStart, a large number, so the lower bounds contribute little even where other rolls fit some
+/// lines much better.
 constexpr float kMinOdds = 0x1p-40F;
 constexpr float kMinSum = 0x1p-80F;
 constexpr float kStart = 0x1p40F;

@@ -34,7 +34,7 @@ constexpr std::array<std::uint16_t, 26> kPowers{4096, 2897, 2048, 1449, 1024, 72
                                                 8,    6,    4,    3,    2,    2,   1,   1};
 
 /// Returns log2 of the sum of 2^-b over all other rolls. b is the loss of a roll, in bits, minus
-/// that of the best of them.
+/// the loss of the best of these rolls.
 int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     const std::int16_t* scores = ratios.lines[line].data();
     const int own = ratios.own_roll(line);
@@ -52,10 +52,11 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     return log2_at_most_q8(sum_q12) - 12 * 256;
 }
 
-/// Returns an upper bound of the sum of `ExpectedAlternatives` for one set, with all shifts at
-/// which a line is not shared merged into one state. A step leads to each of them with at most
-/// the probability of staying at a shared line. A line therefore keeps at most that fraction of
-/// the sum of its odds, and at most the best of them.
+/// Returns an upper bound of the sum that `ExpectedAlternatives` computes for one set. All shifts
+/// at which a line is not shared are merged into one state. The probability of a step to any one of
+/// these shifts is at most p, the probability that the next line is shared too. The contribution of
+/// a line is therefore bounded twice: by p times the sum of its odds over all rolls, and by its
+/// best odds.
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
@@ -86,9 +87,9 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
     return sum + (ratios.count() - 1) * equal + set.alternatives_q8;
 }
 
-/// Returns a bound of the odds, over all sets, of the alternatives that share at most seven
-/// lines. They lose in all other lines. Their roll in the first line is open, and there are fewer
-/// than 2^lines subsets of shared lines.
+/// Returns an upper bound of the odds, over all sets, of the alternatives that share at most seven
+/// lines. These alternatives lose in all other lines. Their roll in the first line is open, and
+/// there are fewer than 2^lines subsets of shared lines.
 int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
     constexpr std::size_t kFew = 7;
     std::array<int, kFew> largest{};  // the largest losses
@@ -120,8 +121,9 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
         odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
-    // The four other sets have more alternatives, which share a line more rarely. In each of them,
-    // those that share more than seven lines have less than half of the odds of the first set.
+    // The four other sets have more alternatives, which share a line more rarely. In each of these
+    // sets, the alternatives that share more than seven lines have less than half of the odds of
+    // the first set.
     constexpr int kThreeTimes_q8 = 406;
     if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
         const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(ratios));
@@ -248,8 +250,9 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     return sum;
 }
 
-/// Returns a bound of the odds of the single alternatives of one sequence that share a line, from
-/// the minimum loss of all of them. Each shares a line at no more shifts than there are lines.
+/// Returns an upper bound of the odds of the single alternatives of one sequence that share a line,
+/// from the minimum loss of these alternatives. Each alternative shares a line at no more shifts
+/// than there are lines.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                      std::size_t sequence) {
     const int lost = unshared.min_loss(sequence, Sharing::at_one_shift) - ratios.max_gain();
@@ -280,8 +283,8 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
     return sequences;
 }
 
-/// Returns the odds of the single alternatives of the given sequences. Those that must lose the
-/// limit are skipped; the few others are counted one by one.
+/// Returns the odds of the single alternatives of the given sequences. Alternatives that must lose
+/// the limit are skipped. The few other alternatives are counted one by one.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();

@@ -18,8 +18,8 @@ constexpr int kSeam_q8 = -32 * 256;
 /// Odds against the position read below which an alternative is not counted.
 constexpr int kMin_q8 = -8 * 256;
 
-/// Minimum losses of an alternative before each line, and from each line on, over its shifts.
-/// Shifts are skipped that lose at least the limit whatever the shift on the other side is.
+/// Minimum losses of an alternative before each line, and from each line on, over its shifts. Skips
+/// shifts that lose at least the limit, regardless of the shift on the other side.
 class LossesByBorder {
   public:
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
@@ -56,7 +56,8 @@ class LossesByBorder {
         const auto loss_in = [&](int line) {
             return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
-        // A shift that loses the limit on one side does not count, whatever the other side loses.
+        // Once the loss on one side reaches the limit, the shift can be ignored, regardless of the
+        // loss on the other side.
         int lost = 0;
         for (int line = 0; line < count && lost < loss_limit_; ++line) {
             update_min(before_[static_cast<std::size_t>(line)], lost);
@@ -106,7 +107,7 @@ int loss_limit_of(const LikelihoodRatios& ratios) {
 }
 
 /// Returns the losses of all steps, in parts. An alternative that loses `StepLosses::kLimitParts`
-/// of them loses the limit even if one step, that of the border, does not count.
+/// parts loses the limit even if one step, that of the border, does not count.
 StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {
     StepLosses steps;
     steps.count = ratios.count() - 1;

@@ -91,7 +91,7 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
 
 // Not inlined, so that small processors can keep everything in registers.
 [[gnu::noinline]] std::uint32_t SimilarPlaces::operator[](std::uint32_t word) const {
-    // Bits beyond the end of the sequence, and that of the place of the reading, are excluded.
+    // Excludes the bits beyond the end of the sequence and the bit of the place that was read.
     const std::uint32_t places = sequence_.length - 32 * word;
     std::uint32_t excluded = places < 32 ? ~std::uint32_t{0} << places : 0;
     if (own_ / 32 == word) excluded |= std::uint32_t{1} << own_ % 32;

@@ -1,6 +1,7 @@
 // Kernels: the loops over pixels, dots and cells, which take most of the time of the desktop
-// attempts. Each exists in several forms, one per kind of processor, with the same results to the
-// bit; `select.hpp` chooses. Single precision; lengths in the image are in px.
+// attempts. Each kernel has several implementations, one per kind of processor, with bit-identical
+// results. `select.hpp` selects one implementation. Single precision; lengths in the image are in
+// px.
 #pragma once
 
 #include <array>
@@ -37,9 +38,10 @@ struct CellPass {
 /// = a x + b y + c, and likewise j with d, e and f. Without perspective, only the first three
 /// elements of `i` and `j` are set, and `square` is 0.
 struct CellSums {
-    float seen = 0;                 ///< number of dots within reach
-    float used = 0;                 ///< number of these that are near a place
-    float squares = 0;              ///< squared distances from these places, spacings^2
+    float seen = 0;  ///< number of dots within reach
+    float used = 0;  ///< number of these dots that are near a place
+    /// Sum of the squared distances of the used dots from their places, spacings^2.
+    float squares = 0;
     std::array<float, 6> one{};     ///< sums of 1, x, y, xx, xy, yy
     std::array<float, 6> i{};       ///< the six sums with each term times i
     std::array<float, 6> j{};       ///< the six sums with each term times j
@@ -100,7 +102,7 @@ struct FitSums {
     int outliers = 0;     ///< number of outliers
     float farthest = 0;   ///< largest squared residual of an inlier
     float projected = 0;  ///< sum of offset . direction of displacement
-    float squares = 0;    ///< squared residuals
+    float squares = 0;    ///< sum of the squared residuals
     /// 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv, quu, quv, qvv, qqu, qqv, qqq; q = uu + vv.
     std::array<float, 16> places{};
     std::array<float, 9> residuals{};  ///< x, y, xu, yv, yu, xv, au, av, aq; a = xu + yv
@@ -139,12 +141,12 @@ struct BlockSums {
 /// Result of reading bits.
 struct BitsRead {
     int seen = 0;  ///< number of cells with a dark spot
-    int read = 0;  ///< number of these whose spot is near one of the four places
+    int read = 0;  ///< number of these cells whose spot is near one of the four places
     int wrong_x = 0;
     int wrong_y = 0;
     int right = 0;        ///< number of dots without a wrong bit
-    float projected = 0;  ///< sum of the distances of these from their intersections
-    float squares = 0;    ///< sum of the squared distances of these from their places
+    float projected = 0;  ///< sum of the distances of right dots from their intersections
+    float squares = 0;    ///< sum of the squared distances of right dots from their places
 };
 
 /// Minimum loss of an alternative, in bits, in a line that it does not share.
@@ -169,8 +171,8 @@ struct SimilarPlaceList {
 using PlaceBits = std::array<std::uint32_t, 8>;
 
 /// Minimum loss of an alternative whose digit differs from that of the reading in a step from one
-/// line to the next: it does not share one of the two. In parts of the loss limit, of which
-/// kLimitParts make the limit.
+/// line to the next: the alternative does not share one of these two lines. The unit is
+/// 1/kLimitParts of the loss limit.
 struct StepLosses {
     static constexpr int kLimitParts = 8;
     int count = 0;
@@ -194,7 +196,7 @@ struct BitLines {
     std::array<std::uint64_t, 64> valid{};
 };
 
-/// The kernels in one form.
+/// Function table of one implementation of the kernels, such as portable or AVX2.
 struct Kernels {
     const char* name;
     /// Copies a part of the image, reduced by an integer factor, with a white margin.
@@ -239,8 +241,8 @@ struct Kernels {
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Sets the centres of predicted dots as `refine_centres` does, in windows of
     /// kPredictedCentroidRadius_px, and drops dots with an offset above `max_off_px`. `weight_px`
-    /// is the distance at which the moment of a dot equals its weight, or 0 to estimate it from
-    /// dots in the middle of the list. Returns the sums over the remaining dots.
+    /// is the offset, in px, that corresponds to a moment-to-weight ratio of 1, or 0 to estimate
+    /// this offset from dots in the middle of the list. Returns the sums over the remaining dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds them to `columns` and
@@ -256,7 +258,7 @@ struct Kernels {
     /// blocks that extend `reach_px` from the centre of the plane along both axes.
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
-    /// Returns the other places of a sequence that may lose less than the limit, judging by the
+    /// Returns the other places of a sequence that may lose less than the limit, according to the
     /// steps.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
@@ -270,7 +272,7 @@ struct Kernels {
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 unsigned sequences, std::span<const LineLoss> lines, int loss_limit,
                                 SimilarPlaceList& list);
-    /// Sums up the smallest of 8 to 16 losses. Negative ones count as 0.
+    /// Sums up the smallest of 8 to 16 losses. Negative losses count as 0.
     void (*sum_smallest_losses)(std::span<const std::int16_t> losses, SmallestSums& sums);
 };
 

@@ -19,14 +19,14 @@ inline constexpr int kMinHalf_q8 = 768;
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
 /// Maximum distance of a dot from its place, in sigmas, squared. The fit separates dirt from badly
-/// printed dots; a smaller limit would reject the latter, which costs accuracy and hides print
-/// errors.
+/// printed dots; a smaller limit would reject badly printed dots, which costs accuracy and hides
+/// print errors.
 inline constexpr int kFarthest_2 = 9;
 /// Maximum number of Gauss-Newton steps. A step of less than kSettled_q8 (1/256 px) is the last.
 inline constexpr int kMaxIterations = 5;
 inline constexpr int kSettled_q8 = 4;
-/// Upper limit of the darkness of a dot, in halves of that of the typical dot; the lower limit is
-/// one half. Rejects paper where a dot is missing, dirt and graphics.
+/// Upper limit of the darkness of a dot, in halves of the darkness of the typical dot; the lower
+/// limit is one half. Rejects paper where a dot is missing, dirt and graphics.
 inline constexpr int kTooDark_halves = 3;
 /// Maximum number of dots in the sample whose median is the darkness of the typical dot.
 inline constexpr int kMedianSample = 256;
@@ -37,8 +37,8 @@ namespace fit {
 /// Maximum number of Gauss-Newton rounds, in `refine_pose` and in `fit_plane`.
 inline constexpr int kMaxRounds = 4;
 inline constexpr int kMaxRoundsOfFloats = 5;
-/// Size of a step, in squared deviations of the pose, after which no other is needed: the next
-/// would be much smaller still.
+/// Size of a step, in squared deviations of the pose, after which no other step is needed: the next
+/// step would be much smaller.
 inline constexpr float kSettled = 0.01F;
 /// Limit of outliers, in medians of the squared residuals. The median is 1.39 sigma^2, so 12 of
 /// them are 4 sigma, beyond which 1 dot in 3,000 is by chance.
@@ -50,7 +50,7 @@ inline constexpr float kOutlier = 16.6F;
 inline constexpr float kSameLimit = 0.04F;
 /// Maximum fraction of the scatter that is attributed to pixel noise.
 inline constexpr float kMaxByNoise = 0.9F;
-/// Minimum number of dots to which a plane is fitted in vectors.
+/// Minimum number of dots for the vectorized plane fit.
 inline constexpr int kMinDots = 20;
 /// Size of a step, in squared deviations of the pose, below which no other round is needed:
 /// kNonlinearSettled divided by the square of the nonlinearity of the plane (a fifth of a deviation
@@ -122,9 +122,11 @@ inline constexpr float kUneven = 5;
 /// Number of outliers explained by chance: a constant plus a fraction of the dots.
 inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
-/// Number of blocks along each side for at most kManyDots dots; for more there are nine. With 170
-/// dots each block has five.
+/// Maximum number of dots for kFewAlong blocks along each side. For more dots there are nine
+/// blocks.
 inline constexpr int kManyDots = 1000;
+/// Number of blocks along each side for at most kManyDots dots. With 170 dots, each block contains
+/// five dots.
 inline constexpr int kFewAlong = 6;
 /// Variance that uneven blocks add to place and angle, in variances of the mean residual of a
 /// block. docs/integrity.md compares it with the errors on bent sheets.
@@ -145,12 +147,12 @@ inline constexpr float kOnPlane = 5;
 /// Maximum residual of a dot, in variances, for which a common displacement of its part is
 /// considered.
 inline constexpr float kTogether = 36;
-/// Distance, in spacings, by which the reference point may be beyond the line, and minimum number
-/// of dots beyond it.
+/// Distance, in spacings, by which the reference point may be beyond the line.
 inline constexpr float kBehind = 0.5F;
+/// Minimum number of dots beyond the line.
 inline constexpr float kMinBeyond = 12;
 /// Limit of outliers, in spacings^2, in the first round of a fit to one side, which starts from a
-/// plane fitted to both.
+/// plane fitted to both sides.
 inline constexpr float kFarOff = 0.04F;
 /// Distance from the line, in spacings, within which dots belong to neither side: the uncertainty
 /// of the line.
@@ -160,7 +162,8 @@ inline constexpr float kMargin = 0.8F;
 inline constexpr float kReach = 10;
 inline constexpr int kMinAgreeing = 8;
 inline constexpr float kAgreement = 0.08F * 0.08F;
-/// Number of rounds of finding the line and fitting the dots on this side.
+/// Number of rounds. Each round fits the dots on the near side of the line. All rounds but the last
+/// then search for the line again.
 inline constexpr int kRounds = 3;
 }  // namespace paper_step
 

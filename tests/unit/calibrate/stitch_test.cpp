@@ -1,4 +1,4 @@
-// Four sheets that lie beside each other with gaps and small turns, and a camera over their seams.
+// Four adjacent sheets with gaps and small turns, and a camera over their seams.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -71,7 +71,7 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     for (const Seam& seam : stitching.seams)
         EXPECT_LT(seam.residual_mm, 0.02) << seam.first << seam.second;
 
-    // All places are in one world: on both sides of a seam, and as far from it as possible.
+    // All places are in one world: on both sides of a seam, and as far from the seam as possible.
     Locator locator{Options{}};
     Camera camera = true_camera(model);
     // The reference is 20 mm to the right of the image, so that a wrong scale would show.
@@ -209,7 +209,7 @@ TEST(StitchSheets, SaysWhichScalesTheFramesDoNotTell) {
     }
     EXPECT_NEAR(stitching.sheets[0].print_scale_x, 1, 1e-5);
     EXPECT_NEAR(stitching.sheets[0].print_scale_y, 1, 1e-5);
-    // The second sheet can be compared with it along the seam, and a little across.
+    // The second sheet can be compared with the first sheet along the seam, and a little across.
     EXPECT_NEAR(stitching.sheets[1].print_scale_y, 1, 5e-4);
     EXPECT_NEAR(stitching.sheets[1].print_scale_x, 1, 2e-3);
     EXPECT_LT(off_mm(*stitching.sheets[1].world, kTable[1]), 0.05);
@@ -254,7 +254,7 @@ TEST(StitchSheets, KeepsTheSheetThatLiesInTheWorldAndNamesThoseNotSeen) {
     EXPECT_FALSE(stitching.sheets[2].world.has_value());
 }
 
-// Regression: a frame that did not show the sheet in the world made this crash.
+// Regression: `stitch_sheets` crashed if no frame contained the first sheet that has a world pose.
 TEST(StitchSheets, FramesMustShowASheetThatLiesInTheWorld) {
     const CameraModel model = wide_camera();
     const auto c_beside_d = [&](int i) {

@@ -36,7 +36,7 @@ std::string error_of(ImageFormat format, const Bytes& file) {
     return "";
 }
 
-/// A BMP of 2 x 1 px whose header has 124 bytes, the masks of four channels among them.
+/// A BMP of 2 x 1 px with a header of 124 bytes, which contains the masks of four channels.
 Bytes bmp_with_masks(std::uint64_t bits, std::uint64_t compression,
                      std::initializer_list<std::uint64_t> masks,
                      std::initializer_list<std::uint64_t> pixels, std::int32_t height = 1) {
@@ -186,7 +186,7 @@ TEST_F(TiffKinds, HaveColoursThatAreMultipliedByTheirOpacity) {
 }
 
 TEST_F(TiffKinds, HaveFewBits) {
-    // Rows of bits, 1 is black in fax.
+    // Rows of bits. In fax encodings, 1 is black.
     const std::vector<std::uint16_t> bits(kHeight * kWidth / 16, 0xFF00);
     const auto fax = [](TIFF* tiff) {
         TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 1);
@@ -199,7 +199,7 @@ TEST_F(TiffKinds, HaveFewBits) {
     EXPECT_EQ(pixels[8], 0);
 }
 
-/// A progressive JPEG of 64 x 64 px whose levels differ.
+/// Returns a progressive JPEG of 64 x 64 px with varying grey levels.
 Bytes progressive_jpeg() {
     GreyImage image{{}, 64, 64};
     for (int v = 0; v < 64; ++v) {

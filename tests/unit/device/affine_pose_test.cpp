@@ -1,4 +1,4 @@
-// The pose in integers against a camera whose geometry is known.
+// Compares the integer pose with a camera of known geometry.
 #include "device/affine_pose.hpp"
 
 #include <gtest/gtest.h>
@@ -33,8 +33,9 @@ void expect_affine_pose(const Reading& reading, const PlaneFromImage& found, dou
     EXPECT_TRUE(is_affine(found));
 }
 
-/// Tolerance in spacings. Dots are taken in 1/8 px, which scatters each by 0.036 px; a view has at
-/// least 100 of them at 6 px or more. Four deviations are allowed, and what rounding leaves.
+/// Tolerance in spacings. Dots are rounded to 1/8 px, which scatters each dot by 0.036 px. A view
+/// has at least 100 dots at 6 px or more. Four standard deviations are allowed, plus a margin for
+/// rounding.
 constexpr double kExact = 4 * 0.036 / 10 / 6 + 1e-4;
 
 TEST(AffinePose, FittedToExactDotsIsExact) {
@@ -78,7 +79,7 @@ TEST(AffinePose, ADisplacementOtherThanASixthIsMeasured) {
 }
 
 TEST(AffinePose, ScatterAveragesOut) {
-    // Dots scatter by 0.2 px per axis, so the mean of n dots is off by 0.2 / sqrt(n).
+    // Dots scatter by 0.2 px per axis, so the mean of n dots has an error of 0.2 / sqrt(n).
     Rng rng(kSeed);
     double squares = 0;
     double expected = 0;
@@ -91,7 +92,8 @@ TEST(AffinePose, ScatterAveragesOut) {
         const double per_axis = 0.2 / view.spacing_px;
         expected += 2 * per_axis * per_axis / static_cast<double>(reading.dots.size());
     }
-    // 400 errors tell their deviation to 4 %. About one dot in a thousand is left out.
+    // 400 errors determine their standard deviation to 4 %. The fit omits about one dot in a
+    // thousand.
     EXPECT_LT(squares, 1.25 * expected) << "seed " << kSeed;
     EXPECT_GT(squares, 0.75 * expected) << "seed " << kSeed;
 }

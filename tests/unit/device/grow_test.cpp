@@ -22,7 +22,8 @@ TEST(GrowGrid, ReachesOverTheLargestImage) {
     Rng rng(kSeed);
     for (const double angle : {0.0, 0.3, 0.785}) {
         SCOPED_TRACE(testing::Message() << "angle " << angle << ", seed " << kSeed);
-        // There are as many dots as the largest workspace keeps, out to the corners.
+        // The dots extend to the corners. Their number is near the capacity of the largest
+        // workspace.
         constexpr Vec2 kLargest_px{4096, 4096};
         const Mesh mesh = square_mesh(33, angle, {2048, 2048});
         const auto placed = displaced_dots(mesh, 95, kLargest_px, rng);
@@ -38,7 +39,7 @@ TEST(GrowGrid, ReachesOverTheLargestImage) {
     }
 }
 
-/// Many dots are summed up in another way than few.
+/// Large numbers of dots are summed up in a different way.
 TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
     Rng rng(kSeed);
     for (int i = 0; i < 50; ++i) {
@@ -66,8 +67,8 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
         const Mesh mesh = small_mesh(rng);
         const auto placed = displaced_dots(mesh, 20, kImage_px, rng);
-        // One dot in six is missing; one in twelve of the rest is joined by one at a random place;
-        // a stroke hides a strip.
+        // One dot in six is missing. For one dot in twelve, a spurious dot is added at a random
+        // place. A stroke hides a strip.
         const double strip = rng.uniform(20, 160);
         std::vector<Dot> dots;
         for (const PlacedDot& d : placed) {
@@ -80,8 +81,8 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), lattice_of(spoilt(mesh, rng)), plane),
                   Status::ok);
-        // Half of the dots suffice to distinguish cells, in which dots lie 1/6 off; false ones add
-        // errors.
+        // Half of the dots suffice to distinguish cells, in which dots are displaced by 1/6.
+        // Spurious dots add errors.
         expect_grid(plane, placed, intersections(mesh, placed), 0.25);
         if (testing::Test::HasFatalFailure()) return;
     }

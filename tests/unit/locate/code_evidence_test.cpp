@@ -1,4 +1,4 @@
-// How the evidence of frames for a profile adds up.
+// Accumulation of evidence for a code variant over several frames.
 #include "dotpose/code_evidence.hpp"
 
 #include <array>
@@ -11,9 +11,9 @@ namespace dotpose {
 namespace {
 
 constexpr Cell kPlace{1000, 2000};
-/// Most by which the evidence of a place is rounded down, in 2^-8 of log2.
+/// Maximum amount by which the evidence of a place is rounded down, in 2^-8 of log2.
 constexpr int kRounding = 24;
-/// Returns the log odds of a frame that makes this profile less likely by this log2.
+/// Returns the log odds of a frame that makes `profile` less likely by `log2` bits.
 CodeEvidence::LogOdds against(Profile profile, int log2) {
     CodeEvidence::LogOdds odds{};
     odds[static_cast<std::size_t>(profile)] = -256 * log2;
@@ -46,7 +46,7 @@ TEST(CodeEvidence, CountsThePlaceOnceAtTheMeanOfItsFrames) {
                      against(Profile::anoto, log2));
     // (2^20 + 3 * 2^8) / 4 is just above 2^18.
     EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -18 * 256, kRounding);
-    // Frames that say the same do not make it more, nor less.
+    // Frames with equal evidence do not change the mean.
     CodeEvidence alike;
     for (int frame = 0; frame < 1000; ++frame)
         alike.add(kPlace, against(Profile::anoto, 20));
@@ -58,7 +58,7 @@ TEST(CodeEvidence, CountsAPlaceAtMost32BitsHoweverManyFramesSayMore) {
     for (int frame = 0; frame < 3; ++frame)
         evidence.add(kPlace, against(Profile::anoto, 60));
     EXPECT_EQ(evidence.log2_q8(Profile::anoto), -32 * 256);
-    // One strong frame is one in 256 here: 40 bits, the most of a frame, less 8.
+    // Here, one frame in 256 is strong: 40 bits, the maximum per frame, minus 8 bits.
     for (int frame = 0; frame < 3 * 255; ++frame)
         evidence.add(kPlace, against(Profile::anoto, 0));
     EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -32 * 256, kRounding);

@@ -28,7 +28,7 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
                                            std::int32_t level) {
     std::int32_t mass = 0;
     std::int32_t sum_x = 0;
-    std::int32_t so_far = 0;  // sum of all masses up to each row
+    std::int32_t so_far = 0;  // sum over the rows of the mass up to each row
     const auto add_row = [&](int reach) {
 #pragma GCC unroll 16
         for (int x = -reach; x <= reach; ++x) {
@@ -51,7 +51,8 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
         for (int y = -Half; y <= Half; ++y)
             add_row(Half);
     }
-    // Each row counts as often as there are rows from it on.
+    // `so_far` contains the mass of row y (-Half to Half) Half + 1 - y times. The difference is the
+    // sum of y times the mass of row y.
     return {mass, sum_x, (Half + 1) * mass - so_far};
 }
 

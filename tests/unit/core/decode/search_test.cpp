@@ -33,7 +33,7 @@ struct ScoredWindow {
     std::array<ScoredLine, kMaxLines> storage;
 };
 
-/// Returns the window of the code at a place, with a share of its bits flipped.
+/// Returns the window of the code at a place, with a fraction of its bits flipped.
 ScoredWindow window(Profile profile, const Place& place, int columns, int rows, double flipped,
                     Rng& rng) {
     ScoredWindow result(columns, rows);
@@ -53,7 +53,7 @@ int roll_at(Profile profile, const Place& place) {
     return (code_test::reference_roll(profile, place.cell.x) + place.section.u + cross) % 63;
 }
 
-/// Returns how many of 200 windows of 20 columns are found.
+/// Returns the number of windows that are found, among 200 windows of 20 columns.
 int found_of_200(Profile profile, int rows, double flipped) {
     Rng rng(kSeed);
     int found = 0;
@@ -85,9 +85,9 @@ TEST(ScoreLines, TellsByHowMuchTheBestOfEachLineLeads) {
 
 TEST(FindAxis, FindsThePositionAmongWrongBits) {
     // Some run must have the right roll among the best of each line, or the steps the right places
-    // among the best of each sequence. Longer lines bear more wrong bits. With 12 rows and every
-    // fifth bit wrong only half of the windows are found, though 240 bits with 0.28 bits of
-    // information each would tell all 4e8 * 63 hypotheses apart.
+    // among the best of each sequence. Longer lines tolerate more wrong bits. With 12 rows and
+    // every fifth bit wrong only half of the windows are found, though 240 bits with 0.28 bits of
+    // information each would distinguish all 4e8 * 63 hypotheses.
     for (const Profile profile : {Profile::anoto, Profile::microdots}) {
         EXPECT_GE(found_of_200(profile, 12, 0.08), 198) << "seed " << kSeed;
         EXPECT_GE(found_of_200(profile, 20, 0.12), 198) << "seed " << kSeed;
@@ -105,7 +105,7 @@ TEST(FindAxis, HoldsForThePublishedCode) {
 TEST(FindAxis, CleanLinesGiveAllThatThereIsToBeHad) {
     Rng rng(kSeed);
     for (const int columns : {6, 7, 20, kMaxLines}) {
-        // One window lies across the end of the code.
+        // One window extends across the end of the code.
         Place place = random_place(rng);
         if (columns == 20) place.cell.x = kPositionsPerAxis - 10;
         ScoredWindow lines = window(Profile::anoto, place, columns, 12, 0, rng);
@@ -157,9 +157,9 @@ TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
         ScoredWindow lines = window(Profile::anoto, random_place(rng), 20, 12, 0.5, rng);
         AxisReading reading;
         if (lines.find(Profile::anoto, reading) == Status::not_in_code) continue;
-        // A line of random bits agrees with its best roll in 9 or 10 of 12 bits. The run that is
-        // read gets this, the 14 other lines get nothing on average, and the best of 9 runs a
-        // little more.
+        // A line of random bits agrees with its best roll in 9 or 10 of 12 bits. The 6 lines of the
+        // selected run reach this score, and the other 14 lines score 0 on average. Selecting the
+        // best of 15 runs adds a little.
         EXPECT_FALSE(reading.is_clear()) << i << ", seed " << kSeed;
         EXPECT_LT(reading.score, reading.max_possible * 7 / 10) << i << ", seed " << kSeed;
     }

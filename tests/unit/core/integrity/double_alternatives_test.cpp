@@ -16,7 +16,7 @@ using namespace core;
 constexpr std::uint64_t kSeed = 46;
 constexpr int kLines = 9;
 constexpr int kOdds_q8 = 3 * 256;
-/// The odds that are counted in any case.
+/// Minimum of the sum: the odds that are added for every pair of places at every shift.
 constexpr double kFloor = 190'027.0 * 63 * 0x1p-64;
 
 /// Lines that fit a position; scores of other rolls are random, from `least` to `least` + 600.
@@ -91,7 +91,7 @@ double exact_sum(const Case& c) {
 
 TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
     Rng rng(kSeed);
-    // The reading's own score is 1000, so in the last case others fit some lines better.
+    // The reading's own score is 1000, so in the last case other rolls fit some lines better.
     for (const int least : {-600, -200, 420}) {
         const Case c(rng, least);
         const LikelihoodRatios ratios(Profile::anoto, c.lines, c.reading, kOdds_q8);
@@ -99,8 +99,8 @@ TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
         const double exact = exact_sum(c);
         ASSERT_GT(exact, 1e-12);
         const RankedLines lines(ratios);
-        // The limits are such that all pairs that share two lines or more are looked at. The others
-        // are counted at 32 times their expectation.
+        // The limits are such that all pairs that share two lines or more are evaluated. The other
+        // pairs are counted at 32 times their expectation.
         const float rest = expected_double_alternatives(lines, kLines)[2];
         const auto sum = static_cast<double>(sum_of_double_alternatives(lines, 0, 64 * rest));
         const double ratio = (sum - kFloor - 31 * static_cast<double>(rest)) / exact;

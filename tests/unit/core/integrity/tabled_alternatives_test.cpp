@@ -39,7 +39,7 @@ double exact_sum(const LikelihoodRatios& ratios, std::size_t sequence) {
     return sum;
 }
 
-/// Compares the bounds of all sequences, by all tables, with the sums.
+/// Compares the bound from each table with the exact sum, for every sequence.
 class Comparison {
   public:
     void compare(const LikelihoodRatios& ratios) {
@@ -52,7 +52,7 @@ class Comparison {
         }
     }
     int settled() const { return settled_; }
-    /// Returns by which factor the bound is larger than the sum where it is least so.
+    /// Returns the minimum ratio of a bound to the exact sum.
     double least_factor() const { return least_factor_; }
 
   private:
@@ -68,7 +68,7 @@ class Comparison {
             EXPECT_LE(bound, enough);
             EXPECT_GE(bound, exact) << sequence << " by " << unshared.tables();
             if (enough < 1) ++settled_;
-            // Odds below 2^-64 are counted as that.
+            // Odds below 2^-64 are counted as 2^-64.
             if (exact > 0x1p-50) least_factor_ = std::min(least_factor_, bound / exact);
         }
     }
@@ -77,7 +77,7 @@ class Comparison {
     double least_factor_ = std::numeric_limits<double>::infinity();
 };
 
-/// A position near the end of the code, where it begins anew, or of a sequence, or anywhere.
+/// Returns a position near the end of the code, near the end of a sequence, or anywhere.
 std::uint32_t any_position(Rng& rng, int i) {
     const auto before = static_cast<std::uint32_t>(rng.below(20));
     if (i % 8 == 0) return kPositionsPerAxis - 1 - before;
@@ -88,7 +88,7 @@ std::uint32_t any_position(Rng& rng, int i) {
     return anywhere - anywhere % length + length - 1 - std::min(before, length - 1);
 }
 
-/// Lines of hard bits, of which some are missing, and some are wrong.
+/// Lines of hard bits. Some bits are missing, and some bits are wrong.
 struct BitsCase {
     BitsCase(Profile profile_, Rng& rng, int i) : profile(profile_) {
         reading.position = any_position(rng, i);

@@ -1,4 +1,5 @@
-// Facing dots that are drawn together, and their neighbours that are not.
+// Bias of facing dots: the measured centres of facing dots are shifted towards each other, those of
+// other neighbours are not.
 #include "core/pose/facing_dots.hpp"
 
 #include <map>
@@ -21,7 +22,7 @@ constexpr double kNoise = 0.005;  // spacings
 /// Dots with their true places in the image.
 class FacingFrame {
   public:
-    /// `pull` is how far each of two facing dots is drawn to the other, in spacings.
+    /// `pull` is the shift of each of two facing dots towards the other, in spacings.
     FacingFrame(const FloatPlane& plane, double pull, Rng& rng) {
         for (int j = -8; j <= 8; ++j) {
             for (int i = -12; i <= 12; ++i)
@@ -39,7 +40,7 @@ class FacingFrame {
         }
     }
 
-    /// Returns the mean distance of the dots from where they would be without pull, px.
+    /// Returns the mean distance of the dots from their places without pull, px.
     double mean_error_px() const {
         double sum = 0;
         int count = 0;
@@ -58,7 +59,8 @@ class FacingFrame {
         const Symbol symbol = symbols_[{i, j}];
         return {i + kDisplacement * dx(symbol), j + kDisplacement * dy(symbol)};
     }
-    /// Returns the direction to the neighbour that faces the dot, or 0 if none does.
+    /// Returns the direction to the neighbour that faces the dot, or 0 if no neighbour faces the
+    /// dot.
     Vec2 facing(int i, int j) {
         const Symbol own = symbols_[{i, j}];
         const std::pair<int, int> other{i + dx(own), j + dy(own)};
