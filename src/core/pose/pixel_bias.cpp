@@ -184,8 +184,8 @@ class ExpectedDots {
 }  // namespace
 
 void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots) {
-    const auto sum_at = [](float px, std::int32_t window, std::int32_t mass) {
-        const float from_window = px - static_cast<float>(window);
+    const auto sum_at = [](float px, std::int32_t window_px, std::int32_t mass) {
+        const float from_window = px - static_cast<float>(window_px);
         return static_cast<std::int32_t>(std::floor(from_window * static_cast<float>(mass) + 0.5F));
     };
     const auto right = static_cast<float>(image.width_px - 1);
