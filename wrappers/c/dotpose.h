@@ -172,7 +172,7 @@ enum {
     DOTPOSE_ATTEMPT_FIRST = 1,
     /* On the filtered image, after the first attempt failed. */
     DOTPOSE_ATTEMPT_SECOND = 2,
-    /* In integers, as on a microcontroller. */
+    /* In integer arithmetic, as on a microcontroller. */
     DOTPOSE_ATTEMPT_DEVICE = 3
 };
 
