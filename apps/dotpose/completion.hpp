@@ -8,12 +8,12 @@
 
 namespace dotpose::cli {
 
-/// The word before a command line whose completions are wanted.
+/// First argument of a request for completions. The words of the command line follow it.
 inline constexpr const char* kComplete = "__complete";
 
-/// Prints what may stand in the place of the last of `words`: commands, options or values of an
-/// option, a line for each with its description after a tab. Prints nothing where any text or file
-/// may stand. Runs the callback of a command that another program executes.
+/// Prints the completions of the last of `words`: commands, options or values of an option. Each
+/// line has one completion, a tab and its description. Prints nothing if the word can be any text
+/// or file. For a command of another program, runs the callback of that command.
 void print_completions(Command& app, std::vector<std::string> words);
 
 }  // namespace dotpose::cli

@@ -1,6 +1,6 @@
 /// Code evidence: the probability of each profile of a sheet, given its frames. Profiles agree on
-/// most of the plane, so many frames can be read in several profiles, mostly at the same place and
-/// sometimes at places far apart. If one frame is ambiguous, other frames of the sheet decide:
+/// most of the plane. A frame can therefore often be read in several profiles, usually at the same
+/// place, sometimes at distant places. If one frame is ambiguous, other frames of the sheet decide:
 ///
 ///     CodeEvidence evidence;
 ///     for (;;) {

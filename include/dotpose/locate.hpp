@@ -83,8 +83,8 @@ class Locator : public RowLocator {
         : Locator(memory.workspace_, options) {
         detects_code_ = !options.code;
     }
-    // The same with options in fixed point, which name the code. Templates, so that braces mean
-    // LocatorOptions.
+    // Constructors for fixed-point options, which always name the code. They are templates to make
+    // `Locator(memory, {...})` select LocatorOptions.
     template <std::same_as<Options> Fixed>
     explicit Locator(const Fixed& options) : Locator(new LargeMemory, options) {}
     template <std::same_as<Options> Fixed>

@@ -49,7 +49,7 @@ struct LocatorOptions {
     Effort effort = Effort::twice;
     Decoder decoder = Decoder::all;
     /// Whether every attempt leaves dots, grid and bits in the trace, for drawing and calibration.
-    /// That takes time.
+    /// A frame takes longer with it.
     bool show_stages = false;
 
     /// Returns the same options in fixed point; if one is outside of its range, so is one of these.

@@ -9,6 +9,7 @@
 #include "dotpose/locate.hpp"
 
 namespace dotpose::core {
+
 Fix locate_as_device(const ImageView& image, const Options& options, Workspace& w) {
     const Status status = check(image, options, w);
     if (status != Status::ok) return refuse(status, w);

@@ -229,9 +229,7 @@ CodeReading locate_checked(const ImageView& image, const Options& options,
     // An attempt may have found the mirrored code; later attempts then failed for other reasons.
     if (reading.fix.status != Status::ok && w.is_mirrored)
         reading.fix.status = w.fix.status = Status::mirrored;
-    Options read = options;
-    read.profile = reading.code;
-    if (reading.fix.status == Status::ok && is_pale(image, read, reading.fix)) {
+    if (reading.fix.status == Status::ok && is_pale(image, options, reading.code, reading.fix)) {
         const int dots_seen = reading.fix.dots_seen;
         refuse(Status::no_contrast, w);
         w.fix.dots_seen = dots_seen;

@@ -17,7 +17,7 @@ int level_at(const ImageView& image, const Lens& lens, const PlaneFromImage& pla
 
 }  // namespace
 
-bool is_pale(const ImageView& image, const Options& options, const Fix& fix) {
+bool is_pale(const ImageView& image, const Options& options, Profile code, const Fix& fix) {
     constexpr std::int32_t kReach_cells = 10;
     constexpr std::int32_t kSpacing_q16 = 1 << 16;
     if (options.min_contrast == 0) return false;
@@ -27,12 +27,12 @@ bool is_pale(const ImageView& image, const Options& options, const Fix& fix) {
     int dots = 0;
     for (std::int32_t j = middle.y - kReach_cells; j <= middle.y + kReach_cells; ++j) {
         for (std::int32_t i = middle.x - kReach_cells; i <= middle.x + kReach_cells; ++i) {
-            const Place place = moved(options.profile, fix.place, i, j);
-            const Symbol symbol = symbol_at(options.profile, place.cell, place.section);
+            const Place place = moved(code, fix.place, i, j);
+            const Symbol symbol = symbol_at(code, place.cell, place.section);
             const Vec cell_q16{i * kSpacing_q16, j * kSpacing_q16};
             const Vec dot_q16 = cell_q16 + Vec{dx(symbol) * fix.displacement_q16,
                                                dy(symbol) * fix.displacement_q16};
-            // Between four intersections no dot is near.
+            // The middle between four intersections is always paper.
             const Vec paper_q16 = cell_q16 + Vec{kSpacing_q16 / 2, kSpacing_q16 / 2};
             const int ink = level_at(image, options.lens, plane, dot_q16);
             const int paper = level_at(image, options.lens, plane, paper_q16);

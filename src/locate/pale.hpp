@@ -7,8 +7,8 @@
 
 namespace dotpose::core {
 
-/// Whether the dots of a fix are less dark than the paper by `options.min_contrast` grey levels, on
-/// the mean over the dots around the image centre.
-bool is_pale(const ImageView& image, const Options& options, const Fix& fix);
+/// Returns true if the mean contrast between the paper and the dots around the image centre is less
+/// than `options.min_contrast` grey levels. `code` is the code in which the fix was read.
+bool is_pale(const ImageView& image, const Options& options, Profile code, const Fix& fix);
 
 }  // namespace dotpose::core

@@ -24,7 +24,7 @@ namespace tuned = tuning::second;
 
 /// Returns the options with the thresholds of a filtered image.
 Options for_filtered(Options options) {
-    options.min_contrast = 0;  // It is that of the image; `is_pale` compares it.
+    options.min_contrast = 0;  // The limit is for the original image: `is_pale` applies it.
     ThresholdOptions& threshold = options.threshold;
     threshold.min_contrast = threshold.min_contrast / 2 + 1;
     threshold.low_q8 = (tuned::kLow_3rds * threshold.low_q8 + 2) / 3;

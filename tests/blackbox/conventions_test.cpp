@@ -1,4 +1,5 @@
-// What is the same in all commands: -o - is standard output, --format, --draw.
+// Conventions that all commands follow: `-o -` is standard output, and the options --format and
+// --draw.
 #include <string>
 
 #include <gmock/gmock.h>

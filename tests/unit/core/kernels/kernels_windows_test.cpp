@@ -142,8 +142,8 @@ TEST(KernelsWindows, CentresFarFromTheirDotsStay) {
 
 TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
     repeat_with_each_form(100, [](const Kernels& kernels, Rng& rng) {
-        // The same dot is listed several times, with predictions around it: how fast the
-        // moments grow with the distance is measured on those that are near.
+        // Lists one dot several times, each time with another prediction around it. The kernel
+        // estimates the slope of the moment over the offset from the near predictions.
         const double u = rng.uniform(20, OneDot::kSide_px - 21);
         const double v = rng.uniform(20, OneDot::kSide_px - 21);
         OneDot dot(u, v, rng.uniform(0.9, 1.5), 0);
