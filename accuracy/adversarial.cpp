@@ -69,16 +69,16 @@ struct AdversaryTally {
     }
 };
 
-/// Whether the profile is given by the options of the frame or detected.
+/// Whether the code variant is given by the options of the frame or detected.
 enum class Code : std::uint8_t { given, automatic };
 
-/// Locates a frame. A profile that is detected is stored in the options of the frame.
+/// Locates a frame. A code variant that is detected is stored in the options of the frame.
 Fix locate(test::AdversarialFrame& frame, Code code) {
     if (code == Code::given)
         return Locator(thread_memory(), frame.options).locate(frame.image.view());
     const CodeReading reading = Locator(thread_memory(), frame.options)
                                     .locate_in_any_code(frame.image.view(), CodeEvidence{});
-    frame.options.profile = reading.code;
+    frame.options.code = reading.code;
     return reading.fix;
 }
 

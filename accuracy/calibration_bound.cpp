@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 
 Vec2 displacement_mm(const Page& page, Cell cell) {
-    const Symbol symbol = symbol_at(page.pattern.profile, cell, page.pattern.section);
+    const Symbol symbol = symbol_at(page.pattern.code, cell, page.pattern.section);
     return {dx(symbol) * page.pattern.displacement_mm, dy(symbol) * page.pattern.displacement_mm};
 }
 

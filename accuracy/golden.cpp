@@ -40,13 +40,13 @@ class Checksum {
     std::uint64_t sum_ = 14695981039346656037ULL;
 };
 
-void add(Checksum& sum, Vec vec) {
+void add(Checksum& sum, FixedVec vec) {
     sum.add(vec.x);
     sum.add(vec.y);
 }
 
 void add(Checksum& sum, const PlaneFromImage& plane) {
-    for (const Vec vec :
+    for (const FixedVec vec :
          {plane.centre_q8, plane.at_centre_q16, plane.du_q24, plane.dv_q24, plane.perspective_q30})
         add(sum, vec);
     sum.add(plane.lens_q40);

@@ -20,17 +20,17 @@ constexpr int kMaxSide = 16;
 struct Reading {
     std::array<GridCell, kMaxSide * kMaxSide> cells;
     core::Grid grid;
-    Profile profile = Profile::anoto;
-    Turn turn;
+    CodeVariant code = CodeVariant::anoto;
+    QuarterTurn turn;
     Place place;  ///< true place of grid cell (0, 0)
 };
 
 /// Returns the cell for which `core::turned` gives these bits.
-GridCell cell_of(Turn turn, int x, int y) {
-    const Vec grid = turn.quarters == 1   ? Vec{-y, x}
-                     : turn.quarters == 3 ? Vec{y, -x}
-                     : turn.quarters == 2 ? Vec{-x, -y}
-                                          : Vec{x, y};
+GridCell cell_of(QuarterTurn turn, int x, int y) {
+    const FixedVec grid = turn.quarters == 1   ? FixedVec{-y, x}
+                          : turn.quarters == 3 ? FixedVec{y, -x}
+                          : turn.quarters == 2 ? FixedVec{-x, -y}
+                                               : FixedVec{x, y};
     return {static_cast<std::int8_t>(grid.x), static_cast<std::int8_t>(grid.y), 0};
 }
 
@@ -82,8 +82,8 @@ double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
 void draw_frame(Rng& rng, Reading& reading) {
     core::Grid& grid = reading.grid;
     grid.storage = reading.cells;
-    const auto other = static_cast<Profile>(rng.below(3));
-    if (rng.below(3) == 0) reading.profile = other;
+    const auto other = static_cast<CodeVariant>(rng.below(3));
+    if (rng.below(3) == 0) reading.code = other;
     grid.side = kMaxSide;
     grid.columns = 8 + static_cast<int>(rng.below(6));
     grid.rows = 8 + static_cast<int>(rng.below(6));
@@ -111,9 +111,9 @@ void draw(GridKind kind, Rng& rng, Reading& reading) {
             GridCell& cell = grid.at(i, j);
             cell = {};
             if (i - grid.i0 >= visible || rng.uniform() < noise.missing) continue;
-            const Vec step = reading.turn({i, j});
-            const Place at = moved(reading.profile, reading.place, step.x, step.y);
-            const Symbol symbol = symbol_at(reading.profile, at.cell, at.section);
+            const FixedVec step = reading.turn({i, j});
+            const Place at = moved(reading.code, reading.place, step.x, step.y);
+            const Symbol symbol = symbol_at(reading.code, at.cell, at.section);
             const int x = noise.read(x_bit(symbol), rng);
             const int y = noise.read(y_bit(symbol), rng);
             cell = cell_of(reading.turn, x, y);
@@ -126,9 +126,9 @@ bool is_right(const Reading& reading, const Decoding& decoding) {
     if (decoding.pattern_from_grid.quarters != reading.turn.quarters) return false;
     const core::Grid& grid = reading.grid;
     const auto symbol = [&](const Place& place, int i, int j) {
-        const Vec step = reading.turn({i, j});
-        const Place at = moved(reading.profile, place, step.x, step.y);
-        return symbol_at(reading.profile, at.cell, at.section);
+        const FixedVec step = reading.turn({i, j});
+        const Place at = moved(reading.code, place, step.x, step.y);
+        return symbol_at(reading.code, at.cell, at.section);
     };
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
         for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
@@ -177,18 +177,18 @@ void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityT
     decoding.window = core::choose_window(reading.grid, kWindowSide);
     decoding.region = core::choose_window(reading.grid, kMaxSide);
     std::array<core::ScoredLine, 2 * kMaxSide> storage;
-    if (core::decode_all(reading.grid, reading.profile, storage, decoding) != Status::ok) {
+    if (core::decode_all(reading.grid, reading.code, storage, decoding) != Status::ok) {
         ++tally.unread;
         return;
     }
-    const core::Nominal nominal(reading.grid, reading.profile, decoding);
+    const core::Nominal nominal(reading.grid, reading.code, decoding);
     if (kind == GridKind::doubtful && !looks_doubtful(reading.grid, decoding, nominal)) {
         ++tally.skipped;
         return;
     }
     Fix fix;
     const Status status =
-        core::verify(reading.grid, reading.profile, decoding, kAcceptAll, storage, fix);
+        core::verify(reading.grid, reading.code, nullptr, decoding, kAcceptAll, storage, fix);
     if (status != Status::ok) {
         ++tally.unread;
         return;

@@ -137,6 +137,6 @@ TrackedTable wrong_predictions_table(const TableRun& run, std::uint64_t predicti
 /// Returns the wrong position that shares the most of the `lines` columns from `place` on with it
 /// (or rows, if not `is_along_x`). It differs in the place in one secondary sequence along this
 /// axis and in the section. All lines of the other direction are the same.
-Place worst_alternative(Profile profile, const Place& place, bool is_along_x, int lines);
+Place worst_alternative(CodeVariant code, const Place& place, bool is_along_x, int lines);
 
 }  // namespace dotpose::tables

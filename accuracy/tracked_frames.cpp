@@ -31,7 +31,7 @@ Prediction displaced(const Fix& fix, const Offset& offset, Rng& rng) {
     const double sign = rng.below(2) == 0 ? 1 : -1;
     const auto q16 = [](double v) { return static_cast<std::int32_t>(std::lround(v * 65536)); };
     return moved(
-        Prediction::like(fix), Profile::anoto,
+        Prediction::like(fix), CodeVariant::anoto,
         {q16(offset.spacings * std::cos(direction)), q16(offset.spacings * std::sin(direction))},
         static_cast<std::int32_t>(std::lround(sign * offset.degrees * kBam_per_degree)),
         fix.pattern_from_image.centre_q8);

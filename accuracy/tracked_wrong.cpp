@@ -30,10 +30,11 @@ Prediction worst(const LocatedPair& views, Rng& rng) {
     Prediction prediction = Prediction::like(fix);
     const Place middle{fix.cell, fix.section};
     const Place first =
-        moved(Profile::anoto, middle, is_along_x ? -before : 0, is_along_x ? 0 : -before);
-    const Place alternative = worst_alternative(Profile::anoto, first, is_along_x, 2 * before);
-    prediction.place = moved(Profile::anoto, alternative, between(first.cell.x, fix.place.cell.x),
-                             between(first.cell.y, fix.place.cell.y));
+        moved(CodeVariant::anoto, middle, is_along_x ? -before : 0, is_along_x ? 0 : -before);
+    const Place alternative = worst_alternative(CodeVariant::anoto, first, is_along_x, 2 * before);
+    prediction.place =
+        moved(CodeVariant::anoto, alternative, between(first.cell.x, fix.place.cell.x),
+              between(first.cell.y, fix.place.cell.y));
     return prediction;
 }
 
@@ -41,7 +42,7 @@ Prediction worst(const LocatedPair& views, Rng& rng) {
 Prediction displaced(const Fix& fix, int dx, int dy, Rng& rng) {
     Prediction prediction = Prediction::like(fix);
     const auto either = [&rng](int step) { return rng.below(2) == 0 ? step : -step; };
-    prediction.place = moved(Profile::anoto, prediction.place, either(dx), either(dy));
+    prediction.place = moved(CodeVariant::anoto, prediction.place, either(dx), either(dy));
     return prediction;
 }
 

@@ -22,8 +22,8 @@
 
 #include <fmt/core.h>
 
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/files/error.hpp"
-#include "dotpose/files/profile_names.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/random.hpp"
 #include "tables.hpp"
@@ -155,7 +155,7 @@ struct ViewCounts {
 
 class ViewReader {
   public:
-    explicit ViewReader(Profile profile) : profile_(profile), given_(options_of(profile)) {}
+    explicit ViewReader(CodeVariant code) : code_(code), given_(options_of(code)) {}
 
     void read(const View& view, ViewCounts& row) {
         const ImageView image = view.frame.view();
@@ -170,7 +170,7 @@ class ViewReader {
         const CodeReading alone_reading = any_.locate_in_any_code(image, {});
         const Fix& alone = alone_reading.fix;
         row.max_against_log2 =
-            std::max(row.max_against_log2, -alone_reading.evidence.log2_q8(profile_) / 256.0);
+            std::max(row.max_against_log2, -alone_reading.evidence.log2_q8(code_) / 256.0);
         const bool is_alone = is_located(alone);
         const CodeReading reading = stream_.locate_in_any_code(image, evidence_);
         evidence_ = reading.evidence;
@@ -188,13 +188,13 @@ class ViewReader {
     Locator& given() { return given_; }
 
   private:
-    static Options options_of(Profile profile) {
+    static Options options_of(CodeVariant code) {
         Options options;
-        options.profile = profile;
+        options.code = code;
         return options;
     }
 
-    const Profile profile_;
+    const CodeVariant code_;
     Locator given_{Options{}};
     Locator any_{Options{}};
     Locator stream_{Options{}};
@@ -203,9 +203,9 @@ class ViewReader {
 
 /// Reads `views` views of one size. Throws Error if interrupted.
 ViewCounts read_views(const std::vector<ScannedPage>& pages, int width_px, int height_px,
-                      Profile profile, int views, std::uint64_t seed) {
+                      CodeVariant code, int views, std::uint64_t seed) {
     ViewCounts row;
-    ViewReader reader(profile);
+    ViewReader reader(code);
     cli::ProgressLine progress("views");
     for (std::uint64_t i = 0; row.views < views; ++i) {
         if (cli::interrupted()) throw Error("interrupted");
@@ -224,18 +224,18 @@ ViewCounts read_views(const std::vector<ScannedPage>& pages, int width_px, int h
 
 bool views_table(TableRun& run) {
     std::vector<std::string> paths;
-    std::string code = "libdots";
+    std::string name = "libdots";
     double dpi = 1200;
     std::uint64_t views = 300;
     run.command.add_option("page", paths, "Images of pages, or texts of symbols")->required();
-    run.command.add_option("--code", code, "Code of the pages: anoto, libdots, microdots")
+    run.command.add_option("--code", name, "Code of the pages: anoto, libdots, microdots")
         ->capture_default_str();
     run.command.add_option("--dpi", dpi, "Resolution of the images")->capture_default_str();
     run.add_count("--views", views, "Number of views of each size");
     run.add_seed();
     if (!run.parse()) return true;
-    const std::optional<Profile> profile = profile_by_name(code);
-    if (!profile) throw Error(fmt::format("--code {}: no such code", code));
+    const std::optional<CodeVariant> code = code_by_name(name);
+    if (!code) throw Error(fmt::format("--code {}: no such code", name));
     std::vector<ScannedPage> pages;
     for (const std::string& path : paths)
         pages.push_back(read_page(path, dpi));
@@ -249,8 +249,8 @@ bool views_table(TableRun& run) {
     for (const auto& [width_px, height_px] :
          {std::array{188, 120}, std::array{320, 240}, std::array{640, 480}}) {
         const ViewCounts row =
-            read_views(pages, width_px, height_px, *profile, static_cast<int>(views), run.seed);
-        fmt::print("| {} | {} x {} | {} | {:.1f} % | {:.1f} % | {:.1f} % | {} | {:.0f} |\n", code,
+            read_views(pages, width_px, height_px, *code, static_cast<int>(views), run.seed);
+        fmt::print("| {} | {} x {} | {} | {:.1f} % | {:.1f} % | {:.1f} % | {} | {:.0f} |\n", name,
                    width_px, height_px, row.views, percent(row.alone, row.given),
                    percent(row.ambiguous, row.given), percent(row.later, row.later_given),
                    row.wrong, row.max_against_log2);

@@ -56,28 +56,28 @@ std::uint8_t section_of(int value) {
 }
 
 /// Returns the section in which most lines from `position` on have these rolls.
-std::uint8_t likest_section(Profile profile, std::uint32_t position, std::uint32_t cross,
+std::uint8_t likest_section(CodeVariant code, std::uint32_t position, std::uint32_t cross,
                             const std::vector<std::uint8_t>& rolls) {
     std::vector<std::uint8_t> there(rolls.size());
-    code::follow_rolls(profile, position, code::roll_from(profile, position, 0, cross), there);
+    code::follow_rolls(code, position, code::roll_from(code, position, 0, cross), there);
     std::array<int, kSections> counts{};
     for (std::size_t i = 0; i < rolls.size(); ++i)
         ++counts[section_of(rolls[i] - there[i])];
     return static_cast<std::uint8_t>(std::ranges::max_element(counts) - counts.begin());
 }
 
-Along worst(Profile profile, const Along& true_place, int lines) {
-    const code::Basis& basis = code::basis(profile);
+Along worst(CodeVariant code, const Along& true_place, int lines) {
+    const code::Basis& basis = code::basis(code);
     Places places{};
     for (std::size_t k = 0; k < places.size(); ++k)
         places[k] = basis[k].place_of(true_place.position);
     std::vector<std::uint8_t> rolls(static_cast<std::size_t>(lines));
     code::follow_rolls(
-        profile, true_place.position,
-        code::roll_from(profile, true_place.position, true_place.section, true_place.cross), rolls);
+        code, true_place.position,
+        code::roll_from(code, true_place.position, true_place.section, true_place.cross), rolls);
     Along alternative = true_place;
     alternative.position = code::position_at(basis, worst_places(basis, places, lines));
-    alternative.section = likest_section(profile, alternative.position, alternative.cross, rolls);
+    alternative.section = likest_section(code, alternative.position, alternative.cross, rolls);
     // The rolls of the lines across depend on the position along them. The section across is chosen
     // so that they stay the same.
     const auto residue = [](std::uint32_t position) {
@@ -90,14 +90,14 @@ Along worst(Profile profile, const Along& true_place, int lines) {
 
 }  // namespace
 
-Place worst_alternative(Profile profile, const Place& place, bool is_along_x, int lines) {
+Place worst_alternative(CodeVariant code, const Place& place, bool is_along_x, int lines) {
     const auto& [cell, in] = place;
     if (is_along_x) {
-        const Along alternative = worst(profile, {cell.x, in.u, cell.y, in.v}, lines);
+        const Along alternative = worst(code, {cell.x, in.u, cell.y, in.v}, lines);
         return {{alternative.position, alternative.cross},
                 {alternative.section, alternative.cross_section}};
     }
-    const Along alternative = worst(profile, {cell.y, in.v, cell.x, in.u}, lines);
+    const Along alternative = worst(code, {cell.y, in.v, cell.x, in.u}, lines);
     return {{alternative.cross, alternative.position},
             {alternative.cross_section, alternative.section}};
 }

@@ -14,7 +14,7 @@ constexpr const char* kDecode = "code/decode";
 void encode_symbol(benchmark::State& state) {
     std::uint32_t p = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(symbol_at(Profile::anoto, {p, p / 2}, {}));
+        benchmark::DoNotOptimize(symbol_at(CodeVariant::anoto, {p, p / 2}, {}));
         p = (p + 1'000'003) % kPositionsPerAxis;
     }
 }
@@ -24,11 +24,12 @@ void decode_window(benchmark::State& state) {
     std::vector<Symbol> symbols;
     for (std::uint32_t y = 0; y < 8; ++y) {
         for (std::uint32_t x = 0; x < 8; ++x)
-            symbols.push_back(symbol_at(Profile::anoto, {kCorner.x + x, kCorner.y + y}, {}));
+            symbols.push_back(symbol_at(CodeVariant::anoto, {kCorner.x + x, kCorner.y + y}, {}));
     }
     Place place;
     for (auto _ : state) {
-        if (decode(Profile::anoto, {symbols, 8, 8}, place) != Status::ok || place.cell != kCorner)
+        if (decode(CodeVariant::anoto, {symbols, 8, 8}, place) != Status::ok ||
+            place.cell != kCorner)
             return state.SkipWithError("the window was not decoded");
     }
 }

@@ -26,8 +26,8 @@ extern "C" [[gnu::noinline]] void count_tracked_frame(const ImageView& image,
                                                       Locator& locator) {
     locator.locate(image, prediction);
 }
-/// Locates a frame with the profile left open, beside the same frame with its profile given: the
-/// difference is what not knowing the code costs.
+/// Locates a frame with the code variant left open, beside the same frame with its code variant
+/// given: the difference is what not knowing the code costs.
 extern "C" [[gnu::noinline]] CodeReading count_frame_in_any_code(const ImageView& image,
                                                                  Locator& locator) {
     return locator.locate_in_any_code(image, {});
@@ -43,7 +43,7 @@ namespace {
 bool compare_codes(const ImageView& image, Locator& locator) {
     const auto is_settled = [](const CodeReading& reading) {
         return reading.fix.status == Status::ok && reading.fix.attempt == Attempt::first &&
-               reading.code == Profile::anoto;
+               reading.code == CodeVariant::anoto;
     };
     const bool is_ordinary = is_settled(locator.locate_in_any_code(image, {}));
     if (is_ordinary) {
@@ -51,7 +51,7 @@ bool compare_codes(const ImageView& image, Locator& locator) {
         count_frame_in_code(image, locator);
     }
     Options options = locator.options();
-    options.profile = Profile::anoto;
+    options.code = CodeVariant::anoto;
     locator.set_options(options);
     return is_ordinary;
 }
@@ -71,8 +71,9 @@ int main() {
         if (fix.status != Status::ok) return 1;
         // A robot that has gone on by a fifth of a spacing and turned by a degree.
         constexpr std::int32_t kDegree_bam = 11930465;
-        const Prediction prediction = moved(Prediction::like(fix), Profile::anoto, {65536 / 5, 0},
-                                            kDegree_bam, fix.pattern_from_image.centre_q8);
+        const Prediction prediction =
+            moved(Prediction::like(fix), CodeVariant::anoto, {65536 / 5, 0}, kDegree_bam,
+                  fix.pattern_from_image.centre_q8);
         count_tracked_frame(image.view(), prediction, locator);
         if (locator.trace().fix.attempt != Attempt::tracked) return 1;
         in_any_code += compare_codes(image.view(), locator) ? 1 : 0;

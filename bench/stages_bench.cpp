@@ -31,16 +31,18 @@ namespace dotpose::bench {
 namespace {
 
 constexpr Options kOptions;
-constexpr Profile kProfile = kOptions.profile;
+constexpr CodeVariant kCode = kOptions.code;
 
 /// A frame that has been located, with the results of all stages.
 struct Located {
     const GreyImage* image = nullptr;
-    std::vector<Dot> blobs;  ///< before the size filter
+    std::vector<DetectedDot> blobs;  ///< before the size filter
     core::SmallWorkspace w;
 
     std::span<const std::uint16_t> seeds() const { return w.seeds.first(size(w.seed_count)); }
-    Vec centre_q8() const { return {(image->width_px - 1) * 128, (image->height_px - 1) * 128}; }
+    FixedVec centre_q8() const {
+        return {(image->width_px - 1) * 128, (image->height_px - 1) * 128};
+    }
     core::DotList dot_list() { return {w.dots, w.dot_count, w.dots_kept_within_px}; }
     core::Upright upright() const {
         return {w.grid, w.decoding.region, w.decoding.pattern_from_grid};
@@ -62,7 +64,7 @@ bool measure_light(Located& l) {
     return light.has_contrast;
 }
 
-bool push_rows(const GreyImage& image, core::Workspace& w) {
+bool push_rows(const GreyImage& image, core::DeviceWorkspace& w) {
     if (core::begin(image.width_px, image.height_px, kOptions, w) != Status::ok) return false;
     for (int v = 0; v < image.height_px; ++v)
         core::push_row(image.view().row(v), kOptions, w);
@@ -93,19 +95,19 @@ bool connect_neighbours(Located& l) {
 
 bool estimate_axes(Located& l) {
     const auto edges = l.w.edges.first(Located::size(l.w.edge_count));
-    const Vec before = l.w.lattice.u_q16;
+    const FixedVec before = l.w.lattice.u_q16;
     return core::estimate_axes(edges, l.w.edge_values, l.w.lattice) == Status::ok &&
            l.w.lattice.u_q16 == before;
 }
 
 bool find_origin(Located& l) {
-    const Vec before = l.w.lattice.origin_q16;
+    const FixedVec before = l.w.lattice.origin_q16;
     core::find_origin(l.w.found_dots(), l.seeds(), l.centre_q8(), l.w.lattice);
     return l.w.lattice.origin_q16 == before;
 }
 
 bool grow_grid(Located& l) {
-    const Vec before = l.w.grid_from_image.du_q24;
+    const FixedVec before = l.w.grid_from_image.du_q24;
     const Status status = core::grow_grid(l.w.found_dots(), kOptions.lattice, l.centre_q8(),
                                           l.w.lattice, l.w.grid_from_image);
     return status == Status::ok && l.w.grid_from_image.du_q24 == before;
@@ -118,8 +120,8 @@ bool assign_likelihoods(Located& l) {
 }
 
 bool choose_windows(Located& l) {
-    const Region window = core::choose_window(l.w.grid, kWindowSide);
-    const Region region =
+    const GridRegion window = core::choose_window(l.w.grid, kWindowSide);
+    const GridRegion region =
         core::choose_window(l.w.grid, static_cast<int>(l.w.line_scores.size() / 2));
     return window.i0 == l.w.decoding.window.i0 && region.i0 == l.w.decoding.region.i0;
 }
@@ -144,29 +146,29 @@ bool search(Located& l) {
         const auto storage = core::scores_of(axis, std::span(l.w.line_scores));
         const core::Lines lines = core::scored_lines(l.upright(), axis, storage);
         core::AxisReading reading;
-        if (core::find_axis_briefly(kProfile, lines, reading) != Status::ok) return false;
+        if (core::find_axis_briefly(kCode, lines, reading) != Status::ok) return false;
     }
     return l.w.decoding.lines_are_scored;
 }
 
 bool decode(Located& l) {
     const Cell before = l.w.decoding.place.cell;
-    const Status status = core::decode_briefly(l.w.grid, kProfile, l.w.line_scores, l.w.decoding);
+    const Status status = core::decode_briefly(l.w.grid, kCode, l.w.line_scores, l.w.decoding);
     return status == Status::ok && l.w.decoding.place.cell == before;
 }
 
 bool verify_quickly(Located& l) {
-    return core::verify_quickly(l.w.grid, kProfile, l.w.decoding, kOptions.integrity,
-                                l.w.line_scores, l.w.fix) == Status::ok;
+    return core::verify_quickly(l.w.grid, kCode, l.w.decoding, kOptions.integrity, l.w.line_scores,
+                                l.w.fix) == Status::ok;
 }
 
 bool fit_affine_pose(Located& l) {
-    const core::Nominal nominal(l.w.grid, kProfile, l.w.decoding);
+    const core::Nominal nominal(l.w.grid, kCode, l.w.decoding);
     PlaneFromImage plane = core::upright_plane(l.w.grid_from_image, l.w.decoding.pattern_from_grid);
     const core::Observations observations(l.w.found_dots(), l.w.grid, nominal);
     std::int32_t displacement_q16 = 0;
     const int used = core::fit_affine_pose(observations, plane, displacement_q16);
-    core::write_pose(plane, l.centre_q8(), kProfile, l.w.decoding.place, l.w.fix);
+    core::write_pose(plane, l.centre_q8(), kCode, l.w.decoding.place, l.w.fix);
     return used > 0;
 }
 

@@ -63,8 +63,7 @@ Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     static core::SmallWorkspace workspace;
     const auto locates = [](const GreyImage& image) {
         workspace.fix = {};
-        return core::locate_outwards(core::wide_kernels(), image.view(), {}, core::Rough::counted,
-                                     workspace) == core::Confirmation::ok;
+        return core::locate_first(core::wide_kernels(), image.view(), {}, workspace);
     };
     Subject subject = subject_on(frames, [locates](std::size_t, GreyImage& image) {
         benchmark::DoNotOptimize(locates(image));
@@ -81,7 +80,7 @@ Prediction prediction_for(const KnownFrame& frame, Rng& rng, SmallMemory& memory
     const double way = rng.uniform(0, 0.35);
     constexpr double kTurn = 4294967296.0;
     const auto q16 = [](double spacings) { return static_cast<std::int32_t>(spacings * 65536); };
-    return moved(Prediction::like(fix), Profile::anoto,
+    return moved(Prediction::like(fix), CodeVariant::anoto,
                  {q16(way * std::cos(direction_rad)), q16(way * std::sin(direction_rad))},
                  static_cast<std::int32_t>(rng.uniform(-2, 2) / 360 * kTurn),
                  fix.pattern_from_image.centre_q8);

@@ -45,7 +45,7 @@ void PoseSender::follow(const Fix& fix, std::int64_t time_us) {
 void PoseSender::send_next() {
     const board::Frame frame = board::start_frame(next_us_);
     const Fix fix = locate(frame);
-    const PacketBytes bytes = encode(make_packet(fix, locator_.options().profile, sequence_++,
+    const PacketBytes bytes = encode(make_packet(fix, locator_.options().code, sequence_++,
                                                  static_cast<std::uint32_t>(frame.time_us)));
     board::send(bytes.data(), bytes.size());
     follow(fix, frame.time_us);

@@ -31,7 +31,7 @@ int main(int argc, char** argv) try {
             locator.push_row(image.view().row(row));
         const auto sequence = static_cast<std::uint16_t>(i - 1);
         const dotpose::PacketBytes bytes = dotpose::encode(dotpose::make_packet(
-            locator.finish(), locator.options().profile, sequence, sequence * kFrameTime_us));
+            locator.finish(), locator.options().code, sequence, sequence * kFrameTime_us));
         std::fwrite(bytes.data(), 1, bytes.size(), stdout);
     }
 } catch (const std::exception& problem) {

@@ -25,16 +25,16 @@ enum class Adversary : std::uint8_t {
     random_symbols,  ///< a perfect grid whose symbols are drawn at random
     random_offsets,  ///< dots displaced by the right length in any direction
     scattered_dots,
-    seam,           ///< two sections, the border anywhere in the frame
-    cut,            ///< two places of the pattern, glued together
-    overlay,        ///< two patterns printed on one another
-    mirrored,       ///< the pattern seen from behind
-    replaced,       ///< 30 to 60 % of the symbols drawn at random
-    flipped,        ///< 5 to 45 % of the bits flipped
-    half_empty,     ///< printed on one side only
-    few_lines,      ///< 5 to 8 columns or rows on blank paper
-    slip,           ///< one column or row of dots removed or doubled
-    other_profile,  ///< printed as anoto, read as published, or the other way round
+    seam,        ///< two sections, the border anywhere in the frame
+    cut,         ///< two places of the pattern, glued together
+    overlay,     ///< two patterns printed on one another
+    mirrored,    ///< the pattern seen from behind
+    replaced,    ///< 30 to 60 % of the symbols drawn at random
+    flipped,     ///< 5 to 45 % of the bits flipped
+    half_empty,  ///< printed on one side only
+    few_lines,   ///< 5 to 8 columns or rows on blank paper
+    slip,        ///< one column or row of dots removed or doubled
+    other_code,  ///< printed as anoto, read as published, or the other way round
 };
 inline constexpr std::array kAdversaries = {Adversary::noise,          Adversary::text,
                                             Adversary::halftone,       Adversary::texture,
@@ -44,13 +44,13 @@ inline constexpr std::array kAdversaries = {Adversary::noise,          Adversary
                                             Adversary::overlay,        Adversary::mirrored,
                                             Adversary::replaced,       Adversary::flipped,
                                             Adversary::half_empty,     Adversary::few_lines,
-                                            Adversary::slip,           Adversary::other_profile};
+                                            Adversary::slip,           Adversary::other_code};
 
 constexpr std::string_view name(Adversary adversary) {
     constexpr std::array<std::string_view, kAdversaries.size()> kNames = {
         "noise",          "text",      "halftone",   "texture",   "plain grid", "random symbols",
         "random offsets", "scattered", "seam",       "cut",       "overlay",    "mirrored",
-        "replaced",       "flipped",   "half empty", "few lines", "slip",       "other profile"};
+        "replaced",       "flipped",   "half empty", "few lines", "slip",       "other code"};
     return kNames[static_cast<std::size_t>(adversary)];
 }
 
@@ -71,7 +71,8 @@ enum class Verdict : std::uint8_t {
     refused,
     right,
     second,  ///< what is printed elsewhere in the frame, as if it reached to the centre
-    twin,    ///< a place that, in the profile asked for, shows the very symbols around the centre
+    twin,    ///< a place that, in the code variant asked for, shows the very symbols around the
+             ///< centre
     wrong,
 };
 
@@ -85,11 +86,11 @@ inline bool agrees(const Fix& fix, const Answer& answer) {
            std::abs(theta) < 0.1 && fix.section == answer.section;
 }
 
-/// Whether the profile that was read shows at the fix what the printed one shows at the answer, in
-/// at least three quarters of the bits around: there is nothing in the frame that speaks against
-/// it.
+/// Whether the code variant that was read shows at the fix what the printed one shows at the
+/// answer, in at least three quarters of the bits around: there is nothing in the frame that speaks
+/// against it.
 inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
-    if (frame.answers.empty() || frame.options.profile == frame.printed.profile) return false;
+    if (frame.answers.empty() || frame.options.code == frame.printed.code) return false;
     const Answer& answer = frame.answers.front();
     const auto there = [](double value) { return static_cast<std::uint32_t>(std::llround(value)); };
     const Cell found{there(fix.x_grid()), there(fix.y_grid())};
@@ -99,10 +100,10 @@ inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
     int different = 0;
     for (std::int32_t y = -kReach; y <= kReach; ++y) {
         for (std::int32_t x = -kReach; x <= kReach; ++x) {
-            const Place a = moved(frame.options.profile, {found, fix.section}, x, y);
-            const Place b = moved(frame.printed.profile, {real, answer.section}, x, y);
-            const Symbol one = symbol_at(frame.options.profile, a.cell, a.section);
-            const Symbol other = symbol_at(frame.printed.profile, b.cell, b.section);
+            const Place a = moved(frame.options.code, {found, fix.section}, x, y);
+            const Place b = moved(frame.printed.code, {real, answer.section}, x, y);
+            const Symbol one = symbol_at(frame.options.code, a.cell, a.section);
+            const Symbol other = symbol_at(frame.printed.code, b.cell, b.section);
             different += (x_bit(one) != x_bit(other)) + (y_bit(one) != y_bit(other));
         }
     }
@@ -135,11 +136,11 @@ struct Joint {
 inline void render_joint(const Shot& shot, const Joint& joint, AdversarialFrame& frame) {
     const Pattern pattern = shot.page.pattern;
     const auto shifted = [&](Cell cell) {
-        return moved(pattern.profile, {cell, joint.beyond}, joint.other_x, joint.other_y);
+        return moved(pattern.code, {cell, joint.beyond}, joint.other_x, joint.other_y);
     };
     frame.image = render_dots(shot, [&](Cell cell) {
         const Place place = joint.is_beyond(cell) ? shifted(cell) : Place{cell, pattern.section};
-        return displacement_of(symbol_at(pattern.profile, place.cell, place.section));
+        return displacement_of(symbol_at(pattern.code, place.cell, place.section));
     });
     const Place beyond = shifted(shot.pose.cell);
     Answer answer{shot.pose, beyond.section};
@@ -191,7 +192,7 @@ inline void render_changed(Adversary adversary, const Shot& shot, Rng& rng,
         Rng here = rng_of(shot.seed, cell);
         return displacement_of(here.uniform() < share
                                    ? static_cast<Symbol>(here.below(4))
-                                   : symbol_at(pattern.profile, cell, pattern.section));
+                                   : symbol_at(pattern.code, cell, pattern.section));
     });
     frame.answers = {{shot.pose, pattern.section}};
 }
@@ -310,10 +311,10 @@ inline AdversarialFrame make_adversarial(Adversary adversary, std::uint64_t seed
             detail::render_joint(shot, joint, frame);
             break;
         }
-        case Adversary::other_profile: {
+        case Adversary::other_code: {
             const bool prints_anoto = rng.below(2) == 0;
-            shot.page.pattern.profile = prints_anoto ? Profile::anoto : Profile::libdots;
-            frame.options.profile = prints_anoto ? Profile::libdots : Profile::anoto;
+            shot.page.pattern.code = prints_anoto ? CodeVariant::anoto : CodeVariant::libdots;
+            frame.options.code = prints_anoto ? CodeVariant::libdots : CodeVariant::anoto;
             frame.printed = shot.page.pattern;
             frame.image = render(shot);
             frame.answers = {{shot.pose, shot.page.pattern.section}};

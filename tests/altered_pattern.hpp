@@ -21,7 +21,7 @@ inline Rng rng_of(std::uint64_t seed, Cell cell) {
 inline Symbol flipped_symbol(const Pattern& pattern, double probability, std::uint64_t seed,
                              Cell cell) {
     Rng rng = rng_of(seed, cell);
-    const Symbol symbol = symbol_at(pattern.profile, cell, pattern.section);
+    const Symbol symbol = symbol_at(pattern.code, cell, pattern.section);
     const int flip_x = rng.uniform() < probability ? 1 : 0;
     const int flip_y = rng.uniform() < probability ? 1 : 0;
     return make_symbol(x_bit(symbol) ^ flip_x, y_bit(symbol) ^ flip_y);

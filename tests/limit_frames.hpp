@@ -21,7 +21,7 @@ struct Limit {
     CameraModel camera = {};
     /// Whether all, or as good as all, frames are located: limits_test.cpp relies on it.
     bool is_held = true;
-    Lens lens = {};  ///< known to `locate`
+    FixedLens lens = {};  ///< known to `locate`
     bool is_white_on_black = false;
 };
 
@@ -201,7 +201,7 @@ inline void add_camera_faults(std::vector<Limit>& limits) {
                               std::to_string(std::abs(percent)) + " % in the corners, " +
                               (is_known ? "known" : "unknown"),
                           [](Shot&) {}, camera});
-        if (is_known) limits.back().lens = Lens::from_k(camera.k);
+        if (is_known) limits.back().lens = FixedLens::from_k(camera.k);
     }
 }
 

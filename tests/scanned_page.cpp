@@ -143,7 +143,7 @@ GreyImage scan_page(std::span<const Sheet> sheets, const ScanSettings& settings)
                 if (chance(random) < settings.missing) continue;
                 const Cell cell{sheet.origin.x + static_cast<std::uint32_t>(i),
                                 sheet.origin.y + static_cast<std::uint32_t>(j)};
-                const Symbol symbol = symbol_at(pattern.profile, cell, pattern.section);
+                const Symbol symbol = symbol_at(pattern.code, cell, pattern.section);
                 double u_px = 0;
                 double v_px = 0;
                 geometry.see(sheet.origin_x_mm + i * pattern.spacing_mm +

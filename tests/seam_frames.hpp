@@ -142,7 +142,7 @@ inline void add_side(const SeamShot& shot, int side, InkMap& map, Rng& rng) {
         for (int i = -reach; i <= reach; ++i) {
             const Cell cell{shot.cell.x + static_cast<std::uint32_t>(i),
                             shot.cell.y + static_cast<std::uint32_t>(j)};
-            const Symbol symbol = symbol_at(Profile::anoto, cell, shot.section);
+            const Symbol symbol = symbol_at(CodeVariant::anoto, cell, shot.section);
             const double x =
                 i - shot.fraction_x + dx(symbol) / 6.0 + shot.jitter_grid * rng.normal();
             const double y =

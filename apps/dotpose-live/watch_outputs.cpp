@@ -36,9 +36,9 @@ PacketOutput::~PacketOutput() {
     close(descriptor_);
 }
 
-void PacketOutput::write(const Reading& reading, Profile profile) {
+void PacketOutput::write(const Reading& reading, CodeVariant code) {
     const PacketBytes bytes =
-        encode(make_packet(reading.record.fix, profile, static_cast<std::uint16_t>(reading.index),
+        encode(make_packet(reading.record.fix, code, static_cast<std::uint16_t>(reading.index),
                            static_cast<std::uint32_t>(reading.time_us)));
     std::size_t written = 0;
     while (written < bytes.size()) {
@@ -138,7 +138,7 @@ void WatchOutputs::write_line(const std::string& line) {
 void WatchOutputs::write_packet(const Reading& reading) {
     if (!packets_) return;
     try {
-        packets_->write(reading, follower_.used_options().profile);
+        packets_->write(reading, follower_.used_options().code);
     } catch (const ReaderLeft& error) {
         tell(error.what());
         packets_.reset();

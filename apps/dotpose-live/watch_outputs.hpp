@@ -51,7 +51,7 @@ class PacketOutput {
     ~PacketOutput();
     PacketOutput(const PacketOutput&) = delete;
     PacketOutput& operator=(const PacketOutput&) = delete;
-    void write(const Reading& reading, Profile profile);
+    void write(const Reading& reading, CodeVariant code);
 
   private:
     std::string path_;

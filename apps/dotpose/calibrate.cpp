@@ -57,7 +57,7 @@ struct CalibrateArguments {
     CameraArgument camera;
     std::string out;
     std::string picture;
-    std::optional<Profile> code;  ///< none if it is found out from the frames
+    std::optional<CodeVariant> code;  ///< none if it is found out from the frames
     CalibrateOptions options;
 };
 
@@ -246,9 +246,9 @@ void use_sheets(CalibrateArguments& arguments) {
     if (arguments.sheets.empty() || arguments.stitch) return;
     arguments.spacing = SpacingSource::sheets;
     arguments.options.sheets = read_sheets(arguments.sheets);
-    const auto code = common_profile(arguments.sheets, arguments.options.sheets);
+    const auto code = common_code(arguments.sheets, arguments.options.sheets);
     arguments.options.any_code = !code;
-    if (code) arguments.options.pattern.profile = *code;
+    if (code) arguments.options.pattern.code = *code;
 }
 
 void require_apart(const CalibrateArguments& arguments, const Series& series) {
@@ -371,7 +371,7 @@ void add_calibrate(Command& app, int& exit_code) {
     command->callback([arguments, command, &exit_code] {
         arguments->sources.flip_as(arguments->camera.camera);
         arguments->options.any_code = !arguments->code;
-        arguments->options.pattern.profile = arguments->code.value_or(Profile::anoto);
+        arguments->options.pattern.code = arguments->code.value_or(CodeVariant::anoto);
         if (command->count("--spacing") > 0) arguments->spacing = SpacingSource::option;
         exit_code = run(*arguments);
     });

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "base/degrees.hpp"
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/tools/calibration_coverage.hpp"
 #include "draw/deviation.hpp"
 

@@ -150,12 +150,12 @@ CheckPrintOptions options_of(const CheckPrintArguments& arguments,
                              const std::vector<SheetEntry>& sheets) {
     CheckPrintOptions options;
     options.pattern = arguments.pattern.pattern();
-    std::optional<Profile> code = arguments.pattern.expected_code();
+    std::optional<CodeVariant> code = arguments.pattern.expected_code();
     if (!arguments.sheets.empty() && !arguments.code_given) {
-        code = common_profile(arguments.sheets, sheets);
+        code = common_code(arguments.sheets, sheets);
     }
     options.any_code = !code;
-    if (code) options.pattern.profile = *code;
+    if (code) options.pattern.code = *code;
     for (const SheetEntry& entry : sheets)
         options.sheets.push_back(entry.sheet);
     if (arguments.dpi) {

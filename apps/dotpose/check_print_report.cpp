@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/degrees.hpp"
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {

@@ -12,7 +12,7 @@
 #include <fmt/core.h>
 
 #include "dotpose/files/camera_file.hpp"
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/option_names.hpp"
@@ -75,23 +75,23 @@ std::string require_spacing(const std::string& text) {
 
 }  // namespace
 
-void add_code_option(Command& command, Profile& profile) {
+void add_code_option(Command& command, CodeVariant& code) {
     command
         .add_option_function<std::string>(
-            "--code", [&profile](const std::string& asked) { profile = *profile_by_name(asked); },
-            "Code profile: " + alternatives(kCodes))
+            "--code", [&code](const std::string& asked) { code = *code_by_name(asked); },
+            "Code variant: " + alternatives(kCodes))
         ->type_name("NAME")
-        ->default_str(profile_name(profile))
+        ->default_str(code_name(code))
         ->check(one_of(kCodes));
 }
 
-void add_code_option(Command& command, std::optional<Profile>& code) {
+void add_code_option(Command& command, std::optional<CodeVariant>& code) {
     std::vector<std::string> names = {"auto"};
     names.insert(names.end(), kCodes.begin(), kCodes.end());
     command
         .add_option_function<std::string>(
-            "--code", [&code](const std::string& asked) { code = profile_by_name(asked); },
-            "Code profile that was printed: " + alternatives(kCodes) + "; auto: found out")
+            "--code", [&code](const std::string& asked) { code = code_by_name(asked); },
+            "Code variant that was printed: " + alternatives(kCodes) + "; auto: found out")
         ->type_name("NAME")
         ->default_str("auto")
         ->check(one_of(names));
@@ -138,7 +138,7 @@ Option* add_sheets_option(Command& command, std::string& path, const std::string
     return command.add_option("--sheets", path, help)->type_name("FILE")->check(not_empty);
 }
 
-Option* add_lens_option(Command& command, Lens& lens) {
+Option* add_lens_option(Command& command, FixedLens& lens) {
     return command
         .add_option_function<double>(
             "--k",
@@ -148,7 +148,7 @@ Option* add_lens_option(Command& command, Lens& lens) {
                     throw ValidationError("--k", fmt::format("{} is not between {:.4f} and {:.4f}",
                                                              k_per_px2, -kLargest_k, kLargest_k));
                 }
-                lens = Lens::from_k(k_per_px2);
+                lens = FixedLens::from_k(k_per_px2);
             },
             "Radial distortion, below 0 for barrel: p = m + r / (1 + k r^2)")
         ->type_name("1/PX^2")
@@ -290,7 +290,7 @@ std::string command_line(const std::set<std::string>& without) {
 
 void PatternArguments::add_to(Command& command, Use use) {
     if (use == Use::made) {
-        add_code_option(command, given_.profile);
+        add_code_option(command, given_.code);
         add_section_option(command, given_.section);
     } else {
         add_code_option(command, expected_code_);
@@ -308,7 +308,7 @@ void PatternArguments::add_to(Command& command, Use use) {
 
 Pattern PatternArguments::pattern() const {
     Pattern pattern = given_;
-    pattern.profile = expected_code_.value_or(given_.profile);
+    pattern.code = expected_code_.value_or(given_.code);
     pattern.displacement_mm = displacement_mm_.value_or(pattern.spacing_mm / 6);
     pattern.dot_mm = dot_mm_.value_or(pattern.spacing_mm / 6);
     return pattern;
@@ -322,11 +322,11 @@ std::string region_text(const Sheet& sheet) {
         sheet.width_mm, sheet.height_mm, sheet.origin.x, sheet.origin.y,
         sheet.origin.x + static_cast<std::uint32_t>(sheet.columns - 1),
         sheet.origin.y + static_cast<std::uint32_t>(sheet.rows - 1), sheet.columns, sheet.rows,
-        pattern.spacing_mm, pattern.section.u, pattern.section.v, profile_name(pattern.profile));
+        pattern.spacing_mm, pattern.section.u, pattern.section.v, code_name(pattern.code));
 }
 
-const char* profile_name(Profile profile) {
-    return name(profile);
+const char* code_name(CodeVariant code) {
+    return name(code);
 }
 
 }  // namespace dotpose::cli

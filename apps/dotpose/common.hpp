@@ -18,11 +18,11 @@
 
 namespace dotpose::cli {
 
-/// Adds --code anoto|libdots|microdots for output. The default is the value of `profile`.
-void add_code_option(Command& command, Profile& profile);
+/// Adds --code anoto|libdots|microdots for output. The default is the value of `code`.
+void add_code_option(Command& command, CodeVariant& code);
 
 /// Adds --code auto|anoto|libdots|microdots for input. None means auto, which is the default.
-void add_code_option(Command& command, std::optional<Profile>& code);
+void add_code_option(Command& command, std::optional<CodeVariant>& code);
 
 /// Adds --section U,V, each 0 to 62.
 void add_section_option(Command& command, Section& section);
@@ -39,7 +39,7 @@ void add_cell_option(Command& command, const std::string& flag, Cell& cell,
 Option* add_sheets_option(Command& command, std::string& path, const std::string& help);
 
 /// Adds --k, the lens distortion in 1/px^2 that `locate` corrects.
-Option* add_lens_option(Command& command, Lens& lens);
+Option* add_lens_option(Command& command, FixedLens& lens);
 
 /// Adds --flip, for frames that show the pattern as in a mirror.
 void add_flip_option(Command& command, bool& flip);
@@ -92,12 +92,12 @@ class PatternArguments {
     /// spacing unless they are given.
     Pattern pattern() const;
 
-    /// The profile that is expected, or none if it is found out from the image.
-    std::optional<Profile> expected_code() const { return expected_code_; }
+    /// The code variant that is expected, or none if it is found out from the image.
+    std::optional<CodeVariant> expected_code() const { return expected_code_; }
 
   private:
     Pattern given_;
-    std::optional<Profile> expected_code_;
+    std::optional<CodeVariant> expected_code_;
     std::optional<double> displacement_mm_;
     std::optional<double> dot_mm_;
 };
@@ -140,7 +140,7 @@ std::string command_line(const std::set<std::string>& without = {});
 /// Describes the page and its region of the code plane in words.
 std::string region_text(const Sheet& sheet);
 
-/// Returns the name of a profile as --code takes it.
-const char* profile_name(Profile profile);
+/// Returns the name of a code variant as --code takes it.
+const char* code_name(CodeVariant code);
 
 }  // namespace dotpose::cli

@@ -76,8 +76,8 @@ struct EvaluateArguments {
     TruthOf truth_of = TruthOf::image;
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
-    std::optional<Profile> code;     ///< the profile in which all frames are read
-    bool code_is_found_out = false;  ///< whether to ignore the profiles in truth.csv
+    std::optional<CodeVariant> code;  ///< the code variant in which all frames are read
+    bool code_is_found_out = false;   ///< whether to ignore the code variants in truth.csv
     int threads = 0;
 };
 
@@ -161,7 +161,7 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
     if (arguments.code_is_found_out) {
         run.frame_at = [read = run.frame_at](int index) {
             KnownFrame frame = read(index);
-            frame.profile.reset();
+            frame.code.reset();
             return frame;
         };
     }
@@ -228,7 +228,7 @@ int evaluate_sources(const EvaluateArguments& arguments) {
     if (arguments.code) {
         run.frame_at = [&arguments, read = run.frame_at](int index) {
             KnownFrame frame = read(index);
-            frame.profile = arguments.options.profile;
+            frame.code = arguments.options.code;
             return frame;
         };
     }
@@ -327,7 +327,7 @@ int run(EvaluateArguments& arguments) {
     }
     arguments.setup.preset = arguments.preset.value_or(Preset::nominal);
     Pattern& pattern = arguments.setup.pattern;
-    pattern.profile = arguments.options.profile;
+    pattern.code = arguments.options.code;
     pattern.spacing_mm = arguments.spacing_mm;
     pattern.displacement_mm = pattern.dot_mm = arguments.spacing_mm / 6;
     arguments.setup.camera.k = arguments.options.lens.k_q40 * 0x1p-40;
@@ -408,7 +408,7 @@ void add_evaluate(Command& app, int& exit_code) {
             arguments->setup.camera.width_px = size.width_px;
             arguments->setup.camera.height_px = size.height_px;
         }
-        arguments->options.profile = arguments->code.value_or(Profile::anoto);
+        arguments->options.code = arguments->code.value_or(CodeVariant::anoto);
         exit_code = run(*arguments);
     });
 }

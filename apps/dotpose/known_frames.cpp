@@ -114,7 +114,7 @@ class FramesInOrder {
 
     KnownFrame at(int index) {
         const TruthRow& row = rows_[static_cast<std::size_t>(index)];
-        KnownFrame frame{{}, row.truth, row.profile, {}};
+        KnownFrame frame{{}, row.truth, row.code, {}};
         const std::lock_guard lock(mutex_);
         while (read_ <= index && !is_over_)
             read();

@@ -137,7 +137,7 @@ std::vector<Field> fields(const PosePacket& packet, double spacing_mm, Units uni
         {"time_us", number(packet.time_us)},
         {"status", name(packet.status), true},
         {"message", ok ? "" : message(packet.status), true},
-        {"code", profile_name(packet.profile), true},
+        {"code", code_name(packet.code), true},
     };
     const std::vector<Field> evidence = {
         {"x_grid", if_ok(decimal(packet.x_grid(), 6))},

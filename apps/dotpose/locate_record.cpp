@@ -13,7 +13,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
@@ -88,7 +88,7 @@ std::string in_one_line(const std::array<std::string, kWarnings>& warnings) {
     return line;
 }
 
-/// The fields of the profile and, if two profiles are possible, of the positions in both.
+/// The fields of the code variant and, if two code variants are possible, of the positions in both.
 std::vector<Field> code_fields(const Record& record, Units units) {
     const CodeReading& reading = record.reading;
     const Fix& fix = reading.fix;

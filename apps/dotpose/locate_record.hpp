@@ -16,8 +16,8 @@ namespace dotpose::cli {
 struct Record {
     std::string file;
     Fix fix;
-    CodeReading reading;         ///< profile and other places; its fix is that of the image centre
-    bool code_is_given = false;  ///< whether the user or the sheets determine the profile
+    CodeReading reading;  ///< code variant and other places; its fix is that of the image centre
+    bool code_is_given = false;  ///< whether the user or the sheets determine the code variant
     double spacing_mm = 0;       ///< NaN if it is not known; then there are no fields in mm
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();  ///< as in Located
     bool has_sheets = false;  ///< whether there is a sheet file, so that its fields are output
@@ -36,7 +36,7 @@ Record record_of(const Located& located, const Follower& follower);
 /// Number of warnings that a frame may have.
 inline constexpr std::size_t kWarnings = 3;
 /// Returns the warnings of a frame, each empty if there is no reason for it: the user gave a
-/// profile and another one explains the frame; the place is on no sheet of the sheet file; the
+/// code variant and another one explains the frame; the place is on no sheet of the sheet file; the
 /// camera file measures another spacing.
 std::array<std::string, kWarnings> warnings(const Record& record);
 

@@ -11,7 +11,7 @@
 #include <fmt/core.h>
 
 #include "dotpose/files/camera.hpp"
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/grey_image.hpp"
 #include "fields.hpp"
@@ -72,7 +72,7 @@ std::optional<double> too_small_spacing_px(ImageView image, const Options& optio
     constexpr int kMiddle_px = 320;
     constexpr double kMinSpacing_px = 6;
     Options once;
-    once.profile = options.profile;
+    once.code = options.code;
     once.effort = Effort::once;
     for (const int by : {2, 3, 4}) {
         const GreyImage large = enlarged_middle(image, kMiddle_px, by);
@@ -116,7 +116,7 @@ std::optional<double> large_tilt_degrees(ImageView image, const Options& options
     constexpr int kMiddle_px = 480;
     constexpr int kDirections = 8;
     Options once;
-    once.profile = options.profile;
+    once.code = options.code;
     once.effort = Effort::once;
     for (const double by : {2.0, 3.0}) {
         for (int k = 0; k < kDirections; ++k) {
@@ -199,7 +199,7 @@ std::optional<double> too_large_spacing_px(ImageView image, const Options& optio
     // The camera may be so near that few dots are left in view.
     constexpr int kMinDots = 16;
     Options blobs;
-    blobs.profile = options.profile;
+    blobs.code = options.code;
     blobs.effort = Effort::device;  // It leaves the grid of its blobs in the trace.
     blobs.lattice.min_dots = kMinDots;
     for (const int by : {2, 4, 8, 16}) {
@@ -211,7 +211,7 @@ std::optional<double> too_large_spacing_px(ImageView image, const Options& optio
                               fix.status == Status::not_in_code ||
                               fix.status == Status::ambiguous || fix.status == Status::not_certain;
         if (!has_grid) continue;
-        const Vec u_q16 = locator.trace().lattice.u_q16;
+        const FixedVec u_q16 = locator.trace().lattice.u_q16;
         const double spacing_px = fix.status == Status::ok
                                       ? by * fix.spacing_px()
                                       : by * std::hypot(u_q16.x, u_q16.y) / 65536.0;
@@ -233,9 +233,10 @@ bool is_inverted(ImageView image, const Options& options, LargeMemory& scratch) 
 /// Advises on a position that is not certain because the code was not given: it is certain if the
 /// places in the other codes are left out.
 std::string advice_on_code(ImageView image, const Options& options, LargeMemory& scratch) {
-    for (const Profile code : {Profile::anoto, Profile::libdots, Profile::microdots}) {
+    for (const CodeVariant code :
+         {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {
         Options given = options;
-        given.profile = code;
+        given.code = code;
         const Fix fix = Locator(scratch, given).locate(image);
         if (fix.status != Status::ok) continue;
         return fmt::format(

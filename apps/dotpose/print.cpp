@@ -118,7 +118,7 @@ void with_progress(const PrintArguments& arguments, const Write& write) {
 
 void print_test_page(const PrintArguments& arguments, const Paper& paper) {
     TestPageOptions options;
-    options.profile = arguments.pattern.pattern().profile;
+    options.code = arguments.pattern.pattern().code;
     options.paper = paper;
     options.margin_mm = std::max(options.margin_mm, arguments.margin_mm.value_or(0));
     const PrintPage page = make_test_page(options);

@@ -60,13 +60,13 @@ const SheetEntry& named_sheet(const std::vector<SheetEntry>& sheets, const std::
                                   names.empty() ? "no sheets" : names));
 }
 
-std::optional<Profile> common_profile(const std::string& file,
-                                      const std::vector<SheetEntry>& sheets) {
+std::optional<CodeVariant> common_code(const std::string& file,
+                                       const std::vector<SheetEntry>& sheets) {
     if (sheets.empty()) throw Error(fmt::format("{} has no sheets", file));
-    const Profile profile = sheets.front().sheet.pattern.profile;
+    const CodeVariant code = sheets.front().sheet.pattern.code;
     const bool is_common = std::ranges::all_of(
-        sheets, [&](const SheetEntry& entry) { return entry.sheet.pattern.profile == profile; });
-    return is_common ? std::optional(profile) : std::nullopt;
+        sheets, [&](const SheetEntry& entry) { return entry.sheet.pattern.code == code; });
+    return is_common ? std::optional(code) : std::nullopt;
 }
 
 std::string world_text(const SheetEntry& entry) {
@@ -115,8 +115,8 @@ std::string sheet_text(const SheetEntry& entry) {
     line("name", printable(entry.name));
     line("page", page_text(sheet));
     line("cells", fmt::format("{} ({} x {})", cells_text(sheet), sheet.columns, sheet.rows));
-    line("code, section", fmt::format("{}; {},{}", profile_name(pattern.profile), pattern.section.u,
-                                      pattern.section.v));
+    line("code, section",
+         fmt::format("{}; {},{}", code_name(pattern.code), pattern.section.u, pattern.section.v));
     line("spacing", short_number(pattern.spacing_mm, 6) + " mm");
     line("displacement, dot", fmt::format("{} mm, {} mm", short_number(pattern.displacement_mm, 6),
                                           short_number(pattern.dot_mm, 6)));

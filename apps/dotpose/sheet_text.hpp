@@ -14,10 +14,10 @@ namespace dotpose::cli {
 const SheetEntry& named_sheet(const std::vector<SheetEntry>& sheets, const std::string& name,
                               const std::string& file);
 
-/// Returns the profile of all sheets, or none if they differ. Throws Error if `file`, whose sheets
-/// these are, has none.
-std::optional<Profile> common_profile(const std::string& file,
-                                      const std::vector<SheetEntry>& sheets);
+/// Returns the code variant of all sheets, or none if they differ. Throws Error if `file`, whose
+/// sheets these are, has none.
+std::optional<CodeVariant> common_code(const std::string& file,
+                                       const std::vector<SheetEntry>& sheets);
 
 /// Returns where the page lies in the world, in mm and degrees.
 std::string world_text(const SheetEntry& entry);

@@ -156,7 +156,7 @@ std::string truth_row(const SimulateArguments& arguments, const std::string& fil
                            y * pattern.spacing_mm, truth.pose->theta_rad * kDegrees, x, y,
                            pattern.section.u, pattern.section.v);
     }
-    return fmt::format("{},{},{},{},{:.9g},{},{}\n", file, pose, profile_name(pattern.profile),
+    return fmt::format("{},{},{},{},{:.9g},{},{}\n", file, pose, code_name(pattern.code),
                        pattern.spacing_mm, pattern.spacing_mm / arguments.setup.camera.mm_per_px,
                        name(arguments.setup.preset), arguments.setup.seed);
 }

@@ -11,7 +11,7 @@ namespace dotpose::cli {
 
 /// First line of a file of true poses.
 inline constexpr const char* kTruthHeader =
-    "file,x_mm,y_mm,theta_deg,x_grid,y_grid,section_u,section_v,profile,spacing_mm,px_per_spacing,"
+    "file,x_mm,y_mm,theta_deg,x_grid,y_grid,section_u,section_v,code,spacing_mm,px_per_spacing,"
     "preset,seed\n";
 
 class SimulateOutput {

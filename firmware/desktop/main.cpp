@@ -52,7 +52,7 @@ class Predictor {
         const double direction_rad = rng_.uniform(-std::numbers::pi, std::numbers::pi);
         const double turn_rad = rng_.uniform(-4, 4) * std::numbers::pi / 180;
         const Prediction p =
-            moved(Prediction::like(fix), options.profile,
+            moved(Prediction::like(fix), options.code,
                   {static_cast<std::int32_t>(shift_q16 * std::cos(direction_rad)),
                    static_cast<std::int32_t>(shift_q16 * std::sin(direction_rad))},
                   static_cast<std::int32_t>(turn_rad * (2147483648.0 / std::numbers::pi)),

@@ -25,7 +25,7 @@ inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
 inline constexpr int kSections = 63;
 
 /// The code variant of a sheet, which is its sequence a4.
-enum class Profile : std::uint8_t {
+enum class CodeVariant : std::uint8_t {
     anoto,    ///< a4 as restored in the paper: unambiguous on the whole plane; the default for
               ///< printing
     libdots,  ///< the misprinted a4 of the patent, as in libdots and other open tools; needs 8 x 8
@@ -33,8 +33,8 @@ enum class Profile : std::uint8_t {
     microdots,            ///< another a4, as in py-microdots and its ports
     published = libdots,  ///< earlier name of `libdots`
 };
-/// Number of values of Profile.
-inline constexpr int kProfileCount = 3;
+/// Number of values of CodeVariant.
+inline constexpr int kCodeVariantCount = 3;
 
 /// A grid intersection by column x and row y; each in [0, kPositionsPerAxis).
 struct Cell {
@@ -81,21 +81,21 @@ constexpr char letter(Symbol symbol) {
 
 /// Returns the difference of the rolls of columns p + 1 and p, in [5, 58]; p in [0,
 /// kPositionsPerAxis).
-int delta(Profile profile, std::uint32_t p) noexcept;
+int delta(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns the offset of the main sequence in column (or row) p of section 0, in [0, 63), in O(1).
 /// `p` may exceed kPositionsPerAxis, where the pattern continues with other rolls than at 0.
-int roll(Profile profile, std::uint32_t p) noexcept;
+int roll(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns one bit of the cyclic main sequence, for any index >= 0.
 int main_bit(std::uint32_t index) noexcept;
 
 /// Returns the symbol at one intersection, in O(1). For whole pages, call `roll` once per column
 /// and row instead.
-Symbol symbol_at(Profile profile, Cell cell, Section section) noexcept;
+Symbol symbol_at(CodeVariant code, Cell cell, Section section) noexcept;
 
 /// A rectangle of symbols, row by row; 6 to 32 columns and rows.
-struct Window {
+struct SymbolWindow {
     std::span<const Symbol> symbols;  ///< columns * rows symbols
     int columns = 0;
     int rows = 0;
@@ -110,22 +110,22 @@ struct Place {
 
 /// Returns the place (dx, dy) intersections away; |dx|, |dy| < kPositionsPerAxis. Past either end
 /// of an axis, the pattern and the result continue at the other end in another section.
-Place moved(Profile profile, Place place, std::int32_t dx, std::int32_t dy) noexcept;
+Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noexcept;
 
 /// Decodes an error-free, upright window. Sets `place` only if the code contains exactly this
 /// window at `place` and nowhere else. Errors: bad_window (not 6 to 32 columns and rows),
 /// not_in_code, ambiguous (only for `libdots`, where windows below 8 x 8 may occur at several
 /// places).
-Status decode(Profile profile, const Window& window, Place& place) noexcept;
+Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexcept;
 
 /// Finds the position of the first column (or row) from the rolls of 6 to 32 consecutive columns
 /// (rows), each in [0, 63) and all read from the same row (column). Errors as in `decode`.
-Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
+Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 
 /// Returns the section, in [0, 63), in which column (row) `position` has the roll `roll_seen` at
 /// row (column) `cross_position`.
-int section_of(Profile profile, int roll_seen, std::uint32_t position,
+int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept;
 
 }  // namespace dotpose

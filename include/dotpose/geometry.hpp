@@ -13,10 +13,10 @@
 namespace dotpose {
 
 /// A vector or point in fixed point.
-struct Vec {
+struct FixedVec {
     std::int32_t x = 0;
     std::int32_t y = 0;
-    friend constexpr bool operator==(const Vec&, const Vec&) = default;
+    friend constexpr bool operator==(const FixedVec&, const FixedVec&) = default;
 };
 
 /// Maps image points to the plane of the paper, in spacings. With (x, y) in px from `centre`,
@@ -25,11 +25,11 @@ struct Vec {
 ///
 /// which is exact for a tilted camera, for the lens of eq. 2, and for both together.
 struct PlaneFromImage {
-    Vec centre_q8;              ///< image point of (x, y) = (0, 0), px
-    Vec at_centre_q16;          ///< plane point at `centre`, spacings
-    Vec du_q24;                 ///< spacings per px to the right
-    Vec dv_q24;                 ///< spacings per px down
-    Vec perspective_q30;        ///< per px
+    FixedVec centre_q8;         ///< image point of (x, y) = (0, 0), px
+    FixedVec at_centre_q16;     ///< plane point at `centre`, spacings
+    FixedVec du_q24;            ///< spacings per px to the right
+    FixedVec dv_q24;            ///< spacings per px down
+    FixedVec perspective_q30;   ///< per px
     std::int32_t lens_q40 = 0;  ///< per px^2
 };
 

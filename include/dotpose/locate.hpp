@@ -30,6 +30,10 @@
 
 namespace dotpose {
 
+namespace core {
+struct Workspace;
+}  // namespace core
+
 /// Base of Locator and DeviceLocator: options, memory and the state of a frame whose rows are
 /// pushed.
 class RowLocator {
@@ -105,29 +109,29 @@ class Locator : public RowLocator {
     }
 
     /// Returns the pose of an image; see Fix. If the options do not name the code, it is detected
-    /// from all images so far, and `options().profile` is the one that was read. The same image
+    /// from all images so far, and `options().code` is the one that was read. The same image
     /// gives the same bits on every processor, except in the covariance and the residual.
     Fix locate(const ImageView& image);
 
     /// Looks for the pattern where the prediction expects it. A frame that does not confirm the
     /// prediction is located without it; `Fix::attempt` says which. The prediction must have been
-    /// made in `options().profile`.
+    /// made in `options().code`.
     Fix locate(const ImageView& image, const Prediction& prediction);
 
-    /// Locates an image whose profile is not known. Places in all profiles are alternatives,
-    /// weighed with the odds in `evidence`; a frame that places of two profiles explain about
-    /// equally well gets the status ambiguous_code. Afterwards `options().profile` is the profile
-    /// that was read.
+    /// Locates an image whose code variant is not known. Places in all code variants are
+    /// alternatives, weighed with the odds in `evidence`; a frame that places of two code variants
+    /// explain about equally well gets the status ambiguous_code. Afterwards `options().code` is
+    /// the code variant that was read.
     CodeReading locate_in_any_code(const ImageView& image, const CodeEvidence& evidence);
 
-    /// Locates an image whose profile is not known, first where the prediction expects the pattern.
-    /// The prediction must have been made in `options().profile`.
+    /// Locates an image whose code variant is not known, first where the prediction expects the
+    /// pattern. The prediction must have been made in `options().code`.
     CodeReading locate_in_any_code(const ImageView& image, const Prediction& prediction,
                                    const CodeEvidence& evidence);
 
-    /// Locates an image in `options().profile`, with the same fix as `locate`. `has_other` says
-    /// whether another profile also explains the image without a contradiction, at another place or
-    /// where `options().profile` has none.
+    /// Locates an image in `options().code`, with the same fix as `locate`. `has_other` says
+    /// whether another code variant also explains the image without a contradiction, at another
+    /// place or where `options().code` has none.
     CodeReading locate_in_code(const ImageView& image);
 
     /// Starts an image that arrives row by row, with a prediction or without. The locator keeps the
@@ -188,6 +192,9 @@ class DeviceLocator : public RowLocator {
 
     /// Locates the frame whose rows were pushed. Without a frame that was begun: bad_argument.
     Fix finish();
+
+  private:
+    core::DeviceWorkspace& workspace();
 };
 
 }  // namespace dotpose

@@ -18,7 +18,7 @@ namespace dotpose {
 struct LocatorOptions {
     /// Table of the code that the sheet is printed with. Default: detected, from all frames so far.
     /// A frame that two tables explain about equally well gets the status ambiguous_code.
-    std::optional<Profile> code;
+    std::optional<CodeVariant> code;
     /// Spacing of the printed grid, by which a fix is converted to millimetres. Default: that of
     /// the paper. 0: not known. [0 to 1000 mm]
     double spacing_mm = 0.508;
@@ -64,7 +64,7 @@ inline const char* bad_option(const LocatorOptions& options) {
     constexpr double kMaxLens_per_px2 = 0x1p-9 - 0x1p-40;
     constexpr double kMaxLensCentre_px = 1024;
     constexpr double kMaxReference_px = 16384;
-    if (options.code.value_or(Profile::anoto) > Profile::microdots) return "code";
+    if (options.code.value_or(CodeVariant::anoto) > CodeVariant::microdots) return "code";
     if (!is_in(options.spacing_mm, 0, 1000)) return "spacing_mm";
     if (!is_in(options.lens_k_per_px2, -kMaxLens_per_px2, kMaxLens_per_px2))
         return "lens_k_per_px2";
@@ -93,10 +93,10 @@ inline LocatorOptions::operator Options() const {
         return fixed;
     }
     const auto rounded = [](double value) { return static_cast<std::int32_t>(std::lround(value)); };
-    fixed.profile = code.value_or(Profile::anoto);
+    fixed.code = code.value_or(CodeVariant::anoto);
     fixed.effort = effort;
     fixed.decoder = decoder;
-    fixed.lens = Lens::from_k(lens_k_per_px2);
+    fixed.lens = FixedLens::from_k(lens_k_per_px2);
     fixed.lens.centre_dx_q8 = rounded(lens_centre_dx_px * 256);
     fixed.lens.centre_dy_q8 = rounded(lens_centre_dy_px * 256);
     fixed.min_contrast = min_contrast;

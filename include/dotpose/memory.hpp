@@ -13,7 +13,7 @@
 namespace dotpose {
 
 namespace core {
-struct Workspace;
+struct DeviceWorkspace;
 struct DesktopWorkspace;
 }  // namespace core
 
@@ -36,7 +36,7 @@ class AnyDeviceMemory {
         return 0;
     }
 
-    core::Workspace* workspace_ = nullptr;
+    core::DeviceWorkspace* workspace_ = nullptr;
 
   private:
     friend class DeviceLocator;

@@ -12,7 +12,7 @@
 namespace dotpose {
 
 /// Radial distortion, paper eq. 1-2: p_u = m + r_d / (1 + k |r_d|^2), with the distortion centre m.
-struct Lens {
+struct FixedLens {
     /// k in 2^-40 / px^2; negative for barrel distortion. Default 0: none. [any]
     std::int32_t k_q40 = 0;
     /// m in pixels from the image centre, times 256. Default: the image centre itself, as in the
@@ -21,7 +21,7 @@ struct Lens {
     std::int32_t centre_dy_q8 = 0;
 
     /// Returns the lens of a k in 1/px^2 about the image centre; |k| < 2^-9.
-    static constexpr Lens from_k(double k_per_px2) {
+    static constexpr FixedLens from_k(double k_per_px2) {
         constexpr double kQ40 = 1099511627776.0;
         return {static_cast<std::int32_t>(k_per_px2 * kQ40)};
     }
@@ -89,10 +89,10 @@ enum class Decoder : std::uint8_t {
 
 /// All options of a Locator.
 struct Options {
-    Profile profile = Profile::anoto;
+    CodeVariant code = CodeVariant::anoto;
     Effort effort = Effort::twice;
     Decoder decoder = Decoder::all;
-    Lens lens;
+    FixedLens lens;
     ThresholdOptions threshold;
     BlobOptions blobs;
     LatticeOptions lattice;

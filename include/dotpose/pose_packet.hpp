@@ -1,7 +1,7 @@
 /// Pose packets: encodes and decodes the results that a device sends over a serial line or radio,
 /// one packet per frame (docs/pose-packet.md).
 ///
-///     const PacketBytes bytes = encode(make_packet(fix, options.profile, sequence++, time_us));
+///     const PacketBytes bytes = encode(make_packet(fix, options.code, sequence++, time_us));
 ///     send(bytes.data(), bytes.size());
 ///
 ///     PacketReader reader;
@@ -34,7 +34,7 @@ struct PosePacket {
     std::uint32_t time_us = 0;   ///< time of the frame on the sender's clock; wraps every 71.6
                                  ///< minutes
     Status status = Status::not_run;
-    Profile profile = Profile::anoto;
+    CodeVariant code = CodeVariant::anoto;
 
     Cell cell;  ///< as in Fix
     std::uint16_t fraction_x_q16 = 0;
@@ -58,7 +58,7 @@ struct PosePacket {
 };
 
 /// Returns the packet of a fix. `sequence` counts frames; `time_us` is the time of the frame.
-PosePacket make_packet(const Fix& fix, Profile profile, std::uint16_t sequence,
+PosePacket make_packet(const Fix& fix, CodeVariant code, std::uint16_t sequence,
                        std::uint32_t time_us);
 
 /// The bytes of a packet with its end mark, its only zero byte.

@@ -36,8 +36,8 @@ struct Prediction {
 
 /// Returns the prediction for a camera that has moved by `by_q16` (2^-16 spacing, pattern frame)
 /// and turned by `turn_bam` (2^31 is half a turn) about the image point `pivot_q8` (2^-8 px).
-Prediction moved(const Prediction& prediction, Profile profile, Vec by_q16, std::int32_t turn_bam,
-                 Vec pivot_q8);
+Prediction moved(const Prediction& prediction, CodeVariant code, FixedVec by_q16,
+                 std::int32_t turn_bam, FixedVec pivot_q8);
 
 }  // namespace dotpose
 

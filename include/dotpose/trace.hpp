@@ -29,24 +29,24 @@ namespace dotpose {
 inline constexpr int kWindowSide = 8;
 
 /// A detected dot.
-struct Dot {
-    Vec centre_q8;           ///< px, corrected for lens distortion
+struct DetectedDot {
+    FixedVec centre_q8;      ///< px, corrected for lens distortion
     std::uint16_t mass = 0;  ///< sum of the darkness of its pixels, grey levels, saturated
     std::uint16_t area_px = 0;
 };
 
 /// A connection between two seeds, each of which is among the four nearest seeds of the other.
-struct Edge {
+struct SeedEdge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;
-    Vec step_q8;  ///< px, pointing down (or right)
+    FixedVec step_q8;  ///< px, pointing down (or right)
 };
 
 /// First estimate of the grid: intersection (i, j) is at origin + i u + j v in the image.
 struct Lattice {
-    Vec u_q16;
-    Vec v_q16;
-    Vec origin_q16;
+    FixedVec u_q16;
+    FixedVec v_q16;
+    FixedVec origin_q16;
 };
 
 /// One cell of the matrices P of the paper's Fig. 8.
@@ -65,11 +65,11 @@ struct GridCell {
 };
 
 /// Quarter turns from the grid to the pattern: pattern_step = turn(grid_step).
-struct Turn {
+struct QuarterTurn {
     int quarters = 0;  ///< 0 to 3, from +x towards +y
 
     /// Converts a step of the grid to a step of the pattern.
-    constexpr Vec operator()(Vec grid) const {
+    constexpr FixedVec operator()(FixedVec grid) const {
         switch (quarters) {
             case 1:
                 return {-grid.y, grid.x};
@@ -82,11 +82,11 @@ struct Turn {
         }
     }
     /// Returns the turn from the pattern to the grid.
-    constexpr Turn inverse() const { return {(4 - quarters) % 4}; }
+    constexpr QuarterTurn inverse() const { return {(4 - quarters) % 4}; }
 };
 
 /// A rectangle of grid cells.
-struct Region {
+struct GridRegion {
     int i0 = 0;
     int j0 = 0;
     int columns = 0;
@@ -95,11 +95,11 @@ struct Region {
 
 /// The decoded position of the grid.
 struct Decoding {
-    Region window;  ///< the 8 x 8 clearest cells
-    Region region;  ///< all decoded cells: at most kMaxLines x kMaxLines
+    GridRegion window;  ///< the 8 x 8 clearest cells
+    GridRegion region;  ///< all decoded cells: at most kMaxLines x kMaxLines
     /// Agreement of some lines of the region with the main sequence, at the likeliest turn.
     std::int32_t agreement = 0;
-    Turn pattern_from_grid;
+    QuarterTurn pattern_from_grid;
     Place place;  ///< place of grid cell (0, 0) in the code, which may be out of view
     /// Whether the scores of the region's lines for this turn are stored.
     bool lines_are_scored = false;
@@ -111,7 +111,7 @@ struct Decoding {
 /// The matrices P^(x), P^(y) of the paper's Fig. 8 over a rectangle of the grid.
 struct GridView {
     std::span<const GridCell> cells;  ///< row by row
-    Region region;                    ///< the region of the grid that `cells` covers
+    GridRegion region;                ///< the region of the grid that `cells` covers
 
     /// Returns the cell in column i and row j of the grid, which must be in the region.
     const GridCell& at(int i, int j) const {
@@ -127,10 +127,10 @@ struct GridView {
 /// The results of the stages for the last frame, in order. The spans are valid until the next frame
 /// begins.
 struct Trace {
-    Options options;  ///< options of the Locator, with the profile of the fix
-    std::span<const Dot> dots;
+    Options options;  ///< options of the Locator, with the code variant of the fix
+    std::span<const DetectedDot> dots;
     std::span<const std::uint16_t> seeds;  ///< indices of the dots from which the lattice was found
-    std::span<const Edge> edges;           ///< between seeds
+    std::span<const SeedEdge> edges;       ///< between seeds
     Lattice lattice;
     PlaneFromImage grid_from_image;
     GridView grid;

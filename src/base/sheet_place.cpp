@@ -27,7 +27,7 @@ struct Offset {
 std::optional<Offset> offset_on(const Sheet& sheet, const Fix& fix) {
     const std::int32_t dx = steps(sheet.origin.x, fix.cell.x);
     const std::int32_t dy = steps(sheet.origin.y, fix.cell.y);
-    const Place first = moved(sheet.pattern.profile, {fix.cell, fix.section}, -dx, -dy);
+    const Place first = moved(sheet.pattern.code, {fix.cell, fix.section}, -dx, -dy);
     if (first.section != sheet.pattern.section) return std::nullopt;
     return Offset{dx + fix.fraction_x_q16 / 65536.0, dy + fix.fraction_y_q16 / 65536.0};
 }
@@ -76,12 +76,12 @@ bool on_page(const SheetPlace& place) {
 
 }  // namespace
 
-std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, Profile profile,
+std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, CodeVariant code,
                                      const Fix& fix) {
     if (fix.status != Status::ok) return std::nullopt;
     std::optional<SheetPlace> on_margin;
     for (const SheetEntry& entry : sheets) {
-        if (entry.sheet.pattern.profile != profile) continue;
+        if (entry.sheet.pattern.code != code) continue;
         const auto offset = offset_on(entry.sheet, fix);
         if (!offset) continue;
         const SheetPlace place = place_on(entry, *offset, fix);

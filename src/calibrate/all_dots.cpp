@@ -21,11 +21,11 @@ struct Candidate {
 
 /// Returns a blob as the dot of the intersection nearest to it.
 Candidate candidate(PixelPoint pixel, const Place& start, double x, double y, double displacement,
-                    Profile profile) {
-    const Vec step{static_cast<std::int32_t>(std::lround(x)),
-                   static_cast<std::int32_t>(std::lround(y))};
-    const Place place = moved(profile, start, step.x, step.y);
-    const Symbol symbol = symbol_at(profile, place.cell, place.section);
+                    CodeVariant code) {
+    const FixedVec step{static_cast<std::int32_t>(std::lround(x)),
+                        static_cast<std::int32_t>(std::lround(y))};
+    const Place place = moved(code, start, step.x, step.y);
+    const Symbol symbol = symbol_at(code, place.cell, place.section);
     const double off =
         std::hypot(x - step.x - displacement * dx(symbol), y - step.y - displacement * dy(symbol));
     return {off, {pixel, step, symbol}};
@@ -33,7 +33,7 @@ Candidate candidate(PixelPoint pixel, const Place& start, double x, double y, do
 
 }  // namespace
 
-void take_all_dots(const LensFit& fit, const FitSetting& setting, Profile profile,
+void take_all_dots(const LensFit& fit, const FitSetting& setting, CodeVariant code,
                    std::vector<LocatedFrame>& frames) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
         LocatedFrame& frame = frames[i];
@@ -44,7 +44,7 @@ void take_all_dots(const LensFit& fit, const FitSetting& setting, Profile profil
             const auto [x_mm, y_mm] = place_on_paper(fit, i, blob, setting);
             const Candidate found =
                 candidate(blob, frame.place, x_mm / setting.spacing_mm, y_mm / setting.spacing_mm,
-                          fit.camera.displacement, profile);
+                          fit.camera.displacement, code);
             if (found.off > reach) continue;
             const auto [entry, is_new] =
                 nearest.try_emplace({found.dot.step.x, found.dot.step.y}, found);

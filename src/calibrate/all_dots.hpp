@@ -13,7 +13,7 @@ namespace dotpose::calibrate {
 /// slightly tilted camera, it leaves dots out, and mostly those whose errors add to the error of
 /// the plane. The remaining dots show too little perspective: by three standard deviations at 8
 /// degrees, as the unit test ASlightTiltTellsAnUnbiasedFocalLength measured without this function.
-void take_all_dots(const LensFit& fit, const FitSetting& setting, Profile profile,
+void take_all_dots(const LensFit& fit, const FitSetting& setting, CodeVariant code,
                    std::vector<LocatedFrame>& frames);
 
 }  // namespace dotpose::calibrate

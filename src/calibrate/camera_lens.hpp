@@ -7,7 +7,7 @@
 namespace dotpose::calibrate {
 
 /// Throws BadArgument if the camera's images have no size that `locate` takes.
-inline Lens lens_of(const Camera& camera) {
+inline FixedLens lens_of(const Camera& camera) {
     Options options;
     use_camera(camera, camera.width_px, camera.height_px, options);
     return options.lens;

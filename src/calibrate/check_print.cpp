@@ -13,7 +13,7 @@
 #include "calibrate/print_measures.hpp"
 #include "calibrate/print_tiles.hpp"
 #include "calibrate/print_view.hpp"
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/test_page.hpp"
 
@@ -72,7 +72,7 @@ void validate(const CheckPrintOptions& options) {
 /// Returns the sheet whose region holds a cell; none if there is none.
 std::optional<std::size_t> sheet_at(const CheckPrintOptions& options, Section section, Cell cell) {
     Sheet place;
-    place.pattern.profile = options.pattern.profile;
+    place.pattern.code = options.pattern.code;
     place.pattern.section = section;
     place.origin = cell;
     place.columns = place.rows = 1;
@@ -90,7 +90,7 @@ void identify(const Field& field, const CheckPrintOptions& options, PrintField& 
         const Eigen::Vector2d& centre = tile->map.centre_cell;
         const Cell cell{static_cast<std::uint32_t>(std::max(centre.x(), 0.0)),
                         static_cast<std::uint32_t>(std::max(centre.y(), 0.0))};
-        const auto patch = test_patch_at(options.pattern.profile, cell);
+        const auto patch = test_patch_at(options.pattern.code, cell);
         result.is_patch = patch.has_value();
         result.sheet = sheet_at(options, field.code.section, cell);
         if (patch) result.pattern = *patch;
@@ -98,7 +98,7 @@ void identify(const Field& field, const CheckPrintOptions& options, PrintField& 
         // The middle of a tile may lie on the margin, so further tiles are tried.
         if (patch || result.sheet) break;
     }
-    result.pattern.profile = options.pattern.profile;
+    result.pattern.code = options.pattern.code;
     result.pattern.section = field.code.section;
 }
 
@@ -176,7 +176,8 @@ double PrintField::bad_share() const {
 
 namespace {
 
-/// If bits contradict the given profile, checks whether the page has another one, and reports it.
+/// If bits contradict the given code variant, checks whether the page has another one, and reports
+/// it.
 void look_for_another_code(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;
@@ -184,7 +185,7 @@ void look_for_another_code(const LocatedTiles& tiles, TileLocator& locator, Prin
         check.fields, [](const PrintField& field) { return field.wrong_share() > kSuspicious; });
     if (!is_suspicious) return;
     const CodeReader reader = locator.read_without_code(tiles);
-    const Profile code = reader.code();
+    const CodeVariant code = reader.code();
     if (code == check.code || reader.evidence().p_wrong(code) > kSure) return;
     check.findings.push_back({FindingKind::bits_wrong, false, std::nullopt,
                               fmt::format("the page is of code {}, not {}: check it with --code {}",
@@ -205,7 +206,7 @@ std::vector<CollectedField> collect_fields(const ImageView& scan, const LocatedT
     for (Field& field : join_tiles(tiles)) {
         PrintField result;
         identify(field, options, result);
-        field.code.profile = result.pattern.profile;
+        field.code.code = result.pattern.code;
         field.code.displacement = result.pattern.displacement_mm / result.pattern.spacing_mm;
         CellGrid grid = collect_cells(scan, tiles.tiling, field);
         collected.push_back({std::move(field), std::move(grid), std::move(result)});
@@ -276,11 +277,11 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& asked) {
     if (asked.is_photo) options.resolution.reset();
     Work work(asked);
     const TileDone done = [&work] { work.step(); };
-    TileLocator locator(scan, asked.any_code ? std::nullopt : std::optional(asked.pattern.profile),
+    TileLocator locator(scan, asked.any_code ? std::nullopt : std::optional(asked.pattern.code),
                         done);
     const auto tiles = locator.locate();
     if (tiles) {
-        check.code = options.pattern.profile = locator.code().code();
+        check.code = options.pattern.code = locator.code().code();
         if (asked.any_code)
             check.code_p_wrong = double(locator.code().evidence().p_wrong(check.code));
         measure_fields(scan, collect_fields(scan, *tiles, options, done), options, check);
@@ -290,7 +291,7 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& asked) {
         check.is_mirrored = locator.is_mirrored();
     }
     check.is_test_page = std::ranges::any_of(check.fields, &PrintField::is_patch);
-    if (check.is_test_page) rank_patches(options.pattern.profile, check);
+    if (check.is_test_page) rank_patches(options.pattern.code, check);
     add_findings(options, check);
     if (tiles && !asked.any_code) look_for_another_code(*tiles, locator, check);
     return check;

@@ -284,8 +284,8 @@ const char* name(CalibrationVerdict verdict) {
     }
 }
 
-std::optional<Profile> given_code(const CalibrateOptions& options) {
-    return options.any_code ? std::nullopt : std::optional(options.pattern.profile);
+std::optional<CodeVariant> given_code(const CalibrateOptions& options) {
+    return options.any_code ? std::nullopt : std::optional(options.pattern.code);
 }
 
 LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
@@ -305,14 +305,14 @@ LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
     std::vector<Place> places;
     for (const LocatedFrame& frame : first)
         places.push_back(frame.place);
-    result.spacing_mm = printed_spacing_mm(options, reader.profile(), places);
+    result.spacing_mm = printed_spacing_mm(options, reader.code(), places);
     const FitSetting setting{series.width_px, series.height_px, result.spacing_mm};
     // Only with a known lens are dots found up to the corners.
     reader.use_lens(lens_of(camera_of(fit_all(first, setting).after, setting)));
     auto located = read_again(first, series, reader);
-    take_all_dots(fit_all(located, setting).after, setting, reader.profile(), located);
+    take_all_dots(fit_all(located, setting).after, setting, reader.code(), located);
     const Fits fits = fit_all(located, setting);
-    result.code = reader.profile();
+    result.code = reader.code();
     result.located = static_cast<int>(located.size());
     result.camera = camera_of(fits.after, setting);
     describe(located, fits, result);

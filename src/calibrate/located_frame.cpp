@@ -50,25 +50,25 @@ double half_width(const ImageView& image, const std::vector<LocatedDot>& dots, d
 }  // namespace
 
 std::vector<LocatedDot> dots_read(const Trace& trace) {
-    const Profile profile = trace.options.profile;
-    const Region& grid = trace.grid.region;
+    const CodeVariant code = trace.options.code;
+    const GridRegion& grid = trace.grid.region;
     std::vector<LocatedDot> result;
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
         for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
             const GridCell& cell = trace.grid.at(i, j);
             if (!cell.has_dot()) continue;
-            const Vec centre_q8 = trace.dots[cell.dot].centre_q8;
-            const Vec step = trace.decoding.pattern_from_grid({i, j});
-            const Place place = moved(profile, trace.decoding.place, step.x, step.y);
+            const FixedVec centre_q8 = trace.dots[cell.dot].centre_q8;
+            const FixedVec step = trace.decoding.pattern_from_grid({i, j});
+            const Place place = moved(code, trace.decoding.place, step.x, step.y);
             result.push_back({{centre_q8.x / 256.0, centre_q8.y / 256.0},
                               step,
-                              symbol_at(profile, place.cell, place.section)});
+                              symbol_at(code, place.cell, place.section)});
         }
     }
     return result;
 }
 
-FrameReader::FrameReader(std::optional<Profile> profile) : reader_(profile) {
+FrameReader::FrameReader(std::optional<CodeVariant> code) : reader_(code) {
     Options options;
     options.show_stages = true;
     locator_.set_options(options);
@@ -79,7 +79,7 @@ std::optional<LocatedFrame> FrameReader::read(const ImageView& image) {
     if (is_known_) return std::nullopt;
     const double reach_px = std::hypot(image.width_px, image.height_px) / 2;
     for (const double stretch : kCornerStretches) {
-        const Lens lens = Lens::from_k(stretch / (reach_px * reach_px));
+        const FixedLens lens = FixedLens::from_k(stretch / (reach_px * reach_px));
         if (!locate_with(image, lens)) continue;
         lens_ = lens;  // tried first with the next frame
         return read_trace(image);
@@ -87,7 +87,7 @@ std::optional<LocatedFrame> FrameReader::read(const ImageView& image) {
     return std::nullopt;
 }
 
-bool FrameReader::locate_with(const ImageView& image, const Lens& lens) {
+bool FrameReader::locate_with(const ImageView& image, const FixedLens& lens) {
     Options options = locator_.options();
     options.lens = lens;
     locator_.set_options(options);
@@ -96,7 +96,7 @@ bool FrameReader::locate_with(const ImageView& image, const Lens& lens) {
 
 LocatedFrame FrameReader::read_trace(const ImageView& image) const {
     const Trace trace = locator_.trace();
-    const Lens& lens = trace.options.lens;
+    const FixedLens& lens = trace.options.lens;
     // The camera has the lens that was used, with its rounding.
     Camera used;
     used.k_per_px2 = lens.k_q40 * 0x1p-40;
@@ -108,7 +108,7 @@ LocatedFrame FrameReader::read_trace(const ImageView& image) const {
     located.dots = dots_read(trace);
     for (LocatedDot& dot : located.dots)
         dot.pixel = distorted(used, dot.pixel);
-    for (const Dot& dot : trace.dots)
+    for (const DetectedDot& dot : trace.dots)
         located.blobs.push_back(
             distorted(used, {dot.centre_q8.x / 256.0, dot.centre_q8.y / 256.0}));
     located.dot_width = 2 * half_width(image, located.dots, located.spacing_px);

@@ -14,7 +14,7 @@ namespace dotpose::calibrate {
 /// A dot and its intersection.
 struct LocatedDot {
     PixelPoint pixel;
-    Vec step;  ///< intersection, in spacings from the frame's `place`
+    FixedVec step;  ///< intersection, in spacings from the frame's `place`
     Symbol symbol = Symbol::up;
 };
 
@@ -36,27 +36,27 @@ struct LocatedFrame {
 /// Locates frames with a lens that may be known or unknown.
 class FrameReader {
   public:
-    /// Without a profile, it is found from the frames.
-    explicit FrameReader(std::optional<Profile> profile);
+    /// Without a code variant, it is found from the frames.
+    explicit FrameReader(std::optional<CodeVariant> code);
 
     /// Sets the lens, which is known from now on.
-    void use_lens(const Lens& lens) {
+    void use_lens(const FixedLens& lens) {
         lens_ = lens;
         is_known_ = true;
     }
-    /// Returns the profile of the frames, as far as it is known.
-    Profile profile() const { return reader_.code(); }
+    /// Returns the code variant of the frames, as far as it is known.
+    CodeVariant code() const { return reader_.code(); }
     /// Locates a frame; none if it cannot be located.
     std::optional<LocatedFrame> read(const ImageView& image);
     /// Returns what the stages left of the newest frame, with its fix.
     Trace trace() const { return locator_.trace(); }
 
   private:
-    bool locate_with(const ImageView& image, const Lens& lens);
+    bool locate_with(const ImageView& image, const FixedLens& lens);
     LocatedFrame read_trace(const ImageView& image) const;
 
     CodeReader reader_;
-    Lens lens_;
+    FixedLens lens_;
     bool is_known_ = false;
     Locator locator_{Options{}};
 };

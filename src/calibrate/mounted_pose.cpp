@@ -55,10 +55,10 @@ std::uint32_t to_bam(double angle_rad) {
 }
 
 /// Writes x and y, in spacings from `place`, as cell and fraction.
-void write_place(double x, double y, Profile profile, const Place& place, Fix& fix) {
+void write_place(double x, double y, CodeVariant code, const Place& place, Fix& fix) {
     const auto x_q16 = std::llround(x * 65536);
     const auto y_q16 = std::llround(y * 65536);
-    const Place cell = moved(profile, place, static_cast<std::int32_t>(x_q16 >> 16),
+    const Place cell = moved(code, place, static_cast<std::int32_t>(x_q16 >> 16),
                              static_cast<std::int32_t>(y_q16 >> 16));
     fix.cell = cell.cell;
     fix.section = cell.section;
@@ -93,8 +93,8 @@ double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale
                            paper.perspective_v * (middle.v - camera.centre_px.v);
     // The Jacobian determinant of a homography is its own determinant divided by divisor^3.
     const double mm2_per_px2 = paper.mm_per_px_x * paper.mm_per_px_y / std::pow(divisor, 3);
-    const Vec du = fix.pattern_from_image.du_q24;
-    const Vec dv = fix.pattern_from_image.dv_q24;
+    const FixedVec du = fix.pattern_from_image.du_q24;
+    const FixedVec dv = fix.pattern_from_image.dv_q24;
     constexpr double kQ24 = 1 << 24;
     const double cells2_per_px2 =
         std::abs(double(du.x) * dv.y - double(dv.x) * du.y) / (kQ24 * kQ24);
@@ -123,7 +123,7 @@ Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const 
         const double y = at.y_mm - pose.middle.y_mm;
         const auto& p = pose.parameters;
         write_place((p[0] + x * p[2] - y * p[3]) / print.x, (p[1] + y * p[2] + x * p[3]) / print.y,
-                    trace.options.profile, trace.decoding.place, result);
+                    trace.options.code, trace.decoding.place, result);
         write_covariance(pose, x, y, print, result);
         result.dots_used = pose.dots;
         result.dots_seen = std::max(result.dots_seen, result.dots_used);

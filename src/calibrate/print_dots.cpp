@@ -261,8 +261,7 @@ void read_symbols(const std::vector<Vector2d>& offsets, double displacement,
 }  // namespace
 
 Symbol Code::symbol(std::int64_t x, std::int64_t y) const {
-    return symbol_at(profile, {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)},
-                     section);
+    return symbol_at(code, {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)}, section);
 }
 
 Vector2d Code::dot_cell(std::int64_t x, std::int64_t y, Symbol symbol) const {

@@ -11,7 +11,7 @@ namespace dotpose::calibrate {
 
 /// What is known of the print before measuring: which dots stand where.
 struct Code {
-    Profile profile = Profile::anoto;
+    CodeVariant code = CodeVariant::anoto;
     Section section;
     double displacement = 1.0 / 6;  ///< in spacings
 

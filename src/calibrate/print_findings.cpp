@@ -354,10 +354,10 @@ void choose_best(PrintCheck& check) {
 
 }  // namespace
 
-void rank_patches(Profile profile, PrintCheck& check) {
+void rank_patches(CodeVariant code, PrintCheck& check) {
     choose_best(check);
     TestPageOptions usual;
-    usual.profile = profile;
+    usual.code = code;
     for (const Sheet& sheet : make_test_page(usual).sheets) {
         const bool was_read = std::ranges::any_of(check.fields, [&](const PrintField& field) {
             return field.pattern.spacing_mm == sheet.pattern.spacing_mm &&

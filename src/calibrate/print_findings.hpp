@@ -6,7 +6,7 @@
 namespace dotpose::calibrate {
 
 /// Sets `best_per_spacing`, `best` and `unread_patches` of a test page.
-void rank_patches(Profile profile, PrintCheck& check);
+void rank_patches(CodeVariant code, PrintCheck& check);
 
 /// Fills the findings from the fields, faults first.
 void add_findings(const CheckPrintOptions& options, PrintCheck& check);

@@ -42,7 +42,8 @@ struct TileMap {
 
 /// Returns the place in a scan of a pixel in a crop that begins at `first_px` and is magnified by
 /// `zoom`.
-inline Eigen::Vector2d in_scan(const Vec& pixel_q8, const Eigen::Vector2d& first_px, int zoom) {
+inline Eigen::Vector2d in_scan(const FixedVec& pixel_q8, const Eigen::Vector2d& first_px,
+                               int zoom) {
     const Eigen::Vector2d from_edge(pixel_q8.x / 256.0 + 0.5, pixel_q8.y / 256.0 + 0.5);
     return first_px + from_edge / zoom - Eigen::Vector2d::Constant(0.5);
 }

@@ -27,8 +27,8 @@ constexpr std::array kProbes = {Probe{256, 1}, Probe{160, 2}, Probe{768, 1},
 
 }  // namespace
 
-TileLocator::TileLocator(const ImageView& scan, std::optional<Profile> profile, TileDone done)
-    : scan_(scan), reader_(profile), done_(std::move(done)) {
+TileLocator::TileLocator(const ImageView& scan, std::optional<CodeVariant> code, TileDone done)
+    : scan_(scan), reader_(code), done_(std::move(done)) {
     Options options;
     options.show_stages = true;
     locator_.set_options(options);

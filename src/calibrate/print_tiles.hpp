@@ -33,8 +33,8 @@ using TileDone = std::function<void()>;
 /// Runs `locate` on a scan as a whole and on tiles of it.
 class TileLocator {
   public:
-    /// Without a profile, it is found from all that is located.
-    TileLocator(const ImageView& scan, std::optional<Profile> profile, TileDone done);
+    /// Without a code variant, it is found from all that is located.
+    TileLocator(const ImageView& scan, std::optional<CodeVariant> code, TileDone done);
 
     /// Locates all tiles of about 24 x 24 cells, each with some of its surroundings. Returns none
     /// if neither the scan as a whole nor a crop of any size shows a pattern.

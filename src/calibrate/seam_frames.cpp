@@ -32,8 +32,8 @@ constexpr std::array kStretches = {Stretch{0, 1}, Stretch{0, 0.5}, Stretch{0.5, 
 
 /// Returns the fix moved to another place, given in steps from where the pattern of the frame
 /// starts.
-Fix moved_to(const Fix& fix, const Trace& trace, Vec step) {
-    const Place place = moved(trace.options.profile, trace.decoding.place, step.x, step.y);
+Fix moved_to(const Fix& fix, const Trace& trace, FixedVec step) {
+    const Place place = moved(trace.options.code, trace.decoding.place, step.x, step.y);
     Fix result = fix;
     result.cell = place.cell;
     result.section = place.section;
@@ -41,7 +41,7 @@ Fix moved_to(const Fix& fix, const Trace& trace, Vec step) {
     return result;
 }
 
-Vec mean_step(const std::vector<LocatedDot>& dots) {
+FixedVec mean_step(const std::vector<LocatedDot>& dots) {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     for (const LocatedDot& dot : dots)
         sum += Eigen::Vector2d(dot.step.x, dot.step.y);
@@ -72,13 +72,14 @@ struct NominalPlace {
     Eigen::Vector2d mm;
     double theta_rad;
 };
-std::optional<NominalPlace> place_beyond(const SheetEntry& entry, Profile profile, const Fix& fix) {
+std::optional<NominalPlace> place_beyond(const SheetEntry& entry, CodeVariant code,
+                                         const Fix& fix) {
     SheetEntry large = entry;
     large.print_scale_x = large.print_scale_y = 1;
     large.sheet.origin_x_mm = large.sheet.origin_y_mm = kBeyondPage_mm;
     large.sheet.width_mm += 2 * kBeyondPage_mm;
     large.sheet.height_mm += 2 * kBeyondPage_mm;
-    const auto place = find_sheet(std::span(&large, 1), profile, fix);
+    const auto place = find_sheet(std::span(&large, 1), code, fix);
     if (!place) return std::nullopt;
     return NominalPlace{{place->x_mm - kBeyondPage_mm, place->y_mm - kBeyondPage_mm},
                         place->theta_rad};
@@ -140,8 +141,8 @@ void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacin
 SeamLocator::SeamLocator(const std::vector<SheetEntry>& sheets, const std::optional<Camera>& camera)
     : sheets_(sheets), camera_(camera) {
     for (const SheetEntry& entry : sheets) {
-        const Profile profile = entry.sheet.pattern.profile;
-        if (std::ranges::find(profiles_, profile) == profiles_.end()) profiles_.push_back(profile);
+        const CodeVariant code = entry.sheet.pattern.code;
+        if (std::ranges::find(codes_, code) == codes_.end()) codes_.push_back(code);
     }
 }
 
@@ -220,22 +221,22 @@ std::optional<SheetView> SeamLocator::view_in(const GreyImage& image, const Part
     options.effort = effort;
     options.show_stages = true;
     use_camera(camera, part.width, part.height, options);
-    for (const Profile profile : profiles_) {
-        options.profile = profile;
+    for (const CodeVariant code : codes_) {
+        options.code = code;
         locator_.set_options(options);
         const Fix fix = locator_.locate(pixels);
         if (fix.status != Status::ok) continue;
-        if (auto view = view_of(image, part, fix, camera, profile)) return view;
+        if (auto view = view_of(image, part, fix, camera, code)) return view;
     }
     return std::nullopt;
 }
 
 std::optional<SheetView> SeamLocator::view_of(const GreyImage& image, const Part& part,
                                               const Fix& fix, const Camera& camera,
-                                              Profile profile) const {
+                                              CodeVariant code) const {
     const Trace trace = locator_.trace();
     std::vector<LocatedDot> dots = dots_read(trace);
-    const auto sheet = find_sheet(sheets_, profile, moved_to(fix, trace, mean_step(dots)));
+    const auto sheet = find_sheet(sheets_, code, moved_to(fix, trace, mean_step(dots)));
     if (!sheet) return std::nullopt;
     const SheetEntry& entry = *sheet->entry;
     const double spacing_mm = entry.sheet.pattern.spacing_mm;
@@ -243,7 +244,7 @@ std::optional<SheetView> SeamLocator::view_of(const GreyImage& image, const Part
     view.sheet = static_cast<std::size_t>(&entry - sheets_.data());
     // Dots beyond the sheet's edge belong to another sheet.
     std::erase_if(dots, [&](const LocatedDot& dot) {
-        const Cell cell = moved(profile, trace.decoding.place, dot.step.x, dot.step.y).cell;
+        const Cell cell = moved(code, trace.decoding.place, dot.step.x, dot.step.y).cell;
         const bool is_on = cell.x - entry.sheet.origin.x < unsigned(entry.sheet.columns) &&
                            cell.y - entry.sheet.origin.y < unsigned(entry.sheet.rows);
         if (is_on) view.dots.push_back(std::uint64_t{cell.x} << 32 | cell.y);
@@ -252,11 +253,11 @@ std::optional<SheetView> SeamLocator::view_of(const GreyImage& image, const Part
     if (dots.size() < kLeastViewDots) return std::nullopt;
     view.fields = fields_of(image, part, dots);
     if (camera.paper) {
-        const auto first = place_beyond(entry, profile, moved_to(fix, trace, {0, 0}));
+        const auto first = place_beyond(entry, code, moved_to(fix, trace, {0, 0}));
         if (!first) return std::nullopt;
         see_with_scale(dots, camera, first->mm, spacing_mm, view);
     } else {
-        const auto centre = place_beyond(entry, profile, fix);
+        const auto centre = place_beyond(entry, code, fix);
         if (!centre) return std::nullopt;
         see_without_scale(fix, *centre, spacing_mm, view);
     }

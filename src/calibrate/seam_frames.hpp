@@ -58,11 +58,11 @@ class SeamLocator {
     std::vector<SheetView> views_with(const GreyImage& image, Effort effort);
     std::optional<SheetView> view_in(const GreyImage& image, const Part& part, Effort effort);
     std::optional<SheetView> view_of(const GreyImage& image, const Part& part, const Fix& fix,
-                                     const Camera& camera, Profile profile) const;
+                                     const Camera& camera, CodeVariant code) const;
 
     const std::vector<SheetEntry>& sheets_;
     std::optional<Camera> camera_;
-    std::vector<Profile> profiles_;
+    std::vector<CodeVariant> codes_;
     Locator locator_{Options{}};
 };
 

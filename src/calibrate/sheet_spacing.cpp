@@ -8,7 +8,7 @@
 
 namespace dotpose::calibrate {
 
-double printed_spacing_mm(const CalibrateOptions& options, Profile profile,
+double printed_spacing_mm(const CalibrateOptions& options, CodeVariant code,
                           const std::vector<Place>& places) {
     if (options.sheets.empty()) return options.pattern.spacing_mm;
     std::map<const SheetEntry*, int> frames;
@@ -17,7 +17,7 @@ double printed_spacing_mm(const CalibrateOptions& options, Profile profile,
         fix.status = Status::ok;
         fix.cell = place.cell;
         fix.section = place.section;
-        if (const auto found = find_sheet(options.sheets, profile, fix)) ++frames[found->entry];
+        if (const auto found = find_sheet(options.sheets, code, fix)) ++frames[found->entry];
     }
     if (frames.empty()) {
         throw Error(

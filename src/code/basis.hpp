@@ -9,13 +9,13 @@
 
 namespace dotpose::code {
 
-constexpr const Basis& basis(Profile profile) {
-    switch (profile) {
-        case Profile::libdots:
+constexpr const Basis& basis(CodeVariant code) {
+    switch (code) {
+        case CodeVariant::libdots:
             return kBasis<kA4Published>;
-        case Profile::microdots:
+        case CodeVariant::microdots:
             return kBasis<kA4Microdots>;
-        case Profile::anoto:
+        case CodeVariant::anoto:
             break;
     }
     return kBasis<kA4Restored>;

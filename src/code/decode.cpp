@@ -53,7 +53,7 @@ Places find(const code::Secondary& a, std::size_t digit, std::span<const std::ui
 
 /// Returns the place in the main sequence of all bits of a column or row, or kAbsent if the main
 /// sequence does not contain them.
-std::uint8_t place_in_main(const Window& window, bool columns, int line) {
+std::uint8_t place_in_main(const SymbolWindow& window, bool columns, int line) {
     const int length = columns ? window.rows : window.columns;
     const auto bit = [&](int i) -> unsigned {
         const int index = columns ? i * window.columns + line : line * window.columns + i;
@@ -75,8 +75,8 @@ std::uint8_t place_in_main(const Window& window, bool columns, int line) {
 
 /// Reads the rolls of all columns (or rows) of a window. Sets the first roll and the position of
 /// the first line. Errors: not_in_code, ambiguous.
-Status read_axis(Profile profile, const Window& window, bool columns, std::uint8_t& first_roll,
-                 std::uint32_t& position) {
+Status read_axis(CodeVariant code, const SymbolWindow& window, bool columns,
+                 std::uint8_t& first_roll, std::uint32_t& position) {
     Rolls rolls{};
     const auto count = static_cast<std::size_t>(columns ? window.columns : window.rows);
     for (std::size_t i = 0; i < count; ++i) {
@@ -84,12 +84,12 @@ Status read_axis(Profile profile, const Window& window, bool columns, std::uint8
         if (rolls[i] == code::kAbsent) return Status::not_in_code;
     }
     first_roll = rolls[0];
-    return position_from_rolls(profile, std::span(rolls).first(count), position);
+    return position_from_rolls(code, std::span(rolls).first(count), position);
 }
 
 }  // namespace
 
-Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
+Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept {
     if (rolls.size() < kMinWindow || rolls.size() > kMaxWindow) {
         return Status::bad_window;
@@ -104,7 +104,7 @@ Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
     }
     std::array<std::uint32_t, 4> first_places;
     int ways = 1;
-    const code::Basis& basis = code::basis(profile);
+    const code::Basis& basis = code::basis(code);
     for (std::size_t n = 0; n < first_places.size(); ++n) {
         const Places places = find(basis[n], n, deltas);
         if (places.count == 0) return Status::not_in_code;
@@ -116,7 +116,7 @@ Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
     return Status::ok;
 }
 
-Status decode(Profile profile, const Window& window, Place& place) noexcept {
+Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexcept {
     const auto fits = [](int n) { return n >= kMinWindow && n <= kMaxWindow; };
     if (!fits(window.columns) || !fits(window.rows) ||
         window.symbols.size() < static_cast<std::size_t>(window.columns * window.rows)) {
@@ -125,16 +125,16 @@ Status decode(Profile profile, const Window& window, Place& place) noexcept {
     std::uint8_t roll_x = 0;
     std::uint8_t roll_y = 0;
     Place found;
-    if (const Status s = read_axis(profile, window, true, roll_x, found.cell.x); s != Status::ok) {
+    if (const Status s = read_axis(code, window, true, roll_x, found.cell.x); s != Status::ok) {
         return s;
     }
-    if (const Status s = read_axis(profile, window, false, roll_y, found.cell.y); s != Status::ok) {
+    if (const Status s = read_axis(code, window, false, roll_y, found.cell.y); s != Status::ok) {
         return s;
     }
     found.section.u =
-        static_cast<std::uint8_t>(section_of(profile, roll_x, found.cell.x, found.cell.y));
+        static_cast<std::uint8_t>(section_of(code, roll_x, found.cell.x, found.cell.y));
     found.section.v =
-        static_cast<std::uint8_t>(section_of(profile, roll_y, found.cell.y, found.cell.x));
+        static_cast<std::uint8_t>(section_of(code, roll_y, found.cell.y, found.cell.x));
     place = found;
     return Status::ok;
 }

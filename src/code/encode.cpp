@@ -4,22 +4,22 @@
 
 namespace dotpose {
 
-int delta(Profile profile, std::uint32_t p) noexcept {
+int delta(CodeVariant code, std::uint32_t p) noexcept {
     unsigned sum = code::kMinDelta;
-    for (const code::Secondary& a : code::basis(profile)) {
+    for (const code::Secondary& a : code::basis(code)) {
         sum += unsigned{a.weight} * a.digits[a.place_of(p)];
     }
     return static_cast<int>(sum);
 }
 
-int roll(Profile profile, std::uint32_t p) noexcept {
+int roll(CodeVariant code, std::uint32_t p) noexcept {
     // The sum of p differences is p times the constant 5 plus, for each sequence, the sum over its
     // whole turns and over the digits of its last, incomplete turn. The number of whole turns is
     // their number of lines divided by the length. Modulo 63, this division is a multiplication by
     // the inverse.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
     std::uint32_t sum = code::kMinDelta * lines;
-    for (const code::Secondary& a : code::basis(profile)) {
+    for (const code::Secondary& a : code::basis(code)) {
         const std::uint32_t place = a.place_of(p);
         sum += (lines - place) * a.turn_roll + a.rolls[place];
     }
@@ -30,17 +30,17 @@ int main_bit(std::uint32_t index) noexcept {
     return code::kMain[code::modulo_sections(index)];
 }
 
-Symbol symbol_at(Profile profile, Cell cell, Section section) noexcept {
-    const auto column_roll = static_cast<std::uint32_t>(roll(profile, cell.x) + section.u);
-    const auto row_roll = static_cast<std::uint32_t>(roll(profile, cell.y) + section.v);
+Symbol symbol_at(CodeVariant code, Cell cell, Section section) noexcept {
+    const auto column_roll = static_cast<std::uint32_t>(roll(code, cell.x) + section.u);
+    const auto row_roll = static_cast<std::uint32_t>(roll(code, cell.y) + section.v);
     return make_symbol(main_bit(column_roll + cell.y), main_bit(row_roll + cell.x));
 }
 
-int section_of(Profile profile, int roll_seen, std::uint32_t position,
+int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept {
     const auto shift = static_cast<int>(code::modulo_sections(cross_position));
     return static_cast<int>(code::modulo_sections(
-        static_cast<std::uint32_t>(roll_seen + 2 * kSections - roll(profile, position) - shift)));
+        static_cast<std::uint32_t>(roll_seen + 2 * kSections - roll(code, position) - shift)));
 }
 
 namespace {
@@ -54,7 +54,7 @@ struct AxisPlace {
 };
 
 // Not inlined: it is called twice, and the second half is rarely needed.
-[[gnu::noinline]] AxisPlace moved(Profile profile, AxisPlace place, std::int32_t distance) {
+[[gnu::noinline]] AxisPlace moved(CodeVariant code, AxisPlace place, std::int32_t distance) {
     const std::int64_t target = std::int64_t{place.position} + distance;
     const bool is_before = target < 0;
     if (!is_before && target < kPositionsPerAxis) {
@@ -67,7 +67,7 @@ struct AxisPlace {
         const int sum = section + (is_before ? kSections - by : by);
         return static_cast<std::uint8_t>(sum % kSections);
     };
-    place.own = shifted(place.own, roll(profile, kPositionsPerAxis));
+    place.own = shifted(place.own, roll(code, kPositionsPerAxis));
     place.cross = shifted(place.cross, kPositionsPerAxis % kSections);
     const std::int64_t turn = kPositionsPerAxis;
     place.position = static_cast<std::uint32_t>(is_before ? target + turn : target - turn);
@@ -76,9 +76,9 @@ struct AxisPlace {
 
 }  // namespace
 
-Place moved(Profile profile, Place place, std::int32_t dx, std::int32_t dy) noexcept {
-    const AxisPlace x = moved(profile, {place.cell.x, place.section.u, place.section.v}, dx);
-    const AxisPlace y = moved(profile, {place.cell.y, x.cross, x.own}, dy);
+Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noexcept {
+    const AxisPlace x = moved(code, {place.cell.x, place.section.u, place.section.v}, dx);
+    const AxisPlace y = moved(code, {place.cell.y, x.cross, x.own}, dy);
     return {{x.position, y.position}, {y.cross, y.own}};
 }
 

@@ -7,27 +7,27 @@
 
 namespace dotpose::code {
 
-int roll_from(Profile profile, std::uint32_t position, int section, std::uint32_t cross) {
-    const auto sum = static_cast<std::uint32_t>(roll(profile, position) + section);
+int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross) {
+    const auto sum = static_cast<std::uint32_t>(roll(code, position) + section);
     return static_cast<int>(modulo_sections(sum + modulo_sections(cross)));
 }
 
-int roll_further(Profile read, Profile other, std::uint32_t position, std::uint32_t place) {
+int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place) {
     // The part of a roll that comes from a4 is the sum over the whole turns of a4 and over the
     // digits before the place. It is less than kTurns, a multiple of 63. Adding kTurns keeps the
     // difference positive.
     constexpr std::uint32_t kTurns = 512 * kSections;
     const std::uint32_t lines = modulo_sections(position) + 4 * kSections;
-    const auto by_a4 = [&](Profile profile) {
-        const Secondary& a4 = basis(profile)[3];
+    const auto by_a4 = [&](CodeVariant code) {
+        const Secondary& a4 = basis(code)[3];
         return (lines - place) * a4.turn_roll + a4.rolls[place];
     };
     return static_cast<int>(modulo_sections(by_a4(other) + kTurns - by_a4(read)));
 }
 
-void follow_rolls(Profile profile, std::uint32_t position, int first_roll,
+void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls) {
-    const Basis& sequences = basis(profile);
+    const Basis& sequences = basis(code);
     std::uint32_t sum = static_cast<std::uint32_t>(first_roll) + 4 * kSections;
     while (true) {
         std::array<const std::uint8_t*, 4> here;

@@ -16,8 +16,8 @@ namespace dotpose::code {
 /// of lines as in `kUnsharedOf`: one digit for each place in a4 of the first line. The minimum is
 /// over all places and shifts of the other variant, except the same place if both variants have it
 /// with the same rolls.
-inline constexpr std::array<std::array<std::array<std::string_view, 3>, kProfileCount>,
-                            kProfileCount>
+inline constexpr std::array<std::array<std::array<std::string_view, 3>, kCodeVariantCount>,
+                            kCodeVariantCount>
     kUnsharedInOther{{
         {{
             {},

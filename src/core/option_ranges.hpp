@@ -22,7 +22,7 @@ constexpr bool all_options(const Options& options, IsGood is_good) {
     const auto is_index = [&](const char* name, auto value, auto last) {
         return is_good(name, static_cast<std::int32_t>(value), 0, static_cast<std::int32_t>(last));
     };
-    return is_index("profile", options.profile, Profile::microdots) &&
+    return is_index("code", options.code, CodeVariant::microdots) &&
            is_index("effort", options.effort, Effort::twice) &&
            is_index("decoder", options.decoder, Decoder::all) &&
            is_good("threshold.low_q8", options.threshold.low_q8, 1, 256) &&

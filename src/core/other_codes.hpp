@@ -39,7 +39,7 @@ struct OtherCodes {
     int log2_in_question_q8 = 0;
     /// Positions, in the code variant read, of the first column and row that were compared.
     Cell first;
-    std::array<OtherCode, kProfileCount>
+    std::array<OtherCode, kCodeVariantCount>
         of;  ///< by code variant; the entry of the variant read is not used
 };
 

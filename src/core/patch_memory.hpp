@@ -1,5 +1,4 @@
-// Patch: a part of the image and the dots measured in it, for the attempts of desktops. Not stable,
-// like stages.hpp.
+// Patch: a part of the image and the dots measured in it, for the attempts of desktops.
 #pragma once
 
 #include <array>

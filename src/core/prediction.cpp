@@ -8,7 +8,7 @@ namespace {
 
 using namespace core;
 
-Vec turned(Vec v, Vec unit_q30) {
+FixedVec turned(FixedVec v, FixedVec unit_q30) {
     const auto part = [](std::int64_t a_q30) {
         return static_cast<std::int32_t>((a_q30 + (1 << 29)) >> 30);
     };
@@ -26,18 +26,18 @@ Prediction Prediction::like(const Fix& fix) {
     return prediction;
 }
 
-Prediction moved(const Prediction& prediction, Profile profile, Vec by_q16, std::int32_t turn_bam,
-                 Vec pivot_q8) {
+Prediction moved(const Prediction& prediction, CodeVariant code, FixedVec by_q16,
+                 std::int32_t turn_bam, FixedVec pivot_q8) {
     Prediction next = prediction;
     PlaneFromImage& plane = next.pattern_from_image;
-    const Vec unit = unit_q30(turn_bam);
+    const FixedVec unit = unit_q30(turn_bam);
     plane.du_q24 = turned(plane.du_q24, unit);
     plane.dv_q24 = turned(plane.dv_q24, unit);
-    const Vec pivot_q16 = plane_point_q16(prediction.pattern_from_image, pivot_q8);
-    const Vec centre_q16 = pivot_q16 + turned(plane.at_centre_q16 - pivot_q16, unit) + by_q16;
+    const FixedVec pivot_q16 = plane_point_q16(prediction.pattern_from_image, pivot_q8);
+    const FixedVec centre_q16 = pivot_q16 + turned(plane.at_centre_q16 - pivot_q16, unit) + by_q16;
     // The plane is relative to the intersection at its centre, which keeps its coordinates small
     // however far it moves.
-    next.place = moved(profile, prediction.place, centre_q16.x >> 16, centre_q16.y >> 16);
+    next.place = moved(code, prediction.place, centre_q16.x >> 16, centre_q16.y >> 16);
     plane.at_centre_q16 = {centre_q16.x & 0xFFFF, centre_q16.y & 0xFFFF};
     return next;
 }

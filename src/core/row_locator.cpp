@@ -34,8 +34,7 @@ Trace trace_of(const core::Workspace& w, const Options& options) {
 
 void RowLocator::set_options(const Options& options) {
     options_ = options;
-    begun_ = Status::bad_argument;
-    rows_left_ = 0;
+    static_cast<void>(note_begin(Status::bad_argument, 0));
 }
 
 Status RowLocator::note_begin(Status status, int height_px) {
@@ -60,8 +59,7 @@ Trace RowLocator::trace() const {
 }
 
 Fix RowLocator::finished() {
-    begun_ = Status::bad_argument;
-    rows_left_ = 0;
+    static_cast<void>(note_begin(Status::bad_argument, 0));
     workspace_->fix.spacing_nm = options_.spacing_nm;
     return workspace_->fix;
 }

@@ -42,12 +42,12 @@ const Fix& refuse(Status reason, Workspace& w) {
     return w.fix;
 }
 
-Vec image_centre_q8(const AdaptiveThreshold& threshold) {
+FixedVec image_centre_q8(const AdaptiveThreshold& threshold) {
     return {(threshold.width_px - 1) * 128, (threshold.height_px - 1) * 128};
 }
 
-Vec reference_q8(Vec centre_q8, const Options& options) {
-    return centre_q8 + Vec{options.reference_dx_q8, options.reference_dy_q8};
+FixedVec reference_q8(FixedVec centre_q8, const Options& options) {
+    return centre_q8 + FixedVec{options.reference_dx_q8, options.reference_dy_q8};
 }
 
 void forget_frame(Workspace& w) {
@@ -56,7 +56,6 @@ void forget_frame(Workspace& w) {
     w.lattice = {};
     w.decoding = {};
     w.grid.columns = w.grid.rows = 0;
-    w.tracking.is_on = false;
 }
 
 void begin_frame(int width_px, int height_px, Workspace& w) {
@@ -97,7 +96,7 @@ Status find_dots(const Options& options, Workspace& w) {
     return Status::ok;
 }
 
-Status find_axes(Vec start_q8, int max_seeds, Workspace& w) {
+Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w) {
     const auto dots = w.found_dots();
     const int room = std::min(max_seeds, static_cast<int>(w.seeds.size()));
     w.seed_count = choose_seeds(dots, start_q8, first(w.seeds, room));

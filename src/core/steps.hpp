@@ -15,10 +15,10 @@ std::span<T> first(std::span<T, Extent> all, int count) {
     return all.first(static_cast<std::size_t>(count));
 }
 
-Vec image_centre_q8(const AdaptiveThreshold& threshold);
+FixedVec image_centre_q8(const AdaptiveThreshold& threshold);
 
 /// Returns the image point whose pose is reported, given the image centre.
-Vec reference_q8(Vec centre_q8, const Options& options);
+FixedVec reference_q8(FixedVec centre_q8, const Options& options);
 
 /// Returns ok if a frame can be started, or an image located. Otherwise returns the reason.
 Status check(int width_px, int height_px, const Options& options, const Workspace& w);
@@ -51,7 +51,7 @@ void detect_image(const ImageView& image, const Options& options, Workspace& w);
 Status find_dots(const Options& options, Workspace& w);
 
 /// Finds the directions and spacings of the grid from connections between the dots nearest a point.
-Status find_axes(Vec start_q8, int max_seeds, Workspace& w);
+Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w);
 
 /// Chooses the region of the grid that is decoded. It is limited by the memory for lines.
 void choose_region(Workspace& w);

@@ -10,7 +10,10 @@
 #include <span>
 #include <type_traits>
 
-#include "core/stages.hpp"
+#include "core/decode/grid.hpp"
+#include "core/detect/blobs.hpp"
+#include "core/kernels/scores.hpp"
+#include "core/lattice/neighbours.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/image.hpp"
 
@@ -23,10 +26,9 @@ struct Workspace {
     bool keeps_every_stage = false;  ///< true if each stage has its own memory, so that the output
                                      ///< of every stage remains
     // detect
-    Tracking tracking;
     AdaptiveThreshold threshold;
     OpenBlobs open;
-    std::span<Dot> dots;  ///< size is the capacity
+    std::span<DetectedDot> dots;  ///< size is the capacity
     int dot_count = 0;
     int dots_kept_within_px =
         0;  ///< distance from the image centre, per axis; decreases when `dots` is full
@@ -35,7 +37,7 @@ struct Workspace {
     int seed_count = 0;
     std::span<BucketedSeed> buckets;                    ///< one more than there are seeds
     std::span<std::array<std::int16_t, 4>> neighbours;  ///< the four nearest of each seed
-    std::span<Edge> edges;                              ///< two for each seed
+    std::span<SeedEdge> edges;                          ///< two for each seed
     int edge_count = 0;
     std::span<std::int32_t> edge_values;  ///< two for each edge
     Lattice lattice;
@@ -48,7 +50,7 @@ struct Workspace {
     PlaneFromImage pattern_from_image;  ///< in spacings from `Decoding::place`
     Fix fix;
 
-    std::span<const Dot> found_dots() const {
+    std::span<const DetectedDot> found_dots() const {
         return dots.first(static_cast<std::size_t>(dot_count));
     }
 };

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/math/fixed.hpp"
-#include "core/stages.hpp"
+#include "device/tracking.hpp"
 
 namespace dotpose::core {
 
@@ -16,7 +16,8 @@ class AffineFitInt32 {
         Int ix = 0, iy = 0, jx = 0, jy = 0;
 
         /// Adds a point p and its target. `weighted` is p times the weight of the point, 1 or -1.
-        [[gnu::always_inline]] void add(const Vec& p, const Vec& weighted, const Vec& target) {
+        [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& weighted,
+                                        const FixedVec& target) {
             xx += weighted.x * p.x;
             xy += weighted.x * p.y;
             yy += weighted.y * p.y;
@@ -29,17 +30,20 @@ class AffineFitInt32 {
 
     AffineFitInt32() = default;
     /// Starts from the given sums over `count` points.
-    AffineFitInt32(std::int32_t count, const Vec& p, const Vec& target,
+    AffineFitInt32(std::int32_t count, const FixedVec& p, const FixedVec& target,
                    const Products<std::int32_t>& sums)
         : changes_(count), p_(p), target_(target), recent_(sums) {}
 
     /// Adds an image point p, in 1/8 px from the plane's centre, within 2048 px, and its target in
     /// 2^-bits cells (see `solve`), within 2^15.
-    [[gnu::always_inline]] void add(const Vec& p, const Vec& target) { change(p, p, target); }
+    [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& target) {
+        change(p, p, target);
+    }
     /// Adds a point with weight 1, or removes it with weight -1.
-    [[gnu::always_inline]] void count(const Vec& p, const Vec& target, int weight) {
+    [[gnu::always_inline]] void count(const FixedVec& p, const FixedVec& target, int weight) {
         unused_ += 1 - weight;
-        change(p, Vec{weight * p.x, weight * p.y}, Vec{weight * target.x, weight * target.y});
+        change(p, FixedVec{weight * p.x, weight * p.y},
+               FixedVec{weight * target.x, weight * target.y});
     }
     int count() const { return changes_ - unused_; }
     /// Sets `at_centre`, du and dv of the plane, and no other members. Targets are in 2^-bits
@@ -54,7 +58,8 @@ class AffineFitInt32 {
     static constexpr int kMaxRecent = 32;
     static std::uint32_t offset(std::int32_t a) { return static_cast<std::uint32_t>(a) + kNear; }
 
-    [[gnu::always_inline]] void change(const Vec& p, const Vec& weighted, const Vec& target) {
+    [[gnu::always_inline]] void change(const FixedVec& p, const FixedVec& weighted,
+                                       const FixedVec& target) {
         p_ = p_ + weighted;
         target_ = target_ + target;
         recent_.add(p, weighted, target);
@@ -70,8 +75,8 @@ class AffineFitInt32 {
 
     std::int32_t changes_ = 0;
     std::int32_t unused_ = 0;  ///< number of changes minus number of points
-    Vec p_;
-    Vec target_;
+    FixedVec p_;
+    FixedVec target_;
     Products<std::int32_t> recent_;
     Products<std::int64_t> all_;
 };

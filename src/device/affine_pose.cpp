@@ -12,8 +12,8 @@ namespace {
 constexpr int kSample = 64;
 
 /// Returns vectors of a length in the direction of each symbol.
-std::array<Vec, 4> displacements(std::int32_t length) {
-    std::array<Vec, 4> all;
+std::array<FixedVec, 4> displacements(std::int32_t length) {
+    std::array<FixedVec, 4> all;
     for (std::size_t s = 0; s < all.size(); ++s) {
         const auto symbol = static_cast<Symbol>(s);
         all[s] = {dx(symbol) * length, dy(symbol) * length};
@@ -23,16 +23,16 @@ std::array<Vec, 4> displacements(std::int32_t length) {
 
 /// Offset of a dot from its intersection, in 2^-16 spacings, and the symbol of the dot.
 struct Offset {
-    Vec q16;
+    FixedVec q16;
     Symbol symbol;
 };
 
-std::int32_t squared_q16(Vec a_q16) {
+std::int32_t squared_q16(FixedVec a_q16) {
     return (a_q16.x >> 8) * (a_q16.x >> 8) + (a_q16.y >> 8) * (a_q16.y >> 8);
 }
 
 /// Adds one point. Not inlined: small processors would have to free registers.
-[[gnu::noinline]] void add(AffineFitInt32& fit, Vec p, Vec target) {
+[[gnu::noinline]] void add(AffineFitInt32& fit, FixedVec p, FixedVec target) {
     fit.add(p, target);
 }
 
@@ -41,8 +41,9 @@ std::int32_t squared_q16(Vec a_q16) {
 int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
                     std::int32_t& displacement_q16) {
     const Cells cells(pose);
-    const auto offset_q16 = [&](const Observation& o, Vec p) {
-        return cells.plane_point_q16(p) - Vec{o.pattern_step.x * 65536, o.pattern_step.y * 65536};
+    const auto offset_q16 = [&](const Observation& o, FixedVec p) {
+        return cells.plane_point_q16(p) -
+               FixedVec{o.pattern_step.x * 65536, o.pattern_step.y * 65536};
     };
     std::array<Offset, kSample> sample;
     std::size_t count = 0;
@@ -63,7 +64,7 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
         return offset.q16.x * dx(offset.symbol) + offset.q16.y * dy(offset.symbol);
     });
     const auto displaced_q16 = displacements(displacement_q16);
-    const auto squared_residual_q16 = [&](Vec offset, Symbol symbol) {
+    const auto squared_residual_q16 = [&](FixedVec offset, Symbol symbol) {
         return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
     // Squared distances of a plane Gaussian have their median at 1.39 sigma^2. The limit of 12
@@ -78,10 +79,10 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
     const auto targets = displacements(shift_rounded(displacement_q16, 16 - kTargetBits));
     AffineFitInt32 fit;
     observations.visit([&](const Observation& o) {
-        const Vec p = cells.from_centre_q3(o.image_point_q8);
+        const FixedVec p = cells.from_centre_q3(o.image_point_q8);
         if (squared_residual_q16(offset_q16(o, p), o.symbol) > limit_q16) return;
-        const Vec step{o.pattern_step.x * (1 << kTargetBits),
-                       o.pattern_step.y * (1 << kTargetBits)};
+        const FixedVec step{o.pattern_step.x * (1 << kTargetBits),
+                            o.pattern_step.y * (1 << kTargetBits)};
         add(fit, p, step + targets[static_cast<std::size_t>(o.symbol)]);
     });
     return fit.solve(kTargetBits, pose) ? fit.count() : 0;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/pose/observations.hpp"
-#include "core/stages.hpp"
+#include "device/tracking.hpp"
 
 namespace dotpose::core {
 

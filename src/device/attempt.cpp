@@ -19,12 +19,12 @@ constexpr int kSeeds = 64;
 
 /// Returns the start of the grid search: the image centre, or the centroid of the dots if it is far
 /// from the centre, as at the edge of a sheet.
-Vec start_q8(const Workspace& w) {
-    const Vec centre_q8 = image_centre_q8(w.threshold);
-    Vec sum_q4;
-    for (const Dot& dot : w.found_dots())
-        sum_q4 = sum_q4 + Vec{dot.centre_q8.x >> 4, dot.centre_q8.y >> 4};
-    const Vec mean_q8{sum_q4.x / w.dot_count * 16, sum_q4.y / w.dot_count * 16};
+FixedVec start_q8(const Workspace& w) {
+    const FixedVec centre_q8 = image_centre_q8(w.threshold);
+    FixedVec sum_q4;
+    for (const DetectedDot& dot : w.found_dots())
+        sum_q4 = sum_q4 + FixedVec{dot.centre_q8.x >> 4, dot.centre_q8.y >> 4};
+    const FixedVec mean_q8{sum_q4.x / w.dot_count * 16, sum_q4.y / w.dot_count * 16};
     // If the pattern fills the view, the centroid is within a few hundredths of half a side.
     constexpr int kFar = 4;
     const bool is_far = magnitude(mean_q8.x - centre_q8.x) * kFar > centre_q8.x ||
@@ -35,7 +35,7 @@ Vec start_q8(const Workspace& w) {
 /// Finds the grid of the dots, for a camera that looks straight at the paper. Errors: no_grid,
 /// no_displacement.
 Status find_grid(const Options& options, Workspace& w) {
-    const Vec start = start_q8(w);
+    const FixedVec start = start_q8(w);
     const Status status = find_axes(start, kSeeds, w);
     if (status != Status::ok) return status;
     find_origin(w.found_dots(), first(w.seeds, w.seed_count), start, w.lattice);
@@ -52,27 +52,27 @@ Status read_position(const Options& options, Workspace& w) {
     if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
     choose_region(w);
     const Status status =
-        decode_briefly(w.grid, options.profile, w.line_scores, w.decoding);  // II-B.6-7
+        decode_briefly(w.grid, options.code, w.line_scores, w.decoding);  // II-B.6-7
     return status == Status::ok ? status : refused(status, w);
 }
 
 /// Checks the position against all dots in view.
 Status verify_position(const Options& options, Workspace& w) {
-    const Status status = verify_quickly(w.grid, options.profile, w.decoding, options.integrity,
-                                         w.line_scores, w.fix);
+    const Status status =
+        verify_quickly(w.grid, options.code, w.decoding, options.integrity, w.line_scores, w.fix);
     return status == Status::ok ? status : refused(status, w);
 }
 
 /// Fits the pose to the dots, whose positions in the code are known.
 Status measure_pose(const Options& options, Workspace& w) {
-    const Nominal nominal(w.grid, options.profile, w.decoding);
+    const Nominal nominal(w.grid, options.code, w.decoding);
     w.pattern_from_image =
         upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
     const Observations observations(w.found_dots(), w.grid, nominal);
     w.fix.dots_used = fit_affine_pose(observations, w.pattern_from_image, w.fix.displacement_q16);
     if (w.fix.dots_used == 0) return Status::no_grid;
     write_affine_pose(w.pattern_from_image, reference_q8(image_centre_q8(w.threshold), options),
-                      options.profile, w.decoding.place, w.fix);
+                      options.code, w.decoding.place, w.fix);
     w.fix.attempt = Attempt::device;
     return Status::ok;
 }

@@ -2,19 +2,19 @@
 // there.
 #pragma once
 
-#include "core/stages.hpp"
+#include "device/tracking.hpp"
 #include "dotpose/code.hpp"
 
 namespace dotpose::core {
 
 /// Sets the code of each line, from `Tracking::corner` on, and marks all dots as not read.
-void lay_tracked_lines(Profile profile, Tracking& tracking);
+void lay_tracked_lines(CodeVariant code, Tracking& tracking);
 
-inline TrackedLine& column_of(const Tracking& tracking, int i) {
+inline ComparedLine& column_of(const Tracking& tracking, int i) {
     return tracking.lines[static_cast<std::size_t>(i)];
 }
-inline TrackedLine& row_of(const Tracking& tracking, int j) {
-    return tracking.lines[static_cast<std::size_t>(kMaxTracked + j)];
+inline ComparedLine& row_of(const Tracking& tracking, int j) {
+    return tracking.lines[static_cast<std::size_t>(kMaxComparedLines + j)];
 }
 
 /// Returns the number of dots read so far.
@@ -32,7 +32,7 @@ struct Projections {
     std::int32_t x_q12;
     std::int32_t y_q12;
 };
-Projections projections(const Tracking& tracking, Vec from_intersection_q8);
+Projections projections(const Tracking& tracking, FixedVec from_intersection_q8);
 
 inline Symbol symbol_of(const Projections& p) {
     return make_symbol(p.x_q12 > 0 ? 1 : 0, p.y_q12 > 0 ? 1 : 0);

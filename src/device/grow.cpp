@@ -19,7 +19,7 @@ struct Square {
     bool holds(std::uint32_t x, std::uint32_t y) const {
         return x - low <= extent && y - low <= extent;
     }
-    bool holds(Vec a) const {
+    bool holds(FixedVec a) const {
         return holds(static_cast<std::uint32_t>(a.x), static_cast<std::uint32_t>(a.y));
     }
 };
@@ -37,7 +37,7 @@ Square offsets_within(std::int32_t limit_q16) {
     return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
             static_cast<std::uint32_t>(std::min<std::int32_t>(2 * limit_q16, 65535)) << 16};
 }
-bool is_near(Vec rounding_q16, const Square& offsets) {
+bool is_near(FixedVec rounding_q16, const Square& offsets) {
     return offsets.holds(static_cast<std::uint32_t>(rounding_q16.x) << 16,
                          static_cast<std::uint32_t>(rounding_q16.y) << 16);
 }
@@ -48,14 +48,15 @@ constexpr int kFarthest_cells = 500;
 /// Calls `use(dot, c, is_within_reach)` for each dot. Truncating its place c in the plane gives the
 /// nearest cell. Does not set `near_intersections` of the result.
 template <typename Use>
-Regularity visit_cells(std::span<const Dot> dots, int reach_cells, const Cells& cells, Use use) {
+Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const Cells& cells,
+                       Use use) {
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
     // The fast test: most dots are within reach, and no farther than the dots before them.
     Square common = cells_within(0);
-    for (const Dot& dot : dots) {
-        const Vec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));
+    for (const DetectedDot& dot : dots) {
+        const FixedVec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));
         bool is_within_reach = common.holds(c);
         if (!is_within_reach) {
             const int distance = larger_component({c.x >> 16, c.y >> 16});
@@ -77,11 +78,11 @@ Regularity visit_cells(std::span<const Dot> dots, int reach_cells, const Cells& 
 /// The cell of a dot, packed into one word; `no` if the fit does not use the dot.
 enum class Used : std::uint32_t { no = 0x80808080 };
 
-Used used(Vec rounding_q16) {
+Used used(FixedVec rounding_q16) {
     return Used{(static_cast<std::uint32_t>(rounding_q16.x) & 0xFFFF0000) |
                 static_cast<std::uint32_t>(rounding_q16.y) >> 16};
 }
-Vec cell_of(Used used) {
+FixedVec cell_of(Used used) {
     const auto both = static_cast<std::uint32_t>(used);
     return {static_cast<std::int16_t>(both >> 16), static_cast<std::int16_t>(both & 0xFFFF)};
 }
@@ -91,8 +92,8 @@ std::int64_t mean_square_q20(std::int32_t squared_offsets_q14, int dots) {
     return squared_offsets_q14 / std::max(dots, 1) * 64;
 }
 /// Returns the square of the offset of a dot from its intersection, in 2^-14 spacing^2.
-std::int32_t squared_offset_q14(Vec rounding_q16) {
-    const Vec offset_q8{(rounding_q16.x >> 8 & 255) - 128, (rounding_q16.y >> 8 & 255) - 128};
+std::int32_t squared_offset_q14(FixedVec rounding_q16) {
+    const FixedVec offset_q8{(rounding_q16.x >> 8 & 255) - 128, (rounding_q16.y >> 8 & 255) - 128};
     return (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
 }
 
@@ -100,7 +101,7 @@ std::int32_t squared_offset_q14(Vec rounding_q16) {
 /// added.
 class Fits {
   public:
-    Fits(std::span<const Dot> dots, std::int32_t max_offset_q16)
+    Fits(std::span<const DetectedDot> dots, std::int32_t max_offset_q16)
         : dots_(dots), near_(offsets_within(max_offset_q16)) {
         if (remembers()) std::fill_n(before_.begin(), dots.size(), Used::no);
     }
@@ -118,12 +119,12 @@ class Fits {
         const Square near = near_;
         std::int32_t squared_offsets_q14 = 0;
         int near_intersections = 0;
-        Regularity found =
-            visit_cells(dots_, reach_cells, Cells(plane), [&](const Dot&, Vec c, bool is_within) {
-                if (!is_within) return;
-                squared_offsets_q14 += squared_offset_q14(c);
-                near_intersections += is_near(c, near) ? 1 : 0;
-            });
+        Regularity found = visit_cells(dots_, reach_cells, Cells(plane),
+                                       [&](const DetectedDot&, FixedVec c, bool is_within) {
+                                           if (!is_within) return;
+                                           squared_offsets_q14 += squared_offset_q14(c);
+                                           near_intersections += is_near(c, near) ? 1 : 0;
+                                       });
         found.near_intersections = near_intersections;
         return found.verdict(mean_square_q20(squared_offsets_q14, found.dots));
     }
@@ -134,8 +135,8 @@ class Fits {
     Regularity sum_up(int reach_cells, const Cells& cells) {
         AffineFitInt32 sums;
         const Square near = near_;
-        const Regularity found =
-            visit_cells(dots_, reach_cells, cells, [&](const Dot& dot, Vec c, bool is_within) {
+        const Regularity found = visit_cells(
+            dots_, reach_cells, cells, [&](const DetectedDot& dot, FixedVec c, bool is_within) {
                 if (!is_within || !is_near(c, near)) return;
                 sums.add(cells.from_centre_q3(dot.centre_q8), {c.x >> 16, c.y >> 16});
             });
@@ -145,22 +146,23 @@ class Fits {
     Regularity sum_up_changes(int reach_cells, const Cells& cells) {
         Used* before = before_.data();
         const Square near = near_;
-        return visit_cells(dots_, reach_cells, cells, [&](const Dot& dot, Vec c, bool is_within) {
-            const Used now = is_within && is_near(c, near) ? used(c) : Used::no;
-            if (now != *before) {
-                const Vec p = cells.from_centre_q3(dot.centre_q8);
-                if (*before != Used::no) count(p, *before, -1);
-                if (now != Used::no) count(p, now, 1);
-                *before = now;
-            }
-            ++before;
-        });
+        return visit_cells(dots_, reach_cells, cells,
+                           [&](const DetectedDot& dot, FixedVec c, bool is_within) {
+                               const Used now = is_within && is_near(c, near) ? used(c) : Used::no;
+                               if (now != *before) {
+                                   const FixedVec p = cells.from_centre_q3(dot.centre_q8);
+                                   if (*before != Used::no) count(p, *before, -1);
+                                   if (now != Used::no) count(p, now, 1);
+                                   *before = now;
+                               }
+                               ++before;
+                           });
     }
-    DOTPOSE_NOINLINE void count(Vec p, Used used, int weight) {
+    DOTPOSE_NOINLINE void count(FixedVec p, Used used, int weight) {
         sums_.count(p, cell_of(used), weight);
     }
 
-    std::span<const Dot> dots_;
+    std::span<const DetectedDot> dots_;
     Square near_;
     AffineFitInt32 sums_;
     std::array<Used, 384>
@@ -169,8 +171,8 @@ class Fits {
 
 }  // namespace
 
-Status grow_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec image_centre_q8,
-                 const Lattice& first, PlaneFromImage& plane) {
+Status grow_grid(std::span<const DetectedDot> dots, const LatticeOptions& options,
+                 FixedVec image_centre_q8, const Lattice& first, PlaneFromImage& plane) {
     plane = plane_from_lattice(first, image_centre_q8);
     Fits fits(dots, options.max_offset_q16);
     Regularity found;

@@ -4,7 +4,7 @@
 // displacements as noise. The reach grows each round.
 #pragma once
 
-#include "core/stages.hpp"
+#include "device/tracking.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/status.hpp"
 
@@ -13,7 +13,7 @@ namespace dotpose::core {
 /// Sets the map from the image to the grid. Errors: no_grid if the dots are not on a grid,
 /// no_displacement if all dots are on intersections. A camera with a tilt of more than a few
 /// degrees, or a lens that bends the grid by more than a third of a spacing, needs `refine_grid`.
-Status grow_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec image_centre_q8,
-                 const Lattice& first, PlaneFromImage& grid_from_image);
+Status grow_grid(std::span<const DetectedDot> dots, const LatticeOptions& options,
+                 FixedVec image_centre_q8, const Lattice& first, PlaneFromImage& grid_from_image);
 
 }  // namespace dotpose::core

@@ -10,7 +10,7 @@
 
 namespace dotpose::core {
 
-Fix locate_as_device(const ImageView& image, const Options& options, Workspace& w) {
+Fix locate_as_device(const ImageView& image, const Options& options, DeviceWorkspace& w) {
     const Status status = check(image, options, w);
     if (status != Status::ok) return refuse(status, w);
     detect_image(image, options, w);
@@ -18,7 +18,7 @@ Fix locate_as_device(const ImageView& image, const Options& options, Workspace& 
 }
 
 Fix locate_as_device(const ImageView& image, const Options& options, const Prediction& prediction,
-                     Workspace& w) {
+                     DeviceWorkspace& w) {
     Status status = check(image, options, w);
     if (status != Status::ok) return refuse(status, w);
     status = begin_device_tracked(image.width_px, image.height_px, options, prediction, w);
@@ -29,30 +29,32 @@ Fix locate_as_device(const ImageView& image, const Options& options, const Predi
     return is_tracked ? w.fix : locate_as_device(image, options, w);
 }
 
-Status begin(int width_px, int height_px, const Options& options, Workspace& w) {
+Status begin(int width_px, int height_px, const Options& options, DeviceWorkspace& w) {
     const Status status = check(width_px, height_px, options, w);
     if (status != Status::ok) return refuse(status, w).status;
+    w.is_tracking = false;
     begin_frame(width_px, height_px, w);
     return Status::ok;
 }
 
 Status begin(int width_px, int height_px, const Options& options, const Prediction& prediction,
-             Workspace& w) {
+             DeviceWorkspace& w) {
     const Status status = check(width_px, height_px, options, w);
     if (status != Status::ok) return refuse(status, w).status;
+    w.is_tracking = true;
     return begin_device_tracked(width_px, height_px, options, prediction, w);
 }
 
-void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w) {
-    if (w.tracking.is_on) {
+void push_row(const std::uint8_t* pixels, const Options& options, DeviceWorkspace& w) {
+    if (w.is_tracking) {
         static_cast<void>(push_tracked_row(pixels, w));
     } else {
         detect_row(pixels, options, w);
     }
 }
 
-const Fix& finish_as_device(const Options& options, Workspace& w) {
-    return w.tracking.is_on ? finish_device_tracked(options, w) : finish_device_attempt(options, w);
+const Fix& finish_as_device(const Options& options, DeviceWorkspace& w) {
+    return w.is_tracking ? finish_device_tracked(options, w) : finish_device_attempt(options, w);
 }
 
 }  // namespace dotpose::core
@@ -70,31 +72,35 @@ template class DeviceMemoryFor<320, 240>;
 DeviceLocator::DeviceLocator(AnyDeviceMemory& memory, const Options& options)
     : RowLocator(memory.workspace_, options) {}
 
+core::DeviceWorkspace& DeviceLocator::workspace() {
+    return static_cast<core::DeviceWorkspace&>(*workspace_);
+}
+
 Fix DeviceLocator::locate(const ImageView& image) {
-    core::locate_as_device(image, options_, *workspace_);
+    core::locate_as_device(image, options_, workspace());
     return finished();
 }
 
 Fix DeviceLocator::locate(const ImageView& image, const Prediction& prediction) {
-    core::locate_as_device(image, options_, prediction, *workspace_);
+    core::locate_as_device(image, options_, prediction, workspace());
     return finished();
 }
 
 Status DeviceLocator::begin(int width_px, int height_px) {
-    return note_begin(core::begin(width_px, height_px, options_, *workspace_), height_px);
+    return note_begin(core::begin(width_px, height_px, options_, workspace()), height_px);
 }
 
 Status DeviceLocator::begin(int width_px, int height_px, const Prediction& prediction) {
-    return note_begin(core::begin(width_px, height_px, options_, prediction, *workspace_),
+    return note_begin(core::begin(width_px, height_px, options_, prediction, workspace()),
                       height_px);
 }
 
 void DeviceLocator::push_row(const std::uint8_t* pixels) {
-    if (takes_row()) core::push_row(pixels, options_, *workspace_);
+    if (takes_row()) core::push_row(pixels, options_, workspace());
 }
 
 Fix DeviceLocator::finish() {
-    if (has_rows()) core::finish_as_device(options_, *workspace_);
+    if (has_rows()) core::finish_as_device(options_, workspace());
     return finished();
 }
 

@@ -7,11 +7,11 @@ namespace dotpose::core {
 bool lay_dot_pixels(Tracking& tracking) {
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         // A point in the middle of the quarter.
-        const Vec in_pixel_q16{quarter % 2 == 0 ? 16384 : 49152, quarter < 2 ? 16384 : 49152};
+        const FixedVec in_pixel_q16{quarter % 2 == 0 ? 16384 : 49152, quarter < 2 ? 16384 : 49152};
         for (std::size_t s = 0; s < 4; ++s) {
-            const Vec displaced_q16 = tracking.displaced_q16[s];
+            const FixedVec displaced_q16 = tracking.displaced_q16[s];
             if (!is_within(displaced_q16, (kHalf_px - 1) * 65536)) return false;
-            const Vec place_q16 = in_pixel_q16 + displaced_q16;
+            const FixedVec place_q16 = in_pixel_q16 + displaced_q16;
             tracking.dot_pixels[quarter][s] = static_cast<std::int16_t>(
                 (place_q16.y >> 16) * tracking.stride_px + (place_q16.x >> 16));
         }
@@ -19,8 +19,8 @@ bool lay_dot_pixels(Tracking& tracking) {
     return true;
 }
 
-bool measure_around(const Tracking& tracking, Vec intersection_q16, NearDot& dot) {
-    const Vec pixel = pixel_at(intersection_q16);
+bool measure_around(const Tracking& tracking, FixedVec intersection_q16, NearDot& dot) {
+    const FixedVec pixel = pixel_at(intersection_q16);
     if (!is_kept(tracking, pixel, kHalf_px)) return false;
     const std::int32_t paper = paper_around(tracking, kept_row(tracking, pixel.y) + pixel.x);
     const std::int32_t level = paper - ((paper * tracking.cut_q8) >> 8);

@@ -8,8 +8,8 @@
 #include "core/detect/inverses.hpp"
 #include "core/kernels/portable/dark_sums.hpp"
 #include "core/noinline.hpp"
-#include "core/stages.hpp"
 #include "device/newest_rows.hpp"
+#include "device/tracking.hpp"
 #include "dotpose/code.hpp"
 
 namespace dotpose::core {
@@ -20,12 +20,12 @@ inline constexpr int kHalf_px = 4;
 inline constexpr int kDotHalf_px = 2;
 
 /// Returns the pixel nearest to a place.
-constexpr Vec pixel_at(Vec place_q16) {
+constexpr FixedVec pixel_at(FixedVec place_q16) {
     return {(place_q16.x + 32768) >> 16, (place_q16.y + 32768) >> 16};
 }
 
 /// Returns true if all pixels of a square around `pixel` are stored.
-[[gnu::always_inline]] inline bool is_kept(const Tracking& tracking, Vec pixel, int half) {
+[[gnu::always_inline]] inline bool is_kept(const Tracking& tracking, FixedVec pixel, int half) {
     return static_cast<unsigned>(pixel.x - half) <
                static_cast<unsigned>(tracking.width_px - 2 * half) &&
            static_cast<unsigned>(pixel.y - half - tracking.first_kept) <
@@ -65,7 +65,7 @@ class ReadSymbol {
 /// Reads the four places around an intersection. Its square and a border of one pixel must be
 /// stored. A separate function: small processors then have enough registers.
 DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
-                                               const Vec& intersection_q16) {
+                                               const FixedVec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;
     const std::uint8_t* const at =
         kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);
@@ -97,7 +97,7 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
 
 /// The measurement of one dot.
 struct NearDot {
-    Vec offset_q8;  ///< offset of the centroid from the predicted place, px
+    FixedVec offset_q8;  ///< offset of the centroid from the predicted place, px
     std::int32_t mass = 0;
 };
 
@@ -105,9 +105,9 @@ struct NearDot {
 /// place. Returns false if its mass is not that of a dot, or if the square is not stored
 /// completely.
 template <int Half>
-[[gnu::always_inline]] inline bool measure_square(const Tracking& tracking, Vec place_q16,
+[[gnu::always_inline]] inline bool measure_square(const Tracking& tracking, FixedVec place_q16,
                                                   std::int32_t level, NearDot& dot) {
-    const Vec pixel = pixel_at(place_q16);
+    const FixedVec pixel = pixel_at(place_q16);
     if (!is_kept(tracking, pixel, Half)) return false;
     const std::uint8_t* const first = kept_row(tracking, pixel.y - Half) + pixel.x - Half;
     const DarkSums sums = dark_sums<Half>(first, tracking.stride_px, level);
@@ -121,6 +121,6 @@ template <int Half>
 
 /// Measures the dot in the whole square around an intersection, with the threshold of the tracking.
 /// Returns false like `measure_square`.
-bool measure_around(const Tracking& tracking, Vec intersection_q16, NearDot& dot);
+bool measure_around(const Tracking& tracking, FixedVec intersection_q16, NearDot& dot);
 
 }  // namespace dotpose::core

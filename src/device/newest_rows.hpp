@@ -1,7 +1,7 @@
 // Newest rows: the rows of a tracked frame that are stored.
 #pragma once
 
-#include "core/stages.hpp"
+#include "device/tracking.hpp"
 
 namespace dotpose::core {
 

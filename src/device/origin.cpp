@@ -11,18 +11,18 @@ constexpr int kReach_cells = 4;
 
 /// The mean offset of dots from their intersections along one axis, as a sum of complex numbers.
 struct Phase {
-    Vec sum;
+    FixedVec sum;
 
     void add(std::int32_t offset_q16) {
-        sum = sum + Vec{rough_cosine(offset_q16), rough_sine(offset_q16)};
+        sum = sum + FixedVec{rough_cosine(offset_q16), rough_sine(offset_q16)};
     }
     std::int32_t mean_q16() const { return angle_bam(sum) >> 16; }
 };
 
 }  // namespace
 
-void find_origin(std::span<const Dot> dots, std::span<const std::uint16_t> seeds, Vec near_q8,
-                 Lattice& lattice) {
+void find_origin(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
+                 FixedVec near_q8, Lattice& lattice) {
     lattice.origin_q16 = {near_q8.x * 256, near_q8.y * 256};
     const Cells cells(plane_from_lattice(lattice, near_q8));
     Phase i;
@@ -35,9 +35,10 @@ void find_origin(std::span<const Dot> dots, std::span<const std::uint16_t> seeds
     }
     const std::int64_t i_q16 = i.mean_q16();
     const std::int64_t j_q16 = j.mean_q16();
-    lattice.origin_q16 = lattice.origin_q16 +
-                         Vec{shift_rounded(i_q16 * lattice.u_q16.x + j_q16 * lattice.v_q16.x, 16),
-                             shift_rounded(i_q16 * lattice.u_q16.y + j_q16 * lattice.v_q16.y, 16)};
+    lattice.origin_q16 =
+        lattice.origin_q16 +
+        FixedVec{shift_rounded(i_q16 * lattice.u_q16.x + j_q16 * lattice.v_q16.x, 16),
+                 shift_rounded(i_q16 * lattice.u_q16.y + j_q16 * lattice.v_q16.y, 16)};
 }
 
 }  // namespace dotpose::core

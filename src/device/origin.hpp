@@ -4,12 +4,12 @@
 // transform.
 #pragma once
 
-#include "core/stages.hpp"
+#include "device/tracking.hpp"
 
 namespace dotpose::core {
 
 /// Sets the origin of the lattice, near a point, from the dots within a few cells of it.
-void find_origin(std::span<const Dot> dots, std::span<const std::uint16_t> seeds, Vec near_q8,
-                 Lattice& lattice);
+void find_origin(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
+                 FixedVec near_q8, Lattice& lattice);
 
 }  // namespace dotpose::core

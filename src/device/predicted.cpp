@@ -35,9 +35,9 @@ bool is_sane(const Prediction& prediction) {
 
 /// Sets the cells of a plane whose centre is at cell (0, 0) + at_q16. Returns false if their
 /// spacing cannot be tracked, or they are not nearly square and upright.
-bool invert(const PlaneFromImage& plane, Vec at_q16, CellMap& cells) {
-    const Vec du = plane.du_q24;
-    const Vec dv = plane.dv_q24;
+bool invert(const PlaneFromImage& plane, FixedVec at_q16, CellMap& cells) {
+    const FixedVec du = plane.du_q24;
+    const FixedVec dv = plane.dv_q24;
     const std::int64_t det_q24 = cross(du, dv) >> 24;
     constexpr std::int64_t kOne_q24 = 1 << 24;
     if (det_q24 < kOne_q24 / (kCoarsest_px * kCoarsest_px) ||
@@ -70,7 +70,7 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
         const auto squared_px =
             static_cast<std::uint32_t>(width_px * width_px + height_px * height_px);
         const int cells = static_cast<int>(square_root(squared_px)) * 128 / spacing_q8 + 3;
-        if (cells <= kMaxTracked / 2) {
+        if (cells <= kMaxComparedLines / 2) {
             // Crops the same number of pixels from opposite sides, so the image centre stays the
             // same.
             tracking.left_out_px = static_cast<std::int16_t>((tracking.width_px - width_px) >> 1);
@@ -88,8 +88,8 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     const int cells = leave_out_edges(spacing_q8, tracking);
     const int width_px = tracking.width_px - 2 * tracking.left_out_px;
     if (std::min(width_px, tracking.height_px) < kMinFrameSide_px) return false;
-    tracking.first_cell = kMaxTracked / 2 - cells;
-    tracking.last_cell = kMaxTracked / 2 + cells - 1;
+    tracking.first_cell = kMaxComparedLines / 2 - cells;
+    tracking.last_cell = kMaxComparedLines / 2 + cells - 1;
     tracking.stride_px = stride_of(tracking.width_px);
     tracking.rows_kept = static_cast<int>(tracking.rows.size()) / tracking.stride_px;
     tracking.rows_needed = 2 * kHalf_px + 3;
@@ -109,10 +109,10 @@ int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
 
 }  // namespace
 
-Vec middle_cell(const Tracking& tracking) {
-    const Vec middle_q8{(tracking.width_px - 1) * 128, (tracking.first_rows - 1) * 128};
-    const Vec p_q8 =
-        middle_q8 - Vec{tracking.cells.origin_q16.x >> 8, tracking.cells.origin_q16.y >> 8};
+FixedVec middle_cell(const Tracking& tracking) {
+    const FixedVec middle_q8{(tracking.width_px - 1) * 128, (tracking.first_rows - 1) * 128};
+    const FixedVec p_q8 =
+        middle_q8 - FixedVec{tracking.cells.origin_q16.x >> 8, tracking.cells.origin_q16.y >> 8};
     const auto cell = [&](std::int32_t du_q20, std::int32_t dv_q20) {
         return shift_rounded(std::int64_t{du_q20} * p_q8.x + std::int64_t{dv_q20} * p_q8.y, 28);
     };
@@ -121,12 +121,12 @@ Vec middle_cell(const Tracking& tracking) {
 
 void set_displacement(std::int32_t displacement_q12, Tracking& tracking) {
     tracking.displacement_q12 = displacement_q12;
-    const auto displaced = [&](Vec along_q16) {
-        return Vec{((along_q16.x >> 4) * displacement_q12) >> 8,
-                   ((along_q16.y >> 4) * displacement_q12) >> 8};
+    const auto displaced = [&](FixedVec along_q16) {
+        return FixedVec{((along_q16.x >> 4) * displacement_q12) >> 8,
+                        ((along_q16.y >> 4) * displacement_q12) >> 8};
     };
-    const Vec x = displaced(tracking.cells.along_x_q16);
-    const Vec y = displaced(tracking.cells.along_y_q16);
+    const FixedVec x = displaced(tracking.cells.along_x_q16);
+    const FixedVec y = displaced(tracking.cells.along_y_q16);
     for (std::size_t s = 0; s < tracking.displaced_q16.size(); ++s) {
         const auto symbol = static_cast<Symbol>(s);
         tracking.displaced_q16[s] = {dx(symbol) * x.x + dy(symbol) * y.x,
@@ -134,17 +134,18 @@ void set_displacement(std::int32_t displacement_q12, Tracking& tracking) {
     }
 }
 
-Status lay_predicted_cells(const Prediction& prediction, Profile profile, Tracking& tracking) {
+Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Tracking& tracking) {
     if (!is_sane(prediction)) return Status::not_tracked;
-    const Vec centre_q8{(tracking.width_px - 1) * 128, (tracking.height_px - 1) * 128};
+    const FixedVec centre_q8{(tracking.width_px - 1) * 128, (tracking.height_px - 1) * 128};
     const PlaneFromImage plane = tangent(prediction.pattern_from_image, centre_q8);
     // Cells are numbered from the middle of the image.
-    const Vec at = plane.at_centre_q16;
-    const Vec first{(at.x >> 16) - kMaxTracked / 2, (at.y >> 16) - kMaxTracked / 2};
-    tracking.corner = moved(profile, prediction.place, first.x, first.y);
-    const Vec at_q16{at.x - first.x * 65536, at.y - first.y * 65536};
+    const FixedVec at = plane.at_centre_q16;
+    const FixedVec first{(at.x >> 16) - kMaxComparedLines / 2,
+                         (at.y >> 16) - kMaxComparedLines / 2};
+    tracking.corner = moved(code, prediction.place, first.x, first.y);
+    const FixedVec at_q16{at.x - first.x * 65536, at.y - first.y * 65536};
     if (!invert(plane, at_q16, tracking.cells)) return Status::not_tracked;
-    const Vec along = tracking.cells.along_x_q16;
+    const FixedVec along = tracking.cells.along_x_q16;
     const auto spacing_q8 =
         static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(along))) >> 8);
     if (!lay_out_memory(spacing_q8, tracking)) return Status::not_tracked;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/math/fixed.hpp"
-#include "core/stages.hpp"
+#include "device/tracking.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/prediction.hpp"
 #include "dotpose/status.hpp"
@@ -15,19 +15,19 @@ inline constexpr int kRowsAtOnce = 12;
 /// Sets the corner, the cells and the members that depend on the spacing. The memory and the size
 /// of the image, at most 4096 px per side, must be set in `tracking`. Accepts any prediction.
 /// Errors: not_tracked, if its view of the pattern cannot be tracked.
-Status lay_predicted_cells(const Prediction& prediction, Profile profile, Tracking& tracking);
+Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Tracking& tracking);
 
 /// The cell, along both axes, near the middle of the image.
-inline constexpr int kMiddleCell = kMaxTracked / 2;
+inline constexpr int kMiddleCell = kMaxComparedLines / 2;
 
 /// Returns the place of the intersection of a cell, in 2^-16 px.
-inline Vec place_q16(const CellMap& cells, int i, int j) {
+inline FixedVec place_q16(const CellMap& cells, int i, int j) {
     return {cells.origin_q16.x + i * cells.along_x_q16.x + j * cells.along_y_q16.x,
             cells.origin_q16.y + i * cells.along_x_q16.y + j * cells.along_y_q16.y};
 }
 
 /// Returns the cell in the middle of the first rows.
-Vec middle_cell(const Tracking& tracking);
+FixedVec middle_cell(const Tracking& tracking);
 
 /// Sets the displacement of dots, in 2^-12 spacing, and the places of dots that follow from it.
 void set_displacement(std::int32_t displacement_q12, Tracking& tracking);

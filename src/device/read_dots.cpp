@@ -13,17 +13,17 @@ namespace {
 
 /// The direction along a row of cells in which v in the image increases.
 struct Way {
-    Vec step_q16;
+    FixedVec step_q16;
     int i_step;
 };
 Way way_of(const Tracking& tracking) {
-    const Vec along = tracking.cells.along_x_q16;
+    const FixedVec along = tracking.cells.along_x_q16;
     return along.y < 0 ? Way{-along, -1} : Way{along, 1};
 }
 
 TrackedView view_of(const Tracking& tracking) {
     std::int32_t displaced_q16 = 0;
-    for (const Vec displaced : tracking.displaced_q16)
+    for (const FixedVec displaced : tracking.displaced_q16)
         displaced_q16 = std::max(displaced_q16, larger_component(displaced));
     // A dot is rounded to a pixel, which needs kDotHalf_px further pixels on each side.
     const std::int32_t of_dot_q16 = kDotHalf_px * 65536 - 32768 + displaced_q16;
@@ -45,13 +45,13 @@ TrackedView view_of(const Tracking& tracking) {
 void lay_rows(Tracking& tracking, int j, int j_step) {
     const TrackedView view = tracking.view;
     const Way way = way_of(tracking);
-    const Vec along = tracking.cells.along_y_q16;
-    const Vec to_next_q16 = j_step > 0 ? along : -along;
+    const FixedVec along = tracking.cells.along_y_q16;
+    const FixedVec to_next_q16 = j_step > 0 ? along : -along;
     const int max_first = (tracking.last_cell - tracking.first_cell) / 2;
-    Vec at_q16 = place_q16(tracking.cells, kMiddleCell, j);
+    FixedVec at_q16 = place_q16(tracking.cells, kMiddleCell, j);
     int first = 0;  // in steps from the middle
     for (; j >= tracking.first_cell && j <= tracking.last_cell; j += j_step) {
-        const Vec before_q16 = at_q16;
+        const FixedVec before_q16 = at_q16;
         const int before = first;
         for (; first < max_first && !view.has(at_q16); ++first)
             at_q16 = at_q16 + way.step_q16;
@@ -73,8 +73,8 @@ void lay_rows(Tracking& tracking, int j, int j_step) {
 
 /// Records the symbol that was read in a cell. Returns true if it is that of the code.
 DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
-    TrackedLine& column = column_of(tracking, i);
-    TrackedLine& row = row_of(tracking, j);
+    ComparedLine& column = column_of(tracking, i);
+    ComparedLine& row = row_of(tracking, j);
     const auto in_column = std::uint32_t{1} << j;
     const auto in_row = std::uint32_t{1} << i;
     column.seen |= in_column;
@@ -92,8 +92,8 @@ DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
 /// the sums over a row of 32 dots are below 2^30.
 DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
     const auto symbol = static_cast<std::size_t>(read.symbol());
-    const Vec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];
-    const Vec pixel = pixel_at(place_q16);
+    const FixedVec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];
+    const FixedVec pixel = pixel_at(place_q16);
     const std::uint8_t* const first =
         kept_row(tracking, pixel.y - kDotHalf_px) + pixel.x - kDotHalf_px;
     const DarkSums sums = dark_sums<kDotHalf_px>(first, tracking.stride_px, read.level());
@@ -103,19 +103,19 @@ DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& r
     const auto in_pixel_q8 = [](std::int32_t a_q16) {
         return static_cast<std::int16_t>(a_q16) >> 8;
     };
-    const Vec offset_q8{sums.x * 256 - mass * in_pixel_q8(place_q16.x),
-                        sums.y * 256 - mass * in_pixel_q8(place_q16.y)};
+    const FixedVec offset_q8{sums.x * 256 - mass * in_pixel_q8(place_q16.x),
+                             sums.y * 256 - mass * in_pixel_q8(place_q16.y)};
     // Printers and lenses rarely move a dot by more than an eighth of the spacing. Dirt does.
     if (!is_within(offset_q8, mass * (tracking.spacing_q8 >> 3))) return;
     ++tracking.dots_measured;
-    Vec& of_symbol = tracking.offset_q8[symbol];
+    FixedVec& of_symbol = tracking.offset_q8[symbol];
     of_symbol = of_symbol + offset_q8;
     const int i = row.i - kMiddleCell;
     row.mass += mass;
     row.mass_i += mass * i;
     row.mass_ii += mass * i * i;
     row.offset_q8 = row.offset_q8 + offset_q8;
-    row.offset_i_q8 = row.offset_i_q8 + Vec{offset_q8.x * i, offset_q8.y * i};
+    row.offset_i_q8 = row.offset_i_q8 + FixedVec{offset_q8.x * i, offset_q8.y * i};
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ void read_ready_dots(Tracking& tracking) {
             const ReadSymbol read = read_symbol(tracking, row->next_q16);
             if (read.is_clear() && note(tracking, row->i, j, read.symbol()))
                 add_dot(tracking, read, *row);
-            const Vec next_q16 = row->next_q16 + way.step_q16;
+            const FixedVec next_q16 = row->next_q16 + way.step_q16;
             row->next_q16.x = next_q16.x;
             row->next_q16.y = tracking.view.has(next_q16) ? next_q16.y : TrackedRow::kNever_q16;
             row->i += way.i_step;

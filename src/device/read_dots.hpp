@@ -1,7 +1,7 @@
 // Read dots: the bits of a tracked frame, read while its rows arrive.
 #pragma once
 
-#include "core/stages.hpp"
+#include "device/tracking.hpp"
 
 namespace dotpose::core {
 

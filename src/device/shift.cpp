@@ -54,7 +54,7 @@ void Shifts::add_dots(const Tracking& tracking) {
     // This number of cells around the middle one includes all dots within two spacings of its
     // column, and the dots that may be shifted into the rows, at any turn of the grid.
     constexpr int kAround = 5;
-    const Vec middle = middle_cell(tracking);
+    const FixedVec middle = middle_cell(tracking);
     const auto around = [&](int cell) {
         return std::pair{std::max(cell - kAround, tracking.first_cell),
                          std::min(cell + kAround, tracking.last_cell)};
@@ -62,13 +62,13 @@ void Shifts::add_dots(const Tracking& tracking) {
     const auto [first_i, last_i] = around(middle.x);
     const auto [first_j, last_j] = around(middle.y);
     for (int j = first_j; j <= last_j; ++j) {
-        Vec at_q16 = place_q16(tracking.cells, first_i, j);
+        FixedVec at_q16 = place_q16(tracking.cells, first_i, j);
         for (int i = first_i; i <= last_i; ++i, at_q16 = at_q16 + tracking.cells.along_x_q16) {
             const int u = at_q16.x >> 16;
             const int v = at_q16.y >> 16;
             if (u < left_ || u >= right_ || v < -reach || v >= rows_ + reach) continue;
             const auto symbol = static_cast<std::size_t>(coded_symbol(tracking, i, j));
-            const Vec dot_q16 = at_q16 + tracking.displaced_q16[symbol];
+            const FixedVec dot_q16 = at_q16 + tracking.displaced_q16[symbol];
             add_dot(tracking, (dot_q16.x + 32768) >> 16, (dot_q16.y + 32768) >> 16);
         }
     }
@@ -103,7 +103,7 @@ void Shifts::divide_by_dots() {
 }
 
 /// Clears the shifts around a returned one.
-void Shifts::forget_around(Vec at) {
+void Shifts::forget_around(FixedVec at) {
     constexpr int kFar = 2;
     for (int y = std::max<std::int32_t>(at.y - kFar, 0);
          y <= std::min<std::int32_t>(at.y + kFar, 2 * steps_.y); ++y) {
@@ -113,9 +113,9 @@ void Shifts::forget_around(Vec at) {
     }
 }
 
-bool Shifts::next(Vec& shift_q8) {
+bool Shifts::next(FixedVec& shift_q8) {
     int best = 0;
-    Vec at;
+    FixedVec at;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const std::uint16_t* here = row_of(y);
         for (int x = 0; x <= 2 * steps_.x; ++x, ++here) {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/stages.hpp"
+#include "device/tracking.hpp"
 
 namespace dotpose::core {
 
@@ -16,7 +16,7 @@ class Shifts {
     explicit Shifts(const Tracking& tracking);
 
     /// Returns the darkest shift that was not returned yet. Returns false if there is none.
-    bool next(Vec& shift_q8);
+    bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }
     /// Returns the darkness of the pixel in the middle of a dot, at the last shift.
@@ -36,12 +36,12 @@ class Shifts {
     void divide_by_dots();
     /// Returns the sums of a row of steps. The elements before the first and after the last are 0.
     std::uint16_t* row_of(int y) { return sums_.data() + (y + 1) * kPerRow + 1; }
-    void forget_around(Vec at);
+    void forget_around(FixedVec at);
 
     int left_ = 0;
     int right_ = 0;
     int rows_ = 0;
-    Vec steps_;  ///< number of steps on each side
+    FixedVec steps_;  ///< number of steps on each side
     int paper_ = 0;
     int cut_ = 0;
     int depth_ = 0;

@@ -23,12 +23,12 @@ Status settle(Tracking& tracking) {
     Shifts shifts(tracking);
     const int paper = shifts.paper_level();
     if (paper == 0) return Status::not_tracked;
-    const Vec predicted_q16 = tracking.cells.origin_q16;
+    const FixedVec predicted_q16 = tracking.cells.origin_q16;
     for (int tried = 0; tried < kMaxShifts; ++tried) {
-        Vec shift_q8;
+        FixedVec shift_q8;
         if (!shifts.next(shift_q8) || shifts.depth() < tracking.min_contrast)
             return Status::not_tracked;
-        tracking.cells.origin_q16 = predicted_q16 + Vec{shift_q8.x * 256, shift_q8.y * 256};
+        tracking.cells.origin_q16 = predicted_q16 + FixedVec{shift_q8.x * 256, shift_q8.y * 256};
         // Until the size of dots is measured, the threshold is half way between paper and ink.
         tracking.cut_q8 = 128 * shifts.depth() / paper;
         tracking.min_mass = paper / 8 + 16;
@@ -38,7 +38,7 @@ Status settle(Tracking& tracking) {
     return Status::not_tracked;
 }
 
-Status read_rows(Workspace& w) {
+Status read_rows(DeviceWorkspace& w) {
     Tracking& t = w.tracking;
     if (t.rows_taken < t.first_rows) return Status::ok;
     if (t.rows_taken == t.first_rows) {
@@ -55,29 +55,29 @@ Status read_rows(Workspace& w) {
 }
 
 /// Decides from bits and dots if the place is certain, and fits the pose. Errors: not_tracked.
-Status confirm(const Options& options, Workspace& w) {
+Status confirm(const Options& options, DeviceWorkspace& w) {
     Tracking& t = w.tracking;
     if (t.status != Status::ok) return t.status;
     w.fix.dots_seen = dots_seen(t);
     w.decoding.place = t.corner;
-    const Status status = verify_tracked(options.profile, t, options.integrity, w.decoding, w.fix);
+    const Status status =
+        verify_tracked(options.code, t.lines, t.corner, options.integrity, w.decoding, w.fix);
     if (status != Status::ok) return Status::not_tracked;
     w.fix.dots_used = fit_tracked_pose(t, w.pattern_from_image, w.fix.displacement_q16);
     if (w.fix.dots_used == 0) return Status::not_tracked;
     w.pattern_from_image.centre_q8.y += t.rows_above * 256;
     write_affine_pose(w.pattern_from_image, reference_q8(w.pattern_from_image.centre_q8, options),
-                      options.profile, t.corner, w.fix);
+                      options.code, t.corner, w.fix);
     return Status::ok;
 }
 
 }  // namespace
 
 Status begin_device_tracked(int width_px, int height_px, const Options& options,
-                            const Prediction& prediction, Workspace& w) {
+                            const Prediction& prediction, DeviceWorkspace& w) {
     forget_frame(w);
     w.fix.attempt = Attempt::tracked;
     Tracking& t = w.tracking;
-    t.is_on = true;
     t.width_px = width_px;
     t.height_px = height_px;
     t.first_kept = 0;
@@ -85,17 +85,17 @@ Status begin_device_tracked(int width_px, int height_px, const Options& options,
     t.dots_measured = 0;
     t.offset_q8 = {};
     // Frames with lens distortion are not tracked, but located without the prediction.
-    t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.profile, t)
+    t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.code, t)
                                        : Status::not_tracked;
     // Locators with memory for every stage have time for a fresh fix of the whole frame, which is
     // more exact than its middle.
     if (w.keeps_every_stage && t.left_out_px > 0) t.status = Status::not_tracked;
     t.rows_taken = -t.rows_above;
-    if (t.status == Status::ok) lay_tracked_lines(options.profile, t);
+    if (t.status == Status::ok) lay_tracked_lines(options.code, t);
     return w.fix.status = t.status;
 }
 
-Status push_tracked_row(const std::uint8_t* pixels, Workspace& w) {
+Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w) {
     Tracking& t = w.tracking;
     const bool is_tracked =
         static_cast<unsigned>(t.rows_taken) < static_cast<unsigned>(t.height_px);
@@ -108,7 +108,7 @@ Status push_tracked_row(const std::uint8_t* pixels, Workspace& w) {
     return t.status = read_rows(w);
 }
 
-const Fix& finish_device_tracked(const Options& options, Workspace& w) {
+const Fix& finish_device_tracked(const Options& options, DeviceWorkspace& w) {
     w.fix.status = confirm(options, w);
     return w.fix;
 }

@@ -2,7 +2,7 @@
 // integers and without a frame buffer.
 #pragma once
 
-#include "core/workspace.hpp"
+#include "device/workspace.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/prediction.hpp"
 
@@ -10,13 +10,13 @@ namespace dotpose::core {
 
 /// Starts a frame. Its size must be within the capacity of the workspace. Errors: not_tracked.
 Status begin_device_tracked(int width_px, int height_px, const Options& options,
-                            const Prediction& prediction, Workspace& w);
+                            const Prediction& prediction, DeviceWorkspace& w);
 
 /// Takes the next row. Errors: not_tracked. Further rows are then ignored.
-Status push_tracked_row(const std::uint8_t* pixels, Workspace& w);
+Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w);
 
 /// Ends the frame. Sets and returns the fix of the workspace, with the status not_tracked if a row
 /// returned it.
-const Fix& finish_device_tracked(const Options& options, Workspace& w);
+const Fix& finish_device_tracked(const Options& options, DeviceWorkspace& w);
 
 }  // namespace dotpose::core

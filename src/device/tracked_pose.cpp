@@ -24,8 +24,8 @@ int excess_bits(const Tracking& tracking) {
 /// weighted with their masses.
 AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     std::int32_t mass = 0;
-    Vec cells;
-    Vec offset_q8;
+    FixedVec cells;
+    FixedVec offset_q8;
     AffineFitInt32::Products<std::int32_t> sums;
     for (int j = tracking.first_cell; j <= tracking.last_cell; ++j) {
         const TrackedRow& row = tracking.grid_rows[static_cast<std::size_t>(j)];
@@ -33,9 +33,9 @@ AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
         const int from_middle = j - kMiddleCell;
         const std::int32_t mass_here = row.mass >> excess;
         const std::int32_t mass_i = row.mass_i >> excess;
-        const Vec offset_here{row.offset_q8.x >> excess, row.offset_q8.y >> excess};
+        const FixedVec offset_here{row.offset_q8.x >> excess, row.offset_q8.y >> excess};
         mass += mass_here;
-        cells = cells + Vec{mass_i, from_middle * mass_here};
+        cells = cells + FixedVec{mass_i, from_middle * mass_here};
         offset_q8 = offset_q8 + offset_here;
         sums.xx += row.mass_ii >> excess;
         sums.xy += from_middle * mass_i;
@@ -52,18 +52,18 @@ AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
 CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
     // The fit expects points in 1/8 px. Here they are whole cells, so slopes are divided by 8.
     constexpr int kShift = 24 + 3 - 16;
-    const Vec du_q16{offsets.du_q24.x >> kShift, offsets.du_q24.y >> kShift};
-    const Vec dv_q16{offsets.dv_q24.x >> kShift, offsets.dv_q24.y >> kShift};
+    const FixedVec du_q16{offsets.du_q24.x >> kShift, offsets.du_q24.y >> kShift};
+    const FixedVec dv_q16{offsets.dv_q24.x >> kShift, offsets.dv_q24.y >> kShift};
     return {cells.origin_q16 + offsets.at_centre_q16 -
-                Vec{kMiddleCell * (du_q16.x + dv_q16.x), kMiddleCell * (du_q16.y + dv_q16.y)},
+                FixedVec{kMiddleCell * (du_q16.x + dv_q16.x), kMiddleCell * (du_q16.y + dv_q16.y)},
             cells.along_x_q16 + du_q16, cells.along_y_q16 + dv_q16};
 }
 
 /// Sets the plane to the inverse of the map of the cells. Returns false if cells are smaller than 1
 /// px^2.
-bool invert(const CellMap& cells, Vec centre_q8, PlaneFromImage& plane) {
-    const Vec x = cells.along_x_q16;
-    const Vec y = cells.along_y_q16;
+bool invert(const CellMap& cells, FixedVec centre_q8, PlaneFromImage& plane) {
+    const FixedVec x = cells.along_x_q16;
+    const FixedVec y = cells.along_y_q16;
     const std::int64_t det_q24 = cross(x, y) >> 8;
     // A fit to a few dots may have any result. With cells of at least 1 px^2, no slope overflows.
     if (det_q24 < 1 << 24) return false;
@@ -74,8 +74,8 @@ bool invert(const CellMap& cells, Vec centre_q8, PlaneFromImage& plane) {
     plane.centre_q8 = centre_q8;
     plane.du_q24 = {slope_q24(y.y), slope_q24(-x.y)};
     plane.dv_q24 = {slope_q24(-y.x), slope_q24(x.x)};
-    const Vec from_origin_q16{centre_q8.x * 256 - cells.origin_q16.x,
-                              centre_q8.y * 256 - cells.origin_q16.y};
+    const FixedVec from_origin_q16{centre_q8.x * 256 - cells.origin_q16.x,
+                                   centre_q8.y * 256 - cells.origin_q16.y};
     const auto at_q16 = [&](std::int32_t du_q24, std::int32_t dv_q24) {
         return shift_rounded(
             std::int64_t{du_q24} * from_origin_q16.x + std::int64_t{dv_q24} * from_origin_q16.y,
@@ -90,12 +90,13 @@ bool invert(const CellMap& cells, Vec centre_q8, PlaneFromImage& plane) {
 std::int32_t relative_excess_q12(const Tracking& tracking, int excess, std::int32_t mass) {
     std::int64_t along = 0;
     for (std::size_t s = 0; s < tracking.offset_q8.size(); ++s) {
-        const Vec displaced_q16 = tracking.displaced_q16[s];
-        along += dot(Vec{displaced_q16.x >> 8, displaced_q16.y >> 8},
-                     Vec{tracking.offset_q8[s].x >> excess, tracking.offset_q8[s].y >> excess});
+        const FixedVec displaced_q16 = tracking.displaced_q16[s];
+        along +=
+            dot(FixedVec{displaced_q16.x >> 8, displaced_q16.y >> 8},
+                FixedVec{tracking.offset_q8[s].x >> excess, tracking.offset_q8[s].y >> excess});
     }
-    const Vec up_q16 = tracking.displaced_q16[static_cast<std::size_t>(Symbol::up)];
-    const std::int64_t squared_q16 = squared(Vec{up_q16.x >> 8, up_q16.y >> 8});
+    const FixedVec up_q16 = tracking.displaced_q16[static_cast<std::size_t>(Symbol::up)];
+    const std::int64_t squared_q16 = squared(FixedVec{up_q16.x >> 8, up_q16.y >> 8});
     return scaled_quotient(along, std::max<std::int64_t>(mass * squared_q16, 1), 12);
 }
 
@@ -110,7 +111,7 @@ int fit_tracked_pose(const Tracking& tracking, PlaneFromImage& pattern_from_imag
         16 *
         (length_q12 + ((length_q12 * relative_excess_q12(tracking, excess, fit.count())) >> 12));
     PlaneFromImage offsets{};
-    const Vec centre_q8{(tracking.width_px - 1) * 128, (tracking.height_px - 1) * 128};
+    const FixedVec centre_q8{(tracking.width_px - 1) * 128, (tracking.height_px - 1) * 128};
     const bool is_determined = fit.solve(8, offsets) && invert(corrected(tracking.cells, offsets),
                                                                centre_q8, pattern_from_image);
     return is_determined ? tracking.dots_measured : 0;

@@ -1,7 +1,7 @@
 // Tracked pose: computes the map from image to pattern of a tracked frame in integer arithmetic.
 #pragma once
 
-#include "core/stages.hpp"
+#include "device/tracking.hpp"
 
 namespace dotpose::core {
 

@@ -24,7 +24,7 @@ constexpr int kMinMeasured = 8;
 class SimilarityFit {
   public:
     /// Adds a dot with its place in px from the middle and its offset in 2^-8 px.
-    void add(Vec p, Vec offset_q8) {
+    void add(FixedVec p, FixedVec offset_q8) {
         ++count_;
         p_ = p_ + p;
         offset_ = offset_ + offset_q8;
@@ -37,7 +37,7 @@ class SimilarityFit {
     struct Similarity {
         std::int32_t stretch_q20 = 0;
         std::int32_t turn_q20 = 0;
-        Vec shift_q8;  ///< at the middle
+        FixedVec shift_q8;  ///< at the middle
     };
     Similarity solve() const {
         const std::int64_t spread = std::int64_t{count_} * squares_ - squared(p_);
@@ -54,23 +54,23 @@ class SimilarityFit {
 
   private:
     std::int32_t count_ = 0;
-    Vec p_;
-    Vec offset_;
+    FixedVec p_;
+    FixedVec offset_;
     std::int32_t squares_ = 0;
     std::int32_t along_ = 0;
     std::int32_t across_ = 0;
 };
 
 /// Returns v stretched and turned, minus v. Not inlined: 64-bit products take much code.
-[[gnu::noinline]] Vec change(const SimilarityFit::Similarity& s, Vec v) {
+[[gnu::noinline]] FixedVec change(const SimilarityFit::Similarity& s, FixedVec v) {
     const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
     return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),
             part(std::int64_t{s.stretch_q20} * v.y + std::int64_t{s.turn_q20} * v.x)};
 }
 
-CellMap changed(const CellMap& cells, Vec middle_q16, const SimilarityFit::Similarity& s) {
+CellMap changed(const CellMap& cells, FixedVec middle_q16, const SimilarityFit::Similarity& s) {
     return {cells.origin_q16 + change(s, cells.origin_q16 - middle_q16) +
-                Vec{s.shift_q8.x * 256, s.shift_q8.y * 256},
+                FixedVec{s.shift_q8.x * 256, s.shift_q8.y * 256},
             cells.along_x_q16 + change(s, cells.along_x_q16),
             cells.along_y_q16 + change(s, cells.along_y_q16)};
 }
@@ -78,12 +78,12 @@ CellMap changed(const CellMap& cells, Vec middle_q16, const SimilarityFit::Simil
 /// The measured dots, and the fit to those that agree with the code.
 class Rounds {
   public:
-    Rounds(Tracking& tracking, Vec middle_q16)
+    Rounds(Tracking& tracking, FixedVec middle_q16)
         : tracking_(tracking), before_(tracking.cells), middle_q16_(middle_q16) {}
 
     /// Shifts the cells by the mean offset of the dots nearest the middle, also of those that
     /// contradict the code.
-    void recentre(Vec middle);
+    void recentre(FixedVec middle);
     /// Measures the dot of a cell and, if it agrees with the code, adds it to the fit.
     void measure(int i, int j);
     /// Moves the cells by the fit.
@@ -102,7 +102,7 @@ class Rounds {
   private:
     Tracking& tracking_;
     CellMap before_;
-    const Vec middle_q16_;
+    const FixedVec middle_q16_;
     SimilarityFit fit_;
     SimilarityFit::Similarity similarity_;
     int seen_ = 0;
@@ -110,25 +110,27 @@ class Rounds {
     std::int32_t projections_q12_ = 0;
 };
 
-void Rounds::recentre(Vec middle) {
-    Vec sum_q8;
+void Rounds::recentre(FixedVec middle) {
+    FixedVec sum_q8;
     std::int32_t count = 0;
-    for (const Vec step : {Vec{0, 0}, Vec{1, 0}, Vec{0, 1}, Vec{-1, 0}, Vec{0, -1}}) {
-        const Vec cell = middle + step;
+    for (const FixedVec step :
+         {FixedVec{0, 0}, FixedVec{1, 0}, FixedVec{0, 1}, FixedVec{-1, 0}, FixedVec{0, -1}}) {
+        const FixedVec cell = middle + step;
         NearDot dot;
         if (!measure_around(tracking_, place_q16(tracking_.cells, cell.x, cell.y), dot)) continue;
         const Symbol symbol = coded_symbol(tracking_, cell.x, cell.y);
-        const Vec displaced_q16 = tracking_.displaced_q16[static_cast<std::size_t>(symbol)];
-        sum_q8 = sum_q8 + dot.offset_q8 - Vec{displaced_q16.x >> 8, displaced_q16.y >> 8};
+        const FixedVec displaced_q16 = tracking_.displaced_q16[static_cast<std::size_t>(symbol)];
+        sum_q8 = sum_q8 + dot.offset_q8 - FixedVec{displaced_q16.x >> 8, displaced_q16.y >> 8};
         ++count;
     }
     if (count == 0) return;
-    before_.origin_q16 = before_.origin_q16 + Vec{sum_q8.x / count * 256, sum_q8.y / count * 256};
+    before_.origin_q16 =
+        before_.origin_q16 + FixedVec{sum_q8.x / count * 256, sum_q8.y / count * 256};
     tracking_.cells = before_;
 }
 
 void Rounds::measure(int i, int j) {
-    const Vec at_q16 = place_q16(tracking_.cells, i, j);
+    const FixedVec at_q16 = place_q16(tracking_.cells, i, j);
     // Most cells around the middle are outside the first rows.
     if (!is_kept(tracking_, pixel_at(at_q16), kHalf_px)) return;
     NearDot dot;
@@ -137,19 +139,19 @@ void Rounds::measure(int i, int j) {
     const Projections p = projections(tracking_, dot.offset_q8);
     const Symbol symbol = coded_symbol(tracking_, i, j);
     if (symbol_of(p) != symbol) return;
-    const Vec displaced_q16 = tracking_.displaced_q16[static_cast<std::size_t>(symbol)];
-    const Vec was_q16 = place_q16(before_, i, j);
-    const Vec p_q16 = was_q16 - middle_q16_;
-    const Vec moved_q16 = at_q16 - was_q16 - displaced_q16;
+    const FixedVec displaced_q16 = tracking_.displaced_q16[static_cast<std::size_t>(symbol)];
+    const FixedVec was_q16 = place_q16(before_, i, j);
+    const FixedVec p_q16 = was_q16 - middle_q16_;
+    const FixedVec moved_q16 = at_q16 - was_q16 - displaced_q16;
     fit_.add({p_q16.x >> 16, p_q16.y >> 16},
-             dot.offset_q8 + Vec{moved_q16.x >> 8, moved_q16.y >> 8});
+             dot.offset_q8 + FixedVec{moved_q16.x >> 8, moved_q16.y >> 8});
     masses_ += dot.mass;
     projections_q12_ += magnitude(p.x_q12) + magnitude(p.y_q12);
 }
 
 /// Calls `use` for the cells in the ring `round` around the middle one.
 template <typename Use>
-void visit_round(const Tracking& tracking, Vec middle, int round, Use use) {
+void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) {
     const auto is_in = [&](int cell) {
         return cell >= tracking.first_cell && cell <= tracking.last_cell;
     };
@@ -165,19 +167,19 @@ void visit_round(const Tracking& tracking, Vec middle, int round, Use use) {
 /// Applies a small turn and stretch of the cells to the slopes of the plane. In each coordinate,
 /// the pair (dv, du) is stretched and turned like a vector.
 void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
-    Vec& du = tracking.du_q20;
-    Vec& dv = tracking.dv_q20;
-    const Vec of_x = change(s, {dv.x, du.x});
-    const Vec of_y = change(s, {dv.y, du.y});
-    du = du - Vec{of_x.y, of_y.y};
-    dv = dv - Vec{of_x.x, of_y.x};
+    FixedVec& du = tracking.du_q20;
+    FixedVec& dv = tracking.dv_q20;
+    const FixedVec of_x = change(s, {dv.x, du.x});
+    const FixedVec of_y = change(s, {dv.y, du.y});
+    du = du - FixedVec{of_x.y, of_y.y};
+    dv = dv - FixedVec{of_x.x, of_y.x};
 }
 
 }  // namespace
 
 bool find_turn(Tracking& tracking) {
-    const Vec middle_q16{(tracking.width_px - 1) * 32768, (tracking.first_rows - 1) * 32768};
-    const Vec middle = middle_cell(tracking);
+    const FixedVec middle_q16{(tracking.width_px - 1) * 32768, (tracking.first_rows - 1) * 32768};
+    const FixedVec middle = middle_cell(tracking);
     Rounds rounds(tracking, middle_q16);
     rounds.recentre(middle);
     bool agree = true;

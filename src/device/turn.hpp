@@ -1,7 +1,7 @@
 // Turn: turns and stretches the shifted cells of a prediction to fit the image.
 #pragma once
 
-#include "core/stages.hpp"
+#include "device/tracking.hpp"
 
 namespace dotpose::core {
 

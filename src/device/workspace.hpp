@@ -6,11 +6,17 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/stages.hpp"
 #include "core/workspace.hpp"
+#include "device/tracking.hpp"
 #include "dotpose/image.hpp"
 
 namespace dotpose::core {
+
+/// The shared stages, and a frame that is tracked.
+struct DeviceWorkspace : Workspace {
+    bool is_tracking = false;  ///< true if the rows of the current frame are tracked
+    Tracking tracking;
+};
 
 /// Capacities of the workspace of a device: frames, dots and the data of the stages.
 struct DeviceCapacity {
@@ -50,7 +56,7 @@ inline constexpr DeviceCapacity kDeviceCapacity<320, 240>{.width_px = 320,
 /// 188 x 120 px. Stages share memory, so only the output of the last stage remains. The class only
 /// sets spans into its memory; the stages are compiled once for all sizes.
 template <DeviceCapacity kCapacity>
-class DeviceWorkspaceOf : public Workspace {
+class DeviceWorkspaceOf : public DeviceWorkspace {
   public:
     static_assert(kCapacity.width_px >= 64, "a size needs its capacities, kDeviceCapacity");
     static_assert(kCapacity.width_px <= kMaxSideWithLowTiles_px ||
@@ -59,7 +65,7 @@ class DeviceWorkspaceOf : public Workspace {
 
     // The braces clear all members by one call. Code that stores each member would be 800 bytes
     // longer.
-    DeviceWorkspaceOf() : Workspace{} {
+    DeviceWorkspaceOf() : DeviceWorkspace{} {
         max_width_px = kCapacity.width_px;
         if constexpr (kCapacity.height_px != kMaxFrameSide_px) max_height_px = kCapacity.height_px;
         dots = memory_of<FreshDots>(dot_memory_).dots;
@@ -104,7 +110,7 @@ class DeviceWorkspaceOf : public Workspace {
         std::array<Tile, 4 * kTiles> tiles;
     };
     struct LatticeStages {
-        std::array<Edge, 2 * kSeeds> edges;
+        std::array<SeedEdge, 2 * kSeeds> edges;
         std::array<std::int32_t, 4 * kSeeds> edge_values;
         std::array<BucketedSeed, kSeeds + 1> buckets;
         std::array<std::array<std::int16_t, 4>, kSeeds> neighbours;
@@ -116,13 +122,13 @@ class DeviceWorkspaceOf : public Workspace {
     };
     struct TrackedStages {
         std::array<std::uint8_t, 36 * kCapacity.width_px> rows;
-        std::array<TrackedLine, 2 * kMaxTracked> lines;
+        std::array<ComparedLine, 2 * kMaxComparedLines> lines;
     };
     struct FreshDots {
-        std::array<Dot, kCapacity.dots> dots;
+        std::array<DetectedDot, kCapacity.dots> dots;
     };
     struct TrackedDots {
-        std::array<TrackedRow, kMaxTracked> grid_rows;
+        std::array<TrackedRow, kMaxComparedLines> grid_rows;
     };
 
     template <typename Stages, std::size_t Size>

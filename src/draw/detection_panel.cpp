@@ -10,14 +10,14 @@
 namespace dotpose::draw {
 namespace {
 
-const Dot& dot_of_seed(const Trace& trace, int seed) {
+const DetectedDot& dot_of_seed(const Trace& trace, int seed) {
     return trace.dots[trace.seeds[static_cast<std::size_t>(seed)]];
 }
 
 /// Returns the radius of a dot on the drawing. The number of pixels of a dot that was measured at
 /// its predicted place is not known; its diameter is drawn as a third of the spacing, like a
 /// blurred dot.
-double radius_of(const Dot& dot, const FrameView& view) {
+double radius_of(const DetectedDot& dot, const FrameView& view) {
     return dot.area_px == 0 ? view.spacing() / 6
                             : std::sqrt(dot.area_px / std::numbers::pi) * view.scale();
 }
@@ -39,7 +39,7 @@ void draw_connections(const FrameView& view, Svg& svg) {
             colour::kEdge, 3.5 * view.stroke());
     // If the dots were measured again, the edges refer to dots that are no longer in the list.
     if (view.reached().edges && !trace.seeds.empty() && !view.is_dense()) {
-        for (const Edge& edge : trace.edges) {
+        for (const SeedEdge& edge : trace.edges) {
             svg.line(view.at_dot(dot_of_seed(trace, edge.from)),
                      view.at_dot(dot_of_seed(trace, edge.to)), {});
         }
@@ -49,16 +49,16 @@ void draw_connections(const FrameView& view, Svg& svg) {
 
 void draw_dots(const FrameView& view, Svg& svg) {
     const double stroke = view.stroke();
-    const std::span<const Dot> dots = view.trace().dots;
+    const std::span<const DetectedDot> dots = view.trace().dots;
     svg.add(R"(<g class="dots" fill="none" stroke="{}" stroke-width="{:.2f}">)", colour::kDot,
             3.5 * stroke);
     if (view.is_dense()) {
         std::vector<Point> centres;
-        for (const Dot& dot : dots)
+        for (const DetectedDot& dot : dots)
             centres.push_back(view.at_dot(dot));
         svg.discs(centres, view.spacing() / 2, R"(stroke-opacity="0.7")");
     } else {
-        for (const Dot& dot : dots)
+        for (const DetectedDot& dot : dots)
             svg.circle(view.at_dot(dot), radius_of(dot, view) + 2 * stroke, {});
     }
     svg.add("</g>");
@@ -98,10 +98,10 @@ void draw_edges(const FrameView& view, double side, Svg& svg) {
             colour::kEdge);
     // A subset of many edges shows the same clusters.
     constexpr std::size_t kMaxEdges = 1000;
-    const std::span<const Edge> edges = view.trace().edges;
+    const std::span<const SeedEdge> edges = view.trace().edges;
     const std::size_t step = 1 + edges.size() / kMaxEdges;
     for (std::size_t i = 0; i < edges.size(); i += step) {
-        const Edge& edge = edges[i];
+        const SeedEdge& edge = edges[i];
         const Point end = middle + scale * from_q8(edge.step_q8);
         if (end.x < 0 || end.x > side || end.y < 0 || end.y > side) continue;
         svg.line(middle, end, {});

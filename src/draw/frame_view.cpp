@@ -7,11 +7,11 @@
 
 namespace dotpose::draw {
 
-Point from_q8(Vec q8) {
+Point from_q8(FixedVec q8) {
     return {q8.x / 256.0, q8.y / 256.0};
 }
 
-Point from_q16(Vec q16) {
+Point from_q16(FixedVec q16) {
     return {q16.x / 65536.0, q16.y / 65536.0};
 }
 
@@ -20,9 +20,9 @@ Reached reached(const Trace& trace) {
     Reached result;
     result.undistorted = !trace.dots.empty() && status != Status::too_few_dots;
     result.edges = !trace.edges.empty();
-    result.axes = result.edges && trace.lattice.u_q16 != Vec{};
+    result.axes = result.edges && trace.lattice.u_q16 != FixedVec{};
     result.cells = trace.grid.region.columns > 0;
-    const Region& window = trace.decoding.window;
+    const GridRegion& window = trace.decoding.window;
     result.window = result.cells && window.columns > 0 && window.rows > 0 &&
                     trace.grid.contains(window.i0, window.j0) && status != Status::grid_too_small;
     result.pose = result.window && status == Status::ok;
@@ -30,16 +30,16 @@ Reached reached(const Trace& trace) {
     return result;
 }
 
-Vec window_corner(const Trace& trace) {
-    const Region& window = trace.decoding.window;
+FixedVec window_corner(const Trace& trace) {
+    const GridRegion& window = trace.decoding.window;
     const int q = trace.decoding.pattern_from_grid.quarters;
     return {q == 0 || q == 1 ? window.i0 : window.i0 + window.columns - 1,
             q == 0 || q == 3 ? window.j0 : window.j0 + window.rows - 1};
 }
 
-Place place_of(const Trace& trace, Vec grid_cell) {
-    const Vec step = trace.decoding.pattern_from_grid(grid_cell);
-    return moved(trace.options.profile, trace.decoding.place, step.x, step.y);
+Place place_of(const Trace& trace, FixedVec grid_cell) {
+    const FixedVec step = trace.decoding.pattern_from_grid(grid_cell);
+    return moved(trace.options.code, trace.decoding.place, step.x, step.y);
 }
 
 Plane::Plane(const PlaneFromImage& map)
@@ -107,7 +107,7 @@ double FrameView::estimate_spacing_px() const {
         return std::max(1.0, (length(u_px) + length(v_px)) / 2);
     }
     std::vector<int> areas_px;
-    for (const Dot& dot : trace_.dots)
+    for (const DetectedDot& dot : trace_.dots)
         areas_px.push_back(dot.area_px);
     if (areas_px.empty()) return 10;
     const auto middle = areas_px.begin() + static_cast<std::ptrdiff_t>(areas_px.size() / 2);
@@ -130,7 +130,7 @@ Point FrameView::at(Point ideal_px) const {
     return scale_ * (image_px + Point{0.5, 0.5});
 }
 
-Point FrameView::at_dot(const Dot& dot) const {
+Point FrameView::at_dot(const DetectedDot& dot) const {
     const Point centre_px = from_q8(dot.centre_q8);
     return reached_.undistorted ? at(centre_px) : scale_ * (centre_px + Point{0.5, 0.5});
 }

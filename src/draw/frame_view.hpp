@@ -62,7 +62,7 @@ class FrameView {
 
     /// Returns the point of the drawing that shows an ideal pixel.
     Point at(Point ideal_px) const;
-    Point at_dot(const Dot& dot) const;
+    Point at_dot(const DetectedDot& dot) const;
     /// Returns the point of the drawing that shows a point of the grid; needs `reached().cells`.
     Point at_grid(double i, double j) const;
     /// The reference point of the pose, in ideal pixels.
@@ -89,12 +89,12 @@ class FrameView {
 };
 
 /// The grid cell of the top left symbol of the window on the pattern; needs `Reached::place`.
-Vec window_corner(const Trace& trace);
+FixedVec window_corner(const Trace& trace);
 /// The position of a grid cell in the code; needs `Reached::place`.
-Place place_of(const Trace& trace, Vec grid_cell);
+Place place_of(const Trace& trace, FixedVec grid_cell);
 
 /// Converts 1/256 pixels to pixels.
-Point from_q8(Vec q8);
-Point from_q16(Vec q16);
+Point from_q8(FixedVec q8);
+Point from_q16(FixedVec q16);
 
 }  // namespace dotpose::draw

@@ -39,8 +39,8 @@ std::string quality_colour(double quality) {
 }
 
 /// Converts a symbol from the axes of the grid to those of the pattern.
-Symbol turned(Symbol symbol, Turn pattern_from_grid) {
-    const Vec d = pattern_from_grid({dx(symbol), dy(symbol)});
+Symbol turned(Symbol symbol, QuarterTurn pattern_from_grid) {
+    const FixedVec d = pattern_from_grid({dx(symbol), dy(symbol)});
     return make_symbol((d.y - d.x + 1) / 2, (d.y + d.x + 1) / 2);
 }
 
@@ -56,7 +56,9 @@ class Reading {
     void draw_reference() const;
 
   private:
-    Turn turn() const { return view_.reached().place ? trace_.decoding.pattern_from_grid : Turn{}; }
+    QuarterTurn turn() const {
+        return view_.reached().place ? trace_.decoding.pattern_from_grid : QuarterTurn{};
+    }
     void draw_axes() const;
     Symbol read_in(const GridCell& cell) const {
         return turned(make_symbol(cell.x > 0, cell.y > 0), turn());
@@ -87,7 +89,7 @@ void Reading::draw_grid_line(double i, double j, int steps, Point step) const {
 
 void Reading::draw_grid() const {
     if (!view_.reached().cells || view_.is_dense()) return;
-    const Region& grid = trace_.grid.region;
+    const GridRegion& grid = trace_.grid.region;
     svg_.add(R"(<g class="grid" fill="none" stroke="#7f8c99" stroke-opacity="0.7" )"
              R"(stroke-width="{:.2f}">)",
              1.6 * view_.stroke());
@@ -103,7 +105,7 @@ void Reading::draw_grid() const {
 bool Reading::is_error(int i, int j, const GridCell& cell) const {
     if (!view_.reached().place) return false;
     const Place place = place_of(trace_, {i, j});
-    return symbol_at(trace_.options.profile, place.cell, place.section) != read_in(cell);
+    return symbol_at(trace_.options.code, place.cell, place.section) != read_in(cell);
 }
 
 void Reading::draw_symbol(int i, int j, const GridCell& cell) const {
@@ -129,7 +131,7 @@ void Reading::draw_symbol(int i, int j, const GridCell& cell) const {
 void Reading::draw_symbols() const {
     if (!view_.reached().cells) {
         svg_.add(R"(<g class="dots" fill="{}">)", colour::kQuiet);
-        for (const Dot& dot : trace_.dots) {
+        for (const DetectedDot& dot : trace_.dots) {
             svg_.circle(view_.at_dot(dot), 0.1 * view_.spacing(), {});
         }
         svg_.add("</g>");
@@ -150,7 +152,7 @@ void Reading::draw_symbols() const {
 std::vector<Point> Reading::for_each_read_dot(
     const std::function<void(int, int, const GridCell&)>& draw) const {
     std::vector<bool> is_read(trace_.dots.size(), false);
-    const Region& grid = trace_.grid.region;
+    const GridRegion& grid = trace_.grid.region;
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
         for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
             const GridCell& cell = trace_.grid.at(i, j);
@@ -190,7 +192,7 @@ void Reading::draw_points() const {
 
 void Reading::draw_window() const {
     if (!view_.reached().window) return;
-    const Region& window = trace_.decoding.window;
+    const GridRegion& window = trace_.decoding.window;
     // The outline is half a cell outside the outer intersections. It is drawn cell by cell, because
     // lens distortion may bend it.
     const double left = window.i0 - 0.5;
@@ -213,7 +215,7 @@ void Reading::draw_window() const {
 
 void Reading::draw_corner() const {
     if (!view_.reached().place) return;
-    const Vec cell = window_corner(trace_);
+    const FixedVec cell = window_corner(trace_);
     svg_.circle(view_.at_grid(cell.x, cell.y), 0.44 * view_.spacing(),
                 fmt::format(R"(class="corner" fill="none" stroke="{}" stroke-width="{:.2f}")",
                             colour::kWindow, 7 * view_.stroke()));
@@ -222,7 +224,7 @@ void Reading::draw_corner() const {
 void Reading::draw_axes() const {
     const Point reference = view_.at(view_.reference_px());
     const double stroke = std::max(view_.stroke(), 0.35);
-    const Vec cell = window_corner(trace_);
+    const FixedVec cell = window_corner(trace_);
     svg_.line(view_.at_grid(cell.x, cell.y), reference,  // the vector t of the paper's eq. 10
               fmt::format(R"(stroke="{}" stroke-width="{:.2f}" stroke-dasharray="{:.2f}")",
                           colour::kWindow, 4 * stroke, 11 * stroke));

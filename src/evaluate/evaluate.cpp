@@ -55,10 +55,10 @@ class Crew {
             outcome.problem = frame.problem;
             if (!frame.problem.empty()) continue;
             Options options = run_.options[k];
-            options.profile = frame.profile.value_or(options.profile);
+            options.code = frame.code.value_or(options.code);
             locator.set_options(options);
             const auto start = std::chrono::steady_clock::now();
-            if (run_.any_code && !frame.profile) {
+            if (run_.any_code && !frame.code) {
                 CodeReader reader;
                 outcome.fix = reader.locate(frame.image.view(), locator);
             } else {
@@ -105,7 +105,7 @@ FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<Tr
         const TruthRow& row = rows.at(static_cast<std::size_t>(index));
         KnownFrame frame;
         frame.truth = row.truth;
-        frame.profile = row.profile;
+        frame.code = row.code;
         try {
             frame.image = read_frame(folder / row.file);
         } catch (const Error& error) {
@@ -118,7 +118,7 @@ FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<Tr
 FrameSource frames_of_setup(const Setup& setup) {
     return [setup](int index) {
         const Shot shot = draw_shot(setup, static_cast<std::uint64_t>(index));
-        return KnownFrame{render(shot), truth_of(shot), setup.pattern.profile, {}};
+        return KnownFrame{render(shot), truth_of(shot), setup.pattern.code, {}};
     };
 }
 

@@ -174,7 +174,7 @@ Protocol run_protocol(const ProtocolOptions& options) {
         Shot shot = device;
         place(shot.pose, stand, shot.page.pattern.spacing_mm);
         shot.seed = Rng(options.setup.seed, static_cast<std::uint64_t>(index)).bits();
-        return KnownFrame{render(shot), truth_of(shot), shot.page.pattern.profile, {}};
+        return KnownFrame{render(shot), truth_of(shot), shot.page.pattern.code, {}};
     };
     run.options = {options.locate};
     run.threads = options.threads;

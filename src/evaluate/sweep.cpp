@@ -88,7 +88,7 @@ KnownFrame sweep_frame(SweepKind kind, double value, const Setup& setup, std::ui
         case SweepKind::occlusion:
             break;
     }
-    KnownFrame frame{render(shot), truth_of(shot), setup.pattern.profile, {}};
+    KnownFrame frame{render(shot), truth_of(shot), setup.pattern.code, {}};
     if (kind == SweepKind::occlusion) cover(frame.image, value / 100, direction_rad);
     return frame;
 }

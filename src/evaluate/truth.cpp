@@ -113,13 +113,13 @@ class TruthReader {
         return Section{part("section_u"), part("section_v")};
     }
 
-    std::optional<Profile> profile() const {
-        const std::string cell = text("profile");
+    std::optional<CodeVariant> code() const {
+        const std::string cell = text("code");
         if (cell.empty()) return std::nullopt;
-        if (cell == "anoto") return Profile::anoto;
-        if (cell == "libdots") return Profile::libdots;
-        if (cell == "microdots") return Profile::microdots;
-        fail(fmt::format("profile is '{}', not anoto, libdots or microdots", cell));
+        if (cell == "anoto") return CodeVariant::anoto;
+        if (cell == "libdots") return CodeVariant::libdots;
+        if (cell == "microdots") return CodeVariant::microdots;
+        fail(fmt::format("code is '{}', not anoto, libdots or microdots", cell));
     }
 
     double spacing_mm() const {
@@ -154,7 +154,7 @@ class TruthReader {
         TruthRow row;
         row.file = text("file");
         if (row.file.empty()) fail("file is empty");
-        row.profile = profile();
+        row.code = code();
         row.is_in_pattern = in_pattern_;
         if (in_world_ || on_sheet_) row.place = place();
         Truth& truth = row.truth;

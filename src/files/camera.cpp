@@ -194,7 +194,7 @@ void use_camera(const Camera& camera, int width_px, int height_px, Options& opti
     }
     const PixelPoint middle = image_centre(camera);
     const auto q8 = [](double px) { return static_cast<std::int32_t>(std::lround(px * 256)); };
-    options.lens = Lens::from_k(camera.k_per_px2);
+    options.lens = FixedLens::from_k(camera.k_per_px2);
     options.lens.centre_dx_q8 = q8(camera.centre_px.u - middle.u);
     options.lens.centre_dy_q8 = q8(camera.centre_px.v - middle.v);
     if (camera.paper) options.show_stages = true;  // with_camera fits their dots

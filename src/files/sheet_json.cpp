@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "files/input_file.hpp"
 #include "files/sheet_list.hpp"
 
@@ -114,12 +114,12 @@ Sheet sheet_of(const Node& node) {
         return static_cast<int>(node.whole(key, kMinSheetCells, kPositionsPerAxis));
     };
     Sheet sheet;
-    const std::string code = node.text("code");
-    const auto profile = profile_by_name(code);
-    if (!profile) {
-        node.fail_at("code", fmt::format("is '{}'; it must be anoto, libdots or microdots", code));
+    const std::string name = node.text("code");
+    const auto code = code_by_name(name);
+    if (!code) {
+        node.fail_at("code", fmt::format("is '{}'; it must be anoto, libdots or microdots", name));
     }
-    sheet.pattern.profile = *profile;
+    sheet.pattern.code = *code;
     sheet.pattern.section = {section("section_u"), section("section_v")};
     sheet.pattern.spacing_mm = node.number("spacing_mm");
     sheet.pattern.displacement_mm = node.number("displacement_mm");
@@ -181,7 +181,7 @@ void update(json& object, const SheetEntry& entry) {
     const Pattern& pattern = sheet.pattern;
     object["name"] = entry.name;
     object["page"] = entry.page;
-    object["code"] = name(pattern.profile);
+    object["code"] = name(pattern.code);
     object["section_u"] = pattern.section.u;
     object["section_v"] = pattern.section.v;
     object["spacing_mm"] = pattern.spacing_mm;

@@ -105,7 +105,7 @@ void validate(const SheetEntry& entry) {
 
 bool overlap(const Sheet& a, const Sheet& b) {
     const auto is_microdots = [](const Sheet& sheet) {
-        return sheet.pattern.profile == Profile::microdots;
+        return sheet.pattern.code == CodeVariant::microdots;
     };
     return is_microdots(a) == is_microdots(b) && a.pattern.section == b.pattern.section &&
            overlap(columns_of(a), columns_of(b)) && overlap(rows_of(a), rows_of(b));

@@ -19,7 +19,7 @@ const SheetEntry* find(const SheetFile& file, const std::string& name) {
 /// Whether a sheet is still the reserved one, and not another sheet of the same name.
 bool is_same_region(const Sheet& a, const Sheet& b) {
     return a.origin == b.origin && a.columns == b.columns && a.rows == b.rows &&
-           a.pattern.profile == b.pattern.profile && a.pattern.section == b.pattern.section;
+           a.pattern.code == b.pattern.code && a.pattern.section == b.pattern.section;
 }
 
 }  // namespace

@@ -15,17 +15,17 @@ Follower::Follower(const FollowerOptions& options)
       unplaced_spacing_mm_(options.spacing_mm),
       used_(options.locate),
       tracker_(options.track) {
-    if (options.code) profiles_ = {*options.code};
+    if (options.code) codes_ = {*options.code};
     if (!options.sheets.empty()) use_sheets();
 }
 
 void Follower::use_sheets() {
-    profiles_.clear();
+    codes_.clear();
     unplaced_spacing_mm_ = options_.sheets.front().sheet.pattern.spacing_mm;
     for (const SheetEntry& entry : options_.sheets) {
         const Pattern& pattern = entry.sheet.pattern;
-        if (std::ranges::find(profiles_, pattern.profile) == profiles_.end()) {
-            profiles_.push_back(pattern.profile);
+        if (std::ranges::find(codes_, pattern.code) == codes_.end()) {
+            codes_.push_back(pattern.code);
         }
         if (pattern.spacing_mm != unplaced_spacing_mm_) {
             unplaced_spacing_mm_ = std::numeric_limits<double>::quiet_NaN();
@@ -83,7 +83,7 @@ Located Follower::located(const Found& found, const Fix& fix) const {
     result.fix.spacing_nm = std::isfinite(result.spacing_mm)
                                 ? static_cast<std::int32_t>(std::lround(result.spacing_mm * 1e6))
                                 : 0;
-    result.code_is_given = !profiles_.empty();
+    result.code_is_given = !codes_.empty();
     return result;
 }
 

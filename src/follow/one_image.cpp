@@ -23,35 +23,35 @@ Located Follower::locate(const GreyImage& image) {
     return result;
 }
 
-/// Returns the first fix on a sheet with the fix's profile. Otherwise returns the first fix, or,
-/// without any fix, the result for the first profile.
+/// Returns the first fix on a sheet with the fix's code variant. Otherwise returns the first fix,
+/// or, without any fix, the result for the first code variant.
 Follower::Found Follower::read() {
-    if (profiles_.empty()) {
+    if (codes_.empty()) {
         const CodeReading reading = locator(used_).locate_in_any_code(image_, evidence_);
         evidence_ = reading.evidence;
-        used_.profile = reading.code;
+        used_.code = reading.code;
         return {reading.fix, by_camera_file(reading.fix, {}), {}, reading};
     }
-    Profile best = profiles_.front();
+    CodeVariant best = codes_.front();
     bool is_found = false;
     Found found;
-    for (const Profile profile : profiles_) {
-        found = read_in(profile);
-        if (profiles_.size() == 1 || find_sheet(options_.sheets, profile, found.fix)) return found;
+    for (const CodeVariant code : codes_) {
+        found = read_in(code);
+        if (codes_.size() == 1 || find_sheet(options_.sheets, code, found.fix)) return found;
         if (found.fix.status == Status::ok && !is_found) {
-            best = profile;
+            best = code;
             is_found = true;
         }
     }
-    // The trace must match the fix, so the image is located again in the best profile unless it was
-    // the last.
-    return used_.profile == best ? found : read_in(best);
+    // The trace must match the fix, so the image is located again in the best code variant unless
+    // it was the last.
+    return used_.code == best ? found : read_in(best);
 }
 
-Follower::Found Follower::read_in(Profile profile) {
-    used_.profile = profile;
+Follower::Found Follower::read_in(CodeVariant code) {
+    used_.code = code;
     const CodeReading reading = locator(used_).locate_in_code(image_);
-    const auto place = find_sheet(options_.sheets, profile, reading.fix);
+    const auto place = find_sheet(options_.sheets, code, reading.fix);
     const Fix seen = place ? without_surroundings(reading.fix, *place) : reading.fix;
     return {seen, by_camera_file(seen, place), place, reading};
 }
@@ -63,7 +63,7 @@ Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
     const auto cut = cut_to_dots(image_, used_, fix, place.entry->sheet);
     if (!cut) return fix;
     Fix again = locator(used_).locate(cut->view(), Prediction::like(fix));
-    const auto place_again = find_sheet(options_.sheets, used_.profile, again);
+    const auto place_again = find_sheet(options_.sheets, used_.code, again);
     const bool is_better = place_again && place_again->entry == place.entry &&
                            again.bit_errors < fix.bit_errors &&
                            again.dots_used + fix.bit_errors >= fix.dots_used;

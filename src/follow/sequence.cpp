@@ -23,7 +23,7 @@ std::int32_t bam(double angle_rad) {
 
 Followed Follower::follow(ImageView image, std::int64_t time_us) {
     use_options_for(image.width_px, image.height_px);
-    if (seen_) used_.profile = seen_->profile;
+    if (seen_) used_.code = seen_->code;
     image_ = as_located(image);
     Found found = find(options_.track.max_p_wrong_log2, predict(time_us));
     const Fix strict = found.fix;
@@ -52,10 +52,10 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
 
 void Follower::remember(const Found& found, const std::optional<Sighting>& sighting) {
     seen_ = Seen{found.fix, found.reading.code, sighting};
-    if (profiles_.empty()) {
+    if (codes_.empty()) {
         evidence_ = found.reading.evidence;
     } else {
-        std::ranges::iter_swap(profiles_.begin(), std::ranges::find(profiles_, found.reading.code));
+        std::ranges::iter_swap(codes_.begin(), std::ranges::find(codes_, found.reading.code));
     }
 }
 
@@ -66,15 +66,15 @@ std::optional<Prediction> Follower::predict(std::int64_t time_us) const {
     return tracker_.predict(time_us, seen_->fix, *seen_->sighting, used_);
 }
 
-/// Returns the first fix on a sheet with the fix's profile. Otherwise returns the first fix, or,
-/// without any fix, the result for the last profile.
+/// Returns the first fix on a sheet with the fix's code variant. Otherwise returns the first fix,
+/// or, without any fix, the result for the last code variant.
 Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Prediction>& expected) {
     used_.integrity.max_p_wrong_log2 = max_p_wrong_log2;
-    if (profiles_.empty()) return look_in_any_code(expected);
+    if (codes_.empty()) return look_in_any_code(expected);
     Found best;
-    for (const Profile profile : profiles_) {
-        used_.profile = profile;
-        const bool is_expected = expected && seen_ && seen_->profile == profile;
+    for (const CodeVariant code : codes_) {
+        used_.code = code;
+        const bool is_expected = expected && seen_ && seen_->code == code;
         Found found = look(image_, used_, is_expected ? expected : std::nullopt);
         if (options_.sheets.size() > 1) found = without_neighbours(found);
         if (found.place) return found;
@@ -92,21 +92,21 @@ Follower::Found Follower::look(ImageView image, const Options& options,
         return {reading.fix, by_camera_file(reading.fix, {}), {}, reading};
     }
     Fix fix = expected ? locator(options).locate(image, *expected) : locator(options).locate(image);
-    auto place = find_sheet(options_.sheets, options.profile, fix);
+    auto place = find_sheet(options_.sheets, options.code, fix);
     // The centre of a tracked image that has left the page may be on another page.
     if (fix.status == Status::ok && fix.attempt == Attempt::tracked && !place &&
         !options_.sheets.empty()) {
         fix = locator(options).locate(image);
-        place = find_sheet(options_.sheets, options.profile, fix);
+        place = find_sheet(options_.sheets, options.code, fix);
     }
-    return {fix, by_camera_file(fix, place), place, {fix, options.profile, {}}};
+    return {fix, by_camera_file(fix, place), place, {fix, options.code, {}}};
 }
 
 Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expected) {
     const CodeReading reading =
         expected && seen_ ? locator(used_).locate_in_any_code(image_, *expected, evidence_)
                           : locator(used_).locate_in_any_code(image_, evidence_);
-    used_.profile = reading.code;
+    used_.code = reading.code;
     return {reading.fix, by_camera_file(reading.fix, {}), {}, reading};
 }
 

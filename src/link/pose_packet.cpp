@@ -52,7 +52,7 @@ Plain packed(const PosePacket& packet) {
     writer.put(packet.sequence, 2);
     writer.put(packet.time_us, 4);
     writer.put(static_cast<std::uint32_t>(packet.status), 1);
-    writer.put(static_cast<std::uint32_t>(packet.profile), 1);
+    writer.put(static_cast<std::uint32_t>(packet.code), 1);
     writer.put(packet.cell.x, 4);
     writer.put(packet.fraction_x_q16, 2);
     writer.put(packet.cell.y, 4);
@@ -73,7 +73,7 @@ bool unpack(const Plain& plain, PosePacket& packet) {
     read.sequence = reader.get16();
     read.time_us = reader.get(4);
     const std::uint8_t status = reader.get8();
-    const std::uint8_t profile = reader.get8();
+    const std::uint8_t code = reader.get8();
     read.cell.x = reader.get(4);
     read.fraction_x_q16 = reader.get16();
     read.cell.y = reader.get(4);
@@ -82,13 +82,13 @@ bool unpack(const Plain& plain, PosePacket& packet) {
     read.section = {reader.get8(), reader.get8()};
     read.certainty = reader.get8();
     read.deviation_q12 = reader.get8();
-    if (profile > static_cast<std::uint8_t>(Profile::microdots) ||
+    if (code > static_cast<std::uint8_t>(CodeVariant::microdots) ||
         read.cell.x >= kPositionsPerAxis || read.cell.y >= kPositionsPerAxis ||
         read.section.u >= kSections || read.section.v >= kSections) {
         return false;
     }
     read.status = status < kStatusCount ? static_cast<Status>(status) : Status::other;
-    read.profile = static_cast<Profile>(profile);
+    read.code = static_cast<CodeVariant>(code);
     packet = read;
     return true;
 }
@@ -109,13 +109,13 @@ std::uint8_t deviation_q12(const Fix& fix) {
 
 }  // namespace
 
-PosePacket make_packet(const Fix& fix, Profile profile, std::uint16_t sequence,
+PosePacket make_packet(const Fix& fix, CodeVariant code, std::uint16_t sequence,
                        std::uint32_t time_us) {
     PosePacket packet;
     packet.sequence = sequence;
     packet.time_us = time_us;
     packet.status = fix.status;
-    packet.profile = profile;
+    packet.code = code;
     if (fix.status != Status::ok) return packet;
     packet.cell = fix.cell;
     packet.fraction_x_q16 = fix.fraction_x_q16;

@@ -42,22 +42,22 @@ CodeEvidence::LogOdds CodeEvidence::sum() const {
     return against_likeliest(sum, kMost_log2);
 }
 
-Profile CodeEvidence::likeliest() const {
+CodeVariant CodeEvidence::likeliest() const {
     const LogOdds all = sum();
-    return static_cast<Profile>(std::max_element(all.begin(), all.end()) - all.begin());
+    return static_cast<CodeVariant>(std::max_element(all.begin(), all.end()) - all.begin());
 }
 
-std::int32_t CodeEvidence::log2_q8(Profile profile) const {
-    return sum()[static_cast<std::size_t>(profile)];
+std::int32_t CodeEvidence::log2_q8(CodeVariant code) const {
+    return sum()[static_cast<std::size_t>(code)];
 }
 
-float CodeEvidence::p_wrong(Profile profile) const {
+float CodeEvidence::p_wrong(CodeVariant code) const {
     const LogOdds all = sum();
     float right = 0;
     float wrong = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const float odds = core::power_of_two(all[i]);
-        (static_cast<Profile>(i) == profile ? right : wrong) += odds;
+        (static_cast<CodeVariant>(i) == code ? right : wrong) += odds;
     }
     return wrong / (right + wrong);
 }
@@ -78,9 +78,9 @@ void CodeEvidence::add(Cell cell, const LogOdds& log2_q8) {
 
 Fix CodeReader::locate(const ImageView& image, Locator& locator) {
     if (given_) {
-        if (locator.options().profile != *given_) {
+        if (locator.options().code != *given_) {
             Options options = locator.options();
-            options.profile = *given_;
+            options.code = *given_;
             locator.set_options(options);
         }
         return locator.locate(image);

@@ -58,30 +58,22 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
     return {confidence_in(bits.read, bits.wrong_x), confidence_in(bits.read, bits.wrong_y)};
 }
 
-bool is_rough(float residual_px, float spacing_px) {
-    return residual_px >= std::max(tuned::kRough_px, tuned::kRough * spacing_px);
-}
-
-/// Judges the place from the bits of all dots near the centre: ok, uncertain or rough.
+/// Judges the place from the bits of all dots near the centre: ok or uncertain.
 Confirmation confirm_place(const Kernels& kernels, const Options& options,
                            const Hypothesis& hypothesis, const CellsInView& view,
-                           const BitBlock& block, const BitsRead& bits, const PoseFit& fit,
-                           DesktopWorkspace& w) {
+                           const BitBlock& block, const BitsRead& bits, DesktopWorkspace& w) {
     w.decoding.bits = 2 * bits.read;
     const auto confidences = confidences_in(bits);
     OtherCodes* others = wanted_codes(w);
-    const CodedBlock coded(options.profile, hypothesis.place, view, block);
+    const CodedBlock coded(options.code, hypothesis.place, view, block);
     if (passes_hard_bit_test(
             kernels, {coded.axis(Axis::x, confidences[0]), coded.axis(Axis::y, confidences[1])},
-            options.profile, options.integrity, w.fix, others)) {
+            options.code, options.integrity, w.fix, others)) {
         return Confirmation::ok;
     }
-    const float spacing = spacing_px(hypothesis.pattern_from_image);
-    if (hypothesis.defers_if_rough && is_rough(std::sqrt(fit.variance) * spacing, spacing))
-        return Confirmation::rough;
     const Evidence evidence =
-        evidence_of(kernels, options.profile, hypothesis.place, block, confidences, w.line_scores);
-    return is_certain(kernels, evidence, options.profile, options.integrity, w.fix, others)
+        evidence_of(kernels, options.code, hypothesis.place, block, confidences, w.line_scores);
+    return is_certain(kernels, evidence, options.code, options.integrity, w.fix, others)
                ? Confirmation::ok
                : Confirmation::uncertain;
 }
@@ -90,16 +82,16 @@ Confirmation confirm_place(const Kernels& kernels, const Options& options,
 void show(const Hypothesis& hypothesis, DesktopWorkspace& w) {
     const MeasuredDots& dots = w.measured;
     const auto side = std::min(w.grid.side, kMaxGridSide);
-    Vec first{INT32_MAX, INT32_MAX};
-    Vec last{INT32_MIN, INT32_MIN};
+    FixedVec first{INT32_MAX, INT32_MAX};
+    FixedVec last{INT32_MIN, INT32_MIN};
     w.dot_count = 0;
     const auto cell_of = [&](std::size_t k) {
-        return Vec{static_cast<std::int32_t>(dots.column[k]),
-                   static_cast<std::int32_t>(dots.row[k])};
+        return FixedVec{static_cast<std::int32_t>(dots.column[k]),
+                        static_cast<std::int32_t>(dots.row[k])};
     };
-    const auto is_near = [&](Vec cell) { return is_within(cell, (side - 1) / 2); };
+    const auto is_near = [&](FixedVec cell) { return is_within(cell, (side - 1) / 2); };
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
-        const Vec cell = cell_of(k);
+        const FixedVec cell = cell_of(k);
         if (!is_near(cell) || dots.x[k] >= kNoDot_px) continue;
         first = {std::min(first.x, cell.x), std::min(first.y, cell.y)};
         last = {std::max(last.x, cell.x), std::max(last.y, cell.y)};
@@ -110,16 +102,16 @@ void show(const Hypothesis& hypothesis, DesktopWorkspace& w) {
     grid.columns = last.x - first.x + 1;
     grid.rows = last.y - first.y + 1;
     std::fill_n(grid.storage.begin(), grid.columns * grid.rows, GridCell{});
-    const Vec centre_q8 = w.pattern_from_image.centre_q8;
+    const FixedVec centre_q8 = w.pattern_from_image.centre_q8;
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
-        const Vec cell = cell_of(k);
+        const FixedVec cell = cell_of(k);
         if (!is_near(cell) || dots.x[k] >= kNoDot_px ||
             w.dot_count >= static_cast<int>(w.dots.size()))
             continue;
-        Dot& dot = w.dots[static_cast<std::size_t>(w.dot_count)];
+        DetectedDot& dot = w.dots[static_cast<std::size_t>(w.dot_count)];
         dot.centre_q8 =
-            centre_q8 + Vec{static_cast<std::int32_t>(std::floor(dots.x[k] * 256 + 0.5F)),
-                            static_cast<std::int32_t>(std::floor(dots.y[k] * 256 + 0.5F))};
+            centre_q8 + FixedVec{static_cast<std::int32_t>(std::floor(dots.x[k] * 256 + 0.5F)),
+                                 static_cast<std::int32_t>(std::floor(dots.y[k] * 256 + 0.5F))};
         dot.mass = static_cast<std::uint16_t>(std::min<std::int32_t>(dots.mass[k], 65535));
         dot.area_px = 0;
         const FloatVec at = plane_point(hypothesis.pattern_from_image, {dots.x[k], dots.y[k]});
@@ -186,17 +178,17 @@ void write_fix(const ImageView& image, const Options& options, const Hypothesis&
     w.fix.dots_seen = bits.seen;
     w.fix.bit_errors = bits.wrong_x + bits.wrong_y;
     w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536);
-    const Vec centre_q8{(image.width_px - 1) * 128, (image.height_px - 1) * 128};
+    const FixedVec centre_q8{(image.width_px - 1) * 128, (image.height_px - 1) * 128};
     const FloatVec from = hypothesis.from_centre;
-    const Vec from_q8{static_cast<std::int32_t>(from.x * 256),
-                      static_cast<std::int32_t>(from.y * 256)};
+    const FixedVec from_q8{static_cast<std::int32_t>(from.x * 256),
+                           static_cast<std::int32_t>(from.y * 256)};
     w.pattern_from_image = fixed_plane(hypothesis.pattern_from_image, centre_q8 + from_q8);
     w.decoding.place = hypothesis.place;
     w.decoding.pattern_from_grid = {};
-    const Vec reference = reference_q8(centre_q8, options);
-    write_pose(w.pattern_from_image, reference, options.profile, hypothesis.place, w.fix);
+    const FixedVec reference = reference_q8(centre_q8, options);
+    write_pose(w.pattern_from_image, reference, options.code, hypothesis.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
-    if (!(from_q8 == Vec{})) {
+    if (!(from_q8 == FixedVec{})) {
         // The next prediction is made from the fix and is relative to the image centre.
         w.fix.pattern_from_image =
             fixed_plane(recentred(hypothesis.pattern_from_image, {-from.x, -from.y}), centre_q8);
@@ -251,7 +243,8 @@ struct Reach {
 }  // namespace
 
 bool is_rough(const Fix& fix) {
-    return is_rough(fix.residual_px, static_cast<float>(fix.spacing_px_q16) / 65536.0F);
+    const float spacing_px = static_cast<float>(fix.spacing_px_q16) / 65536.0F;
+    return fix.residual_px >= std::max(tuned::kRough_px, tuned::kRough * spacing_px);
 }
 
 bool is_plausible(const ImageView& image, const FloatPlane& plane) {
@@ -293,7 +286,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
     for (Reach reach(image, hypothesis, spacing);;) {
         const bool decides = reach.decides();
         if (!is_plausible(image, plane)) return Confirmation::implausible;
-        count_from_centre(options.profile, hypothesis);
+        count_from_centre(options.code, hypothesis);
         CellsInView view = cells_in_view(image, options, hypothesis, reach.now,
                                          decides ? dots.capacity() : most_dots, w);
         if (hypothesis.is_exact) view.windows = Windows::none;
@@ -321,11 +314,11 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
         }
         if (decides && !hypothesis.is_certain) {
             const Confirmation place =
-                confirm_place(kernels, options, hypothesis, view, block, bits, fit, w);
+                confirm_place(kernels, options, hypothesis, view, block, bits, w);
             if (place != Confirmation::ok) return place;
         }
         if (is_last && codes != nullptr) {
-            weigh_codes_in_view(kernels, options.profile, hypothesis.place, block,
+            weigh_codes_in_view(kernels, options.code, hypothesis.place, block,
                                 confidences_in(bits), !decides, w.line_scores, *codes);
         }
         if (is_last) return finish(kernels, image, options, reader, view, bits, hypothesis, fit, w);

@@ -19,8 +19,6 @@ enum class Confirmation : std::uint8_t {
     ok,
     implausible,  ///< the dots are not at their expected places
     uncertain,    ///< the dots are there, but their bits leave doubts
-    rough,        ///< the dots are there, but far from their fitted places: see
-                  ///< Hypothesis::defers_if_rough
 };
 
 /// Measures, compares and fits. If the hypothesis is predicted, each dot is sampled directly first,

@@ -21,7 +21,7 @@ constexpr int kPatchWidth_px = tuned::kPatchWidth_px;
 constexpr int kPatchHeight_px = tuned::kPatchHeight_px;
 
 /// Moves dots to their places in a camera without distortion.
-void undistort(const Lens& lens, FloatVec middle, PatchDots& dots) {
+void undistort(const FixedLens& lens, FloatVec middle, PatchDots& dots) {
     const FloatLens l = float_lens(lens);
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
         const float x = dots.x[i] + middle.x - l.centre_x;
@@ -66,9 +66,8 @@ bool read_hypothesis(const Kernels& kernels, const Options& options, const Patch
                        block.rows);
     const int quarters = likeliest_turn(kernels, block);
     const BitBlock upright = turned(quarters, block);
-    if (!find_place_exactly(options.profile, upright, hypothesis.place) &&
-        !find_place(options.profile, score_block(kernels, upright, w.line_scores),
-                    hypothesis.place)) {
+    if (!find_place_exactly(options.code, upright, hypothesis.place) &&
+        !find_place(options.code, score_block(kernels, upright, w.line_scores), hypothesis.place)) {
         return false;
     }
     hypothesis.pattern_from_image = turned(quarters, grid.grid_from_image);
@@ -92,7 +91,7 @@ void find_mirror_image(const Kernels& kernels, const Options& options, DesktopWo
                        block.rows);
     Place place;
     w.is_mirrored =
-        find_place_exactly(options.profile, turned(likeliest_turn(kernels, block), block), place);
+        find_place_exactly(options.code, turned(likeliest_turn(kernels, block), block), place);
 }
 
 /// Returns true if the grid of the patch predicts all dots of the image to a fraction of a pixel,
@@ -122,8 +121,8 @@ bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Optio
 /// the dots are densest, which is returned in `densest_px`. Returns false if the patch has no place
 /// in the code.
 bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, const Options& options,
-                            Vec around_px, int scale, DesktopWorkspace& w, Vec& densest_px,
-                            Hypothesis& hypothesis) {
+                            FixedVec around_px, int scale, DesktopWorkspace& w,
+                            FixedVec& densest_px, Hypothesis& hypothesis) {
     Patch& patch = *w.patch;
     PatchView view;
     FloatVec from_middle;
@@ -149,20 +148,14 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, cons
     return false;
 }
 
-/// Returns true if no other hypothesis is tried.
-bool is_last(Confirmation confirmation) {
-    return confirmation == Confirmation::ok || confirmation == Confirmation::rough;
-}
-
 /// Searches a patch around a point of the image, and then, if it is elsewhere, the patch around the
 /// point where its dots are densest. Every hypothesis whose bits contradict it is one more chance
 /// of a wrong fix; `tries_left` is the number of tries that remain.
 Confirmation locate_around(const Kernels& kernels, const ImageView& image, const Options& options,
-                           Vec around_px, int scale, int& tries_left, DesktopWorkspace& w) {
+                           FixedVec around_px, int scale, int& tries_left, DesktopWorkspace& w) {
     for (int round = 0; round < 2 && tries_left > 0; ++round) {
         Hypothesis hypothesis;
-        hypothesis.defers_if_rough = options.effort == Effort::twice;
-        Vec densest_px = around_px;
+        FixedVec densest_px = around_px;
         if (find_hypothesis_around(kernels, image, options, around_px, scale, w, densest_px,
                                    hypothesis)) {
             const auto confirmation = confirm(kernels, image, options, hypothesis, w);
@@ -189,7 +182,7 @@ Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
             for (int u = width / 2; u < image.width_px + width / 2; u += width) {
                 const Confirmation confirmation =
                     locate_around(kernels, image, options, {u, v}, scale, tries_left, w);
-                if (is_last(confirmation)) return confirmation;
+                if (confirmation == Confirmation::ok) return confirmation;
             }
         }
     }
@@ -205,11 +198,10 @@ Confirmation locate_outwards(const Kernels& kernels, const ImageView& image, con
             break;
         }
         Hypothesis hypothesis;
-        hypothesis.defers_if_rough = options.effort == Effort::twice;
         auto confirmation = Confirmation::implausible;
         if (find_hypothesis(kernels, image, options, w, hypothesis)) {
             confirmation = confirm(kernels, image, options, hypothesis, w);
-            if (is_last(confirmation)) return confirmation;
+            if (confirmation == Confirmation::ok) return confirmation;
         }
         find_mirror_image(kernels, options, w);
         if (confirmation == Confirmation::uncertain) break;
@@ -225,8 +217,7 @@ bool locate_first(const Kernels& kernels, const ImageView& image, const Options&
     w.fix.status = Status::no_contrast;
     const Confirmation confirmation = locate_outwards(kernels, image, options, w);
     w.fix.attempt = Attempt::first;
-    if (confirmation == Confirmation::uncertain || confirmation == Confirmation::rough)
-        w.fix.status = Status::not_certain;
+    if (confirmation == Confirmation::uncertain) w.fix.status = Status::not_certain;
     return confirmation == Confirmation::ok;
 }
 

@@ -23,7 +23,7 @@ bool is_implausible(const PoseFit& fit, int bits, int bit_errors) {
 
 bool fit_pattern(const Options& options, const ImageView& image, DesktopWorkspace& w,
                  PoseFit& fit) {
-    const Nominal nominal(w.grid, options.profile, w.decoding);
+    const Nominal nominal(w.grid, options.code, w.decoding);
     w.pattern_from_image =
         upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
     w.dot_count = measure_dots(image, options.lens, w.pattern_from_image, nominal, w.grid, w.dots);
@@ -36,12 +36,12 @@ bool fit_pattern(const Options& options, const ImageView& image, DesktopWorkspac
 Status measure_pose(const Options& options, const ImageView& image, DesktopWorkspace& w) {
     PoseFit fit;
     if (!fit_pattern(options, image, w, fit)) return Status::no_grid;
-    const Vec reference = reference_q8(image_centre_q8(w.threshold), options);
-    const Nominal nominal(w.grid, options.profile, w.decoding);
+    const FixedVec reference = reference_q8(image_centre_q8(w.threshold), options);
+    const Nominal nominal(w.grid, options.code, w.decoding);
     fit_uneven(kernels(), {w.found_dots(), w.grid, nominal}, reference, w.measured,
                w.pattern_from_image, fit);
     w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536.0F);
-    write_pose(w.pattern_from_image, reference, options.profile, w.decoding.place, w.fix);
+    write_pose(w.pattern_from_image, reference, options.code, w.decoding.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     return is_implausible(fit, w.decoding.bits, w.fix.bit_errors) ? Status::not_certain
                                                                   : Status::ok;

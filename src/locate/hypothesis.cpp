@@ -24,11 +24,11 @@ Extent extent(float min, float max, int room) {
 
 /// Fills the rolls in the workspace with those of the code along the lines of a view, and links the
 /// view to them.
-void follow_code(Profile profile, const Place& place, CellsInView& view, DesktopWorkspace& w) {
-    const Place corner = moved(profile, place, view.first_column, view.first_row);
+void follow_code(CodeVariant code, const Place& place, CellsInView& view, DesktopWorkspace& w) {
+    const Place corner = moved(code, place, view.first_column, view.first_row);
     const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,
                             std::span<std::uint8_t> rolls) {
-        code::follow_rolls(profile, position, code::roll_from(profile, position, section, cross),
+        code::follow_rolls(code, position, code::roll_from(code, position, section, cross),
                            rolls.first(static_cast<std::size_t>(count)));
     };
     follow(corner.cell.x, corner.section.u, corner.cell.y, view.columns, w.column_rolls);
@@ -44,7 +44,7 @@ FloatVec centre_px(const ImageView& image) {
             static_cast<float>(image.height_px - 1) / 2};
 }
 
-FloatLens float_lens(const Lens& lens) {
+FloatLens float_lens(const FixedLens& lens) {
     constexpr float kQ40 = 1099511627776.0F;
     return {static_cast<float>(lens.k_q40) / kQ40, static_cast<float>(lens.centre_dx_q8) / 256,
             static_cast<float>(lens.centre_dy_q8) / 256};
@@ -88,17 +88,17 @@ CellsInView cells_in_view(const ImageView& image, const Options& options,
     const float spacing = spacing_px(view.plane);
     const float cells = 4 * half_width * half_height / (spacing * spacing);
     view.step = 1 + static_cast<int>(std::min(cells / static_cast<float>(max_cells), 65535.0F));
-    follow_code(options.profile, hypothesis.place, view, w);
+    follow_code(options.code, hypothesis.place, view, w);
     return view;
 }
 
-void count_from_centre(Profile profile, Hypothesis& hypothesis) {
+void count_from_centre(CodeVariant code, Hypothesis& hypothesis) {
     FloatPlane& plane = hypothesis.pattern_from_image;
     const float column = std::floor(plane.at_x + 0.5F);
     const float row = std::floor(plane.at_y + 0.5F);
     plane.at_x -= column;
     plane.at_y -= row;
-    hypothesis.place = moved(profile, hypothesis.place, static_cast<std::int32_t>(column),
+    hypothesis.place = moved(code, hypothesis.place, static_cast<std::int32_t>(column),
                              static_cast<std::int32_t>(row));
 }
 

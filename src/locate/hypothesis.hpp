@@ -23,9 +23,6 @@ struct Hypothesis {
     bool is_exact = false;
     bool is_partial_view =
         false;  ///< true if the pattern may cover only a part of the image, around `from_centre`
-    /// True if doubts about a rough frame are left to the second attempt. It reads the bits better,
-    /// in less time than counting the alternatives takes.
-    bool defers_if_rough = false;
     int depth_q8 =
         0;  ///< contrast of a typical dot in the smoothed patch, in 1/256 of the paper level
     float typical_mass = 0;  ///< sum of the darkness of a dot below the threshold, relative to the
@@ -39,7 +36,7 @@ inline constexpr int kCutOfDepth_q8 = 160;
 /// Returns the centre of an image, px from its first pixel.
 FloatVec centre_px(const ImageView& image);
 
-FloatLens float_lens(const Lens& lens);
+FloatLens float_lens(const FixedLens& lens);
 
 /// Returns the input of `list_cells`: the cells in view within `reach_px` of `from_centre`,
 /// subsampled to about `max_cells`. Fills the rolls in the workspace.
@@ -48,7 +45,7 @@ CellsInView cells_in_view(const ImageView& image, const Options& options,
                           DesktopWorkspace& w);
 
 /// Moves the origin of the cells to the one nearest `from_centre`.
-void count_from_centre(Profile profile, Hypothesis& hypothesis);
+void count_from_centre(CodeVariant code, Hypothesis& hypothesis);
 
 /// Least-squares shift, scale and turn from the predicted dots to the measured ones.
 struct Similarity {

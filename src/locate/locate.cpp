@@ -59,7 +59,7 @@ class Cascade {
     CodeReading locate(const Prediction* prediction) {
         if (options_.effort == Effort::device) return make({Step::device});
         prediction_ = prediction;
-        const Profile predicted = options_.profile;
+        const CodeVariant predicted = options_.code;
         if (prediction != nullptr && attempt(Step::tracked, predicted)) {
             const Judgement judgement = judge(predicted);
             if (judgement.is_certain) return accept(predicted, judgement);
@@ -86,7 +86,7 @@ class Cascade {
         std::optional<CodeReading> doubtful;
         std::optional<Fix> failure;
         for (const Step step : steps) {
-            for (const Profile code : worth_trying(step)) {
+            for (const CodeVariant code : worth_trying(step)) {
                 if (!attempt(step, code)) {
                     if (code == codes_.likeliest()) failure = w_.fix;
                     if (step != Step::first && !leaves_code_open(w_.fix.status)) break;
@@ -105,7 +105,7 @@ class Cascade {
     }
 
     /// Returns the codes in which a step is tried.
-    std::span<const Profile> worth_trying(Step step) const {
+    std::span<const CodeVariant> worth_trying(Step step) const {
         if (step == Step::resampled && !codes_.is_known())
             return {&worth_resampling_, min_errors_ == kMaxErrors ? 0U : 1U};
         return codes_.in_order();
@@ -113,8 +113,8 @@ class Cascade {
 
     /// Makes one step in one code. Returns true if there is a fix; the workspace has it and the
     /// odds of other codes.
-    bool attempt(Step step, Profile code) {
-        options_.profile = code;
+    bool attempt(Step step, CodeVariant code) {
+        options_.code = code;
         OtherCodes& others = w_.other_codes;
         others.of = {};
         // Alternatives that do not depend on the place are equally likely in each code.
@@ -134,7 +134,7 @@ class Cascade {
         return false;
     }
 
-    bool attempt_second(Profile code) {
+    bool attempt_second(CodeVariant code) {
         if (second_.read(options_, SecondAttempt::Resampling::never)) return true;
         if (w_.fix.status == Status::not_certain && w_.fix.bit_errors < min_errors_) {
             min_errors_ = w_.fix.bit_errors;
@@ -143,37 +143,37 @@ class Cascade {
         return false;
     }
 
-    bool attempt_as_device(Profile code) {
+    bool attempt_as_device(CodeVariant code) {
         if (locate_as_device(image_, options_, w_).status != Status::ok) return false;
         w_.fix.p_wrong_log2 = PossibleCodes::rounded_up(w_.fix.p_wrong_log2, codes_.number(code));
         weigh_other_codes(kernels(), w_.grid, code, w_.decoding, w_.line_scores, &w_.other_codes);
         return true;
     }
 
-    Judgement judge(Profile read) const {
+    Judgement judge(CodeVariant read) const {
         return codes_.judge(read, w_.other_codes, w_.fix, options_.integrity.max_p_wrong_log2);
     }
 
     /// Returns the certain fix, or a better one: in a code that explains the same place better, or
     /// by the second attempt.
-    CodeReading best_of(Step step, Profile code, Judgement judgement) {
-        const auto remake = [&](Step other_step, Profile other) {
+    CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
+        const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempt(other_step, other)) return false;
             code = other;
             judgement = judge(other);
             return judgement.is_certain;
         };
-        const Profile read = code;
+        const CodeVariant read = code;
         if (judgement.other_odds > tuned::kBetterOdds && !remake(step, judgement.other))
             remake(step, read);
         if (step == Step::first && is_rough(w_.fix) && may_try_twice()) {
-            const Profile best = code;
+            const CodeVariant best = code;
             if (!remake(Step::resampled, best)) remake(step, best);
         }
         return accept(code, judgement);
     }
 
-    CodeReading accept(Profile code, const Judgement& judgement) {
+    CodeReading accept(CodeVariant code, const Judgement& judgement) {
         w_.fix.p_wrong_log2 = judgement.p_wrong_log2;
         CodeReading reading{w_.fix, code, evidence_};
         if (!codes_.is_known())
@@ -181,7 +181,7 @@ class Cascade {
         return reading;
     }
 
-    CodeReading in_doubt(Profile code, const Judgement& judgement) {
+    CodeReading in_doubt(CodeVariant code, const Judgement& judgement) {
         CodeReading reading{w_.fix, code, evidence_};
         reading.fix.p_wrong_log2 = judgement.p_wrong_log2;
         reading.fix.status = judgement.is_ambiguous ? Status::ambiguous_code : Status::not_certain;
@@ -196,7 +196,7 @@ class Cascade {
         if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
         const PossibleCodes before = codes_;
         codes_ = PossibleCodes(CodeEvidence{});
-        for (const Profile code : codes_.in_order()) {
+        for (const CodeVariant code : codes_.in_order()) {
             if (code == before.likeliest() || !attempt(Step::first, code) ||
                 !judge(code).is_certain)
                 continue;
@@ -216,7 +216,7 @@ class Cascade {
     DesktopWorkspace& w_;
     const Prediction* prediction_ = nullptr;
     SecondAttempt second_;
-    Profile worth_resampling_ = Profile::anoto;  ///< code with `min_errors_` bit errors
+    CodeVariant worth_resampling_ = CodeVariant::anoto;  ///< code with `min_errors_` bit errors
     int min_errors_ = kMaxErrors;
 };
 
@@ -261,7 +261,7 @@ Fix locate(const ImageView& image, const Options& options, const Prediction* pre
                                      : locate_as_device(image, options, w);
     }
     w.other_codes.are_wanted = false;
-    return locate_checked(image, options, prediction, PossibleCodes(options.profile), {}, w).fix;
+    return locate_checked(image, options, prediction, PossibleCodes(options.code), {}, w).fix;
 }
 
 Status begin_image(int width_px, int height_px, const Options& options, DesktopWorkspace& w) {
@@ -275,15 +275,15 @@ CodeReading locate_in_any_code(const ImageView& image, const Options& options,
                                const Prediction* prediction, const CodeEvidence& evidence,
                                DesktopWorkspace& w) {
     const Status status = check(image, options, w);
-    if (status != Status::ok) return {refuse(status, w), options.profile, evidence};
+    if (status != Status::ok) return {refuse(status, w), options.code, evidence};
     w.other_codes.are_wanted = true;
     return locate_checked(image, options, prediction, PossibleCodes(evidence), evidence, w);
 }
 
 CodeReading locate_in_code(const ImageView& image, const Options& options, DesktopWorkspace& w) {
     const Status status = check(image, options, w);
-    if (status != Status::ok) return {refuse(status, w), options.profile, {}};
-    const PossibleCodes given(options.profile);
+    if (status != Status::ok) return {refuse(status, w), options.code, {}};
+    const PossibleCodes given(options.code);
     w.other_codes.are_wanted = true;
     w.other_codes.log2_in_question_q8 = OtherCodes::kNoneInQuestion;
     CodeReading reading = locate_checked(image, options, nullptr, given, {}, w);
@@ -334,7 +334,7 @@ Fix Locator::detected(const CodeReading& reading) {
 }
 
 CodeReading Locator::finished(CodeReading reading) {
-    options_.profile = reading.code;
+    options_.code = reading.code;
     workspace().fix = reading.fix;
     reading.fix = finished();
     return reading;

@@ -23,7 +23,7 @@ struct Line {
 };
 
 /// Returns the line at the same position in the other code.
-Line here(Profile read, Profile other, std::uint32_t position, int roll_read) {
+Line here(CodeVariant read, CodeVariant other, std::uint32_t position, int roll_read) {
     return {position, roll_read + roll(other, position) - roll(read, position)};
 }
 
@@ -32,9 +32,9 @@ Line elsewhere(const OtherAxis& axis, int roll_read) {
     return {axis.position, roll_read + axis.roll};
 }
 
-std::uint8_t section(Profile profile, const Line& line, const Line& crossing) {
+std::uint8_t section(CodeVariant code, const Line& line, const Line& crossing) {
     const int roll = (line.roll + 2 * kSections) % kSections;
-    return static_cast<std::uint8_t>(section_of(profile, roll, line.position, crossing.position));
+    return static_cast<std::uint8_t>(section_of(code, roll, line.position, crossing.position));
 }
 
 /// Returns the likelihood ratio of the likeliest other place, which differs along one axis or both.
@@ -48,7 +48,7 @@ float best_odds(const OtherCode& there) {
 void name_code_that_explains(const OtherCodes& others, CodeReading& reading) {
     float most = 0;
     for (std::size_t i = 0; i < others.of.size(); ++i) {
-        const auto other = static_cast<Profile>(i);
+        const auto other = static_cast<CodeVariant>(i);
         if (other == reading.code) continue;
         const float elsewhere = best_odds(others.of[i]);
         const float here = others.of[i].here();
@@ -68,7 +68,8 @@ void name_code_that_explains(const OtherCodes& others, CodeReading& reading) {
     }
 }
 
-void name_other_place(Profile read, Profile other, const OtherCodes& others, CodeReading& reading) {
+void name_other_place(CodeVariant read, CodeVariant other, const OtherCodes& others,
+                      CodeReading& reading) {
     const Fix& fix = reading.fix;
     const OtherCode& there = others.of[static_cast<std::size_t>(other)];
     const Place first = moved(read, fix.place, steps(fix.place.cell.x, others.first.x),

@@ -11,6 +11,7 @@ namespace dotpose::core {
 void name_code_that_explains(const OtherCodes& others, CodeReading& reading);
 
 /// Sets the likeliest place in the code `other` for a reading in the code `read`.
-void name_other_place(Profile read, Profile other, const OtherCodes& others, CodeReading& reading);
+void name_other_place(CodeVariant read, CodeVariant other, const OtherCodes& others,
+                      CodeReading& reading);
 
 }  // namespace dotpose::core

@@ -7,8 +7,9 @@ namespace dotpose::core {
 namespace {
 
 /// Returns the grey level at a point of the plane of the paper; -1 outside of the image.
-int level_at(const ImageView& image, const Lens& lens, const PlaneFromImage& plane, Vec point_q16) {
-    const Vec at_q8 = distorted_point_q8(lens, plane, point_q16) + Vec{128, 128};
+int level_at(const ImageView& image, const FixedLens& lens, const PlaneFromImage& plane,
+             FixedVec point_q16) {
+    const FixedVec at_q8 = distorted_point_q8(lens, plane, point_q16) + FixedVec{128, 128};
     const std::int32_t u = at_q8.x >> 8;
     const std::int32_t v = at_q8.y >> 8;
     if (u < 0 || v < 0 || u >= image.width_px || v >= image.height_px) return -1;
@@ -17,23 +18,23 @@ int level_at(const ImageView& image, const Lens& lens, const PlaneFromImage& pla
 
 }  // namespace
 
-bool is_pale(const ImageView& image, const Options& options, Profile code, const Fix& fix) {
+bool is_pale(const ImageView& image, const Options& options, CodeVariant code, const Fix& fix) {
     constexpr std::int32_t kReach_cells = 10;
     constexpr std::int32_t kSpacing_q16 = 1 << 16;
     if (options.min_contrast == 0) return false;
     const PlaneFromImage& plane = fix.pattern_from_image;
-    const Vec middle{plane.at_centre_q16.x >> 16, plane.at_centre_q16.y >> 16};
+    const FixedVec middle{plane.at_centre_q16.x >> 16, plane.at_centre_q16.y >> 16};
     int contrast = 0;
     int dots = 0;
     for (std::int32_t j = middle.y - kReach_cells; j <= middle.y + kReach_cells; ++j) {
         for (std::int32_t i = middle.x - kReach_cells; i <= middle.x + kReach_cells; ++i) {
             const Place place = moved(code, fix.place, i, j);
             const Symbol symbol = symbol_at(code, place.cell, place.section);
-            const Vec cell_q16{i * kSpacing_q16, j * kSpacing_q16};
-            const Vec dot_q16 = cell_q16 + Vec{dx(symbol) * fix.displacement_q16,
-                                               dy(symbol) * fix.displacement_q16};
+            const FixedVec cell_q16{i * kSpacing_q16, j * kSpacing_q16};
+            const FixedVec dot_q16 = cell_q16 + FixedVec{dx(symbol) * fix.displacement_q16,
+                                                         dy(symbol) * fix.displacement_q16};
             // The middle between four intersections is always paper.
-            const Vec paper_q16 = cell_q16 + Vec{kSpacing_q16 / 2, kSpacing_q16 / 2};
+            const FixedVec paper_q16 = cell_q16 + FixedVec{kSpacing_q16 / 2, kSpacing_q16 / 2};
             const int ink = level_at(image, options.lens, plane, dot_q16);
             const int paper = level_at(image, options.lens, plane, paper_q16);
             if (ink < 0 || paper < 0) continue;

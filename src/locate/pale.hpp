@@ -9,6 +9,6 @@ namespace dotpose::core {
 
 /// Returns true if the mean contrast between the paper and the dots around the image centre is less
 /// than `options.min_contrast` grey levels. `code` is the code in which the fix was read.
-bool is_pale(const ImageView& image, const Options& options, Profile code, const Fix& fix);
+bool is_pale(const ImageView& image, const Options& options, CodeVariant code, const Fix& fix);
 
 }  // namespace dotpose::core

@@ -42,7 +42,7 @@ void detect_filtered(const ImageView& image, const Options& filtered, DesktopWor
 
 /// Finds the grid of the dots, also with tilt and lens distortion. Slower than `find_grid`.
 Status find_grid_thoroughly(const Options& options, DesktopWorkspace& w) {
-    const Vec centre_q8 = image_centre_q8(w.threshold);
+    const FixedVec centre_q8 = image_centre_q8(w.threshold);
     Status status = find_axes(centre_q8, kMaxSeeds, w);
     if (status != Status::ok) return status;
     const Lattice estimate = w.lattice;
@@ -66,9 +66,9 @@ bool shows_one_pattern(const ImageView& image, const Options& options, DesktopWo
 /// Decodes with the decoder of the options.
 Status decode(const Options& options, DesktopWorkspace& w) {
     if (options.decoder == Decoder::window) {
-        return decode_window(w.grid, options.profile, w.line_scores, w.decoding);
+        return decode_window(w.grid, options.code, w.line_scores, w.decoding);
     }
-    return decode_all(w.grid, options.profile, w.line_scores, w.decoding);
+    return decode_all(w.grid, options.code, w.line_scores, w.decoding);
 }
 
 /// Finds the position in the code from the bits, and verifies that all dots agree with it.
@@ -77,8 +77,8 @@ Status read_position(const Options& options, DesktopWorkspace& w) {
     choose_region(w);
     Status status = decode(options, w);  // II-B.6-7
     if (status == Status::ok) {
-        status = verify_among_codes(w.grid, options.profile, wanted_codes(w), w.decoding,
-                                    options.integrity, w.line_scores, w.fix);
+        status = verify(w.grid, options.code, wanted_codes(w), w.decoding, options.integrity,
+                        w.line_scores, w.fix);
     }
     return status == Status::ok ? status : refused(status, w);
 }
@@ -140,7 +140,7 @@ Status measure_and_weigh(const ImageView& image, const Options& options, Desktop
     const Status status = measure_pose(options, image, w);  // II-B.8
     w.fix.attempt = Attempt::second;
     if (status == Status::ok) {
-        weigh_other_codes(kernels(), w.grid, options.profile, w.decoding, w.line_scores,
+        weigh_other_codes(kernels(), w.grid, options.code, w.decoding, w.line_scores,
                           wanted_codes(w));
         measure_again_if_biased(image, options, w);
     }

@@ -84,7 +84,7 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
     kernels.list_cells(view, dots);
     // The search covers thirteen shifts along each axis.
     const int step_px = std::max((max_px + 3) / 6, 1);
-    Vec shift;
+    FixedVec shift;
     if (!kernels.find_shift(image, dots, max_px, step_px, shift, hypothesis.depth_q8)) return false;
     const FloatVec shift_px{static_cast<float>(shift.x), static_cast<float>(shift.y)};
     plane = recentred(plane, {-shift_px.x, -shift_px.y});
@@ -114,7 +114,7 @@ bool correct(const Kernels& kernels, const ImageView& image, const Options& opti
              int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
     hypothesis.from_centre = from;
     hypothesis.pattern_from_image = recentred(hypothesis.pattern_from_image, from);
-    count_from_centre(options.profile, hypothesis);
+    count_from_centre(options.code, hypothesis);
     if (!correct_by_dots(kernels, image, options, max_px, hypothesis, w)) return false;
     hypothesis.pattern_from_image = recentred(hypothesis.pattern_from_image, {-from.x, -from.y});
     hypothesis.from_centre = {};
@@ -148,7 +148,7 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Im
     if (!(hypothesis.displacement > tuned::kMinDisplacement &&
           hypothesis.displacement < tuned::kMaxDisplacement))
         return {};
-    count_from_centre(options.profile, hypothesis);
+    count_from_centre(options.code, hypothesis);
     return hypothesis;
 }
 

@@ -7,10 +7,11 @@
 #include <cstdint>
 #include <span>
 
+#include "core/detect/smooth.hpp"
 #include "core/other_codes.hpp"
 #include "core/patch_memory.hpp"
-#include "core/stages.hpp"
 #include "core/workspace.hpp"
+#include "device/workspace.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/prediction.hpp"
 
@@ -52,7 +53,7 @@ struct PushedImage {
 };
 
 /// Memory that only `Locator` needs, in addition to that of both locators.
-struct DesktopWorkspace : Workspace {
+struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;
     MeasuredDots measured;
     std::span<std::uint8_t> column_rolls;
@@ -154,17 +155,17 @@ class WorkspaceOf : public DesktopWorkspace {
     alignas(8) std::array<std::uint8_t, kLevels> high_levels_{};
     std::array<Run, 2 * kRuns> runs_{};
     std::array<OpenBlob, 2 * kRuns> blobs_{};
-    std::array<Dot, MaxDots> dots_{};
+    std::array<DetectedDot, MaxDots> dots_{};
     std::array<std::uint16_t, kMaxSeeds> seeds_{};
     std::array<BucketedSeed, kMaxSeeds + 1> buckets_{};
     std::array<std::array<std::int16_t, 4>, kMaxSeeds> neighbours_{};
-    std::array<Edge, 2 * kMaxSeeds> edges_{};
+    std::array<SeedEdge, 2 * kMaxSeeds> edges_{};
     std::array<std::int32_t, 4 * kMaxSeeds> edge_values_{};
     std::array<GridCell, GridSide * GridSide> cells_{};
     std::array<ScoredLine, 2 * std::min(GridSide, kMaxLines)> line_scores_{};
     std::array<std::uint8_t, 36 * std::min(MaxWidth, 376)> tracked_rows_{};
-    std::array<TrackedLine, 2 * kMaxTracked> tracked_lines_{};
-    std::array<TrackedRow, kMaxTracked> grid_rows_{};
+    std::array<ComparedLine, 2 * kMaxComparedLines> tracked_lines_{};
+    std::array<TrackedRow, kMaxComparedLines> grid_rows_{};
     std::array<std::uint8_t, kPushed_px> pushed_;
 };
 

@@ -10,7 +10,7 @@ SymbolRows::SymbolRows(const Sheet& sheet)
     std::uint32_t x = sheet_.origin.x;
     for (std::uint8_t& column_roll : column_rolls_) {
         column_roll =
-            static_cast<std::uint8_t>((roll(pattern.profile, x++) + pattern.section.u) % kSections);
+            static_cast<std::uint8_t>((roll(pattern.code, x++) + pattern.section.u) % kSections);
     }
 }
 
@@ -18,7 +18,7 @@ const std::vector<Symbol>& SymbolRows::row(int j) {
     // Paper section II-A: column x carries the main sequence downwards, row y to the right.
     const Pattern& pattern = sheet_.pattern;
     const std::uint32_t y = sheet_.origin.y + static_cast<std::uint32_t>(j);
-    const auto row_roll = static_cast<std::uint32_t>(roll(pattern.profile, y) + pattern.section.v);
+    const auto row_roll = static_cast<std::uint32_t>(roll(pattern.code, y) + pattern.section.v);
     std::uint32_t x = sheet_.origin.x;
     for (std::size_t i = 0; i < symbols_.size(); ++i, ++x) {
         symbols_[i] = make_symbol(main_bit(column_rolls_[i] + y), main_bit(row_roll + x));

@@ -22,9 +22,9 @@ void validate(const std::vector<int>& settings) {
     }
 }
 
-Pattern pattern_of(Profile profile, int spacing, int dot) {
+Pattern pattern_of(CodeVariant code, int spacing, int dot) {
     Pattern pattern;
-    pattern.profile = profile;
+    pattern.code = code;
     pattern.spacing_mm = spacing * kTestUnit_mm;
     pattern.displacement_mm = pattern.spacing_mm / 6;
     pattern.dot_mm = dot * kTestUnit_mm;
@@ -73,8 +73,7 @@ PrintPage make_test_page(const TestPageOptions& options) {
     for (std::size_t column = 0; column < options.spacings.size(); ++column) {
         for (std::size_t row = 0; row < options.dots.size(); ++row) {
             SheetOptions patch;
-            patch.pattern =
-                pattern_of(options.profile, options.spacings[column], options.dots[row]);
+            patch.pattern = pattern_of(options.code, options.spacings[column], options.dots[row]);
             if (would_touch(patch.pattern)) continue;
             patch.origin = first_cell(options.spacings[column], options.dots[row]);
             patch.paper = {width_mm - kGap_mm, height_mm - label_mm};
@@ -98,11 +97,11 @@ PrintPage make_test_page(const TestPageOptions& options) {
     return page;
 }
 
-std::optional<Pattern> test_patch_at(Profile profile, Cell cell) {
+std::optional<Pattern> test_patch_at(CodeVariant code, Cell cell) {
     const int spacing = setting_at(cell.x);
     const int dot = setting_at(cell.y);
     if (spacing == 0 || dot == 0) return std::nullopt;
-    const Pattern pattern = pattern_of(profile, spacing, dot);
+    const Pattern pattern = pattern_of(code, spacing, dot);
     return would_touch(pattern) ? std::nullopt : std::optional(pattern);
 }
 

@@ -162,7 +162,7 @@ void add_dots(Ink& ink, const View& view, const Page& page, const Imperfections&
 
 DisplacementOf code_of(const Pattern& pattern) {
     return [pattern](Cell cell) {
-        const Symbol symbol = symbol_at(pattern.profile, cell, pattern.section);
+        const Symbol symbol = symbol_at(pattern.code, cell, pattern.section);
         return Vec2{static_cast<double>(dx(symbol)), static_cast<double>(dy(symbol))};
     };
 }

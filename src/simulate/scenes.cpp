@@ -30,7 +30,7 @@ simulate::DisplacementOf displacement_in(Scene scene, const Shot& shot) {
         const Pattern& here = is_beyond ? beyond : pattern;
         const Symbol symbol = scene == Scene::random_symbols
                                   ? random_symbol(seed, cell)
-                                  : symbol_at(here.profile, cell, here.section);
+                                  : symbol_at(here.code, cell, here.section);
         return Vec2{static_cast<double>(dx(symbol)), static_cast<double>(dy(symbol))};
     };
 }

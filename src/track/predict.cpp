@@ -78,9 +78,9 @@ Prediction Tracker::predict(std::int64_t time_us, const Fix& newest, const Sight
     const auto q16 = [](float spacings) { return static_cast<std::int32_t>(spacings * 65536); };
     const auto turn_bam =
         static_cast<std::uint32_t>(expected.theta_bam) - static_cast<std::uint32_t>(seen.theta_bam);
-    const Vec centre_q8 = newest.pattern_from_image.centre_q8;
+    const FixedVec centre_q8 = newest.pattern_from_image.centre_q8;
     Prediction next =
-        moved(as_seen, options.profile, {q16(by[0]), q16(by[1])},
+        moved(as_seen, options.code, {q16(by[0]), q16(by[1])},
               static_cast<std::int32_t>(seen.is_y_up ? 0U - turn_bam : turn_bam),
               {centre_q8.x + options.reference_dx_q8, centre_q8.y + options.reference_dy_q8});
     const float gap_s = static_cast<float>(gap_us) * 1e-6F;

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "../scanned_page.hpp"
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/print.hpp"
 #include "locate_command.hpp"
@@ -26,9 +26,9 @@ constexpr std::uint32_t kBorder = 221;
 constexpr std::uint32_t kCommon = 100;
 
 /// A frame of 17 x 10 dots, not turned, with the middle at these remainders.
-Shot shot_at(Profile profile, std::uint32_t x, std::uint32_t y) {
+Shot shot_at(CodeVariant code, std::uint32_t x, std::uint32_t y) {
     Shot shot = test::shot(3);
-    shot.page.pattern.profile = profile;
+    shot.page.pattern.code = code;
     shot.page.pattern.section = {};
     shot.pose.cell = {1000 * kPeriod + x, 2000 * kPeriod + y};
     shot.pose.theta_rad = 0;
@@ -37,8 +37,8 @@ Shot shot_at(Profile profile, std::uint32_t x, std::uint32_t y) {
 
 class AnyCode : public LocateCommand {
   protected:
-    Shot write_at(const std::string& name, Profile profile, std::uint32_t x, std::uint32_t y) {
-        const Shot shot = shot_at(profile, x, y);
+    Shot write_at(const std::string& name, CodeVariant code, std::uint32_t x, std::uint32_t y) {
+        const Shot shot = shot_at(code, x, y);
         write_pgm(directory_ / name, render(shot).view());
         return shot;
     }
@@ -51,19 +51,20 @@ class AnyCode : public LocateCommand {
 };
 
 TEST_F(AnyCode, is_named_where_the_frame_tells_it) {
-    for (const Profile profile : {Profile::anoto, Profile::libdots, Profile::microdots}) {
-        const Shot truth = write_at("a.pgm", profile, kCommon, kBorder);
+    for (const CodeVariant code :
+         {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {
+        const Shot truth = write_at("a.pgm", code, kCommon, kBorder);
         run("a.pgm");
         const json record = records().at(0);
         EXPECT_EQ(record["status"], "ok") << record;
-        EXPECT_EQ(record["code"], name(profile));
+        EXPECT_EQ(record["code"], name(code));
         EXPECT_LT(record["code_p_wrong"], 1e-3) << record;
         EXPECT_TRUE(is_at(record, "x_mm", "y_mm", truth)) << record;
     }
 }
 
 TEST_F(AnyCode, is_open_where_codes_agree_and_the_place_is_not) {
-    const Shot truth = write_at("a.pgm", Profile::libdots, kCommon, kCommon);
+    const Shot truth = write_at("a.pgm", CodeVariant::libdots, kCommon, kCommon);
     run("a.pgm");
     const json record = records().at(0);
     EXPECT_EQ(record["status"], "ok");
@@ -72,15 +73,15 @@ TEST_F(AnyCode, is_open_where_codes_agree_and_the_place_is_not) {
 }
 
 TEST_F(AnyCode, two_places_are_told_where_both_explain_the_frame) {
-    for (const Profile profile : {Profile::anoto, Profile::libdots}) {
-        const Shot truth = write_at("a.pgm", profile, kCommon, kShifted);
+    for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::libdots}) {
+        const Shot truth = write_at("a.pgm", code, kCommon, kShifted);
         run("a.pgm");
         const json record = records().at(0);
         EXPECT_EQ(record["status"], "ambiguous_code") << record;
         EXPECT_FALSE(record.contains("x_mm"));
         EXPECT_THAT(record["message"], HasSubstr("--code"));
-        const bool is_first = record["code"] == name(profile);
-        EXPECT_EQ(record[is_first ? "code" : "other_code"], name(profile)) << record;
+        const bool is_first = record["code"] == name(code);
+        EXPECT_EQ(record[is_first ? "code" : "other_code"], name(code)) << record;
         EXPECT_TRUE(is_first ? is_at(record, "code_x_mm", "code_y_mm", truth)
                              : is_at(record, "other_x_mm", "other_y_mm", truth))
             << record;
@@ -88,15 +89,15 @@ TEST_F(AnyCode, two_places_are_told_where_both_explain_the_frame) {
 }
 
 TEST_F(AnyCode, other_frames_of_the_call_decide) {
-    for (const Profile profile : {Profile::anoto, Profile::libdots}) {
+    for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::libdots}) {
         // Two places that tell it, then the one that does not.
-        write_at("1.pgm", profile, kCommon, kBorder);
-        write_at("2.pgm", profile, kBorder + kPeriod, kCommon);
-        const Shot truth = write_at("3.pgm", profile, kCommon, kShifted);
+        write_at("1.pgm", code, kCommon, kBorder);
+        write_at("2.pgm", code, kBorder + kPeriod, kCommon);
+        const Shot truth = write_at("3.pgm", code, kCommon, kShifted);
         run("1.pgm 2.pgm 3.pgm");
         const json record = records().at(2);
         EXPECT_EQ(record["status"], "ok") << record;
-        EXPECT_EQ(record["code"], name(profile));
+        EXPECT_EQ(record["code"], name(code));
         EXPECT_LE(record["p_wrong"], 1e-9);
         EXPECT_TRUE(is_at(record, "x_mm", "y_mm", truth)) << record;
         run("3.pgm 1.pgm");
@@ -105,7 +106,7 @@ TEST_F(AnyCode, other_frames_of_the_call_decide) {
 }
 
 TEST_F(AnyCode, given_decides_and_another_that_explains_the_frame_is_a_warning) {
-    const Shot truth = write_at("a.pgm", Profile::libdots, kCommon, kShifted);
+    const Shot truth = write_at("a.pgm", CodeVariant::libdots, kCommon, kShifted);
     run("--code libdots a.pgm");
     const json right = records().at(0);
     EXPECT_EQ(right["status"], "ok") << right;
@@ -126,17 +127,17 @@ TEST_F(AnyCode, given_decides_and_another_that_explains_the_frame_is_a_warning) 
 }
 
 TEST_F(AnyCode, a_common_frame_has_no_warning) {
-    write_at("a.pgm", Profile::anoto, kCommon, kCommon);
+    write_at("a.pgm", CodeVariant::anoto, kCommon, kCommon);
     run("--code anoto a.pgm");
     EXPECT_FALSE(records().at(0).contains("warning")) << records().at(0);
 }
 
 TEST_F(AnyCode, another_sheet_is_known_after_two_of_its_places) {
     std::string names;
-    for (const Profile profile : {Profile::anoto, Profile::microdots}) {
+    for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::microdots}) {
         for (std::uint32_t i = 0; i < 4; ++i) {
-            const std::string file = std::string(name(profile)) + std::to_string(i) + ".pgm";
-            write_at(file, profile, kCommon, kBorder + i * kPeriod);
+            const std::string file = std::string(name(code)) + std::to_string(i) + ".pgm";
+            write_at(file, code, kCommon, kBorder + i * kPeriod);
             names += " " + file;
         }
     }
@@ -147,9 +148,9 @@ TEST_F(AnyCode, another_sheet_is_known_after_two_of_its_places) {
 }
 
 TEST_F(AnyCode, frames_of_a_video_decide) {
-    write_at("a1.pgm", Profile::libdots, kCommon, kBorder);
-    write_at("a2.pgm", Profile::libdots, kBorder + kPeriod, kCommon);
-    const Shot truth = write_at("a3.pgm", Profile::libdots, kCommon, kShifted);
+    write_at("a1.pgm", CodeVariant::libdots, kCommon, kBorder);
+    write_at("a2.pgm", CodeVariant::libdots, kBorder + kPeriod, kCommon);
+    const Shot truth = write_at("a3.pgm", CodeVariant::libdots, kCommon, kShifted);
     ToolCommand::run("watch 'a*.pgm' --fps 1");
     const std::vector<json> watched = records();
     ASSERT_EQ(watched.size(), 3U) << errors_;
@@ -159,22 +160,22 @@ TEST_F(AnyCode, frames_of_a_video_decide) {
 }
 
 TEST_F(AnyCode, a_page_tells_it_to_check_print) {
-    for (const Profile profile : {Profile::anoto, Profile::libdots}) {
+    for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::libdots}) {
         SheetOptions options;
         options.paper = {60, 50};
-        options.pattern.profile = profile;
+        options.pattern.code = code;
         options.origin = {2 * kPeriod - 50, 3 * kPeriod - 50};
         write_png(directory_ / "scan.png", scan_page(make_sheet(options), {}).view());
         ToolCommand::run("check-print scan.png --dpi 600 --format json");
         const json report = json::parse(output_);
-        EXPECT_EQ(report["code"], name(profile)) << report;
+        EXPECT_EQ(report["code"], name(code)) << report;
         EXPECT_LT(report["code_p_wrong"], 1e-6);
         ASSERT_EQ(report["fields"].size(), 1U);
         EXPECT_EQ(report["fields"][0]["bits_wrong"], 0);
-        const bool is_anoto = profile == Profile::anoto;
+        const bool is_anoto = code == CodeVariant::anoto;
         ToolCommand::run(std::string("check-print scan.png --dpi 600 --code ") +
                          (is_anoto ? "libdots" : "anoto"));
-        EXPECT_THAT(output_, HasSubstr(std::string("the page is of code ") + name(profile)));
+        EXPECT_THAT(output_, HasSubstr(std::string("the page is of code ") + name(code)));
     }
 }
 

@@ -374,7 +374,7 @@ TEST_F(SheetFiles, pictures_show_the_profile_that_was_found) {
     ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --code microdots "
                     "--spacing 0.6"),
               0);
-    // Not on a sheet: after the second profile has been tried, the first one's fix is drawn.
+    // Not on a sheet: after the second code variant has been tried, the first one's fix is drawn.
     write_frame("elsewhere.pgm", 0);
     run("--sheets sheets.json --draw pictures elsewhere.pgm");
     EXPECT_EQ(records().at(0)["status"], "ok");

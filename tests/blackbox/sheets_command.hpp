@@ -18,9 +18,9 @@ inline GreyImage frame_of(const json& sheet, double x_mm, double y_mm, double th
     setup.random_section = false;
     Shot shot = draw_shot(setup, 0);
     Pattern& pattern = shot.page.pattern;
-    pattern.profile = sheet["code"] == "microdots" ? Profile::microdots
-                      : sheet["code"] == "libdots" ? Profile::libdots
-                                                   : Profile::anoto;
+    pattern.code = sheet["code"] == "microdots" ? CodeVariant::microdots
+                   : sheet["code"] == "libdots" ? CodeVariant::libdots
+                                                : CodeVariant::anoto;
     pattern.section = {sheet["section_u"], sheet["section_v"]};
     pattern.spacing_mm = sheet["spacing_mm"];
     pattern.displacement_mm = sheet["displacement_mm"];

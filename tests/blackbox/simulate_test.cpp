@@ -40,7 +40,7 @@ TEST_F(SimulateCommand, WritesFramesAndTheirTruth) {
     const std::vector<std::string> rows = truth_rows("frames");
     ASSERT_EQ(rows.size(), 13u);
     EXPECT_EQ(rows[0],
-              "file,x_mm,y_mm,theta_deg,x_grid,y_grid,section_u,section_v,profile,spacing_mm,"
+              "file,x_mm,y_mm,theta_deg,x_grid,y_grid,section_u,section_v,code,spacing_mm,"
               "px_per_spacing,preset,seed");
     for (std::size_t i = 1; i < rows.size(); ++i) {
         const std::vector<std::string> fields = split(rows[i], ',');

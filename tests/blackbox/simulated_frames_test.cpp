@@ -115,25 +115,25 @@ TEST(SimulatedFrames, FramesInDoubtAreLookedAtOnceMore) {
 }
 
 TEST(SimulatedFrames, AllProfilesAreRead) {
-    for (const Profile profile : {Profile::libdots, Profile::microdots}) {
+    for (const CodeVariant code : {CodeVariant::libdots, CodeVariant::microdots}) {
         dotpose::Setup setup = setup_of(Preset::nominal, kFramesSeed + 1);
-        setup.pattern.profile = profile;
+        setup.pattern.code = code;
         Options options;
-        options.profile = profile;
+        options.code = code;
         const Tally tally = run(setup, frames_of(100, 1000), options);
-        EXPECT_GE(tally.located_share(), 0.99) << static_cast<int>(profile);
+        EXPECT_GE(tally.located_share(), 0.99) << static_cast<int>(code);
         EXPECT_EQ(tally.wrong, 0u);
     }
 }
 
 TEST(SimulatedFrames, OtherProfilesAreNotTakenForOnesOwn) {
-    for (const Profile profile : {Profile::anoto, Profile::microdots}) {
+    for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::microdots}) {
         dotpose::Setup setup = setup_of(Preset::nominal, kFramesSeed + 2);
-        setup.pattern.profile = profile;
+        setup.pattern.code = code;
         Options options;
-        options.profile = profile == Profile::anoto ? Profile::microdots : Profile::anoto;
+        options.code = code == CodeVariant::anoto ? CodeVariant::microdots : CodeVariant::anoto;
         const Tally tally = run(setup, frames_of(50, 1000), options);
-        EXPECT_EQ(tally.located, 0u) << static_cast<int>(profile);
+        EXPECT_EQ(tally.located, 0u) << static_cast<int>(code);
     }
 }
 

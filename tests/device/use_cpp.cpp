@@ -36,7 +36,7 @@ int main() {
 
     PacketReader reader;
     bool has_come = false;
-    for (const std::uint8_t byte : encode(make_packet(fix, Profile::anoto, 7, 20'000)))
+    for (const std::uint8_t byte : encode(make_packet(fix, CodeVariant::anoto, 7, 20'000)))
         has_come = reader.push(byte);
     if (!has_come || reader.packet().sequence != 7) return 5;
     std::puts(message(reader.packet().status));

@@ -15,10 +15,10 @@ using namespace dotpose;
 
 /// What the options are for; all of it has bounds of its own.
 struct Values {
-    Profile profile = Profile::anoto;
+    CodeVariant code = CodeVariant::anoto;
     Section section;
     Cell cell;
-    Lens lens;
+    FixedLens lens;
     Options options;
     CameraModel camera;
     cli::PatternArguments pattern;

@@ -28,7 +28,7 @@ struct LocateHeader {
     };
     std::uint16_t width_px = 64;  ///< modulo 512
     std::uint16_t height_px = 64;
-    std::uint8_t profile = 0;  ///< modulo 3
+    std::uint8_t code = 0;  ///< modulo 3
     std::uint8_t flags = default_options;
     std::uint8_t padding_px = 0;  ///< between rows
     std::int8_t max_p_wrong_log2 = -30;
@@ -53,7 +53,7 @@ static_assert(sizeof(LocateHeader) == 44 && std::is_trivially_copyable_v<LocateH
 inline Options options_of(const LocateHeader& header) {
     constexpr std::int32_t kFarthest_q8 = 1 << 20;
     Options options;
-    options.profile = static_cast<Profile>(header.profile % 3);
+    options.code = static_cast<CodeVariant>(header.code % 3);
     if ((header.flags & LocateHeader::one_attempt) != 0) options.effort = Effort::once;
     if ((header.flags & LocateHeader::window_decoder) != 0) options.decoder = Decoder::window;
     if ((header.flags & LocateHeader::default_options) != 0) return options;
@@ -79,10 +79,10 @@ inline Prediction prediction_of(const LocateHeader& header, std::span<const std:
     if ((header.flags & LocateHeader::own_prediction) == 0 || fix.status != Status::ok) {
         return prediction;
     }
-    const Vec by = prediction.pattern_from_image.at_centre_q16;
+    const FixedVec by = prediction.pattern_from_image.at_centre_q16;
     constexpr std::int32_t kFarthest_q16 = 1 << 17;
     constexpr std::int32_t kLargestTurn_bam = 1 << 27;
-    return moved(Prediction::like(fix), options_of(header).profile,
+    return moved(Prediction::like(fix), options_of(header).code,
                  {by.x % kFarthest_q16, by.y % kFarthest_q16},
                  prediction.pattern_from_image.lens_q40 % kLargestTurn_bam,
                  prediction.pattern_from_image.centre_q8);

@@ -40,7 +40,7 @@ void apply(const Change& change, Options& options) {
     if (field < numbers.size()) {
         *numbers[field] = change.value;
     } else if (field == numbers.size()) {
-        options.profile = static_cast<Profile>(byte);
+        options.code = static_cast<CodeVariant>(byte);
     } else if (field == numbers.size() + 1) {
         options.effort = static_cast<Effort>(byte);
     } else if (field == numbers.size() + 2) {

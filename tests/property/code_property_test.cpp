@@ -21,7 +21,7 @@ constexpr int kDraws = 50'000;  // unoptimised or under sanitizers
 constexpr int kDrawsAtLength = 5 * kDraws;
 
 struct Draw {
-    Profile profile = Profile::anoto;
+    CodeVariant code = CodeVariant::anoto;
     Place place;
     int columns = 6;
     int rows = 6;
@@ -29,9 +29,8 @@ struct Draw {
 };
 
 std::string describe(const Draw& draw) {
-    return code_test::describe(draw.profile, draw.place) + " window " +
-           std::to_string(draw.columns) + " x " + std::to_string(draw.rows) + " turned " +
-           std::to_string(draw.quarter_turns);
+    return code_test::describe(draw.code, draw.place) + " window " + std::to_string(draw.columns) +
+           " x " + std::to_string(draw.rows) + " turned " + std::to_string(draw.quarter_turns);
 }
 
 /// One position in 16 stands within 40 of the wrap, where windows run past it.
@@ -45,12 +44,12 @@ Draw random_draw(std::uint64_t seed) {
     std::minstd_rand rng(static_cast<std::uint32_t>(seed % 2147483646 + 1));
     rng.discard(3);  // neighbouring seeds start alike
     Draw draw;
-    draw.profile = kProfiles[static_cast<std::size_t>(random_int(rng, 0, 2))];
+    draw.code = kCodeVariants[static_cast<std::size_t>(random_int(rng, 0, 2))];
     draw.place = random_place(rng);
     draw.place.cell = {random_position(rng), random_position(rng)};
     draw.quarter_turns = random_int(rng, 0, 3);
-    // Below 8 x 8, windows of profile `published` may be ambiguous: see decode_test.cpp.
-    const int smallest = draw.profile == Profile::libdots ? 8 : 6;
+    // Below 8 x 8, windows of code variant `published` may be ambiguous: see decode_test.cpp.
+    const int smallest = draw.code == CodeVariant::libdots ? 8 : 6;
     const int kind = random_int(rng, 0, 15);
     draw.columns = draw.rows = kind < 8 ? smallest : 8;
     if (kind == 15) {
@@ -66,7 +65,7 @@ Grid encode(const Draw& draw) {
     const auto& [cell, section] = draw.place;
     for (std::uint32_t r = 0; r < static_cast<std::uint32_t>(draw.rows); ++r) {
         for (std::uint32_t c = 0; c < static_cast<std::uint32_t>(draw.columns); ++c) {
-            grid.symbols.push_back(symbol_at(draw.profile, {cell.x + c, cell.y + r}, section));
+            grid.symbols.push_back(symbol_at(draw.code, {cell.x + c, cell.y + r}, section));
         }
     }
     return grid;
@@ -79,13 +78,13 @@ std::string check_turned(const Draw& draw, const Grid& upright) {
         seen = turned(seen);
     if (draw.quarter_turns > 0) {
         Place place;
-        const Status status = decode(draw.profile, seen.window(), place);
+        const Status status = decode(draw.code, seen.window(), place);
         // Turning reverses and flips the bits of at least one axis, and 7 such bits are not in
         // main.
         if (draw.columns >= 7 && draw.rows >= 7 && status != Status::not_in_code) {
             return "a turned window was not refused";
         }
-        if (status == Status::ok && !shows(draw.profile, place, seen)) {
+        if (status == Status::ok && !shows(draw.code, place, seen)) {
             return "a turned window was put where it does not stand";
         }
     }
@@ -98,13 +97,13 @@ std::string check_turned(const Draw& draw, const Grid& upright) {
 /// Why a draw failed; "" if it did not.
 std::string check(const Draw& draw) {
     const Grid grid = encode(draw);
-    if (grid != reference_window(draw.profile, draw.place, draw.columns, draw.rows)) {
+    if (grid != reference_window(draw.code, draw.place, draw.columns, draw.rows)) {
         return "symbol_at differs from the reference";
     }
     Place place;
-    const Status status = decode(draw.profile, grid.window(), place);
+    const Status status = decode(draw.code, grid.window(), place);
     if (status != Status::ok) return std::string("refused: ") + name(status);
-    if (place != draw.place) return "found at " + code_test::describe(draw.profile, place);
+    if (place != draw.place) return "found at " + code_test::describe(draw.code, place);
     return check_turned(draw, grid);
 }
 
@@ -128,20 +127,20 @@ TEST(CodeProperty, TheDrawsReachTheCorners) {
     int across_wrap = 0;
     int large = 0;
     std::array<int, 4> turns{};
-    std::array<int, 3> profiles{};
+    std::array<int, 3> codes{};
     for (std::uint64_t i = 0; i < kDraws; ++i) {
         const Draw draw = random_draw(kSeed + i);
         const std::uint64_t last = draw.place.cell.x + static_cast<std::uint64_t>(draw.columns) - 1;
         across_wrap += last >= kL ? 1 : 0;
         large += draw.columns > 24 && draw.rows > 24 ? 1 : 0;
         ++turns[static_cast<std::size_t>(draw.quarter_turns)];
-        ++profiles[static_cast<std::size_t>(draw.profile)];
+        ++codes[static_cast<std::size_t>(draw.code)];
     }
     EXPECT_GT(across_wrap, kDraws / 1000);
     EXPECT_GT(large, kDraws / 1000);
     for (const int count : turns)
         EXPECT_GT(count, kDraws / 5);
-    for (const int count : profiles)
+    for (const int count : codes)
         EXPECT_GT(count, kDraws / 4);
 }
 
@@ -152,7 +151,7 @@ TEST(CodeProperty, EverySectionAtAndAcrossTheWrap) {
             for (const std::uint32_t x : {0U, kL - 1, kL - 5}) {
                 const std::uint32_t y = n % 2 == 0 ? kL - 3 : 0;
                 const Draw draw{
-                    kProfiles[static_cast<std::size_t>(n % 3)],
+                    kCodeVariants[static_cast<std::size_t>(n % 3)],
                     {{x, y}, {static_cast<std::uint8_t>(u), static_cast<std::uint8_t>(v)}},
                     8,
                     8,
@@ -160,7 +159,7 @@ TEST(CodeProperty, EverySectionAtAndAcrossTheWrap) {
                 ASSERT_EQ(check(draw), "") << describe(draw);
                 ++n;
             }
-            ++n;  // so that no x keeps its profile
+            ++n;  // so that no x keeps its code variant
         }
     }
 }
@@ -169,8 +168,8 @@ TEST(CodeProperty, EveryPositionOfOneSheet) {
     // A page of 400 x 3 windows, each one step from the last.
     for (std::uint32_t x = 0; x < 400; ++x) {
         for (std::uint32_t y = 0; y < 3; ++y) {
-            for (const Profile profile : kProfiles) {
-                const Draw draw{profile, {{x, y}, {10, 2}}, 8, 8, static_cast<int>(x % 4)};
+            for (const CodeVariant code : kCodeVariants) {
+                const Draw draw{code, {{x, y}, {10, 2}}, 8, 8, static_cast<int>(x % 4)};
                 ASSERT_EQ(check(draw), "") << describe(draw);
             }
         }

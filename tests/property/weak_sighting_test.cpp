@@ -22,11 +22,12 @@ constexpr int kMaxSide = 16;
 /// Two places inside a gate of less than 15 cells to either side are at most so far apart.
 constexpr int kReach = 29;
 constexpr std::uint64_t kSeed = 20;
-constexpr std::array kProfiles{Profile::anoto, Profile::libdots, Profile::microdots};
+constexpr std::array kCodeVariants{CodeVariant::anoto, CodeVariant::libdots,
+                                   CodeVariant::microdots};
 
 /// Bits read upright from a part of the pattern.
 struct View {
-    Profile profile = Profile::anoto;
+    CodeVariant code = CodeVariant::anoto;
     Place place;
     int columns = 0;
     int rows = 0;
@@ -60,8 +61,8 @@ void read(View& view, Rng& rng) {
         for (int i = 0; i < view.columns; ++i) {
             grid.at(i, j) = {};
             if (rng.uniform() < missing) continue;
-            const Place at = moved(view.profile, view.place, i, j);
-            const Symbol symbol = symbol_at(view.profile, at.cell, at.section);
+            const Place at = moved(view.code, view.place, i, j);
+            const Symbol symbol = symbol_at(view.code, at.cell, at.section);
             grid.at(i, j) = {bit(x_bit(symbol)), bit(y_bit(symbol)), 0};
         }
     }
@@ -75,20 +76,20 @@ int claim(View& view) {
     decoding.region = core::choose_window(grid, kMaxSide);
     std::array<core::ScoredLine, 2 * kMaxSide> storage;
     Fix fix;
-    if (core::decode_all(grid, view.profile, storage, decoding) != Status::ok) return 1;
+    if (core::decode_all(grid, view.code, storage, decoding) != Status::ok) return 1;
     const IntegrityOptions all{0, 256};
-    if (core::verify(grid, view.profile, decoding, all, storage, fix) != Status::ok) return 1;
+    if (core::verify(grid, view.code, nullptr, decoding, all, storage, fix) != Status::ok) return 1;
     return decoding.place == view.place && decoding.pattern_from_grid.quarters == 0
                ? fix.p_wrong_log2
                : 1;
 }
 
 /// Where each line that may be in view starts in the main sequence, at the view's first cell.
-std::vector<int> starts(Profile profile, std::uint32_t first, int section, std::uint32_t cross) {
+std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std::uint32_t cross) {
     std::vector<int> result;
     for (int i = -kReach; i < kReach + kMaxSide; ++i) {
         const auto position = static_cast<std::uint32_t>(static_cast<int>(first) + i);
-        result.push_back(roll(profile, position) + section + static_cast<int>(cross % kSections));
+        result.push_back(roll(code, position) + section + static_cast<int>(cross % kSections));
     }
     return result;
 }
@@ -97,8 +98,8 @@ std::vector<int> starts(Profile profile, std::uint32_t first, int section, std::
 /// sums[k]: of those at most k cells away along both axes.
 std::array<double, kReach + 1> odds_by_distance(View& view) {
     const auto& [cell, section] = view.place;
-    const auto columns = starts(view.profile, cell.x, section.u, cell.y);
-    const auto rows = starts(view.profile, cell.y, section.v, cell.x);
+    const auto columns = starts(view.code, cell.x, section.u, cell.y);
+    const auto rows = starts(view.code, cell.y, section.v, cell.x);
     const auto main = [](int index) {
         return main_bit(static_cast<std::uint32_t>(index + kSections));
     };
@@ -137,9 +138,9 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
 }
 
 /// Draws views of a place until one is weak, and compares; gives the least margin.
-double margin_of_weak_view(Profile profile, const Place& place, Rng& rng) {
+double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     View view;
-    view.profile = profile;
+    view.code = code;
     view.place = place;
     int p_wrong_log2 = 1;
     while (p_wrong_log2 > -10 || p_wrong_log2 <= -30) {
@@ -157,13 +158,13 @@ double margin_of_weak_view(Profile profile, const Place& place, Rng& rng) {
 }
 
 TEST(WeakSighting, NoPlaceInTheGateIsLikelierThanTheBound) {
-    for (const Profile profile : kProfiles) {
+    for (const CodeVariant code : kCodeVariants) {
         for (std::uint64_t i = 0; i < 15; ++i) {
             Rng rng(kSeed, i);
             const auto position = [&] { return 40 + rng.below(kPositionsPerAxis - 100); };
             const auto section = [&] { return static_cast<std::uint8_t>(rng.below(kSections)); };
             const Place place = {{position(), position()}, {section(), section()}};
-            EXPECT_GT(margin_of_weak_view(profile, place, rng), 100)
+            EXPECT_GT(margin_of_weak_view(code, place, rng), 100)
                 << "view " << i << ", seed " << kSeed;
         }
     }
@@ -177,8 +178,8 @@ struct Repetition {
 };
 
 /// All that there are within reach: where the same four digits stand again in all four sequences.
-std::vector<Repetition> repetitions(Profile profile) {
-    const code::Basis& basis = code::basis(profile);
+std::vector<Repetition> repetitions(CodeVariant code) {
+    const code::Basis& basis = code::basis(code);
     std::vector<Repetition> found;
     for (unsigned distance = 1; distance <= kReach; ++distance) {
         std::array<std::vector<std::uint32_t>, 4> places;
@@ -197,7 +198,7 @@ std::vector<Repetition> repetitions(Profile profile) {
                     for (const std::uint32_t d : places[3]) {
                         const std::uint32_t at = position_at(basis, {a, b, c, d});
                         if (at < 100 || at > kPositionsPerAxis - 100) continue;
-                        const int turn = roll(profile, at + distance) - roll(profile, at);
+                        const int turn = roll(code, at + distance) - roll(code, at);
                         found.push_back(
                             {at, static_cast<int>(distance), (turn + kSections) % kSections});
                     }
@@ -216,8 +217,8 @@ struct Twin {
 };
 
 /// All of them: the step along each axis undoes the roll along the other.
-std::vector<Twin> twins(Profile profile) {
-    const auto found = repetitions(profile);
+std::vector<Twin> twins(CodeVariant code) {
+    const auto found = repetitions(code);
     std::vector<Twin> twins;
     for (const Repetition& x : found) {
         for (const Repetition& y : found) {
@@ -234,19 +235,19 @@ std::vector<Twin> twins(Profile profile) {
 }
 
 TEST(WeakSighting, NotEvenWhereThePatternNearlyRepeatsItself) {
-    for (const Profile profile : kProfiles) {
-        const auto all = twins(profile);
+    for (const CodeVariant code : kCodeVariants) {
+        const auto all = twins(code);
         ASSERT_FALSE(all.empty());
         for (std::uint64_t i = 0; i < 15; ++i) {
             Rng rng(kSeed, i);
             const auto& [place, dx, dy] = all[rng.below(static_cast<std::uint32_t>(all.size()))];
             for (int k = 0; k < 25; ++k) {
-                const Place here = moved(profile, place, k % 5, k / 5);
-                const Place there = moved(profile, place, dx + k % 5, dy + k / 5);
-                ASSERT_EQ(symbol_at(profile, here.cell, here.section),
-                          symbol_at(profile, there.cell, there.section));
+                const Place here = moved(code, place, k % 5, k / 5);
+                const Place there = moved(code, place, dx + k % 5, dy + k / 5);
+                ASSERT_EQ(symbol_at(code, here.cell, here.section),
+                          symbol_at(code, there.cell, there.section));
             }
-            EXPECT_GT(margin_of_weak_view(profile, place, rng), 40)
+            EXPECT_GT(margin_of_weak_view(code, place, rng), 40)
                 << "view " << i << ", seed " << kSeed;
         }
     }

@@ -72,7 +72,7 @@ DotErrors measure_dots(const GreyPage& page, const Sheet& sheet, double dpi) {
                 }
                 const Cell cell = {sheet.origin.x + static_cast<std::uint32_t>(i),
                                    sheet.origin.y + static_cast<std::uint32_t>(j)};
-                const Symbol symbol = symbol_at(pattern.profile, cell, pattern.section);
+                const Symbol symbol = symbol_at(pattern.code, cell, pattern.section);
                 const Point from = {found->x - intersection.x, found->y - intersection.y};
                 if (nearest_symbol(from) != symbol) ++result.wrong_symbols;
                 const double displacement_px = pattern.displacement_mm * px_per_mm;

@@ -12,8 +12,8 @@ using namespace dotpose;
 
 /// The state of the evidence, as the core has it: log odds before, factors here, the cell, frames.
 struct State {
-    std::int32_t log2_q8[kProfileCount];
-    float factors[kProfileCount];
+    std::int32_t log2_q8[kCodeVariantCount];
+    float factors[kCodeVariantCount];
     std::uint32_t x;
     std::uint32_t y;
     std::uint32_t frames;
@@ -119,10 +119,11 @@ dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, i
     const dotpose_status status = check_desktop(locator);
     if (status != DOTPOSE_OK) return status;
     if (capacity < 0) return DOTPOSE_BAD_VALUE;
-    const std::span<const Dot> found = locator->locator->trace().dots;
+    const std::span<const DetectedDot> found = locator->locator->trace().dots;
     *count = static_cast<std::int32_t>(found.size());
     constexpr float kPx_per_q8 = 1.0F / 256;
-    for (const Dot& dot : found.first(static_cast<std::size_t>(std::min(*count, capacity)))) {
+    for (const DetectedDot& dot :
+         found.first(static_cast<std::size_t>(std::min(*count, capacity)))) {
         *dots++ = {static_cast<float>(dot.centre_q8.x) * kPx_per_q8,
                    static_cast<float>(dot.centre_q8.y) * kPx_per_q8, dot.mass, dot.area_px};
     }

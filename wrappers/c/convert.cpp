@@ -6,7 +6,7 @@
 namespace dotpose::c {
 namespace {
 
-Vec vec(std::int32_t x, std::int32_t y) {
+FixedVec vec(std::int32_t x, std::int32_t y) {
     return {x, y};
 }
 
@@ -63,7 +63,7 @@ bool is_size_of_fix(std::size_t bytes) {
 }  // namespace
 
 bool can_move(const Prediction& prediction) {
-    const auto are_below = [](Vec v, int bits) {
+    const auto are_below = [](FixedVec v, int bits) {
         return is_within_range(v.x, bits) && is_within_range(v.y, bits);
     };
     const PlaneFromImage& plane = prediction.pattern_from_image;

@@ -18,8 +18,8 @@ constexpr bool is_one_of(std::int32_t value, Enum last) {
     return value >= 0 && value <= static_cast<std::int32_t>(last);
 }
 
-inline bool is_profile(std::int32_t profile) {
-    return is_one_of(profile, Profile::microdots);
+inline bool is_code(std::int32_t code) {
+    return is_one_of(code, CodeVariant::microdots);
 }
 
 /// Returns a struct of options: the defaults, and over them as much as the caller's version has.

@@ -70,7 +70,7 @@ dotpose_status dotpose_code_of(const dotpose_locator* locator, int32_t* code) {
     if (code == nullptr) return DOTPOSE_NULL_POINTER;
     const dotpose_status status = c::check(locator);
     if (status != DOTPOSE_OK) return status;
-    *code = static_cast<std::int32_t>(locator->locator->options().profile);
+    *code = static_cast<std::int32_t>(locator->locator->options().code);
     return DOTPOSE_OK;
 }
 

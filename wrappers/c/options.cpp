@@ -29,7 +29,7 @@ dotpose_options options_of(const LocatorOptions& o) {
 
 LocatorOptions options_of(const dotpose_options& o) {
     LocatorOptions result;
-    if (o.code != DOTPOSE_CODE_DETECT) result.code = static_cast<Profile>(o.code);
+    if (o.code != DOTPOSE_CODE_DETECT) result.code = static_cast<CodeVariant>(o.code);
     result.spacing_mm = o.spacing_mm;
     result.lens_k_per_px2 = o.lens_k_per_px2;
     result.lens_centre_dx_px = o.lens_centre_dx_px;
@@ -48,7 +48,7 @@ LocatorOptions options_of(const dotpose_options& o) {
 
 const char* bad_member(const dotpose_options& o) {
     // Enumerations have fewer bits in C++, so they are checked here.
-    if (o.code != DOTPOSE_CODE_DETECT && !c::is_profile(o.code)) return "code";
+    if (o.code != DOTPOSE_CODE_DETECT && !c::is_code(o.code)) return "code";
     if (!c::is_one_of(o.effort, Effort::twice)) return "effort";
     if (!c::is_one_of(o.decoder, Decoder::all)) return "decoder";
     if (!c::is_one_of(o.show_stages, 1)) return "show_stages";

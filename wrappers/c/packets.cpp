@@ -16,7 +16,7 @@ dotpose_packet to_c(const PosePacket& p) {
     return {p.sequence,
             p.time_us,
             static_cast<dotpose_status>(p.status),
-            static_cast<std::int32_t>(p.profile),
+            static_cast<std::int32_t>(p.code),
             p.cell.x,
             p.cell.y,
             p.fraction_x_q16,
@@ -33,7 +33,7 @@ dotpose_status to_core(const dotpose_packet& given, PosePacket& packet) {
     const dotpose_place place{given.cell_x, given.cell_y, given.section_u, given.section_v};
     const bool is_status =
         given.status == DOTPOSE_OTHER || c::is_one_of(given.status, kStatusCount - 1);
-    if (given.sequence > UINT16_MAX || !is_status || !c::is_profile(given.code) ||
+    if (given.sequence > UINT16_MAX || !is_status || !c::is_code(given.code) ||
         !c::is_place(place) || given.fraction_x_q16 > UINT16_MAX ||
         given.fraction_y_q16 > UINT16_MAX || given.theta_bam16 < INT16_MIN ||
         given.theta_bam16 > INT16_MAX || given.certainty > UINT8_MAX ||
@@ -43,7 +43,7 @@ dotpose_status to_core(const dotpose_packet& given, PosePacket& packet) {
     packet.sequence = static_cast<std::uint16_t>(given.sequence);
     packet.time_us = given.time_us;
     packet.status = static_cast<Status>(given.status);
-    packet.profile = static_cast<Profile>(given.code);
+    packet.code = static_cast<CodeVariant>(given.code);
     packet.cell = c::to_core(place).cell;
     packet.section = c::to_core(place).section;
     packet.fraction_x_q16 = static_cast<std::uint16_t>(given.fraction_x_q16);
@@ -64,8 +64,8 @@ dotpose_status dotpose_packet_of(const dotpose_fix* fix, int32_t code, uint32_t 
     Fix read;
     const dotpose_status status = c::to_core(fix, read);
     if (status != DOTPOSE_OK) return status;
-    if (!c::is_profile(code)) return DOTPOSE_BAD_VALUE;
-    *packet = to_c(make_packet(read, static_cast<Profile>(code),
+    if (!c::is_code(code)) return DOTPOSE_BAD_VALUE;
+    *packet = to_c(make_packet(read, static_cast<CodeVariant>(code),
                                static_cast<std::uint16_t>(sequence), time_us));
     return DOTPOSE_OK;
 }

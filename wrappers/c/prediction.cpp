@@ -23,14 +23,13 @@ dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t c
     if (status != DOTPOSE_OK) return status;
     constexpr int kFarthest_q16 = 28;
     constexpr int kFarthest_q8 = 21;
-    if (!c::is_profile(code) || !c::can_move(read) ||
-        !c::is_within_range(by_x_q16, kFarthest_q16) ||
+    if (!c::is_code(code) || !c::can_move(read) || !c::is_within_range(by_x_q16, kFarthest_q16) ||
         !c::is_within_range(by_y_q16, kFarthest_q16) ||
         !c::is_within_range(pivot_u_q8, kFarthest_q8) ||
         !c::is_within_range(pivot_v_q8, kFarthest_q8)) {
         return DOTPOSE_BAD_VALUE;
     }
-    c::to_c(moved(read, static_cast<Profile>(code), {by_x_q16, by_y_q16}, turn_bam,
+    c::to_c(moved(read, static_cast<CodeVariant>(code), {by_x_q16, by_y_q16}, turn_bam,
                   {pivot_u_q8, pivot_v_q8}),
             *prediction);
     return DOTPOSE_OK;

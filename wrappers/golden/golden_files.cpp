@@ -86,8 +86,8 @@ class Numbers {
         put(place.section.v);
     }
     void put(const PlaneFromImage& plane) {
-        for (const Vec vec : {plane.centre_q8, plane.at_centre_q16, plane.du_q24, plane.dv_q24,
-                              plane.perspective_q30}) {
+        for (const FixedVec vec : {plane.centre_q8, plane.at_centre_q16, plane.du_q24, plane.dv_q24,
+                                   plane.perspective_q30}) {
             put(vec.x);
             put(vec.y);
         }

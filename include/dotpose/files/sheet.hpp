@@ -21,7 +21,7 @@ inline constexpr int kMinSheetCells = 8;
 
 /// Dimensions of a printed pattern, in mm.
 struct Pattern {
-    Profile profile = Profile::anoto;
+    CodeVariant code = CodeVariant::anoto;
     Section section;
     double spacing_mm = kDefaultSpacing_mm;
     double displacement_mm = kDefaultSpacing_mm / 6;  ///< from the intersection to the dot's centre

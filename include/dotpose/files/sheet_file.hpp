@@ -85,8 +85,8 @@ struct SheetEntry {
 /// a known drawing of dots; and `validate(sheet)`. Throws BadArgument.
 void validate(const SheetEntry& entry);
 
-/// Whether two sheets share cells. Different sections never overlap. The profiles anoto and libdots
-/// agree on most of the plane, so they count as one; microdots is separate.
+/// Whether two sheets share cells. Different sections never overlap. The code variants anoto and
+/// libdots agree on most of the plane, so they count as one; microdots is separate.
 bool overlap(const Sheet& a, const Sheet& b);
 
 /// Reads a sheet file. Throws Error with the names of the file and the key: the file cannot be
@@ -122,8 +122,8 @@ class SheetFile {
     /// single page gets the given name, several pages get "name-1", "name-2" and so on.
     ///
     /// The next free region is the topmost, then leftmost region with a distance of kSheetGap_cells
-    /// from the ends of the plane and from the regions of all other sheets, whatever their profile
-    /// and section. Allocated sheets therefore differ in their cells alone.
+    /// from the ends of the plane and from the regions of all other sheets, whatever their code
+    /// variant and section. Allocated sheets therefore differ in their cells alone.
     ///
     /// Returns the added entries. Throws BadArgument: as `validate`, a name that is taken, a full
     /// plane, a count below 1.

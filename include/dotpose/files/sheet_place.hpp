@@ -1,7 +1,7 @@
 /// Places: the pose of a fix on a page of a sheet file and in the world, with its full covariance.
 ///
 ///     const std::vector<SheetEntry> sheets = read_sheets("sheets.json");
-///     if (const auto place = find_sheet(sheets, Profile::anoto, fix)) {
+///     if (const auto place = find_sheet(sheets, CodeVariant::anoto, fix)) {
 ///         use(place->x_mm, place->y_mm, place->theta_rad, place->covariance);
 ///         if (const auto world = world_place(*place)) use(world->x_m, world->y_m, world->yaw_rad);
 ///     }
@@ -37,9 +37,9 @@ struct SheetPlace {
     PoseCovariance covariance{};
 };
 
-/// Returns the place of `fix`, read in the given profile: on the sheet whose region contains it,
-/// otherwise on a sheet whose margins contain it. None if the fix is not ok or is on no sheet.
-std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, Profile profile,
+/// Returns the place of `fix`, read in the given code variant: on the sheet whose region contains
+/// it, otherwise on a sheet whose margins contain it. None if the fix is not ok or is on no sheet.
+std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, CodeVariant code,
                                      const Fix& fix);
 
 /// The place of a fix in the world.

@@ -34,11 +34,11 @@ using FrameAt = std::function<GreyImage(int index)>;
 
 /// The common options of all calibrations.
 struct CalibrateOptions {
-    /// The printed pattern; only profile and spacing are used. Lengths are true if the spacing is
-    /// true.
+    /// The printed pattern; only code variant and spacing are used. Lengths are true if the spacing
+    /// is true.
     Pattern pattern;
-    /// Whether to detect the profile from the frames instead of using that of `pattern`. Ignored
-    /// when stitching, because sheets have their profile.
+    /// Whether to detect the code variant from the frames instead of using that of `pattern`.
+    /// Ignored when stitching, because sheets have their code variant.
     bool any_code = false;
     /// Sheets that the frames may show, such as those of a sheet file: the spacing is then the
     /// printed spacing of the sheet in most frames. Ignored when stitching.
@@ -47,8 +47,8 @@ struct CalibrateOptions {
     std::function<bool(int done, int total)> progress;
 };
 
-/// Returns the given profile; none if it is detected.
-std::optional<Profile> given_code(const CalibrateOptions& options);
+/// Returns the given code variant; none if it is detected.
+std::optional<CodeVariant> given_code(const CalibrateOptions& options);
 
 /// Required number of frames; with fewer the verdict is `too_few_frames`.
 inline constexpr int kWantedFrames = 5;
@@ -78,10 +78,10 @@ struct LensCalibration {
     /// Whether the camera is mounted and all frames share height and tilt. A hand-held camera has
     /// its own height and tilt in each frame; `camera.paper` and `camera.tilt` are then not known.
     bool is_mounted = true;
-    Profile code = Profile::anoto;  ///< given or detected profile
-    double spacing_mm = 0;          ///< given spacing, or spacing of the sheet
-    int frames = 0;                 ///< number of frames given
-    int located = 0;                ///< number of different frames with a fix
+    CodeVariant code = CodeVariant::anoto;  ///< given or detected code variant
+    double spacing_mm = 0;                  ///< given spacing, or spacing of the sheet
+    int frames = 0;                         ///< number of frames given
+    int located = 0;                        ///< number of different frames with a fix
     int duplicates = 0;             ///< number of frames that repeat an earlier image; not used
     int dots = 0;                   ///< number of dots used
     int outliers = 0;               ///< number of dots not used

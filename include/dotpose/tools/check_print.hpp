@@ -35,12 +35,12 @@ namespace dotpose {
 /// What is known of the print and its image.
 struct CheckPrintOptions {
     /// The pattern that was printed. The section is read from the image. Patches of a test page
-    /// encode how they were printed, so only the profile counts for them.
+    /// encode how they were printed, so only the code variant counts for them.
     Pattern pattern;
-    /// Whether to find the profile from the whole page instead of taking that of `pattern`.
+    /// Whether to find the code variant from the whole page instead of taking that of `pattern`.
     bool any_code = false;
     /// Sheets that may be on the scan, such as those of a sheet file: a field in the region of one
-    /// of them is judged by its pattern. Only sheets with the profile of `pattern` are found.
+    /// of them is judged by its pattern. Only sheets with the code variant of `pattern` are found.
     std::vector<Sheet> sheets;
     /// Resolution of the scan. Without it the image counts as a photo, and so does one with a
     /// camera's perspective or lens: both are then allowed for, and scale is not judged. A
@@ -176,9 +176,9 @@ struct CameraSigns {
 struct PrintCheck {
     /// All fields, the largest first. Empty if there is no pattern in the image.
     std::vector<PrintField> fields;
-    bool is_mirrored = false;       ///< whether there are none, but are in the flipped image
-    Profile code = Profile::anoto;  ///< profile that was given or found
-    double code_p_wrong = 0;  ///< if the profile was found: probability that it is another one
+    bool is_mirrored = false;  ///< whether there are none, but are in the flipped image
+    CodeVariant code = CodeVariant::anoto;  ///< code variant that was given or found
+    double code_p_wrong = 0;  ///< if the code variant was found: probability that it is another one
     std::optional<Resolution> resolution;  ///< resolution that was used; none for a photo
     bool is_photo = false;                 ///< as in the options
     std::optional<CameraSigns> camera;     ///< if the stated resolution was not used: the reason

@@ -37,8 +37,9 @@ namespace dotpose {
 struct KnownFrame {
     GreyImage image;
     Truth truth;
-    std::optional<Profile> profile;  ///< profile of this frame, instead of that of the options
-    std::string problem;             ///< reason why there is no image; empty if there is one
+    std::optional<CodeVariant>
+        code;             ///< code variant of this frame, instead of that of the options
+    std::string problem;  ///< reason why there is no image; empty if there is one
 };
 
 /// Returns frame `index`. Called from several threads, so it must depend only on the index.
@@ -60,8 +61,8 @@ struct FrameRun {
     FrameSource frame_at;
     /// Every frame is located with each of these options.
     std::vector<Options> options = {Options{}};
-    /// Whether the profile of frames without a known profile is detected, independently for each
-    /// frame.
+    /// Whether the code variant of frames without a known code variant is detected, independently
+    /// for each frame.
     bool any_code = false;
     /// Refines a new fix with the trace of its frame, like `with_camera`; none if fixes are not
     /// refined. Called from several threads; its time does not count.

@@ -32,9 +32,9 @@ struct FollowerOptions {
     Options locate;
     /// The sheets that may be in view. If empty, poses are in the pattern frame.
     std::vector<SheetEntry> sheets;
-    /// The profile of the code; none to detect it from all images together. Sheets have their own
-    /// profiles.
-    std::optional<Profile> code;
+    /// The code variant of the code; none to detect it from all images together. Sheets have their
+    /// own code variants.
+    std::optional<CodeVariant> code;
     /// Spacing of the pattern if there are no sheets.
     double spacing_mm = kDefaultSpacing_mm;
     /// Lens, view and mount of the camera. Images must have its size.
@@ -53,8 +53,8 @@ struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
     std::optional<SheetPlace> place;  ///< place of the fix; none if it is on no sheet
-    /// The profile, and other places that explain the image. Its fix does not include the camera
-    /// file.
+    /// The code variant, and other places that explain the image. Its fix does not include the
+    /// camera file.
     CodeReading reading;
     /// Spacing of the sheet, or the common spacing of all sheets; not a number if spacings differ
     /// and the fix is on no sheet.
@@ -62,7 +62,7 @@ struct Located {
     /// Spacing measured by the camera file; `contradicts` (mounted_pose.hpp) compares it with
     /// `spacing_mm`. Not a number if it is not known.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
-    bool code_is_given = false;  ///< whether options or sheets gave the profile
+    bool code_is_given = false;  ///< whether options or sheets gave the code variant
     int reduced_by = 1;          ///< factor by which the image was reduced
 };
 
@@ -78,7 +78,8 @@ class Follower {
     explicit Follower(const FollowerOptions& options);
 
     /// Locates an image independently of others. Reduces images larger than `kMaxFrameSide_px`,
-    /// unless there is a camera file. Accumulates the evidence for the profile over all images.
+    /// unless there is a camera file. Accumulates the evidence for the code variant over all
+    /// images.
     Located locate(const GreyImage& image);
 
     /// Locates the next image of a sequence, taken at `time_us`. The previous images predict the
@@ -106,7 +107,7 @@ class Follower {
     /// The result of the newest image with a fix.
     struct Seen {
         Fix fix;
-        Profile profile;
+        CodeVariant code;
         std::optional<Sighting> sighting;
     };
 
@@ -120,7 +121,7 @@ class Follower {
 
     // One image by itself.
     Found read();
-    Found read_in(Profile profile);
+    Found read_in(CodeVariant code);
     Fix without_surroundings(const Fix& fix, const SheetPlace& place);
 
     // Images of a sequence.
@@ -133,8 +134,9 @@ class Follower {
     void remember(const Found& found, const std::optional<Sighting>& sighting);
 
     FollowerOptions options_;
-    /// The profiles to try in order, starting with the profile of the last fix. Empty: all.
-    std::vector<Profile> profiles_;
+    /// The code variants to try in order, starting with the code variant of the last fix. Empty:
+    /// all.
+    std::vector<CodeVariant> codes_;
     CodeEvidence evidence_;       ///< evidence of the previous images
     double unplaced_spacing_mm_;  ///< spacing for a fix on no sheet
     bool is_in_world_ = false;

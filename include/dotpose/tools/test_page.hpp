@@ -32,7 +32,7 @@ inline constexpr double kTestUnit_mm = 25.4 / 1200;
 
 /// The contents of a test page.
 struct TestPageOptions {
-    Profile profile = Profile::anoto;
+    CodeVariant code = CodeVariant::anoto;
     Paper paper;
     double margin_mm = 10;
     /// Spacings of the columns and dot diameters of the rows of the page, in 1/1200 inch; each 1 to
@@ -46,7 +46,7 @@ struct TestPageOptions {
 PrintPage make_test_page(const TestPageOptions& options);
 
 /// Returns the settings of the patch with this cell; none for cells outside test pages.
-std::optional<Pattern> test_patch_at(Profile profile, Cell cell);
+std::optional<Pattern> test_patch_at(CodeVariant code, Cell cell);
 
 }  // namespace dotpose
 

@@ -41,10 +41,10 @@ struct TruePlace {
 /// One line of truth.csv.
 struct TruthRow {
     std::string file;
-    Truth truth;                     ///< valid if `is_in_pattern`
-    bool is_in_pattern = true;       ///< whether the file has poses in the pattern frame
-    std::optional<Profile> profile;  ///< printed profile, if the file has it
-    std::optional<TruePlace> place;  ///< place on a sheet or in the world, if the file has it
+    Truth truth;                      ///< valid if `is_in_pattern`
+    bool is_in_pattern = true;        ///< whether the file has poses in the pattern frame
+    std::optional<CodeVariant> code;  ///< printed code variant, if the file has it
+    std::optional<TruePlace> place;   ///< place on a sheet or in the world, if the file has it
 };
 
 /// Reads a truth.csv of `dotpose simulate`, or poses measured on a sheet or in the world. Columns
@@ -52,7 +52,7 @@ struct TruthRow {
 ///   - x_grid, y_grid or x_mm, y_mm (grid units win), and theta_deg;
 ///   - x_sheet_mm, y_sheet_mm; optional theta_sheet_deg, sheet;
 ///   - x_m, y_m (they win over places on sheets); optional yaw_rad or yaw_deg, sheet.
-/// Optional are section_u, section_v, profile, spacing_mm. A row with an empty pose is a frame
+/// Optional are section_u, section_v, code variant, spacing_mm. A row with an empty pose is a frame
 /// without a pose. `spacing_mm`, if given, replaces that of the file. Throws Error with the names
 /// of file and line if the file cannot be read or has invalid content.
 std::vector<TruthRow> read_truth(const std::filesystem::path& path,

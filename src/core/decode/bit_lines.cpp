@@ -153,27 +153,26 @@ BlockLines score_block(const Kernels& kernels, const BitBlock& block,
             score_lines(kernels, block.rows, rows, columns.first, scores_of(Axis::y, storage))};
 }
 
-Place place_of_middle(Profile profile, int first_column, int first_row, const AxisReading& column,
+Place place_of_middle(CodeVariant code, int first_column, int first_row, const AxisReading& column,
                       const AxisReading& row) {
     const auto section = [&](const AxisReading& own, const AxisReading& other) {
-        return static_cast<std::uint8_t>(
-            section_of(profile, own.roll, own.position, other.position));
+        return static_cast<std::uint8_t>(section_of(code, own.roll, own.position, other.position));
     };
     const Place corner{{column.position, row.position},
                        {section(column, row), section(row, column)}};
-    return moved(profile, corner, BitBlock::kMiddle - first_column, BitBlock::kMiddle - first_row);
+    return moved(code, corner, BitBlock::kMiddle - first_column, BitBlock::kMiddle - first_row);
 }
 
-bool find_place(Profile profile, const BlockLines& lines, Place& place) {
+bool find_place(CodeVariant code, const BlockLines& lines, Place& place) {
     constexpr int kMinLines = 6;
     if (lines.columns.count() < kMinLines || lines.rows.count() < kMinLines) return false;
     AxisReading x;
     AxisReading y;
-    if (find_axis_briefly(profile, lines.columns, x) != Status::ok ||
-        find_axis_briefly(profile, lines.rows, y) != Status::ok) {
+    if (find_axis_briefly(code, lines.columns, x) != Status::ok ||
+        find_axis_briefly(code, lines.rows, y) != Status::ok) {
         return false;
     }
-    place = place_of_middle(profile, lines.first_column, lines.first_row, x, y);
+    place = place_of_middle(code, lines.first_column, lines.first_row, x, y);
     return true;
 }
 

@@ -55,11 +55,11 @@ BlockLines score_block(const Kernels& kernels, const BitBlock& block,
 
 /// Returns the place of cell (0, 0) of an upright block, from the readings of the column
 /// `first_column` and the row `first_row`, by index.
-Place place_of_middle(Profile profile, int first_column, int first_row, const AxisReading& column,
+Place place_of_middle(CodeVariant code, int first_column, int first_row, const AxisReading& column,
                       const AxisReading& row);
 
 /// Finds the place of cell (0, 0) of an upright block. Returns false if the lines have no position
 /// in the code.
-bool find_place(Profile profile, const BlockLines& lines, Place& place);
+bool find_place(CodeVariant code, const BlockLines& lines, Place& place);
 
 }  // namespace dotpose::core

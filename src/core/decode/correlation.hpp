@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/stages.hpp"
+#include "core/kernels/scores.hpp"
 
 namespace dotpose::core {
 

@@ -31,7 +31,7 @@ std::uint64_t main_word(int index) {
 }
 
 /// Finds the position of the first line of a range, and its roll at `first_cell`.
-bool find_axis_exactly(Profile profile, const BitLines& lines, const LineRange& range,
+bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange& range,
                        int first_cell, AxisReading& reading) {
     const auto count = static_cast<std::size_t>(range.count);
     const auto bits = [&](std::size_t i) {
@@ -40,7 +40,7 @@ bool find_axis_exactly(Profile profile, const BitLines& lines, const LineRange& 
     const auto valid = [&](std::size_t i) {
         return lines.valid[static_cast<std::size_t>(range.first) + i] >> first_cell;
     };
-    const auto length = static_cast<std::size_t>(run_length(profile));
+    const auto length = static_cast<std::size_t>(run_length(code));
     std::array<std::uint8_t, BitBlock::kSide> rolls;
     // The middle lines are longest and therefore most reliable.
     std::size_t end = count / 4;
@@ -51,12 +51,12 @@ bool find_axis_exactly(Profile profile, const BitLines& lines, const LineRange& 
     }
     const std::size_t begin = end - length;
     std::uint32_t position = 0;
-    if (position_from_rolls(profile, std::span(rolls).subspan(begin, length), position) !=
+    if (position_from_rolls(code, std::span(rolls).subspan(begin, length), position) !=
         Status::ok) {
         return false;
     }
     const std::uint8_t roll = rolls[begin];
-    reading = reading_of_first(profile, position, roll, static_cast<int>(begin),
+    reading = reading_of_first(code, position, roll, static_cast<int>(begin),
                                std::span(rolls).first(count));
     int wrong = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -84,15 +84,15 @@ std::uint8_t exact_roll(std::uint64_t bits, std::uint64_t valid) {
                                                    : code::kAbsent;
 }
 
-bool find_place_exactly(Profile profile, const BitBlock& block, Place& place) {
+bool find_place_exactly(CodeVariant code, const BitBlock& block, Place& place) {
     const BlockRanges ranges = ranges_with_bits(block, BitBlock::kSide);
     AxisReading x;
     AxisReading y;
-    if (!find_axis_exactly(profile, block.columns, ranges.columns, ranges.rows.first, x) ||
-        !find_axis_exactly(profile, block.rows, ranges.rows, ranges.columns.first, y)) {
+    if (!find_axis_exactly(code, block.columns, ranges.columns, ranges.rows.first, x) ||
+        !find_axis_exactly(code, block.rows, ranges.rows, ranges.columns.first, y)) {
         return false;
     }
-    place = place_of_middle(profile, ranges.columns.first, ranges.rows.first, x, y);
+    place = place_of_middle(code, ranges.columns.first, ranges.rows.first, x, y);
     return true;
 }
 

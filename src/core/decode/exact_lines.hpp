@@ -14,6 +14,6 @@ std::uint8_t exact_roll(std::uint64_t bits, std::uint64_t valid);
 
 /// Finds the place of cell (0, 0) of an upright block from exact lines. Returns false if too few
 /// adjacent lines are exact, or if the place has more bit errors than half the number of lines.
-bool find_place_exactly(Profile profile, const BitBlock& block, Place& place);
+bool find_place_exactly(CodeVariant code, const BitBlock& block, Place& place);
 
 }  // namespace dotpose::core

@@ -20,7 +20,7 @@ Extent extent(int min, int max, int capacity) {
 
 }  // namespace
 
-void lay_out(Vec min, Vec max, Grid& grid) {
+void lay_out(FixedVec min, FixedVec max, Grid& grid) {
     const Extent columns = extent(min.x, max.x, grid.side);
     const Extent rows = extent(min.y, max.y, grid.side);
     grid.i0 = columns.first;
@@ -44,11 +44,11 @@ namespace {
 
 /// Fills the grid from all dots. `point_of(dot)` returns the place of a dot in the grid.
 template <typename PointOf>
-Status assign(std::span<const Dot> dots, PointOf point_of, Grid& grid) {
-    Vec min{INT32_MAX, INT32_MAX};
-    Vec max{INT32_MIN, INT32_MIN};
-    for (const Dot& dot : dots) {
-        const Vec cell = point_of(dot).cell;
+Status assign(std::span<const DetectedDot> dots, PointOf point_of, Grid& grid) {
+    FixedVec min{INT32_MAX, INT32_MAX};
+    FixedVec max{INT32_MIN, INT32_MIN};
+    for (const DetectedDot& dot : dots) {
+        const FixedVec cell = point_of(dot).cell;
         min = {std::min(min.x, cell.x), std::min(min.y, cell.y)};
         max = {std::max(max.x, cell.x), std::max(max.y, cell.y)};
     }
@@ -62,7 +62,7 @@ Status assign(std::span<const Dot> dots, PointOf point_of, Grid& grid) {
     const auto columns = static_cast<unsigned>(here.columns);
     const auto rows = static_cast<unsigned>(here.rows);
     std::uint16_t index = 0;
-    for (const Dot& dot : dots) {
+    for (const DetectedDot& dot : dots) {
         const GridPoint g = point_of(dot);
         const auto i = static_cast<unsigned>(g.cell.x - here.i0);
         const auto j = static_cast<unsigned>(g.cell.y - here.j0);
@@ -80,17 +80,21 @@ Status assign(std::span<const Dot> dots, PointOf point_of, Grid& grid) {
 
 }  // namespace
 
-Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
+Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid) {
-    const auto exactly = [&](const Dot& dot) { return grid_point(grid_from_image, dot.centre_q8); };
+    const auto exactly = [&](const DetectedDot& dot) {
+        return grid_point(grid_from_image, dot.centre_q8);
+    };
     return is_affine(grid_from_image) ? assign_affine_likelihoods(dots, grid_from_image, grid)
                                       : assign(dots, exactly, grid);
 }
 
-Status assign_affine_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
-                                 Grid& grid) {
+Status assign_affine_likelihoods(std::span<const DetectedDot> dots,
+                                 const PlaneFromImage& grid_from_image, Grid& grid) {
     const Cells cells(grid_from_image);
-    const auto quickly = [&](const Dot& dot) { return cells(cells.from_centre_q3(dot.centre_q8)); };
+    const auto quickly = [&](const DetectedDot& dot) {
+        return cells(cells.from_centre_q3(dot.centre_q8));
+    };
     return assign(dots, quickly, grid);
 }
 

@@ -1,7 +1,7 @@
 // Likelihood: probabilities of the bits of each dot. Paper section II-B.4, eq. 7-9, Fig. 7-8.
 #pragma once
 
-#include "core/stages.hpp"
+#include "core/decode/grid.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {
@@ -12,16 +12,16 @@ std::int8_t quasi_probability(std::int32_t projection_q16);
 
 /// Clears the grid and sets its extent to the cells from `min` to `max`, or to the middle cells if
 /// there are more than its capacity.
-void lay_out(Vec min, Vec max, Grid& grid);
+void lay_out(FixedVec min, FixedVec max, Grid& grid);
 
 /// Fills the matrices P of Fig. 8 from all dots. A larger grid is cut to the middle `grid.side`
 /// cells per axis. Errors: grid_too_small.
-Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
+Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid);
 
 /// Fills the matrices through a plane without perspective and lens, which is faster.
-Status assign_affine_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
-                                 Grid& grid);
+Status assign_affine_likelihoods(std::span<const DetectedDot> dots,
+                                 const PlaneFromImage& grid_from_image, Grid& grid);
 
 /// Returns the quality |P^(x) P^(y)| of a cell, which is large if its dot shows a symbol clearly:
 /// at most 127 * 127.

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/decode/upright.hpp"
-#include "core/stages.hpp"
+#include "core/kernels/scores.hpp"
 
 namespace dotpose::core {
 

@@ -3,8 +3,8 @@
 
 #include <array>
 
+#include "core/decode/grid.hpp"
 #include "core/math/fixed.hpp"
-#include "core/stages.hpp"
 #include "dotpose/code.hpp"
 
 namespace dotpose::core {
@@ -12,16 +12,16 @@ namespace dotpose::core {
 /// The symbols of the code in a grid.
 class Nominal {
   public:
-    Nominal(const Grid& grid, Profile profile, const Decoding& decoding);
+    Nominal(const Grid& grid, CodeVariant code, const Decoding& decoding);
 
     /// Returns the position of a grid cell on the pattern, in spacings from `Decoding::place`.
-    Vec pattern_step(Vec grid_cell) const { return turn_(grid_cell); }
+    FixedVec pattern_step(FixedVec grid_cell) const { return turn_(grid_cell); }
     /// Returns the symbol at a position on the pattern, which must be in the grid.
-    Symbol symbol(Vec pattern_step) const;
+    Symbol symbol(FixedVec pattern_step) const;
 
   private:
-    Turn turn_;
-    Vec first_;  ///< minimum pattern step of the cells of the grid
+    QuarterTurn turn_;
+    FixedVec first_;  ///< minimum pattern step of the cells of the grid
     /// Index in the main sequence of the first cell of each column and row.
     std::array<std::uint8_t, kMaxGridSide> columns_;
     std::array<std::uint8_t, kMaxGridSide> rows_;

@@ -14,7 +14,7 @@ constexpr int kVoters = tuning::turns::kVoters;
 /// The voting columns or rows of a region, with the bit of their cells that is read.
 class Voters {
   public:
-    Voters(const Grid& grid, const Region& region, bool are_columns, std::int8_t GridCell::*bit)
+    Voters(const Grid& grid, const GridRegion& region, bool are_columns, std::int8_t GridCell::*bit)
         : first_(&grid.at(region.i0, region.j0)),
           across_(are_columns ? 1 : grid.columns),
           along_(are_columns ? grid.columns : 1),
@@ -95,7 +95,7 @@ std::int32_t best_agreement(const Voters& voters) {
 
 }  // namespace
 
-Orientation rank_turns(const Grid& grid, const Region& region) {
+Orientation rank_turns(const Grid& grid, const GridRegion& region) {
     // differs: the paper counts the lines that occur in the main sequence exactly. The sum of the
     // best scores is the same vote, but includes lines with a misread bit.
     const Voters x_columns(grid, region, true, &GridCell::x);
@@ -110,8 +110,9 @@ Orientation rank_turns(const Grid& grid, const Region& region) {
     // A quarter turn exchanges columns and rows and flips one of them; see `turned` in upright.hpp.
     const std::array<std::int32_t, 4> scores{columns + rows, turned_columns + rows,
                                              turned_columns + turned_rows, columns + turned_rows};
-    std::array<Turn, 4> turns{Turn{0}, Turn{1}, Turn{2}, Turn{3}};
-    const auto score = [&](Turn t) { return scores[static_cast<std::size_t>(t.quarters)]; };
+    std::array<QuarterTurn, 4> turns{QuarterTurn{0}, QuarterTurn{1}, QuarterTurn{2},
+                                     QuarterTurn{3}};
+    const auto score = [&](QuarterTurn t) { return scores[static_cast<std::size_t>(t.quarters)]; };
     // Sorts the turns by score and keeps the order of ties. A library sort would be long for four
     // elements.
     for (std::size_t n = 1; n < turns.size(); ++n) {
@@ -121,7 +122,7 @@ Orientation rank_turns(const Grid& grid, const Region& region) {
     return {turns, score(turns[0])};
 }
 
-bool is_mirrored(const Grid& grid, const Region& region, std::int32_t upright) {
+bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t upright) {
     // A mirror image exchanges the projections of eq. 7 and 8, and may reverse lines.
     const Voters y_columns(grid, region, true, &GridCell::y);
     const Voters x_rows(grid, region, false, &GridCell::x);

@@ -3,24 +3,24 @@
 
 #include <array>
 
-#include "core/stages.hpp"
+#include "core/decode/grid.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {
 
 struct Orientation {
-    std::array<Turn, 4> turns;  ///< most likely turn first
+    std::array<QuarterTurn, 4> turns;  ///< most likely turn first
     std::int32_t agreement;  ///< agreement of the voting lines with the main sequence, at the most
                              ///< likely turn
 };
 
 /// Ranks the four turns by a vote of columns and rows: each agrees better with the main sequence
 /// either as read, or flipped and reversed.
-Orientation rank_turns(const Grid& grid, const Region& region);
+Orientation rank_turns(const Grid& grid, const GridRegion& region);
 
 /// Returns true if the region agrees much better with the mirrored pattern, whose columns contain
 /// the bits of rows, than with the pattern. `agreement` is the agreement with the pattern, from
 /// `rank_turns`.
-bool is_mirrored(const Grid& grid, const Region& region, std::int32_t agreement);
+bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t agreement);
 
 }  // namespace dotpose::core

@@ -13,7 +13,7 @@ namespace {
 constexpr int kMinLines = 6;
 
 /// Reads the position of one axis from the best roll of each line, line by line.
-Status read_axis(Profile profile, const Lines& lines, AxisReading& reading) {
+Status read_axis(CodeVariant code, const Lines& lines, AxisReading& reading) {
     std::array<std::uint8_t, kMaxLines> rolls{};
     for (int i = 0; i < lines.count(); ++i) {
         const Match match = best_match(lines[i]);
@@ -22,23 +22,22 @@ Status read_axis(Profile profile, const Lines& lines, AxisReading& reading) {
     }
     reading.roll = rolls[0];
     const auto used = std::span<const std::uint8_t>(rolls).first(lines.all.size());
-    return position_from_rolls(profile, used, reading.position);
+    return position_from_rolls(code, used, reading.position);
 }
 
 /// Sets the turn, and the place from the readings of both axes.
-void set_place(Profile profile, const Upright& upright, Turn turn, const AxisReading& x,
+void set_place(CodeVariant code, const Upright& upright, QuarterTurn turn, const AxisReading& x,
                const AxisReading& y, Decoding& decoding) {
     const auto section = [&](const AxisReading& own, const AxisReading& other) {
-        return static_cast<std::uint8_t>(
-            section_of(profile, own.roll, own.position, other.position));
+        return static_cast<std::uint8_t>(section_of(code, own.roll, own.position, other.position));
     };
     const Place corner{{x.position, y.position}, {section(x, y), section(y, x)}};
-    const Vec step = turn(-upright.corner());
+    const FixedVec step = turn(-upright.corner());
     decoding.pattern_from_grid = turn;
-    decoding.place = moved(profile, corner, step.x, step.y);
+    decoding.place = moved(code, corner, step.x, step.y);
 }
 
-Status decode_lines(const Grid& grid, Profile profile, std::span<ScoredLine> storage,
+Status decode_lines(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                     decltype(find_axis) find, Decoding& decoding) {
     const auto [turns, agreement] = rank_turns(grid, decoding.region);
     decoding.agreement = agreement;
@@ -47,20 +46,20 @@ Status decode_lines(const Grid& grid, Profile profile, std::span<ScoredLine> sto
     }
     std::int32_t best = INT32_MIN;
     Status status = Status::not_in_code;
-    for (const Turn turn : {turns[0], turns[1]}) {
+    for (const QuarterTurn turn : {turns[0], turns[1]}) {
         const Upright upright(grid, decoding.region, turn);
         const Lines columns = score_lines(upright, Axis::x, scores_of(Axis::x, storage));
         const Lines rows = score_lines(upright, Axis::y, scores_of(Axis::y, storage));
         decoding.lines_are_scored = false;
         AxisReading x;
         AxisReading y;
-        if (find(profile, columns, x) != Status::ok || find(profile, rows, y) != Status::ok ||
+        if (find(code, columns, x) != Status::ok || find(code, rows, y) != Status::ok ||
             x.score + y.score <= best) {
             continue;
         }
         best = x.score + y.score;
         status = Status::ok;
-        set_place(profile, upright, turn, x, y, decoding);
+        set_place(code, upright, turn, x, y, decoding);
         decoding.lines_are_scored = true;
         if (x.is_clear() && y.is_clear()) break;
     }
@@ -69,36 +68,36 @@ Status decode_lines(const Grid& grid, Profile profile, std::span<ScoredLine> sto
 
 }  // namespace
 
-Status decode_window(const Grid& grid, Profile profile, std::span<ScoredLine> storage,
+Status decode_window(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                      Decoding& decoding) {
-    const Region& window = decoding.window;
+    const GridRegion& window = decoding.window;
     decoding.agreement = rank_turns(grid, decoding.region).agreement;
     constexpr int kMinDots_q8 = 256 / 3;
     if (window.columns < kWindowSide || window.rows < kWindowSide ||
         mean_quality_q8(grid, window) < kMinDots_q8) {
         return Status::grid_too_small;
     }
-    const Turn turn = rank_turns(grid, window).turns[0];
+    const QuarterTurn turn = rank_turns(grid, window).turns[0];
     const Upright upright(grid, window, turn);
     AxisReading x;
     AxisReading y;
-    Status status = read_axis(profile, score_lines(upright, Axis::x, storage), x);
+    Status status = read_axis(code, score_lines(upright, Axis::x, storage), x);
     if (status == Status::ok) {
-        status = read_axis(profile, score_lines(upright, Axis::y, storage), y);
+        status = read_axis(code, score_lines(upright, Axis::y, storage), y);
     }
     if (status != Status::ok) return status;
-    set_place(profile, upright, turn, x, y, decoding);
+    set_place(code, upright, turn, x, y, decoding);
     return Status::ok;
 }
 
-Status decode_all(const Grid& grid, Profile profile, std::span<ScoredLine> storage,
+Status decode_all(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                   Decoding& decoding) {
-    return decode_lines(grid, profile, storage, find_axis, decoding);
+    return decode_lines(grid, code, storage, find_axis, decoding);
 }
 
-Status decode_briefly(const Grid& grid, Profile profile, std::span<ScoredLine> storage,
+Status decode_briefly(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                       Decoding& decoding) {
-    return decode_lines(grid, profile, storage, find_axis_briefly, decoding);
+    return decode_lines(grid, code, storage, find_axis_briefly, decoding);
 }
 
 }  // namespace dotpose::core

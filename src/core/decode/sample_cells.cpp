@@ -17,7 +17,7 @@ namespace {
 
 namespace tuned = tuning::sample_cells;
 
-Vec place_60th(Symbol symbol) {
+FixedVec place_60th(Symbol symbol) {
     return {10 * dx(symbol), 10 * dy(symbol)};
 }
 
@@ -30,13 +30,13 @@ struct PlaceView {
 
 /// Measurements of one cell.
 struct CellView {
-    Vec centre_q8;
-    Vec u_q8;  ///< one spacing along each axis of the grid, in image px
-    Vec v_q8;
+    FixedVec centre_q8;
+    FixedVec u_q8;  ///< one spacing along each axis of the grid, in image px
+    FixedVec v_q8;
     int half_px = 0;                  ///< half the side of a square of 2/5 spacing
     std::array<PlaceView, 4> places;  ///< by Symbol
 
-    CellView(const ImageView& image, Vec centre, Vec right, Vec below)
+    CellView(const ImageView& image, FixedVec centre, FixedVec right, FixedVec below)
         : centre_q8(centre), u_q8(right - centre), v_q8(below - centre) {
         for (std::size_t i = 0; i < places.size(); ++i)
             places[i].is_seen = shows_level(image, at(place_60th(static_cast<Symbol>(i))));
@@ -47,16 +47,16 @@ struct CellView {
             places.begin(), places.end(), [](const PlaceView& place) { return place.is_seen; }));
     }
 
-    Vec at(Vec offset_60th) const {
-        return centre_q8 + Vec{(u_q8.x * offset_60th.x + v_q8.x * offset_60th.y) / 60,
-                               (u_q8.y * offset_60th.x + v_q8.y * offset_60th.y) / 60};
+    FixedVec at(FixedVec offset_60th) const {
+        return centre_q8 + FixedVec{(u_q8.x * offset_60th.x + v_q8.x * offset_60th.y) / 60,
+                                    (u_q8.y * offset_60th.x + v_q8.y * offset_60th.y) / 60};
     }
 };
 
 /// Samples an image at the cells of a grid.
 class CellSampler {
   public:
-    CellSampler(const ImageView& image, const PaperMap& paper, const Lens& lens,
+    CellSampler(const ImageView& image, const PaperMap& paper, const FixedLens& lens,
                 const PlaneFromImage& plane)
         : image_(image), paper_(paper), lens_(lens), plane_(plane) {}
 
@@ -74,19 +74,19 @@ class CellSampler {
 
   private:
     /// Returns the image point of an intersection.
-    Vec image_of(int i, int j) const {
+    FixedVec image_of(int i, int j) const {
         return distorted_point_q8(lens_, plane_, {i * 65536, j * 65536});
     }
     /// Returns the mean darkness of a square.
-    int shade_q8(Vec centre_q8, int half_px) const;
+    int shade_q8(FixedVec centre_q8, int half_px) const;
     /// Returns the mean darkness of a square, from the sum over its pixels.
-    int darkness_q8(Vec centre_q8, int sum, int pixels) const;
+    int darkness_q8(FixedVec centre_q8, int sum, int pixels) const;
     template <typename Shade>
     static std::array<int, 4> darkest_around_q8(const CellView& view, Shade shade_q8);
 
     const ImageView& image_;
     const PaperMap& paper_;
-    const Lens& lens_;
+    const FixedLens& lens_;
     const PlaneFromImage& plane_;
 };
 
@@ -95,13 +95,13 @@ int step_px(int half_px) {
     return std::max(half_px / 3, 1);
 }
 
-int CellSampler::darkness_q8(Vec point_q8, int sum, int pixels) const {
+int CellSampler::darkness_q8(FixedVec point_q8, int sum, int pixels) const {
     if (pixels == 0) return 0;
     const int paper = paper_at(paper_, (point_q8.x + 128) >> 8, (point_q8.y + 128) >> 8);
     return (paper * pixels - sum) * 256 / (paper * pixels);
 }
 
-int CellSampler::shade_q8(Vec centre_q8, int half_px) const {
+int CellSampler::shade_q8(FixedVec centre_q8, int half_px) const {
     const PixelBox box(image_, centre_q8, half_px);
     const int step = step_px(half_px);
     int sum = 0;
@@ -119,9 +119,9 @@ int CellSampler::shade_q8(Vec centre_q8, int half_px) const {
 template <typename Use>
 void CellSampler::visit(const Grid& grid, Use use) const {
     // An intersection is a corner of four cells, so each row of intersections is used twice.
-    std::array<Vec, kMaxGridSide + 1> here;
-    std::array<Vec, kMaxGridSide + 1> below;
-    const auto find_row = [&](int j, std::array<Vec, kMaxGridSide + 1>& row) {
+    std::array<FixedVec, kMaxGridSide + 1> here;
+    std::array<FixedVec, kMaxGridSide + 1> below;
+    const auto find_row = [&](int j, std::array<FixedVec, kMaxGridSide + 1>& row) {
         for (int i = 0; i <= grid.columns; ++i)
             row[static_cast<std::size_t>(i)] = image_of(grid.i0 + i, j);
     };
@@ -132,7 +132,7 @@ void CellSampler::visit(const Grid& grid, Use use) const {
         for (int i = 0; i < grid.columns; ++i) {
             const auto at = static_cast<std::size_t>(i);
             CellView view(image_, here[at], here[at + 1], below[at]);
-            if (view.places_seen() > 0) use(Vec{grid.i0 + i, j}, view);
+            if (view.places_seen() > 0) use(FixedVec{grid.i0 + i, j}, view);
         }
     }
 }
@@ -144,7 +144,7 @@ void CellSampler::sample(CellView& view) const {
     for (std::size_t i = 0; i < view.places.size(); ++i) {
         PlaceView& place = view.places[i];
         if (!place.is_seen) continue;
-        const Vec place_q8 = view.at(place_60th(static_cast<Symbol>(i)));
+        const FixedVec place_q8 = view.at(place_60th(static_cast<Symbol>(i)));
         const int paper = paper_at(paper_, place_q8.x >> 8, place_q8.y >> 8);
         place.darkness_q8 = (paper * 256 - level_at_q8(image_, place_q8)) / paper;
         place.shade_q8 = shade_q8(place_q8, view.half_px);
@@ -158,10 +158,11 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade sh
     std::array<int, 4> darkest{};
     for (std::size_t i = 0; i < darkest.size(); ++i) {
         if (!view.places[i].is_seen) continue;
-        const Vec place = place_60th(static_cast<Symbol>(i));
-        for (const Vec d : {Vec{kFar, 0}, Vec{-kFar, 0}, Vec{0, kFar}, Vec{0, -kFar},
-                            Vec{kDiagonal, kDiagonal}, Vec{-kDiagonal, kDiagonal},
-                            Vec{kDiagonal, -kDiagonal}, Vec{-kDiagonal, -kDiagonal}}) {
+        const FixedVec place = place_60th(static_cast<Symbol>(i));
+        for (const FixedVec d :
+             {FixedVec{kFar, 0}, FixedVec{-kFar, 0}, FixedVec{0, kFar}, FixedVec{0, -kFar},
+              FixedVec{kDiagonal, kDiagonal}, FixedVec{-kDiagonal, kDiagonal},
+              FixedVec{kDiagonal, -kDiagonal}, FixedVec{-kDiagonal, -kDiagonal}}) {
             darkest[i] = std::max(darkest[i], shade_q8(view.at(place + d)));
         }
     }
@@ -174,11 +175,11 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
         std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
         view.half_px;
     if (step_px(view.half_px) > 1 || 2 * reach_px >= LevelSums::kMaxSide_px) {
-        return darkest_around_q8(view,
-                                 [&](Vec point_q8) { return shade_q8(point_q8, view.half_px); });
+        return darkest_around_q8(
+            view, [&](FixedVec point_q8) { return shade_q8(point_q8, view.half_px); });
     }
     const LevelSums sums(image_, PixelBox(image_, view.centre_q8, reach_px));
-    return darkest_around_q8(view, [&](Vec point_q8) {
+    return darkest_around_q8(view, [&](FixedVec point_q8) {
         const PixelBox box(image_, point_q8, view.half_px);
         const int pixels = box.pixels();
         return darkness_q8(point_q8, pixels > 0 ? sums.of(box) : 0, pixels);
@@ -197,7 +198,7 @@ PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
     std::size_t count = 0;
     int seen = 0;
     const int every = grid.columns * grid.rows / static_cast<int>(tuned::kMedianSample) + 1;
-    sampler.visit(grid, [&](Vec, CellView& view) {
+    sampler.visit(grid, [&](FixedVec, CellView& view) {
         if (view.places_seen() < 4) return;
         if (seen++ % every != 0) return;
         sampler.sample(view);
@@ -292,16 +293,17 @@ class Ink {
 };
 
 /// Sets the extent of the grid to the cells that the border of the image encloses.
-void cover_image(const ImageView& image, const Lens& lens, const PlaneFromImage& plane,
+void cover_image(const ImageView& image, const FixedLens& lens, const PlaneFromImage& plane,
                  Grid& grid) {
-    Vec min{INT32_MAX, INT32_MAX};
-    Vec max{INT32_MIN, INT32_MIN};
+    FixedVec min{INT32_MAX, INT32_MAX};
+    FixedVec max{INT32_MIN, INT32_MIN};
     constexpr int kPerSide = 4;
     for (int n = 0; n <= kPerSide; ++n) {
         for (int m = 0; m <= kPerSide; ++m) {
-            const Vec point_q8{image.width_px * 256 / kPerSide * n,
-                               image.height_px * 256 / kPerSide * m};
-            const Vec cell = grid_point(plane, undistorted(lens, plane.centre_q8, point_q8)).cell;
+            const FixedVec point_q8{image.width_px * 256 / kPerSide * n,
+                                    image.height_px * 256 / kPerSide * m};
+            const FixedVec cell =
+                grid_point(plane, undistorted(lens, plane.centre_q8, point_q8)).cell;
             min = {std::min(min.x, cell.x), std::min(min.y, cell.y)};
             max = {std::max(max.x, cell.x), std::max(max.y, cell.y)};
         }
@@ -321,14 +323,14 @@ std::int8_t y_weight(const Ink& ink, const Ink::Sample& sample) {
 
 }  // namespace
 
-bool sample_cells(const ImageView& image, const PaperMap& paper, const Lens& lens,
+bool sample_cells(const ImageView& image, const PaperMap& paper, const FixedLens& lens,
                   const PlaneFromImage& plane, Grid& grid) {
     cover_image(image, lens, plane, grid);
     const CellSampler sampler(image, paper, lens, plane);
     const Ink ink(sampler, grid);
     int cells = 0;
     int crowded = 0;
-    sampler.visit(grid, [&](Vec at, CellView& view) {
+    sampler.visit(grid, [&](FixedVec at, CellView& view) {
         GridCell& cell = grid.at(at.x, at.y);
         sampler.sample(view);
         const Ink::Sample sample = ink.sample(view, cell);

@@ -3,7 +3,8 @@
 // second attempt. differs: docs/differs-from-paper.md.
 #pragma once
 
-#include "core/stages.hpp"
+#include "core/decode/grid.hpp"
+#include "core/detect/paper.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
 
@@ -14,7 +15,7 @@ namespace dotpose::core {
 /// neither bit, and cells under graphics are marked as hidden. Cells near graphics or the border
 /// have smaller weights. Returns false if many cells contain two dots, which means that the image
 /// shows two patterns.
-bool sample_cells(const ImageView& image, const PaperMap& paper, const Lens& lens,
+bool sample_cells(const ImageView& image, const PaperMap& paper, const FixedLens& lens,
                   const PlaneFromImage& grid_from_image, Grid& grid);
 
 }  // namespace dotpose::core

@@ -54,11 +54,11 @@ class Choices {
 };
 
 /// Returns the reading, with its sum over all lines, if line `line` is at `position` with `roll`.
-AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_t position,
+AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     std::array<std::uint8_t, kMaxLines> storage;
     const auto rolls = std::span(storage).first(lines.all.size());
-    AxisReading reading = reading_of_first(profile, position, roll, line, rolls);
+    AxisReading reading = reading_of_first(code, position, roll, line, rolls);
     for (int i = 0; i < lines.count(); ++i) {
         const int here = reading.roll + rolls[static_cast<std::size_t>(i)];
         reading.score +=
@@ -96,11 +96,11 @@ std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
 
 /// Reads the lines from `first` on at these rolls, and replaces `best` if the reading has a higher
 /// score over all lines. Returns true if the new reading is clear.
-bool improve(Profile profile, const Lines& lines, int first, std::span<const std::uint8_t> rolls,
+bool improve(CodeVariant code, const Lines& lines, int first, std::span<const std::uint8_t> rolls,
              AxisReading& best) {
     std::uint32_t position = 0;
-    if (position_from_rolls(profile, rolls, position) != Status::ok) return false;
-    AxisReading reading = evaluate(profile, lines, first, position, rolls[0]);
+    if (position_from_rolls(code, rolls, position) != Status::ok) return false;
+    AxisReading reading = evaluate(code, lines, first, position, rolls[0]);
     if (reading.score <= best.score) return false;
     reading.max_possible = best.max_possible;
     best = reading;
@@ -108,7 +108,7 @@ bool improve(Profile profile, const Lines& lines, int first, std::span<const std
 }
 
 /// Reads one run in all combinations of the choices of its lines, until a reading is clear.
-void try_run(Profile profile, const Lines& lines, int first, int length, int max_readings,
+void try_run(CodeVariant code, const Lines& lines, int first, int length, int max_readings,
              AxisReading& best) {
     Run run;
     std::array<std::uint8_t, kMaxRunLength> storage;
@@ -117,7 +117,7 @@ void try_run(Profile profile, const Lines& lines, int first, int length, int max
         run[n] = Choices(lines.all[n + static_cast<std::size_t>(first)]);
         rolls[n] = run[n].roll(0);
     }
-    if (improve(profile, lines, first, rolls, best)) return;
+    if (improve(code, lines, first, rolls, best)) return;
     const auto widths = widen(run, length, max_readings);
     std::array<int, kMaxRunLength> choice{};
     while (true) {
@@ -129,7 +129,7 @@ void try_run(Profile profile, const Lines& lines, int first, int length, int max
         }
         if (n-- == 0) return;
         rolls[n] = run[n].roll(++choice[n]);
-        if (improve(profile, lines, first, rolls, best)) return;
+        if (improve(code, lines, first, rolls, best)) return;
     }
 }
 
@@ -158,8 +158,8 @@ struct Limits {
 };
 
 /// Reads runs of lines, the clearest first, until a reading is clear.
-void search_by_runs(Profile profile, const Lines& lines, const Limits& limits, AxisReading& best) {
-    const int length = run_length(profile);
+void search_by_runs(CodeVariant code, const Lines& lines, const Limits& limits, AxisReading& best) {
+    const int length = run_length(code);
     std::int32_t max_possible = 0;
     for (int i = 0; i < lines.count(); ++i)
         max_possible += lines.best(i).score;
@@ -169,7 +169,7 @@ void search_by_runs(Profile profile, const Lines& lines, const Limits& limits, A
         const int first = clearest_run(lines, length, taken);
         if (first < 0) break;
         taken[static_cast<std::size_t>(first)] = true;
-        try_run(profile, lines, first, length, limits.readings, best);
+        try_run(code, lines, first, length, limits.readings, best);
         if (best.is_clear()) break;
     }
 }
@@ -180,32 +180,32 @@ Status status_of(const AxisReading& best) {
 
 }  // namespace
 
-int run_length(Profile profile) {
-    return profile == Profile::libdots ? 8 : 6;
+int run_length(CodeVariant code) {
+    return code == CodeVariant::libdots ? 8 : 6;
 }
 
-AxisReading reading_of_first(Profile profile, std::uint32_t position, int roll, int line,
+AxisReading reading_of_first(CodeVariant code, std::uint32_t position, int roll, int line,
                              std::span<std::uint8_t> rolls) {
     const auto before = static_cast<std::uint32_t>(line);
     AxisReading reading;
     reading.position =
         position >= before ? position - before : position + kPositionsPerAxis - before;
-    code::follow_rolls(profile, reading.position, 0, rolls);
+    code::follow_rolls(code, reading.position, 0, rolls);
     const int there = rolls[before];
     reading.roll = static_cast<std::uint8_t>(roll - there + (roll < there ? kSections : 0));
     return reading;
 }
 
-Status find_axis(Profile profile, const Lines& lines, AxisReading& best) {
-    search_by_runs(profile, lines, {tuned::kRuns, tuned::kReadings}, best);
-    if (best.score < best.max_possible && lines.count() >= run_length(profile)) {
-        search_by_steps(profile, lines, best);
+Status find_axis(CodeVariant code, const Lines& lines, AxisReading& best) {
+    search_by_runs(code, lines, {tuned::kRuns, tuned::kReadings}, best);
+    if (best.score < best.max_possible && lines.count() >= run_length(code)) {
+        search_by_steps(code, lines, best);
     }
     return status_of(best);
 }
 
-Status find_axis_briefly(Profile profile, const Lines& lines, AxisReading& best) {
-    search_by_runs(profile, lines, {tuned::kRunsBriefly, tuned::kReadingsBriefly}, best);
+Status find_axis_briefly(CodeVariant code, const Lines& lines, AxisReading& best) {
+    search_by_runs(code, lines, {tuned::kRunsBriefly, tuned::kReadingsBriefly}, best);
     return status_of(best);
 }
 

@@ -9,20 +9,20 @@ namespace dotpose::core {
 
 /// Returns the number of consecutive lines that determine a position. The misprinted sequence of
 /// libdots needs more lines, because its places are unique only by 7 differences.
-int run_length(Profile profile);
+int run_length(CodeVariant code);
 
 /// Returns the reading of the first line if line `line` is at `position` with `roll`. Sets the
 /// rolls of all lines, modulo 63, relative to that of the first.
-AxisReading reading_of_first(Profile profile, std::uint32_t position, int roll, int line,
+AxisReading reading_of_first(CodeVariant code, std::uint32_t position, int roll, int line,
                              std::span<std::uint8_t> rolls);
 
 /// Reads runs of consecutive lines, the clearest first, each with its most likely rolls, and keeps
 /// the position with the largest sum over all lines. If that sum is not clear, searches by steps as
 /// well. Errors: not_in_code, if no reading occurs in the code.
-Status find_axis(Profile profile, const Lines& lines, AxisReading& best);
+Status find_axis(CodeVariant code, const Lines& lines, AxisReading& best);
 
 /// Reads only a few runs with a few readings each, for first attempts. A position that takes longer
 /// to find is rarely certain.
-Status find_axis_briefly(Profile profile, const Lines& lines, AxisReading& best);
+Status find_axis_briefly(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

@@ -75,9 +75,9 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
 
 /// Returns the reading, with its sum over all lines, if the first line is at `position`, with the
 /// best roll.
-AxisReading evaluate(Profile profile, const Lines& lines, std::uint32_t position) {
+AxisReading evaluate(CodeVariant code, const Lines& lines, std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;
-    code::follow_rolls(profile, position, 0, std::span(rolls).first(lines.all.size()));
+    code::follow_rolls(code, position, 0, std::span(rolls).first(lines.all.size()));
     std::array<std::int32_t, kSections> sums{};
     for (int i = 0; i < lines.count(); ++i) {
         const std::size_t ahead = rolls[static_cast<std::size_t>(i)];
@@ -93,12 +93,12 @@ AxisReading evaluate(Profile profile, const Lines& lines, std::uint32_t position
 
 }  // namespace
 
-void search_by_steps(Profile profile, const Lines& lines, AxisReading& best) {
+void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best) {
     std::array<StepLosses, kMaxLines - 1> storage;
     const auto steps = std::span(storage).first(lines.all.size() - 1);
     for (std::size_t i = 0; i < steps.size(); ++i)
         steps[i] = losses_of(lines.all[i].scores, lines.all[i + 1].scores);
-    const code::Basis& basis = code::basis(profile);
+    const code::Basis& basis = code::basis(code);
     std::array<Choices, kSequences> choices;
     for (std::size_t n = 0; n < kSequences; ++n)
         choices[n] = likeliest_places(basis[n], n, steps);
@@ -108,7 +108,7 @@ void search_by_steps(Profile profile, const Lines& lines, AxisReading& best) {
         std::size_t rest = way;
         for (std::size_t n = 0; n < kSequences; ++n, rest /= kChoices)
             places[n] = choices[n][rest % kChoices];
-        AxisReading reading = evaluate(profile, lines, code::position_at(basis, places));
+        AxisReading reading = evaluate(code, lines, code::position_at(basis, places));
         if (reading.score <= best.score) continue;
         reading.max_possible = best.max_possible;
         best = reading;

@@ -10,6 +10,6 @@ namespace dotpose::core {
 /// that agree best with all steps, and the best position that combines such places. Replaces `best`
 /// if the position is better. Also finds positions that the search by runs of lines misses, for
 /// example if graphics hide every sixth line or if no line has a clear roll.
-void search_by_steps(Profile profile, const Lines& lines, AxisReading& best);
+void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "core/decode/grid.hpp"
 #include "core/math/fixed.hpp"
-#include "core/stages.hpp"
 
 namespace dotpose::core {
 
@@ -22,7 +22,7 @@ struct Bits {
 
 /// Returns the bits of a cell turned upright on the pattern. A quarter turn maps the displacement
 /// (x, y) to (-y, x), and therefore the projections of eq. 7-8, (y - x, y + x), to (x + y, x - y).
-constexpr Bits turned(Turn pattern_from_grid, const GridCell& cell) {
+constexpr Bits turned(QuarterTurn pattern_from_grid, const GridCell& cell) {
     const auto minus_x = static_cast<std::int8_t>(-cell.x);
     const auto minus_y = static_cast<std::int8_t>(-cell.y);
     switch (pattern_from_grid.quarters) {
@@ -40,15 +40,15 @@ constexpr Bits turned(Turn pattern_from_grid, const GridCell& cell) {
 /// A region of the grid, turned upright.
 class Upright {
   public:
-    Upright(const Grid& grid, const Region& region, Turn pattern_from_grid)
+    Upright(const Grid& grid, const GridRegion& region, QuarterTurn pattern_from_grid)
         : region_(region), turn_(pattern_from_grid) {
         const int right = region.i0 + region.columns - 1;
         const int bottom = region.j0 + region.rows - 1;
         const int q = turn_.quarters;
         corner_ = {q == 0 || q == 1 ? region.i0 : right, q == 0 || q == 3 ? region.j0 : bottom};
         first_ = &grid.at(corner_.x, corner_.y);
-        const auto stride = [&](Vec step) {
-            const Vec d = turn_.inverse()(step);
+        const auto stride = [&](FixedVec step) {
+            const FixedVec d = turn_.inverse()(step);
             return d.y * grid.columns + d.x;
         };
         to_right_ = stride({1, 0});
@@ -63,7 +63,7 @@ class Upright {
     int columns() const { return is_sideways() ? region_.rows : region_.columns; }
     int rows() const { return is_sideways() ? region_.columns : region_.rows; }
     /// Returns the grid cell of the top left symbol.
-    Vec corner() const { return corner_; }
+    FixedVec corner() const { return corner_; }
 
     /// Returns the weights of the x bits down a column.
     std::span<const std::int8_t> column(int a, Line& line) const {
@@ -79,9 +79,9 @@ class Upright {
     static std::span<const std::int8_t> weights(const GridCell* cell, int stride, int count,
                                                 std::int8_t GridCell::*bit, int sign, Line& line);
 
-    Region region_;
-    Turn turn_;
-    Vec corner_;
+    GridRegion region_;
+    QuarterTurn turn_;
+    FixedVec corner_;
     const GridCell* first_;
     int to_right_;
     int downwards_;

@@ -6,10 +6,10 @@
 
 namespace dotpose::core {
 
-Region choose_window(const Grid& grid, int side) {
+GridRegion choose_window(const Grid& grid, int side) {
     const int columns = std::min(side, grid.columns);
     const int rows = std::min(side, grid.rows);
-    Region window{grid.i0, grid.j0, columns, rows};
+    GridRegion window{grid.i0, grid.j0, columns, rows};
     if (columns == grid.columns && rows == grid.rows) return window;
     // The sums over the rows of the window, one per column, move down with the window.
     std::array<std::int32_t, kMaxGridSide> column_sums{};
@@ -32,7 +32,7 @@ Region choose_window(const Grid& grid, int side) {
     return window;
 }
 
-int mean_quality_q8(const Grid& grid, const Region& region) {
+int mean_quality_q8(const Grid& grid, const GridRegion& region) {
     constexpr int kPerfect = 127 * 127;
     std::int64_t sum = 0;
     for (int j = region.j0; j < region.j0 + region.rows; ++j) {

@@ -12,6 +12,10 @@
 namespace dotpose::core {
 namespace {
 
+/// Half of a low threshold for which every pixel is dark. It ends the search for dark pixels after
+/// the last pixel of a row.
+constexpr std::uint8_t kAlwaysDark = 128;
+
 constexpr int kBandsKept = 4;  // three are needed; a power of two is faster
 constexpr unsigned kContrastBins = 64;
 

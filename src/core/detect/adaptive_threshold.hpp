@@ -5,11 +5,51 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
-#include "core/stages.hpp"
 #include "dotpose/options.hpp"
 
 namespace dotpose::core {
+
+/// Width and height of the tiles of the adaptive threshold. The height is kLowTile_px for images
+/// whose shorter side is at most `kMaxSideWithLowTiles_px`, and kHighTile_px for larger images.
+/// Three tiles must contain a dot: an image with 8 dots along its shorter side has a spacing of at
+/// most 1/8 of that side, and dots of at most a third of the spacing.
+inline constexpr int kTileWidth_px = 16;
+inline constexpr int kLowTile_px = 8;
+inline constexpr int kHighTile_px = 16;
+inline constexpr int kMaxSideWithLowTiles_px = 240;
+/// Bytes after the last row and the last level that may be read. Their values have no effect.
+inline constexpr int kReadAhead_px = 8;
+
+/// Grey levels of one tile.
+struct Tile {
+    std::uint8_t mean = 0;
+    std::uint8_t darkness = 0;  ///< 255 minus the level of its darkest pair of pixels
+};
+
+/// The newest rows of the image with their tiles, and the thresholds of one band. A *band* is a row
+/// of tiles.
+struct AdaptiveThreshold {
+    int width_px = 0;
+    int height_px = 0;
+    int band_px = 0;  ///< height of the tiles, 2^band_shift
+    int band_shift = 0;
+    int tiles_per_band = 0;
+    int rows_taken = 0;
+    bool has_contrast = false;  ///< true if any tile so far has contrast
+    int max_contrast =
+        0;  ///< largest contrast between paper and ink of all tiles so far, in grey levels
+    /// Pixels of the two newest bands. Rows are filled up to whole tiles.
+    std::span<std::uint8_t> rows;
+    std::span<Tile> tiles;  ///< tiles of the four newest bands
+    /// Low threshold in each column of the current band, halved: pixels darker than twice this
+    /// level belong to a blob. 0 if no pixel does.
+    std::span<std::uint8_t> half_low_levels;
+    std::span<std::uint8_t>
+        high_levels;  ///< high threshold: a blob must have a pixel darker than this level
+};
 
 /// Starts a frame.
 void begin_threshold(int width_px, int height_px, AdaptiveThreshold& threshold);

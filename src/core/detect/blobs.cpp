@@ -25,13 +25,13 @@ int all_within_px(const AdaptiveThreshold& threshold) {
 
 /// Predicate: true if a dot is within the distance at which dots are kept.
 struct IsKept {
-    Vec image_centre_q8;
+    FixedVec image_centre_q8;
     std::int32_t within_q8;
 
     IsKept(const AdaptiveThreshold& threshold, const DotList& list)
         : image_centre_q8{(threshold.width_px - 1) * 128, (threshold.height_px - 1) * 128},
           within_q8(list.kept_within_px * 256) {}
-    bool operator()(const Dot& dot) const {
+    bool operator()(const DetectedDot& dot) const {
         return is_within(dot.centre_q8 - image_centre_q8, within_q8);
     }
 };
@@ -40,8 +40,8 @@ struct IsKept {
 /// used because libraries unroll it, which takes a kilobyte on small devices.
 template <typename Predicate>
 void keep_dots(DotList list, Predicate is_to_keep) {
-    Dot* kept = list.dots.data();
-    for (const Dot& dot : list.dots.first(static_cast<std::size_t>(list.count))) {
+    DetectedDot* kept = list.dots.data();
+    for (const DetectedDot& dot : list.dots.first(static_cast<std::size_t>(list.count))) {
         if (!is_to_keep(dot)) continue;
         if (kept != &dot) *kept = dot;
         ++kept;
@@ -77,10 +77,11 @@ bool may_be_dot(const OpenBlob& blob, const AdaptiveThreshold& threshold) {
 void close_blob(const OpenBlob& blob, const AdaptiveThreshold& threshold, DotList list) {
     if (!may_be_dot(blob, threshold)) return;
     // Coordinates are relative to the corner of the blob, because the sums are modulo 2^32.
-    const Dot dot{{blob.left * 256 + mean_q8(blob.sum_x - blob.mass * blob.left, blob.mass),
-                   blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
-                  static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
-                  static_cast<std::uint16_t>(blob.area_px)};
+    const DetectedDot dot{
+        {blob.left * 256 + mean_q8(blob.sum_x - blob.mass * blob.left, blob.mass),
+         blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
+        static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
+        static_cast<std::uint16_t>(blob.area_px)};
     // Distances are not compared until the list has been full.
     while (list.kept_within_px == all_within_px(threshold) || IsKept(threshold, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
@@ -203,7 +204,7 @@ void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& thr
 
 /// Returns the upper quartile of a member over a sample of the dots. Blobs of noise may be as
 /// frequent as dots, but few blobs are larger than dots.
-std::int32_t typical(std::span<const Dot> dots, std::uint16_t Dot::*member) {
+std::int32_t typical(std::span<const DetectedDot> dots, std::uint16_t DetectedDot::*member) {
     constexpr std::size_t kSample = 128;
     const std::size_t step = dots.size() / kSample + 1;
     std::array<std::int32_t, kSample> values;
@@ -245,9 +246,9 @@ void grow_blobs(int v, const AdaptiveThreshold& threshold, OpenBlobs& open, DotL
 
 void sift_dots(const BlobOptions& options, DotList list) {
     const auto found = list.dots.first(static_cast<std::size_t>(list.count));
-    const std::int32_t min_mass = typical(found, &Dot::mass) * options.min_mass_q8 / 256;
-    const std::int32_t max_area = typical(found, &Dot::area_px) * options.max_area_ratio;
-    keep_dots(list, [&](const Dot& dot) {
+    const std::int32_t min_mass = typical(found, &DetectedDot::mass) * options.min_mass_q8 / 256;
+    const std::int32_t max_area = typical(found, &DetectedDot::area_px) * options.max_area_ratio;
+    keep_dots(list, [&](const DetectedDot& dot) {
         return dot.area_px >= options.min_area_px && dot.mass >= min_mass &&
                dot.area_px <= max_area;
     });

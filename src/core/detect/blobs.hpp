@@ -2,14 +2,49 @@
 // among them. Paper section II-B.1.
 #pragma once
 
-#include "core/stages.hpp"
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/detect/adaptive_threshold.hpp"
+#include "core/detect/runs.hpp"
 #include "dotpose/options.hpp"
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 
+/// A blob that may continue in the next row, as sums over its pixels. The sums are modulo 2^32,
+/// which is exact for blobs small enough to be dots.
+struct OpenBlob {
+    std::uint32_t sum_x = 0;  ///< sum of weight times u
+    std::uint32_t sum_y = 0;  ///< sum of weight times v
+    std::uint32_t mass = 0;
+    std::uint32_t area_px = 0;
+    std::uint16_t left = 0;
+    std::uint16_t right = 0;  ///< exclusive
+    std::uint16_t first_v = 0;
+    std::uint16_t last_v = 0;
+    /// Blob that this one was merged into. For an unused blob, the next unused blob.
+    OpenBlob* part_of = nullptr;
+    bool passes_high = false;  ///< true if a pixel is darker than the high threshold
+};
+
+/// Blobs with pixels in the newest thresholded row.
+struct OpenBlobs {
+    /// Runs of the newest row and of the row above, in one half each. A sentinel run ends each row.
+    std::span<Run> runs;
+    int run_count = 0;
+    bool newest_in_second_half = false;
+    int max_runs = INT32_MAX;  ///< limit per image; further runs are ignored
+    int runs_left = 0;
+    std::span<OpenBlob> blobs;
+    std::size_t blobs_begun = 0;       ///< number of blobs used in this image so far
+    OpenBlob* first_unused = nullptr;  ///< first unused blob among `blobs`
+};
+
 /// The dots found so far.
 struct DotList {
-    std::span<Dot> dots;
+    std::span<DetectedDot> dots;
     int& count;
     int& kept_within_px;  ///< distance from the image centre, per axis, within which dots are kept
 };

@@ -33,13 +33,13 @@ int level_near(const ImageView& image, int u, int v) {
 
 }  // namespace
 
-bool shows_level(const ImageView& image, Vec point_q8) {
+bool shows_level(const ImageView& image, FixedVec point_q8) {
     const int u = point_q8.x >> 8;
     const int v = point_q8.y >> 8;
     return u >= 0 && v >= 0 && u + 1 < image.width_px && v + 1 < image.height_px;
 }
 
-int level_at_q8(const ImageView& image, Vec point_q8) {
+int level_at_q8(const ImageView& image, FixedVec point_q8) {
     const int u0 = (point_q8.x >> 8) - 1;
     const int v0 = (point_q8.y >> 8) - 1;
     const auto across = taps(point_q8.x);

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/stages.hpp"
+#include "dotpose/geometry.hpp"
 #include "dotpose/image.hpp"
 
 namespace dotpose::core {
@@ -19,7 +19,7 @@ struct PixelBox {
     int bottom;
 
     /// Makes the box around a point, clipped to the image.
-    PixelBox(const ImageView& image, Vec point_q8, int half_px) {
+    PixelBox(const ImageView& image, FixedVec point_q8, int half_px) {
         const int u = (point_q8.x + 128) >> 8;
         const int v = (point_q8.y + 128) >> 8;
         left = std::max(u - half_px, 0);

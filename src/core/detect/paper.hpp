@@ -3,11 +3,21 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
-#include "core/stages.hpp"
 #include "dotpose/image.hpp"
 
 namespace dotpose::core {
+
+/// Paper level in the square blocks of an image.
+struct PaperMap {
+    int block_px = 0;
+    int columns = 0;
+    int rows = 0;
+    std::span<std::uint8_t> levels;     ///< row by row
+    std::span<std::uint8_t> brightest;  ///< brightest level of each block and the eight around it
+};
 
 /// Measures the paper level of blocks with a tenth of the shorter side of the image: the level that
 /// a third of their pixels exceed.

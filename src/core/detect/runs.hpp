@@ -2,11 +2,24 @@
 // paper section II-B.1.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
-#include "core/stages.hpp"
+#include "core/detect/adaptive_threshold.hpp"
 
 namespace dotpose::core {
+
+struct OpenBlob;
+
+/// A stretch of blob pixels in one row.
+struct Run {
+    std::uint16_t begin = 0;
+    std::uint16_t end = 0;     ///< exclusive
+    std::uint32_t mass = 0;    ///< sum of weights: darkness below the low threshold, in grey levels
+    std::uint32_t sum_x = 0;   ///< sum of weight times u, modulo 2^32
+    bool passes_high = false;  ///< true if a pixel is darker than the high threshold
+    OpenBlob* blob = nullptr;  ///< blob of the run; null if there were too many
+};
 
 /// Number of pixels that are compared together. All have the same thresholds.
 inline constexpr std::size_t kGroup_px = 8;

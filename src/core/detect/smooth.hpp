@@ -3,10 +3,25 @@
 // docs/differs-from-paper.md.
 #pragma once
 
-#include "core/stages.hpp"
+#include <cstdint>
+#include <span>
+
+#include "core/detect/paper.hpp"
 #include "dotpose/image.hpp"
 
 namespace dotpose::core {
+
+/// Rows of an image during the filtering of the second attempt.
+struct Smoothing {
+    std::span<std::uint16_t> lines;  ///< the five newest rows, filtered along the row
+    std::span<std::uint8_t> row;
+    int lines_ready = 0;
+    int rows_given = 0;
+    PaperMap paper;
+    std::span<std::uint32_t> column_sums;  ///< column sums over the rows [sums_begin, sums_end)
+    int sums_begin = 0;
+    int sums_end = 0;
+};
 
 /// Grey level to which the mean of the surroundings is scaled.
 inline constexpr int kNormalLevel = 192;

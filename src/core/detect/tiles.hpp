@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/stages.hpp"
+#include "core/detect/adaptive_threshold.hpp"
 
 namespace dotpose::core {
 

@@ -5,29 +5,29 @@
 namespace dotpose::core {
 namespace {
 
-Vec centre_of(const Lens& lens, Vec image_centre_q8) {
-    return image_centre_q8 + Vec{lens.centre_dx_q8, lens.centre_dy_q8};
+FixedVec centre_of(const FixedLens& lens, FixedVec image_centre_q8) {
+    return image_centre_q8 + FixedVec{lens.centre_dx_q8, lens.centre_dy_q8};
 }
 
 }  // namespace
 
-Vec undistorted(const Lens& lens, Vec image_centre_q8, Vec point_q8) {
-    const Vec centre_q8 = centre_of(lens, image_centre_q8);
-    const Vec r_d = point_q8 - centre_q8;  // eq. 1
+FixedVec undistorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8) {
+    const FixedVec centre_q8 = centre_of(lens, image_centre_q8);
+    const FixedVec r_d = point_q8 - centre_q8;  // eq. 1
     const std::int64_t stretch_q30 = kOne_q30 + (bend_q48(lens.k_q40, r_d) >> 18);
     return centre_q8 + divided_q30(r_d, std::max(stretch_q30, kOne_q30 / 4));  // eq. 2
 }
 
-void undistort(const Lens& lens, Vec image_centre_q8, std::span<Dot> dots) {
+void undistort(const FixedLens& lens, FixedVec image_centre_q8, std::span<DetectedDot> dots) {
     if (lens.k_q40 == 0) return;
-    for (Dot& dot : dots)
+    for (DetectedDot& dot : dots)
         dot.centre_q8 = undistorted(lens, image_centre_q8, dot.centre_q8);
 }
 
-Vec distorted(const Lens& lens, Vec image_centre_q8, Vec point_q8) {
+FixedVec distorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8) {
     if (lens.k_q40 == 0) return point_q8;
-    const Vec centre_q8 = centre_of(lens, image_centre_q8);
-    const Vec r_u = point_q8 - centre_q8;
+    const FixedVec centre_q8 = centre_of(lens, image_centre_q8);
+    const FixedVec r_u = point_q8 - centre_q8;
     // A negative radicand means that no image point shows this point. The limit of 16 leaves room
     // for the shift.
     const std::int64_t radicand_q30 = std::clamp<std::int64_t>(
@@ -36,7 +36,8 @@ Vec distorted(const Lens& lens, Vec image_centre_q8, Vec point_q8) {
     return centre_q8 + divided_q30(r_u, (kOne_q30 + root_q30) / 2);
 }
 
-Vec distorted_point_q8(const Lens& lens, const PlaneFromImage& plane, Vec plane_point_q16) {
+FixedVec distorted_point_q8(const FixedLens& lens, const PlaneFromImage& plane,
+                            FixedVec plane_point_q16) {
     return distorted(lens, plane.centre_q8, image_point_q8(plane, plane_point_q16));
 }
 

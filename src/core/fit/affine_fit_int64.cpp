@@ -29,7 +29,7 @@ std::int64_t shifted(std::int64_t value, int shift) {
 
 }  // namespace
 
-void AffineFitInt64::add(Vec source, Vec target) {
+void AffineFitInt64::add(FixedVec source, FixedVec target) {
     const std::int64_t sx = source.x, sy = source.y, tx = target.x, ty = target.y;
     ++n_;
     sx_ += sx;
@@ -51,7 +51,7 @@ AffineFitInt64::Moments AffineFitInt64::source_moments() const {
             centred(sysy_, sy_, sy_, n_)};
 }
 
-Vec AffineFitInt64::source_mean() const {
+FixedVec AffineFitInt64::source_mean() const {
     if (n_ == 0) return {};
     return {static_cast<std::int32_t>(divide_rounded(sx_, n_)),
             static_cast<std::int32_t>(divide_rounded(sy_, n_))};

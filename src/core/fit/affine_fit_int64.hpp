@@ -10,8 +10,8 @@ namespace dotpose::core {
 /// An affine map: target = offset + dx * source.x + dy * source.y. All members are scaled by
 /// 2^fraction_bits.
 struct AffineMap {
-    Vec dx;
-    Vec dy;
+    FixedVec dx;
+    FixedVec dy;
     std::int64_t offset_x = 0;
     std::int64_t offset_y = 0;
 };
@@ -20,7 +20,7 @@ struct AffineMap {
 /// affine map.
 class AffineFitInt64 {
   public:
-    void add(Vec source, Vec target);
+    void add(FixedVec source, FixedVec target);
     int count() const { return static_cast<int>(n_); }
     /// Sets the map to the least-squares solution. Returns false if the points are on one line. The
     /// entries of dx and dy must fit 31 bits.
@@ -33,7 +33,7 @@ class AffineFitInt64 {
         std::int64_t yy = 0;
     };
     Moments source_moments() const;
-    Vec source_mean() const;
+    FixedVec source_mean() const;
 
   private:
     std::int64_t n_ = 0;

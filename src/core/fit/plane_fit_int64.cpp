@@ -68,18 +68,19 @@ PlaneFitInt64::PlaneFitInt64(const PlaneFromImage& estimate, int reach_px, Terms
         ++scale_;
 }
 
-std::array<Vec, 4> PlaneFitInt64::regressors(Vec p, Vec target_q16) const {
-    const Vec target = target_q16 - at_centre_q16_;
+std::array<FixedVec, 4> PlaneFitInt64::regressors(FixedVec p, FixedVec target_q16) const {
+    const FixedVec target = target_q16 - at_centre_q16_;
     const auto times = [&](std::int64_t factor, int bits) {
-        return Vec{shift_rounded(factor * target.x, bits), shift_rounded(factor * target.y, bits)};
+        return FixedVec{shift_rounded(factor * target.x, bits),
+                        shift_rounded(factor * target.y, bits)};
     };
     // x / 2^scale has 8 + scale fraction bits. The shift gives r^2 / 2^(2 scale) the same number.
     const int bits = 8 + scale_;
     return {target, times(p.x, bits), times(p.y, bits), times(squared(p) >> bits, bits)};
 }
 
-void PlaneFitInt64::add(Vec image_point_q8, Vec target_q16) {
-    const Vec p = image_point_q8 - centre_q8_;
+void PlaneFitInt64::add(FixedVec image_point_q8, FixedVec target_q16) {
+    const FixedVec p = image_point_q8 - centre_q8_;
     const auto columns = regressors(p, target_q16);
     for (std::size_t k = 0; k <= extra(); ++k)
         fits_[k].add(p, columns[k]);
@@ -92,17 +93,17 @@ bool PlaneFitInt64::reduce() {
     return true;
 }
 
-void PlaneFitInt64::add_residual(Vec image_point_q8, Vec target_q16) {
+void PlaneFitInt64::add_residual(FixedVec image_point_q8, FixedVec target_q16) {
     if (extra() == 0) return;
-    const Vec p = image_point_q8 - centre_q8_;
+    const FixedVec p = image_point_q8 - centre_q8_;
     auto residuals = regressors(p, target_q16);
     for (std::size_t k = 0; k <= extra(); ++k) {
         const AffineMap& m = maps_[k];
         const auto fitted = [&](std::int64_t offset, std::int32_t dx, std::int32_t dy) {
             return shift_rounded(offset + std::int64_t{dx} * p.x + std::int64_t{dy} * p.y, kBits);
         };
-        residuals[k] = residuals[k] -
-                       Vec{fitted(m.offset_x, m.dx.x, m.dy.x), fitted(m.offset_y, m.dx.y, m.dy.y)};
+        residuals[k] = residuals[k] - FixedVec{fitted(m.offset_x, m.dx.x, m.dy.x),
+                                               fitted(m.offset_y, m.dx.y, m.dy.y)};
     }
     for (std::size_t i = 0; i < extra(); ++i) {
         for (std::size_t j = 0; j < extra(); ++j) {
@@ -134,12 +135,12 @@ bool PlaneFitInt64::solve(PlaneFromImage& plane) const {
     plane.lens_q40 = static_cast<std::int32_t>(-(std::int64_t{terms_q30[2]} << 10) >> (2 * scale_));
     // (at + du x + dv y) / divisor equals at + (du - at * perspective.x) x + ..., except for the
     // lens term of the remaining `at`, which the next fit reduces further.
-    const Vec at{shift_rounded(sum[0], kBits), shift_rounded(sum[1], kBits)};
+    const FixedVec at{shift_rounded(sum[0], kBits), shift_rounded(sum[1], kBits)};
     plane.at_centre_q16 = at_centre_q16_ + at;
     const auto slope = [&](std::int64_t own, std::int32_t at_q16, std::int32_t perspective_q30) {
         return static_cast<std::int32_t>(own - ((std::int64_t{at_q16} * perspective_q30) >> 22));
     };
-    const Vec& tilt = plane.perspective_q30;
+    const FixedVec& tilt = plane.perspective_q30;
     plane.du_q24 = {slope(sum[2], at.x, tilt.x), slope(sum[3], at.y, tilt.x)};
     plane.dv_q24 = {slope(sum[4], at.x, tilt.y), slope(sum[5], at.y, tilt.y)};
     return true;
@@ -150,7 +151,9 @@ PlaneFromImage between(const PlaneFromImage& from, const PlaneFromImage& to,
     const auto value = [&](std::int64_t a, std::int64_t b) {
         return static_cast<std::int32_t>(a + ((b - a) * weight_q8 >> 8));
     };
-    const auto vector = [&](Vec a, Vec b) { return Vec{value(a.x, b.x), value(a.y, b.y)}; };
+    const auto vector = [&](FixedVec a, FixedVec b) {
+        return FixedVec{value(a.x, b.x), value(a.y, b.y)};
+    };
     return {from.centre_q8,
             vector(from.at_centre_q16, to.at_centre_q16),
             vector(from.du_q24, to.du_q24),

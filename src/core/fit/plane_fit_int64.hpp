@@ -31,13 +31,13 @@ class PlaneFitInt64 {
 
     /// Adds a point. `target_q16` is its place in the plane, within 256 spacings of that of the
     /// centre.
-    void add(Vec image_point_q8, Vec target_q16);
+    void add(FixedVec image_point_q8, FixedVec target_q16);
     int count() const { return fits_[0].count(); }
     /// Subtracts the affine part from all regressors. Returns false if the points do not determine
     /// an affine map.
     bool reduce();
     /// Adds a point again, for the equations of the terms beyond the affine map.
-    void add_residual(Vec image_point_q8, Vec target_q16);
+    void add_residual(FixedVec image_point_q8, FixedVec target_q16);
     /// Sets the plane. Returns false if the points do not determine the terms beyond the affine
     /// map.
     bool solve(PlaneFromImage& plane) const;
@@ -47,10 +47,10 @@ class PlaneFitInt64 {
     std::size_t extra() const { return parameters(terms_) - parameters(Terms::affine); }
     /// Returns the target, and the target times x, y and r^2, with x, y and r in units of the
     /// reach.
-    std::array<Vec, kExtra + 1> regressors(Vec from_centre_q8, Vec target_q16) const;
+    std::array<FixedVec, kExtra + 1> regressors(FixedVec from_centre_q8, FixedVec target_q16) const;
 
-    Vec centre_q8_;
-    Vec at_centre_q16_;
+    FixedVec centre_q8_;
+    FixedVec at_centre_q16_;
     int scale_ = 0;  ///< the reach is at most 2^scale_ px
     Terms terms_;
     std::array<AffineFitInt64, kExtra + 1> fits_;
@@ -79,7 +79,7 @@ template <typename Visit>
 bool fit_significant_plane(const PlaneFromImage& estimate, Terms max_terms, Visit visit,
                            FittedPlane& best) {
     int reach_px = 1;
-    visit([&](Vec point_q8, Vec) {
+    visit([&](FixedVec point_q8, FixedVec) {
         reach_px = std::max<std::int32_t>(
             reach_px, larger_component(point_q8 - estimate.centre_q8) / 256 + 1);
     });
@@ -87,12 +87,12 @@ bool fit_significant_plane(const PlaneFromImage& estimate, Terms max_terms, Visi
     for (const Terms terms : {Terms::affine, Terms::perspective, Terms::lens}) {
         if (terms > max_terms) break;
         PlaneFitInt64 fit(estimate, reach_px, terms);
-        visit([&](Vec point_q8, Vec target) { fit.add(point_q8, target); });
+        visit([&](FixedVec point_q8, FixedVec target) { fit.add(point_q8, target); });
         if (!fit.reduce()) break;
-        visit([&](Vec point_q8, Vec target) { fit.add_residual(point_q8, target); });
+        visit([&](FixedVec point_q8, FixedVec target) { fit.add_residual(point_q8, target); });
         FittedPlane fitted{{}, terms, fit.count(), 0};
         if (!fit.solve(fitted.plane)) break;
-        visit([&](Vec point_q8, Vec target) {
+        visit([&](FixedVec point_q8, FixedVec target) {
             fitted.squared_residuals += squared(plane_point_q16(fitted.plane, point_q8) - target);
         });
         if (found) {

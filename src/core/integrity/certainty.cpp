@@ -159,7 +159,7 @@ float seam_alternatives(const Kernels& kernels, const UnsharedLines& unshared) {
 
 /// Parameters of the judgement that are common to both axes.
 struct Query {
-    Profile profile;
+    CodeVariant code;
     int odds_per_bit_q8;
     int limit_log2;
     OtherCodes* others;  ///< odds of the other codes; null if not requested
@@ -225,7 +225,7 @@ bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
     const float y_wrong = axis_wrong(kernels, bits[1], y_unshared, query);
     if (!is_within_limit(x_wrong + y_wrong, query.limit_log2, fix)) return false;
     if (query.others == nullptr) return true;
-    weigh_other_codes(kernels, x_unshared, y_unshared, query.profile, *query.others);
+    weigh_other_codes(kernels, x_unshared, y_unshared, query.code, *query.others);
     return true;
 }
 
@@ -245,10 +245,10 @@ int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOpt
 }
 
 /// Returns the readings of the first column and the first row.
-std::array<AxisReading, 2> readings_at(const Place& corner, Profile profile) {
+std::array<AxisReading, 2> readings_at(const Place& corner, CodeVariant code) {
     const auto& [cell, section] = corner;
     const auto roll = [&](std::uint32_t position, int own_section, std::uint32_t cross) {
-        return static_cast<std::uint8_t>(code::roll_from(profile, position, own_section, cross));
+        return static_cast<std::uint8_t>(code::roll_from(code, position, own_section, cross));
     };
     return {AxisReading{cell.x, roll(cell.x, section.u, cell.y), 0, 0},
             AxisReading{cell.y, roll(cell.y, section.v, cell.x), 0, 0}};
@@ -257,51 +257,50 @@ std::array<AxisReading, 2> readings_at(const Place& corner, Profile profile) {
 }  // namespace
 
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
-                          Profile profile, const IntegrityOptions& options, Fix& fix,
+                          CodeVariant code, const IntegrityOptions& options, Fix& fix,
                           OtherCodes* others) {
     const auto& [x, y] = axes;
     const int odds_q8 = odds_of_bits_q8(x.confidence, y.confidence, options, fix);
     if (odds_q8 == 0) return false;
     if (std::min(x.lines.size(), y.lines.size()) <= kMaxShared) return false;
     const auto ratios_of = [&](const AxisBits& axis) {
-        return LikelihoodRatios(profile, axis.lines, axis.reading, odds_q8, axis.rolls);
+        return LikelihoodRatios(code, axis.lines, axis.reading, odds_q8, axis.rolls);
     };
     return are_certain(kernels, {x.confidence, y.confidence}, ratios_of(x), ratios_of(y),
-                       {profile, odds_q8, options.max_p_wrong_log2, others}, fix);
+                       {code, odds_q8, options.max_p_wrong_log2, others}, fix);
 }
 
-Evidence evidence_of(const Kernels& kernels, Profile profile, const Place& place,
+Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& place,
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage) {
     const BlockLines lines = score_block(kernels, block, storage);
-    const Place corner = moved(profile, place, lines.first_column - BitBlock::kMiddle,
+    const Place corner = moved(code, place, lines.first_column - BitBlock::kMiddle,
                                lines.first_row - BitBlock::kMiddle);
     return {corner, bits, lines.columns, lines.rows};
 }
 
-bool is_certain(const Kernels& kernels, const Evidence& evidence, Profile profile,
+bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others) {
     const auto& [x_bits, y_bits] = evidence.bits;
     const int odds_q8 = odds_of_bits_q8(x_bits, y_bits, options, fix);
     if (odds_q8 == 0) return false;
     if (std::min(evidence.columns.count(), evidence.rows.count()) <= kMaxShared) return false;
-    const auto [x, y] = readings_at(evidence.corner, profile);
-    return are_certain(kernels, evidence.bits,
-                       LikelihoodRatios(profile, evidence.columns, x, odds_q8),
-                       LikelihoodRatios(profile, evidence.rows, y, odds_q8),
-                       {profile, odds_q8, options.max_p_wrong_log2, others}, fix);
+    const auto [x, y] = readings_at(evidence.corner, code);
+    return are_certain(kernels, evidence.bits, LikelihoodRatios(code, evidence.columns, x, odds_q8),
+                       LikelihoodRatios(code, evidence.rows, y, odds_q8),
+                       {code, odds_q8, options.max_p_wrong_log2, others}, fix);
 }
 
-void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, Profile profile,
+void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                        OtherCodes& others) {
     Confidence both = evidence.bits[0];
     both.add(evidence.bits[1]);
     const int odds_q8 = odds_per_bit_q8(both);
     if (odds_q8 == 0) return;
-    const auto [x, y] = readings_at(evidence.corner, profile);
-    const LikelihoodRatios by_x(profile, evidence.columns, x, odds_q8);
-    const LikelihoodRatios by_y(profile, evidence.rows, y, odds_q8);
-    weigh_other_codes(kernels, UnsharedLines(kernels, by_x), UnsharedLines(kernels, by_y), profile,
+    const auto [x, y] = readings_at(evidence.corner, code);
+    const LikelihoodRatios by_x(code, evidence.columns, x, odds_q8);
+    const LikelihoodRatios by_y(code, evidence.rows, y, odds_q8);
+    weigh_other_codes(kernels, UnsharedLines(kernels, by_x), UnsharedLines(kernels, by_y), code,
                       others);
 }
 

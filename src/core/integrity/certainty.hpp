@@ -7,6 +7,7 @@
 
 #include "core/decode/bit_lines.hpp"
 #include "core/decode/lines.hpp"
+#include "core/integrity/compared_line.hpp"
 #include "core/integrity/confidence.hpp"
 #include "core/kernels/kernels.hpp"
 #include "core/other_codes.hpp"
@@ -18,7 +19,7 @@ namespace dotpose::core {
 /// Hard bits of one axis near the middle of the view, from the first to the last line that has
 /// bits.
 struct AxisBits {
-    std::span<const TrackedLine> lines;
+    std::span<const ComparedLine> lines;
     AxisReading reading;    ///< reading of the first line, at the first bit of its word
     Confidence confidence;  ///< all bits read on this axis, compared with the code
     std::span<const std::uint8_t> rolls;  ///< roll of each line
@@ -30,7 +31,7 @@ struct AxisBits {
 /// result an upper bound. Sets `p_wrong_log2` of the fix. If `others` is not null, sets the odds of
 /// the other codes.
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
-                          Profile profile, const IntegrityOptions& options, Fix& fix,
+                          CodeVariant code, const IntegrityOptions& options, Fix& fix,
                           OtherCodes* others = nullptr);
 
 /// Bits and scores from which a position is judged.
@@ -42,18 +43,18 @@ struct Evidence {
 };
 
 /// Returns the evidence of a block whose cell (0, 0) is at `place`. `storage` receives the scores.
-Evidence evidence_of(const Kernels& kernels, Profile profile, const Place& place,
+Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& place,
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage);
 
 /// Sets `bit_errors` and `p_wrong_log2` of the fix, the latter as an upper bound. Returns false if
 /// the position is not certain enough, or if too many bits contradict it. If `others` is not null,
 /// sets the odds of the other codes.
-bool is_certain(const Kernels& kernels, const Evidence& evidence, Profile profile,
+bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr);
 
 /// Sets the odds of the other codes, without judging the position.
-void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, Profile profile,
+void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                        OtherCodes& others);
 
 }  // namespace dotpose::core

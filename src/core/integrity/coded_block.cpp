@@ -9,7 +9,7 @@ namespace dotpose::core {
 namespace {
 
 /// First line and first cell of the middle, as a cell number and as an index of the block.
-constexpr int kFirst = -kMaxTracked / 2;
+constexpr int kFirst = -kMaxComparedLines / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 
 /// Returns the longest run of ones.
@@ -38,7 +38,7 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
     // Cells before `first_cell` have no bits, so their rolls do not matter.
     const int ahead = ((kFirst - first_cell) % kSections + kSections) % kSections;
     const int begin = std::max(first_line, kFirst);
-    const int end = std::min(first_line + count, kFirst + kMaxTracked);
+    const int end = std::min(first_line + count, kFirst + kMaxComparedLines);
     for (int line = begin; line < end; ++line) {
         const auto i = static_cast<std::size_t>(line - kFirst);
         const auto seen =
@@ -63,11 +63,11 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
     return half;
 }
 
-CodedBlock::CodedBlock(Profile profile, const Place& place, const CellsInView& view,
+CodedBlock::CodedBlock(CodeVariant code, const Place& place, const CellsInView& view,
                        const BitBlock& block)
     : x_(half(block.columns, view.column_rolls, view.first_column, view.columns, view.first_row)),
       y_(half(block.rows, view.row_rolls, view.first_row, view.rows, view.first_column)) {
-    const Place corner = moved(profile, place, kFirst + static_cast<int>(x_.first),
+    const Place corner = moved(code, place, kFirst + static_cast<int>(x_.first),
                                kFirst + static_cast<int>(y_.first));
     x_.reading.position = corner.cell.x;
     y_.reading.position = corner.cell.y;

@@ -4,6 +4,7 @@
 
 #include "core/decode/bit_lines.hpp"
 #include "core/integrity/certainty.hpp"
+#include "core/integrity/compared_line.hpp"
 
 namespace dotpose::core {
 
@@ -11,15 +12,16 @@ namespace dotpose::core {
 class CodedBlock {
   public:
     /// `place` is the place of cell (0, 0). `view` has the rolls of all lines that were read.
-    CodedBlock(Profile profile, const Place& place, const CellsInView& view, const BitBlock& block);
+    CodedBlock(CodeVariant code, const Place& place, const CellsInView& view,
+               const BitBlock& block);
 
     /// Returns the bits of one axis. `confidence` covers all bits read, also outside the middle.
     AxisBits axis(Axis axis, const Confidence& confidence) const;
 
   private:
     struct Half {
-        std::array<TrackedLine, kMaxTracked> lines;
-        std::array<std::uint8_t, kMaxTracked> rolls;
+        std::array<ComparedLine, kMaxComparedLines> lines;
+        std::array<std::uint8_t, kMaxComparedLines> rolls;
         std::size_t first = 0;  ///< first line that has bits
         std::size_t end = 0;    ///< end of the lines that have bits
         AxisReading reading;    ///< reading of line `first`

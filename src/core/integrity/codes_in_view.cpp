@@ -11,7 +11,7 @@ constexpr float kMaxOddsHere = 1e-12F;
 constexpr float kMaxOddsElsewhere = 1e-10F;
 
 /// Returns true if two codes differ in the rolls of the lines from a position on.
-bool differ_from(std::uint32_t position, Profile read, Profile other) {
+bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     std::array<std::uint8_t, BitBlock::kSide> own;
     std::array<std::uint8_t, BitBlock::kSide> theirs;
     code::follow_rolls(read, position, roll(read, position), own);
@@ -21,14 +21,14 @@ bool differ_from(std::uint32_t position, Profile read, Profile other) {
 
 /// Returns true if more lines may change the odds: another code has other symbols in view, or a
 /// place elsewhere in it is not ruled out yet.
-bool may_change_odds(Profile read, const Place& place, bool has_more_lines,
+bool may_change_odds(CodeVariant read, const Place& place, bool has_more_lines,
                      const OtherCodes& others) {
-    const auto have_other_rolls = [&](Profile other) {
+    const auto have_other_rolls = [&](CodeVariant other) {
         const Place corner = moved(read, place, -BitBlock::kMiddle, -BitBlock::kMiddle);
         return differ_from(corner.cell.x, read, other) || differ_from(corner.cell.y, read, other);
     };
     for (std::size_t i = 0; i < others.of.size(); ++i) {
-        const auto other = static_cast<Profile>(i);
+        const auto other = static_cast<CodeVariant>(i);
         if (other == read) continue;
         if (others.of[i].elsewhere() > kMaxOddsElsewhere) return true;
         if (!has_more_lines || others.of[i].here() < kMaxOddsHere) continue;
@@ -39,7 +39,7 @@ bool may_change_odds(Profile read, const Place& place, bool has_more_lines,
 
 }  // namespace
 
-void weigh_codes_in_view(const Kernels& kernels, Profile read, const Place& place,
+void weigh_codes_in_view(const Kernels& kernels, CodeVariant read, const Place& place,
                          const BitBlock& block, const std::array<Confidence, 2>& bits,
                          bool has_more_lines, std::span<ScoredLine> storage, OtherCodes& others) {
     if (!may_change_odds(read, place, has_more_lines, others)) return;

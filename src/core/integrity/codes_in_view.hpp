@@ -10,7 +10,7 @@ namespace dotpose::core {
 /// Computes the odds of the other codes again, where more bits may change them. `block` has cell
 /// (0, 0) at `place`. `has_more_lines` is true if the block has more lines than had to make the
 /// position certain.
-void weigh_codes_in_view(const Kernels& kernels, Profile read, const Place& place,
+void weigh_codes_in_view(const Kernels& kernels, CodeVariant read, const Place& place,
                          const BitBlock& block, const std::array<Confidence, 2>& bits,
                          bool has_more_lines, std::span<ScoredLine> storage, OtherCodes& others);
 

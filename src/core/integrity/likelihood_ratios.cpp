@@ -20,7 +20,7 @@ constexpr int distance_of(std::size_t first, std::size_t other, std::size_t leng
 /// Minimum distance of a substring of the main sequence from the others of its length, and the
 /// number of substrings at that distance.
 struct NearestSubstrings {
-    int distance = kMaxTracked + 1;
+    int distance = kMaxComparedLines + 1;
     int count = 0;
 
     constexpr void add(int other_distance) {
@@ -42,7 +42,7 @@ constexpr auto kGrowingDistances = [] {
     std::array<std::uint32_t, kSections> grows{};
     for (std::size_t first = 0; first < grows.size(); ++first) {
         int before = 0;
-        for (std::size_t i = 0; i < kMaxTracked; ++i) {
+        for (std::size_t i = 0; i < kMaxComparedLines; ++i) {
             const int distance = nearest_of(first, i + 1).distance;
             if (distance > before) grows[first] |= std::uint32_t{1} << i;
             before = distance;
@@ -52,7 +52,7 @@ constexpr auto kGrowingDistances = [] {
 }();
 static_assert([] {
     for (std::size_t first = 0; first < kSections; ++first) {
-        const int distance = nearest_of(first, kMaxTracked).distance;
+        const int distance = nearest_of(first, kMaxComparedLines).distance;
         if (bits_in(kGrowingDistances[first]) != distance) return false;
     }
     return true;
@@ -61,7 +61,7 @@ static_assert([] {
 /// Upper bound, by length, of log2 of the number of substrings at the minimum distance from
 /// another, in 2^-8.
 constexpr auto kLog2OfNearest = [] {
-    std::array<std::uint16_t, kMaxTracked + 1> log2{};
+    std::array<std::uint16_t, kMaxComparedLines + 1> log2{};
     for (std::size_t length = 0; length < log2.size(); ++length) {
         int max_count = 1;
         for (std::size_t first = 0; first < kSections; ++first)
@@ -74,14 +74,14 @@ constexpr auto kLog2OfNearest = [] {
 
 }  // namespace
 
-LikelihoodRatios::LikelihoodRatios(Profile profile, const Lines& lines_, const AxisReading& reading,
-                                   int odds_q8)
-    : basis(code::basis(profile)),
+LikelihoodRatios::LikelihoodRatios(CodeVariant code, const Lines& lines_,
+                                   const AxisReading& reading, int odds_q8)
+    : basis(code::basis(code)),
       lines(lines_),
       position(reading.position),
       count_(lines_.count()),
       odds_per_bit_q8_(odds_q8) {
-    follow_rolls(profile, reading);
+    follow_rolls(code, reading);
     for (int i = 0; i < count_; ++i) {
         const LineScores& scores = lines[i];
         const int own = scores[rolls_[static_cast<std::size_t>(i)]];
@@ -91,21 +91,21 @@ LikelihoodRatios::LikelihoodRatios(Profile profile, const Lines& lines_, const A
     hopeless_score_ = max_gain_ + -kNegligible_q8 * 2 * 127 / odds_q8;
 }
 
-LikelihoodRatios::LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
+LikelihoodRatios::LikelihoodRatios(CodeVariant code, std::span<const ComparedLine> lines_,
                                    const AxisReading& reading, int odds_q8)
-    : basis(code::basis(profile)),
+    : basis(code::basis(code)),
       position(reading.position),
       bits_(lines_),
       count_(static_cast<int>(lines_.size())),
       odds_per_bit_q8_(odds_q8) {
-    follow_rolls(profile, reading);
+    follow_rolls(code, reading);
     set_min_losses_of_bits();
 }
 
-LikelihoodRatios::LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
+LikelihoodRatios::LikelihoodRatios(CodeVariant code, std::span<const ComparedLine> lines_,
                                    const AxisReading& reading, int odds_q8,
                                    std::span<const std::uint8_t> rolls)
-    : basis(code::basis(profile)),
+    : basis(code::basis(code)),
       position(reading.position),
       bits_(lines_),
       count_(static_cast<int>(lines_.size())),
@@ -132,9 +132,9 @@ int LikelihoodRatios::log2_of_nearest_q8(int line) const {
     return std::min(log2_q8, kOtherRolls_q8);
 }
 
-void LikelihoodRatios::follow_rolls(Profile profile, const AxisReading& reading) {
+void LikelihoodRatios::follow_rolls(CodeVariant code, const AxisReading& reading) {
     find_places();
-    code::follow_rolls(profile, reading.position, reading.roll,
+    code::follow_rolls(code, reading.position, reading.roll,
                        std::span(rolls_).first(static_cast<std::size_t>(count_)));
 }
 
@@ -149,7 +149,7 @@ void LikelihoodRatios::set_min_loss(int line, int min_loss) {
 }
 
 LikelihoodRatios::Nearest LikelihoodRatios::nearest(int line) const {
-    const TrackedLine& bits = bits_[static_cast<std::size_t>(line)];
+    const ComparedLine& bits = bits_[static_cast<std::size_t>(line)];
     const int own = own_roll(line);
     const int first = std::countr_zero(bits.seen);
     const int length = static_cast<int>(std::bit_width(bits.seen)) - first;
@@ -168,7 +168,7 @@ LikelihoodRatios::Nearest LikelihoodRatios::nearest(int line) const {
 }
 
 int LikelihoodRatios::loss_of_bits(int line, int roll) const {
-    const TrackedLine& bits = bits_[static_cast<std::size_t>(line)];
+    const ComparedLine& bits = bits_[static_cast<std::size_t>(line)];
     const std::uint32_t differ =
         (bits.code ^ code::kMainWords[static_cast<std::size_t>(roll)]) & bits.seen;
     return bits_in(differ) - 2 * bits_in(differ & bits.wrong);

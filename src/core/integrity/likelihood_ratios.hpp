@@ -8,6 +8,7 @@
 
 #include "code/basis.hpp"
 #include "core/decode/lines.hpp"
+#include "core/integrity/compared_line.hpp"
 #include "core/math/fixed.hpp"
 
 namespace dotpose::core {
@@ -28,14 +29,14 @@ inline constexpr float kNegligible = 5.5e-20F;
 class LikelihoodRatios {
   public:
     /// Ratios of scored lines. `odds_per_bit_q8` is above 0.
-    LikelihoodRatios(Profile profile, const Lines& lines_, const AxisReading& reading,
+    LikelihoodRatios(CodeVariant code, const Lines& lines_, const AxisReading& reading,
                      int odds_per_bit_q8);
     /// Ratios of hard bits: each bit is either not read or has the weight 127.
-    LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
+    LikelihoodRatios(CodeVariant code, std::span<const ComparedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8);
 
     /// Ratios of hard bits, for lines whose rolls are known already.
-    LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
+    LikelihoodRatios(CodeVariant code, std::span<const ComparedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8,
                      std::span<const std::uint8_t> rolls);
 
@@ -109,7 +110,7 @@ class LikelihoodRatios {
     static constexpr int kScoreOfBit = 2 * 127;
 
     void find_places();
-    void follow_rolls(Profile profile, const AxisReading& reading);
+    void follow_rolls(CodeVariant code, const AxisReading& reading);
     void set_min_losses_of_bits();
     void set_min_loss(int line, int min_loss);
     /// Returns the number of bits that contradict another roll minus the number that contradict the
@@ -122,14 +123,14 @@ class LikelihoodRatios {
     };
     Nearest nearest(int line) const;
 
-    const std::span<const TrackedLine> bits_;
+    const std::span<const ComparedLine> bits_;
     int count_;
     int odds_per_bit_q8_;
     int max_gain_ = 0;
     int hopeless_score_ = 0;
     std::array<std::uint8_t, kMaxLines> rolls_{};
     std::array<std::int16_t, kMaxLines> min_losses_{};
-    std::array<std::int16_t, kMaxTracked> log2_of_nearest_q8_;  ///< for hard bits only
+    std::array<std::int16_t, kMaxComparedLines> log2_of_nearest_q8_;  ///< for hard bits only
 };
 
 /// Roll offsets of an alternative by line: its roll minus that of the reading, modulo 63. They are

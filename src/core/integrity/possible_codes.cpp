@@ -16,20 +16,20 @@ constexpr float kRuledOutOdds = 1e-9F;
 /// Factors below this are rounding errors and do not count.
 constexpr float kRoundings = 1.01F;
 
-std::size_t index(Profile code) {
+std::size_t index(CodeVariant code) {
     return static_cast<std::size_t>(code);
 }
 
 }  // namespace
 
-PossibleCodes::PossibleCodes(Profile only) : is_known_(true) {
+PossibleCodes::PossibleCodes(CodeVariant only) : is_known_(true) {
     weights_[index(only)] = 1;
     order_[0] = only;
 }
 
 PossibleCodes::PossibleCodes(const CodeEvidence& evidence) : is_known_(false) {
     for (std::size_t i = 0; i < order_.size(); ++i) {
-        order_[i] = static_cast<Profile>(i);
+        order_[i] = static_cast<CodeVariant>(i);
         weights_[i] = power_of_two(evidence.log2_q8(order_[i]));
     }
     // Sorts by insertion, which keeps the order of codes that are equally likely.
@@ -41,7 +41,7 @@ PossibleCodes::PossibleCodes(const CodeEvidence& evidence) : is_known_(false) {
         ++count_;
 }
 
-float PossibleCodes::number(Profile read) const {
+float PossibleCodes::number(CodeVariant read) const {
     float sum = 0;
     for (const float weight : weights_)
         sum += weight;
@@ -55,7 +55,7 @@ int PossibleCodes::rounded_up(int log2, float factor) {
     return log2 + exponent - (mantissa == 0.5F ? 1 : 0);
 }
 
-Judgement PossibleCodes::judge(Profile read, const OtherCodes& others, const Fix& fix,
+Judgement PossibleCodes::judge(CodeVariant read, const OtherCodes& others, const Fix& fix,
                                int max_p_wrong_log2) const {
     Judgement result;
     if (is_known_) {
@@ -64,7 +64,7 @@ Judgement PossibleCodes::judge(Profile read, const OtherCodes& others, const Fix
         return result;
     }
     float elsewhere = 0;
-    for (const Profile other : order_) {
+    for (const CodeVariant other : order_) {
         if (other == read) continue;
         const OtherCode& there = others.of[index(other)];
         const float prior = weight(other) / weight(read);
@@ -81,7 +81,7 @@ Judgement PossibleCodes::judge(Profile read, const OtherCodes& others, const Fix
     return result;
 }
 
-CodeEvidence::LogOdds likelihoods(Profile read, const OtherCodes& others) {
+CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others) {
     CodeEvidence::LogOdds log2_q8{};
     for (std::size_t i = 0; i < log2_q8.size(); ++i) {
         if (i == index(read)) continue;

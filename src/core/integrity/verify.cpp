@@ -13,12 +13,12 @@
 namespace dotpose::core {
 namespace {
 
-AxisReading reading_of(Profile profile, const Place& place, Axis axis) {
+AxisReading reading_of(CodeVariant code, const Place& place, Axis axis) {
     const bool is_x = axis == Axis::x;
     const std::uint32_t position = is_x ? place.cell.x : place.cell.y;
     const std::uint32_t cross = is_x ? place.cell.y : place.cell.x;
     const int section = is_x ? place.section.u : place.section.v;
-    const int here = code::roll_from(profile, position, section, cross);
+    const int here = code::roll_from(code, position, section, cross);
     return {position, static_cast<std::uint8_t>(here), 0, 0};
 }
 
@@ -32,12 +32,13 @@ AxisReading reading_of(Profile profile, const Place& place, Axis axis) {
 }
 
 /// Compares the bits of one axis with the code, in all lines of an upright grid.
-Confidence compare(Profile profile, const Upright& upright, Axis axis, const AxisReading& reading) {
+Confidence compare(CodeVariant code, const Upright& upright, Axis axis,
+                   const AxisReading& reading) {
     Confidence confidence;
     Line storage;
     const int lines = axis == Axis::x ? upright.columns() : upright.rows();
     std::array<std::uint8_t, kMaxGridSide> rolls;
-    code::follow_rolls(profile, reading.position, reading.roll,
+    code::follow_rolls(code, reading.position, reading.roll,
                        std::span(rolls).first(static_cast<std::size_t>(lines)));
     for (int i = 0; i < lines; ++i) {
         const auto line = axis == Axis::x ? upright.column(i, storage) : upright.row(i, storage);
@@ -48,9 +49,9 @@ Confidence compare(Profile profile, const Upright& upright, Axis axis, const Axi
 }
 
 /// Returns the place of the top left symbol.
-Place corner_place(Profile profile, const Decoding& decoding, const Upright& upright) {
-    const Vec corner = decoding.pattern_from_grid(upright.corner());
-    return moved(profile, decoding.place, corner.x, corner.y);
+Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& upright) {
+    const FixedVec corner = decoding.pattern_from_grid(upright.corner());
+    return moved(code, decoding.place, corner.x, corner.y);
 }
 
 /// Result of comparing all bits in view, before alternatives are counted.
@@ -78,14 +79,13 @@ Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptio
     return doubt;
 }
 
-Doubt compare_with_chance(const Grid& grid, Profile profile, const IntegrityOptions& options,
+Doubt compare_with_chance(const Grid& grid, CodeVariant code, const IntegrityOptions& options,
                           Decoding& decoding, Fix& fix) {
     const Upright upright(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
                           decoding.pattern_from_grid);
-    const Place place = corner_place(profile, decoding, upright);
-    const std::array agreements{
-        compare(profile, upright, Axis::x, reading_of(profile, place, Axis::x)),
-        compare(profile, upright, Axis::y, reading_of(profile, place, Axis::y))};
+    const Place place = corner_place(code, decoding, upright);
+    const std::array agreements{compare(code, upright, Axis::x, reading_of(code, place, Axis::x)),
+                                compare(code, upright, Axis::y, reading_of(code, place, Axis::y))};
     return doubt_of(agreements, options, decoding, fix);
 }
 
@@ -101,11 +101,11 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
 /// `alternatives_q8(axis, ratios)` returns the odds of its alternatives. They are not counted where
 /// chance alone exceeds the limit.
 template <typename Alternatives>
-std::array<int, 2> with_alternatives(const Grid& grid, Profile profile, const Decoding& decoding,
+std::array<int, 2> with_alternatives(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
                                      int limit_q8, Alternatives alternatives_q8) {
     const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
-    const Place place = corner_place(profile, decoding, upright);
+    const Place place = corner_place(code, decoding, upright);
     std::array<int, 2> p_wrong_q8{};
     for (const Axis axis : {Axis::x, Axis::y}) {
         const auto i = static_cast<std::size_t>(axis);
@@ -113,7 +113,7 @@ std::array<int, 2> with_alternatives(const Grid& grid, Profile profile, const De
         const auto half = scores_of(axis, storage);
         const Lines lines = decoding.lines_are_scored ? scored_lines(upright, axis, half)
                                                       : score_lines(upright, axis, half);
-        const LikelihoodRatios ratios(profile, lines, reading_of(profile, place, axis),
+        const LikelihoodRatios ratios(code, lines, reading_of(code, place, axis),
                                       doubt.odds_per_bit_q8);
         p_wrong_q8[i] =
             with_alternatives(ratios, doubt.by_chance_q8[i], limit_q8, alternatives_q8(i, ratios));
@@ -139,10 +139,10 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
 }
 
 /// Returns the bound of the probability that each axis is wrong, by quick_alternatives.hpp.
-std::array<int, 2> estimate_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
+std::array<int, 2> estimate_quickly(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                     int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {
-    return with_alternatives(grid, profile, decoding, storage, doubt, limit_q8,
+    return with_alternatives(grid, code, decoding, storage, doubt, limit_q8,
                              [&](std::size_t, const LikelihoodRatios& ratios) {
                                  return quick_alternatives_log2_q8(ratios, limit_q8);
                              });
@@ -150,14 +150,13 @@ std::array<int, 2> estimate_quickly(const Grid& grid, Profile profile, const Dec
 
 }  // namespace
 
-Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
+Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix) {
     decoding.p_wrong_log2_q8 = {};
     const int limit_q8 = 256 * options.max_p_wrong_log2;
-    const Doubt doubt = compare_with_chance(grid, profile, options, decoding, fix);
+    const Doubt doubt = compare_with_chance(grid, code, options, decoding, fix);
     if (!is_hopeless(doubt, limit_q8)) {
-        decoding.p_wrong_log2_q8 =
-            estimate_quickly(grid, profile, decoding, limit_q8, storage, doubt);
+        decoding.p_wrong_log2_q8 = estimate_quickly(grid, code, decoding, limit_q8, storage, doubt);
     }
     return judge(doubt, options, decoding, fix);
 }
@@ -166,14 +165,15 @@ namespace {
 
 /// Lines of one axis of a tracked frame, from the first to the last in view.
 struct TrackedAxis {
-    std::span<const TrackedLine> lines;
+    std::span<const ComparedLine> lines;
     AxisReading reading;
     Confidence confidence;
 };
 
-TrackedAxis tracked_axis(Profile profile, const Tracking& tracking, Axis axis) {
-    const auto all =
-        axis == Axis::x ? tracking.lines.first(kMaxTracked) : tracking.lines.last(kMaxTracked);
+TrackedAxis tracked_axis(CodeVariant code, std::span<const ComparedLine> columns_and_rows,
+                         const Place& corner, Axis axis) {
+    const auto all = axis == Axis::x ? columns_and_rows.first(kMaxComparedLines)
+                                     : columns_and_rows.last(kMaxComparedLines);
     std::size_t begin = 0;
     std::size_t end = all.size();
     while (begin < end && all[begin].seen == 0)
@@ -184,7 +184,7 @@ TrackedAxis tracked_axis(Profile profile, const Tracking& tracking, Axis axis) {
     result.lines = all.subspan(begin, end - begin);
     int seen = 0;
     int wrong = 0;
-    for (const TrackedLine& line : result.lines) {
+    for (const ComparedLine& line : result.lines) {
         seen += bits_in(line.seen);
         wrong += bits_in(line.wrong);
     }
@@ -192,25 +192,24 @@ TrackedAxis tracked_axis(Profile profile, const Tracking& tracking, Axis axis) {
     result.confidence.add(127, true, wrong);
     // The reading is that of the first line in view, at the cell in line with the corner.
     const auto ahead = static_cast<std::int32_t>(begin);
-    const Place& corner = tracking.corner;
-    result.reading = axis == Axis::x ? reading_of(profile, moved(profile, corner, ahead, 0), axis)
-                                     : reading_of(profile, moved(profile, corner, 0, ahead), axis);
+    result.reading = axis == Axis::x ? reading_of(code, moved(code, corner, ahead, 0), axis)
+                                     : reading_of(code, moved(code, corner, 0, ahead), axis);
     return result;
 }
 
 }  // namespace
 
-Status verify_tracked(Profile profile, const Tracking& tracking, const IntegrityOptions& options,
-                      Decoding& decoding, Fix& fix) {
+Status verify_tracked(CodeVariant code, std::span<const ComparedLine> lines, const Place& corner,
+                      const IntegrityOptions& options, Decoding& decoding, Fix& fix) {
     decoding.p_wrong_log2_q8 = {};
-    const std::array axes{tracked_axis(profile, tracking, Axis::x),
-                          tracked_axis(profile, tracking, Axis::y)};
+    const std::array axes{tracked_axis(code, lines, corner, Axis::x),
+                          tracked_axis(code, lines, corner, Axis::y)};
     const Doubt doubt = doubt_of({axes[0].confidence, axes[1].confidence}, options, decoding, fix);
     const int limit_q8 = 256 * options.max_p_wrong_log2;
     if (!is_hopeless(doubt, limit_q8)) {
         for (std::size_t i = 0; i < axes.size(); ++i) {
             if (doubt.by_chance_q8[i] > limit_q8) continue;
-            const LikelihoodRatios ratios(profile, axes[i].lines, axes[i].reading,
+            const LikelihoodRatios ratios(code, axes[i].lines, axes[i].reading,
                                           doubt.odds_per_bit_q8);
             decoding.p_wrong_log2_q8[i] =
                 with_alternatives(ratios, doubt.by_chance_q8[i], limit_q8,
@@ -223,19 +222,19 @@ Status verify_tracked(Profile profile, const Tracking& tracking, const Integrity
 namespace {
 
 /// Compares the bits of both axes with the code, in all lines.
-std::array<Confidence, 2> compare_both(const Grid& grid, Profile profile,
+std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
                                        const Decoding& decoding) {
     const Upright all(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
                       decoding.pattern_from_grid);
-    const Place corner = corner_place(profile, decoding, all);
-    return {compare(profile, all, Axis::x, reading_of(profile, corner, Axis::x)),
-            compare(profile, all, Axis::y, reading_of(profile, corner, Axis::y))};
+    const Place corner = corner_place(code, decoding, all);
+    return {compare(code, all, Axis::x, reading_of(code, corner, Axis::x)),
+            compare(code, all, Axis::y, reading_of(code, corner, Axis::y))};
 }
 
 /// Sets the bound of chance for several possible codes.
-void count_hypotheses_of(int log2_codes_q8, const Grid& grid, Profile profile,
+void count_hypotheses_of(int log2_codes_q8, const Grid& grid, CodeVariant code,
                          const Decoding& decoding, Doubt& doubt) {
-    const auto agreements = compare_both(grid, profile, decoding);
+    const auto agreements = compare_both(grid, code, decoding);
     for (std::size_t i = 0; i < agreements.size(); ++i) {
         doubt.by_chance_q8[i] = chance_log2_q8(agreements[i], doubt.odds_per_bit_q8, log2_codes_q8);
     }
@@ -243,44 +242,37 @@ void count_hypotheses_of(int log2_codes_q8, const Grid& grid, Profile profile,
 
 }  // namespace
 
-void weigh_other_codes(const Kernels& kernels, const Grid& grid, Profile profile,
+void weigh_other_codes(const Kernels& kernels, const Grid& grid, CodeVariant code,
                        const Decoding& decoding, std::span<ScoredLine> storage,
                        OtherCodes* others) {
     if (others == nullptr) return;
-    auto [both, of_y] = compare_both(grid, profile, decoding);
+    auto [both, of_y] = compare_both(grid, code, decoding);
     both.add(of_y);
     const int odds_q8 = odds_per_bit_q8(both);
     if (odds_q8 == 0) return;
     const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
-    const Place corner = corner_place(profile, decoding, upright);
+    const Place corner = corner_place(code, decoding, upright);
     const auto ratios_of = [&](Axis axis) {
         const Lines lines = score_lines(upright, axis, scores_of(axis, storage));
-        return LikelihoodRatios(profile, lines, reading_of(profile, corner, axis), odds_q8);
+        return LikelihoodRatios(code, lines, reading_of(code, corner, axis), odds_q8);
     };
     const LikelihoodRatios x = ratios_of(Axis::x);
     const LikelihoodRatios y = ratios_of(Axis::y);
-    weigh_other_codes(kernels, UnsharedLines(kernels, x), UnsharedLines(kernels, y), profile,
-                      *others);
+    weigh_other_codes(kernels, UnsharedLines(kernels, x), UnsharedLines(kernels, y), code, *others);
 }
 
-Status verify(const Grid& grid, Profile profile, Decoding& decoding,
+Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix) {
-    return verify_among_codes(grid, profile, nullptr, decoding, options, storage, fix);
-}
-
-Status verify_among_codes(const Grid& grid, Profile profile, const OtherCodes* others,
-                          Decoding& decoding, const IntegrityOptions& options,
-                          std::span<ScoredLine> storage, Fix& fix) {
     decoding.p_wrong_log2_q8 = {};
     const int limit_q8 = 256 * options.max_p_wrong_log2;
-    Doubt doubt = compare_with_chance(grid, profile, options, decoding, fix);
+    Doubt doubt = compare_with_chance(grid, code, options, decoding, fix);
     if (doubt.odds_per_bit_q8 == 0) return judge(doubt, options, decoding, fix);
     const bool is_code_given = others == nullptr || others->log2_in_question_q8 < 0;
     const int codes_q8 = is_code_given ? 0 : others->log2_in_question_q8;
-    if (!is_code_given) count_hypotheses_of(codes_q8, grid, profile, decoding, doubt);
+    if (!is_code_given) count_hypotheses_of(codes_q8, grid, code, decoding, doubt);
     std::array<int, 2>& p_wrong_q8 = decoding.p_wrong_log2_q8;
     p_wrong_q8 =
-        with_alternatives(grid, profile, decoding, storage, doubt, limit_q8,
+        with_alternatives(grid, code, decoding, storage, doubt, limit_q8,
                           [&](std::size_t, const LikelihoodRatios& ratios) {
                               return quick_alternatives_log2_q8(ratios, limit_q8) + codes_q8;
                           });
@@ -289,7 +281,7 @@ Status verify_among_codes(const Grid& grid, Profile profile, const OtherCodes* o
     const int doubtful_q8 = std::min(limit_q8, -30 * 256);
     if (sum(p_wrong_q8) > doubtful_q8) {
         const auto counted_q8 = with_alternatives(
-            grid, profile, decoding, storage, doubt, limit_q8,
+            grid, code, decoding, storage, doubt, limit_q8,
             [&](std::size_t axis, const LikelihoodRatios& ratios) {
                 const bool is_in_doubt = p_wrong_q8[axis] > doubtful_q8 - 4 * 256;
                 if (!is_in_doubt) return 0;

@@ -65,7 +65,8 @@ struct Losses {
 /// Sums up the odds of the places in one other code.
 class OtherPlaces {
   public:
-    OtherPlaces(const LikelihoodRatios& ratios, const Losses& losses, Profile read, Profile other)
+    OtherPlaces(const LikelihoodRatios& ratios, const Losses& losses, CodeVariant read,
+                CodeVariant other)
         : ratios_(ratios),
           losses_(losses),
           count_(static_cast<std::size_t>(ratios.count())),
@@ -90,7 +91,7 @@ class OtherPlaces {
     float elsewhere() const { return result_.elsewhere; }
 
     /// Bounds the odds of the places elsewhere by a table.
-    void bound(const UnsharedLines& unshared, Profile read, Profile other) {
+    void bound(const UnsharedLines& unshared, CodeVariant read, CodeVariant other) {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
         const int lost = unshared.min_loss(table) - ratios_.max_gain();
@@ -232,7 +233,7 @@ class OtherPlaces {
 /// Computes the odds of the places in other codes along one axis.
 class AxisWeigher {
   public:
-    AxisWeigher(const Kernels& kernels, const UnsharedLines& unshared, Profile read)
+    AxisWeigher(const Kernels& kernels, const UnsharedLines& unshared, CodeVariant read)
         : kernels_(kernels),
           ratios_(unshared.ratios()),
           unshared_(unshared),
@@ -240,7 +241,7 @@ class AxisWeigher {
           losses_(ratios_) {}
 
     /// Returns the places in the code `other`; those elsewhere are bounded by a table.
-    OtherPlaces bounded(Profile other) const {
+    OtherPlaces bounded(CodeVariant other) const {
         OtherPlaces others(ratios_, losses_, read_, other);
         others.bound(unshared_, read_, other);
         return others;
@@ -248,7 +249,7 @@ class AxisWeigher {
 
     /// Counts the places elsewhere one by one if their bound is not negligible. `across` is the
     /// odds of the other axis.
-    void look_closer(Profile other, float across, OtherPlaces& others) {
+    void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
         others.begin_count();
         others.add_unsimilar();
@@ -272,15 +273,15 @@ class AxisWeigher {
     const Kernels& kernels_;
     const LikelihoodRatios& ratios_;
     const UnsharedLines& unshared_;
-    const Profile read_;
+    const CodeVariant read_;
     const Losses losses_;
     std::optional<StepLosses> steps_;  ///< set when they are needed
 };
 
 }  // namespace
 
-OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
-                           Profile other) {
+OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, CodeVariant read,
+                           CodeVariant other) {
     const UnsharedLines unshared(kernels, ratios);
     AxisWeigher axis(kernels, unshared, read);
     OtherPlaces places = axis.bounded(other);
@@ -289,12 +290,12 @@ OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratio
 }
 
 void weigh_other_codes(const Kernels& kernels, const UnsharedLines& columns,
-                       const UnsharedLines& rows, Profile read, OtherCodes& others) {
+                       const UnsharedLines& rows, CodeVariant read, OtherCodes& others) {
     others.first = {columns.ratios().position, rows.ratios().position};
     AxisWeigher by_x(kernels, columns, read);
     AxisWeigher by_y(kernels, rows, read);
     for (std::size_t i = 0; i < others.of.size(); ++i) {
-        const auto other = static_cast<Profile>(i);
+        const auto other = static_cast<CodeVariant>(i);
         if (other == read) continue;
         OtherPlaces x = by_x.bounded(other);
         OtherPlaces y = by_y.bounded(other);

@@ -12,11 +12,11 @@ namespace dotpose::core {
 
 /// Returns the odds of the places in the code `other`, against the reading of `ratios` in the code
 /// `read`.
-OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
-                           Profile other);
+OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, CodeVariant read,
+                           CodeVariant other);
 
 /// Sets the odds of the places in all other codes, from the ratios of both axes.
 void weigh_other_codes(const Kernels& kernels, const UnsharedLines& columns,
-                       const UnsharedLines& rows, Profile read, OtherCodes& others);
+                       const UnsharedLines& rows, CodeVariant read, OtherCodes& others);
 
 }  // namespace dotpose::core

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "code/tables.hpp"
+#include "core/kernels/scores.hpp"
 #include "core/math/float_plane.hpp"
 #include "core/patch_memory.hpp"
 #include "dotpose/image.hpp"
@@ -223,7 +224,7 @@ struct Kernels {
     /// `cut_q8`, its contrast relative to the paper level there, in 1/256. Returns false if too few
     /// dots are in view.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
-                       Vec& shift_px, int& cut_q8);
+                       FixedVec& shift_px, int& cut_q8);
     /// Sets the centroids of the dark pixels in the windows of the dots. Drops dots whose mass is
     /// much larger or smaller than that of a typical window, which is returned.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,

@@ -16,9 +16,9 @@ constexpr std::size_t kMinEdges = 12;
 using Values = std::span<std::int32_t>;
 
 /// Returns the median length of the edges in 2^-8 px, or 0 if no edge is short enough.
-std::int32_t median_length(std::span<const Edge> edges, Values memory) {
+std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     std::size_t n = 0;
-    for (const Edge& edge : edges) {
+    for (const SeedEdge& edge : edges) {
         // Neighbours are within 128 px per axis, so half of the square fits 32 bits.
         if (!is_within(edge.step_q8, (1 << 15) - 1)) continue;
         const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
@@ -31,12 +31,12 @@ std::int32_t median_length(std::span<const Edge> edges, Values memory) {
 
 /// Returns the direction of the grid, modulo a quarter turn. The fourth powers of the edges, as
 /// complex numbers, have the same direction for all four directions of a grid.
-std::int32_t common_direction_bam(std::span<const Edge> edges, std::int32_t length_q8) {
+std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t length_q8) {
     const std::int32_t inverse_q16 = 1024 * 65536 / length_q8;
     std::int32_t sum_re = 0;
     std::int32_t sum_im = 0;
-    for (const Edge& edge : edges) {
-        const Vec step = edge.step_q8;
+    for (const SeedEdge& edge : edges) {
+        const FixedVec step = edge.step_q8;
         if (!is_within(step, 2 * length_q8)) continue;
         const std::int32_t x = (step.x * inverse_q16) >> 16;
         const std::int32_t y = (step.y * inverse_q16) >> 16;
@@ -59,17 +59,17 @@ std::size_t cluster_of(Side side) {
     return static_cast<std::size_t>(side) & 1;
 }
 /// Returns the edge, reversed if it is opposite to its cluster.
-Vec turned(Vec edge, Side side) {
+FixedVec turned(FixedVec edge, Side side) {
     return side >= Side::opposite_first ? -edge : edge;
 }
 using Sides = std::array<Side, kMaxEdges>;
 
 /// Sum of the edges of one side.
 struct Sum {
-    Vec total;
+    FixedVec total;
     std::int32_t count = 0;
 
-    void add(Vec edge, int times) {
+    void add(FixedVec edge, int times) {
         total = {total.x + times * edge.x, total.y + times * edge.y};
         count += times;
     }
@@ -80,39 +80,39 @@ using Sums = std::array<Sum, 5>;  ///< by Side
 /// constraint of Fig. 5.
 class Clusters {
   public:
-    explicit Clusters(const std::array<Vec, 2>& means_q8) : means_q8_(means_q8) {
+    explicit Clusters(const std::array<FixedVec, 2>& means_q8) : means_q8_(means_q8) {
         std::array<std::int32_t, 2> half_squares;
         for (std::size_t k = 0; k < 2; ++k) {
             means_q6_[k] = {means_q8[k].x >> 2, means_q8[k].y >> 2};
-            const Vec m = means_q6_[k];
+            const FixedVec m = means_q6_[k];
             half_squares[k] = (m.x * m.x + m.y * m.y) / 2;
         }
         farther_ = half_squares[1] - half_squares[0];
     }
 
     /// Assigns each edge to its nearest cluster and updates `sums`.
-    DOTPOSE_NOINLINE void assign(std::span<const Edge> edges, Side* side, Sums& sums) const {
-        for (const Edge& edge : edges) {
+    DOTPOSE_NOINLINE void assign(std::span<const SeedEdge> edges, Side* side, Sums& sums) const {
+        for (const SeedEdge& edge : edges) {
             const Side now = nearest(edge.step_q8);
             if (now != *side) move(edge.step_q8, *side, now, sums);
             *side++ = now;
         }
     }
     /// Returns the means of the sums. A cluster without edges keeps its mean.
-    std::array<Vec, 2> means_q8(const Sums& sums) const {
-        std::array<Vec, 2> means = means_q8_;
+    std::array<FixedVec, 2> means_q8(const Sums& sums) const {
+        std::array<FixedVec, 2> means = means_q8_;
         for (std::size_t k = 0; k < 2; ++k) {
-            const Vec total = sums[k].total - sums[k + 2].total;
+            const FixedVec total = sums[k].total - sums[k + 2].total;
             const std::int32_t count = sums[k].count + sums[k + 2].count;
             if (count > 0) means[k] = {total.x / count, total.y / count};
         }
         return means;
     }
-    const std::array<Vec, 2>& means_q8() const { return means_q8_; }
+    const std::array<FixedVec, 2>& means_q8() const { return means_q8_; }
 
   private:
-    Side nearest(Vec edge_q8) const {
-        const Vec e{edge_q8.x >> 2, edge_q8.y >> 2};
+    Side nearest(FixedVec edge_q8) const {
+        const FixedVec e{edge_q8.x >> 2, edge_q8.y >> 2};
         const std::int32_t along_0 = e.x * means_q6_[0].x + e.y * means_q6_[0].y;
         const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
         // Compares |edge -+ mean|^2 / 2 without the common |edge|^2.
@@ -120,37 +120,37 @@ class Clusters {
             return along_1 < 0 ? Side::opposite_second : Side::second;
         return along_0 < 0 ? Side::opposite_first : Side::first;
     }
-    DOTPOSE_NOINLINE static void move(Vec edge, Side from, Side to, Sums& sums) {
+    DOTPOSE_NOINLINE static void move(FixedVec edge, Side from, Side to, Sums& sums) {
         sums[static_cast<std::size_t>(from)].add(edge, -1);
         sums[static_cast<std::size_t>(to)].add(edge, 1);
     }
 
-    std::array<Vec, 2> means_q8_;
-    std::array<Vec, 2> means_q6_;  ///< in 2^-6: products fit 32 bits
-    std::int32_t farther_;         ///< half the difference of the squared means, second minus first
+    std::array<FixedVec, 2> means_q8_;
+    std::array<FixedVec, 2> means_q6_;  ///< in 2^-6: products fit 32 bits
+    std::int32_t farther_;  ///< half the difference of the squared means, second minus first
 };
 
 /// Finds the side of each edge by k-means with the constraint (Fig. 5).
-void constrained_k_means(std::span<const Edge> edges, Clusters clusters, Sides& sides) {
+void constrained_k_means(std::span<const SeedEdge> edges, Clusters clusters, Sides& sides) {
     std::fill_n(sides.begin(), edges.size(), Side::unknown);
     Sums sums{};
     for (int iteration = 0;; ++iteration) {
         clusters.assign(edges, sides.data(), sums);
-        const std::array<Vec, 2> means = clusters.means_q8(sums);
+        const std::array<FixedVec, 2> means = clusters.means_q8(sums);
         if (means == clusters.means_q8() || iteration == kMaxIterations) break;
         clusters = Clusters(means);
     }
 }
 
 /// Returns the medians of x and of y of the edges of one cluster (last lines of Fig. 5).
-Vec cluster_median(std::span<const Edge> edges, const Sides& sides, std::size_t cluster,
-                   Values memory) {
+FixedVec cluster_median(std::span<const SeedEdge> edges, const Sides& sides, std::size_t cluster,
+                        Values memory) {
     const Values x = memory.first(edges.size());
     const Values y = memory.subspan(edges.size(), edges.size());
     std::size_t n = 0;
     for (std::size_t e = 0; e < edges.size(); ++e) {
         if (cluster_of(sides[e]) != cluster) continue;
-        const Vec step = turned(edges[e].step_q8, sides[e]);
+        const FixedVec step = turned(edges[e].step_q8, sides[e]);
         x[n] = step.x;
         y[n++] = step.y;
     }
@@ -158,7 +158,8 @@ Vec cluster_median(std::span<const Edge> edges, const Sides& sides, std::size_t 
 }
 
 /// Returns the medians of both clusters.
-std::array<Vec, 2> medians(std::span<const Edge> edges, const Clusters& clusters, Values memory) {
+std::array<FixedVec, 2> medians(std::span<const SeedEdge> edges, const Clusters& clusters,
+                                Values memory) {
     Sides sides;
     constrained_k_means(edges, clusters, sides);
     return {cluster_median(edges, sides, 0, memory), cluster_median(edges, sides, 1, memory)};
@@ -166,14 +167,14 @@ std::array<Vec, 2> medians(std::span<const Edge> edges, const Clusters& clusters
 
 }  // namespace
 
-Status estimate_axes(std::span<const Edge> edges, Values memory, Lattice& lattice) {
+Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& lattice) {
     if (edges.size() < kMinEdges) return Status::no_grid;
     const std::int32_t length_q8 = median_length(edges, memory);
     if (length_q8 == 0) return Status::no_grid;
-    const Vec unit = unit_q30(common_direction_bam(edges, length_q8));
-    const Vec along{shift_rounded(std::int64_t{unit.x} * length_q8, 30),
-                    shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
-    const Clusters clusters({along, Vec{-along.y, along.x}});
+    const FixedVec unit = unit_q30(common_direction_bam(edges, length_q8));
+    const FixedVec along{shift_rounded(std::int64_t{unit.x} * length_q8, 30),
+                         shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
+    const Clusters clusters({along, FixedVec{-along.y, along.x}});
     const auto [u, v] = medians(edges, clusters, memory);
     // Symmetric edges are 4 % too short on average: the nearest neighbours of a dot tend to be
     // displaced towards it.
@@ -181,13 +182,13 @@ Status estimate_axes(std::span<const Edge> edges, Values memory, Lattice& lattic
     if (!is_nearly_square(u, v)) return Status::no_grid;
     // differs: the paper keeps both axes. Their deviation from a square is scatter of the medians
     // rather than tilt. Averaging them halves the variance.
-    const Vec twice_u{u.x + v.y, u.y - v.x};
+    const FixedVec twice_u{u.x + v.y, u.y - v.x};
     lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};
     lattice.v_q16 = {-lattice.u_q16.y, lattice.u_q16.x};
     return Status::ok;
 }
 
-bool is_nearly_square(Vec u, Vec v) {
+bool is_nearly_square(FixedVec u, FixedVec v) {
     // Fourteen bits of the longest component suffice, and their fourth powers fit 64 bits.
     const auto longest =
         static_cast<std::uint32_t>(std::max(larger_component(u), larger_component(v)));

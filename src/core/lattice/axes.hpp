@@ -2,19 +2,20 @@
 // Fig. 5 (constrained k-means).
 #pragma once
 
-#include "core/stages.hpp"
 #include "dotpose/status.hpp"
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 
 /// Sets u and v of the lattice but not its origin. The lattice is right-handed: v is u turned from
 /// +x to +y. `memory` has two values for each edge. Errors: no_grid, if the edges do not have two
 /// directions at about a right angle and with about the same length.
-Status estimate_axes(std::span<const Edge> edges, std::span<std::int32_t> memory, Lattice& lattice);
+Status estimate_axes(std::span<const SeedEdge> edges, std::span<std::int32_t> memory,
+                     Lattice& lattice);
 
 /// Returns true if two directions may be those of a square grid at a tilt of up to about 35
 /// degrees.
-bool is_nearly_square(Vec u, Vec v);
+bool is_nearly_square(FixedVec u, FixedVec v);
 /// Returns true if the grid at the centre of a plane may be a square grid with a spacing of at
 /// least 4 px.
 bool is_nearly_square(const PlaneFromImage& plane);

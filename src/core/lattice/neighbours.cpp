@@ -13,14 +13,14 @@ constexpr int kDistanceBins = 64;
 /// The seeds, sorted row by row into square buckets, so that near seeds are near in memory.
 class Buckets {
   public:
-    Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
+    Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
             std::span<BucketedSeed> memory);
 
     int columns() const { return columns_; }
     int rows() const { return rows_; }
     std::int32_t size_q8() const { return 1 << shift_; }
-    int column(Vec at_q8) const { return at_q8.x >> shift_; }
-    int row(Vec at_q8) const { return at_q8.y >> shift_; }
+    int column(FixedVec at_q8) const { return at_q8.x >> shift_; }
+    int row(FixedVec at_q8) const { return at_q8.y >> shift_; }
     std::span<const BucketedSeed> all() const { return memory_.first(count_); }
     /// Returns the first seed in the bucket at this column of a row, or the first seed after it.
     const BucketedSeed* in_row(int row, int column) const {
@@ -35,13 +35,13 @@ class Buckets {
     int rows_ = 1;
 };
 
-Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
+Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                  std::span<BucketedSeed> memory)
     : memory_(memory), count_(seeds.size()) {
-    Vec corner = dots[seeds[0]].centre_q8;
-    Vec end = corner;
+    FixedVec corner = dots[seeds[0]].centre_q8;
+    FixedVec end = corner;
     for (const std::uint16_t s : seeds) {
-        const Vec p = dots[s].centre_q8;
+        const FixedVec p = dots[s].centre_q8;
         corner = {std::min(corner.x, p.x), std::min(corner.y, p.y)};
         end = {std::max(end.x, p.x), std::max(end.y, p.y)};
     }
@@ -57,7 +57,7 @@ Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds
     const auto buckets = static_cast<std::size_t>(columns_ * rows_);
     for (BucketedSeed& bucket : memory_.first(buckets + 1))
         bucket.begin = 0;
-    const auto begin_of = [&](Vec at_q8) -> std::uint16_t& {
+    const auto begin_of = [&](FixedVec at_q8) -> std::uint16_t& {
         return memory_[static_cast<std::size_t>(row(at_q8) * columns_ + column(at_q8))].begin;
     };
     for (const std::uint16_t s : seeds)
@@ -65,7 +65,7 @@ Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds
     for (std::size_t k = 1; k <= buckets; ++k)
         memory_[k].begin = static_cast<std::uint16_t>(memory_[k].begin + memory_[k - 1].begin);
     for (std::size_t s = 0; s < seeds.size(); ++s) {
-        const Vec at_q8 = dots[seeds[s]].centre_q8 - corner;
+        const FixedVec at_q8 = dots[seeds[s]].centre_q8 - corner;
         BucketedSeed& place = memory_[--begin_of(at_q8)];
         place.at_q8 = at_q8;
         place.seed = static_cast<std::uint16_t>(s);
@@ -148,11 +148,12 @@ void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
 
 }  // namespace
 
-int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16_t> seeds) {
+int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
+                 std::span<std::uint16_t> seeds) {
     // Bins are as narrow as possible while the last bin contains the farthest dot.
     std::array<std::uint16_t, kDistanceBins> histogram{};
     int shift = 0;
-    for (const Dot& dot : dots) {
+    for (const DetectedDot& dot : dots) {
         const std::int32_t distance = larger_component(dot.centre_q8 - centre_q8);
         for (; distance >> shift >= kDistanceBins; ++shift) {
             if (&dot != dots.data()) widen(histogram);
@@ -167,7 +168,7 @@ int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16
     const std::int32_t reach_q8 = static_cast<std::int32_t>(bins) << shift;
     std::size_t count = 0;
     for (std::size_t i = 0; i < dots.size() && count < seeds.size(); ++i) {
-        const Vec step = dots[i].centre_q8 - centre_q8;
+        const FixedVec step = dots[i].centre_q8 - centre_q8;
         if (is_within(step, reach_q8 - 1)) {
             seeds[count++] = static_cast<std::uint16_t>(i);
         }
@@ -175,7 +176,7 @@ int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16
     return static_cast<int>(count);
 }
 
-void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
+void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                      std::span<BucketedSeed> memory,
                      std::span<std::array<std::int16_t, 4>> neighbours) {
     if (seeds.empty()) return;
@@ -211,24 +212,24 @@ struct Pair {
     std::int16_t to;
 };
 
-Edge edge_along(Pair pair, Vec step) {
+SeedEdge edge_along(Pair pair, FixedVec step) {
     const auto [from, to] = pair;
     const bool is_up = step.y < 0 || (step.y == 0 && step.x < 0);
-    return is_up ? Edge{to, from, -step} : Edge{from, to, step};
+    return is_up ? SeedEdge{to, from, -step} : SeedEdge{from, to, step};
 }
 
 using Neighbours = std::span<const std::array<std::int16_t, 4>>;
 
 }  // namespace
 
-int connect_symmetric(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
-                      Neighbours neighbours, std::span<Edge> edges) {
+int connect_symmetric(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
+                      Neighbours neighbours, std::span<SeedEdge> edges) {
     std::size_t count = 0;
     for (std::size_t s = 0; s < seeds.size(); ++s) {
         const auto from = static_cast<std::int16_t>(s);
         for (const std::int16_t to : neighbours[s]) {
             if (to <= from || !counts(neighbours, to, from)) continue;
-            const Vec step =
+            const FixedVec step =
                 dots[seeds[static_cast<std::size_t>(to)]].centre_q8 - dots[seeds[s]].centre_q8;
             edges[count++] = edge_along({from, to}, step);
         }

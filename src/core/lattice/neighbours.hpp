@@ -4,25 +4,40 @@
 // (grow.hpp, refine_grid.hpp). This bounds the time for any image.
 #pragma once
 
-#include "core/stages.hpp"
+#include <cstdint>
+
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 
+/// Maximum number of seeds: the dots nearest the image centre, which give the first estimate of the
+/// grid.
+inline constexpr int kMaxSeeds = 256;
+
+/// Element n of two unrelated arrays: the n-th seed, sorted by bucket in row-major order, and the
+/// n-th bucket.
+struct BucketedSeed {
+    FixedVec at_q8;           ///< place of the seed relative to the corner of the first bucket
+    std::uint16_t seed = 0;   ///< index of the seed
+    std::uint16_t begin = 0;  ///< index of the first seed of the bucket in this order
+};
+
 /// Chooses the dots nearest to a point, by square distance, up to the size of `seeds`. Sets `seeds`
 /// to their indices and returns their number.
-int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16_t> seeds);
+int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
+                 std::span<std::uint16_t> seeds);
 
 /// Finds the four nearest other seeds of each seed, nearest first, within 128 px per axis; -1 for
 /// missing ones. `memory` has one element more than there are seeds.
-void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
+void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                      std::span<BucketedSeed> memory,
                      std::span<std::array<std::int16_t, 4>> neighbours);
 
 /// Finds the pairs of seeds that are neighbours of each other, each once, pointing down. Returns
 /// their number.
-int connect_symmetric(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
+int connect_symmetric(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                       std::span<const std::array<std::int16_t, 4>> neighbours,
-                      std::span<Edge> edges);
+                      std::span<SeedEdge> edges);
 
 /// Returns true if `to` is among the four nearest seeds of `from`.
 inline bool counts(std::span<const std::array<std::int16_t, 4>> neighbours, int from, int to) {

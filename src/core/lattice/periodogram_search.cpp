@@ -17,8 +17,8 @@ struct Wave {
     std::int32_t spacing_q16 = 0;  ///< px
 
     /// Returns the wave vector in turns per px.
-    Vec vector_q30() const {
-        const Vec unit = unit_q30(direction_bam);
+    FixedVec vector_q30() const {
+        const FixedVec unit = unit_q30(direction_bam);
         return {static_cast<std::int32_t>((std::int64_t{unit.x} << 16) / spacing_q16),
                 static_cast<std::int32_t>((std::int64_t{unit.y} << 16) / spacing_q16)};
     }
@@ -34,18 +34,18 @@ constexpr std::int32_t kQuarter_bam = 1 << 30;
 /// Sums of waves over the dots near the centre.
 class Periodogram {
   public:
-    Periodogram(std::span<const Dot> dots, std::span<const std::uint16_t> seeds, Vec centre_q8,
-                std::int32_t reach_q8) {
+    Periodogram(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
+                FixedVec centre_q8, std::int32_t reach_q8) {
         for (const std::uint16_t s : seeds) {
-            const Vec p = dots[s].centre_q8 - centre_q8;
+            const FixedVec p = dots[s].centre_q8 - centre_q8;
             if (larger_component(p) <= reach_q8) points_q8_[count_++] = p;
         }
     }
 
-    Vec sum(const Wave& wave) const {
-        const Vec wave_q30 = wave.vector_q30();
-        Vec total;
-        for (const Vec p : std::span(points_q8_).first(count_)) {
+    FixedVec sum(const Wave& wave) const {
+        const FixedVec wave_q30 = wave.vector_q30();
+        FixedVec total;
+        for (const FixedVec p : std::span(points_q8_).first(count_)) {
             const auto phase_q16 = static_cast<std::int32_t>(dot(wave_q30, p) >> 22);
             total.x += rough_cosine(phase_q16);
             total.y += rough_sine(phase_q16);
@@ -60,7 +60,7 @@ class Periodogram {
     }
 
   private:
-    std::array<Vec, kMaxSeeds> points_q8_;  ///< relative to the centre
+    std::array<FixedVec, kMaxSeeds> points_q8_;  ///< relative to the centre
     std::size_t count_ = 0;
 };
 
@@ -109,9 +109,9 @@ Wave ascend(Wave wave, Power power) {
 
 /// Returns the lattice whose rows are the crests of both waves. Its origin is near the centre.
 Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave& second,
-                   Vec centre_q8) {
-    const Vec a = first.vector_q30();
-    const Vec b = second.vector_q30();
+                   FixedVec centre_q8) {
+    const FixedVec a = first.vector_q30();
+    const FixedVec b = second.vector_q30();
     const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
     // Two waves in the same direction span no grid. The caller refuses the result later, but it
     // must not overflow.
@@ -133,8 +133,8 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
 
 }  // namespace
 
-void search_periodogram(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
-                        Vec centre_q8, int max_turn_deg, Lattice& lattice) {
+void search_periodogram(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
+                        FixedVec centre_q8, int max_turn_deg, Lattice& lattice) {
     const std::uint32_t length_q16 = square_root(
         static_cast<std::uint64_t>(squared(lattice.u_q16) / 2 + squared(lattice.v_q16) / 2));
     Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,

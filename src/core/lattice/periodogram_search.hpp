@@ -4,7 +4,7 @@
 // docs/differs-from-paper.md.
 #pragma once
 
-#include "core/stages.hpp"
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 
@@ -12,7 +12,7 @@ namespace dotpose::core {
 /// seeds, where k and k' are the wave vectors of the two directions of the grid. The first estimate
 /// may be turned by up to `max_turn_deg` to either side. The origin follows from the phases of F.
 /// (Periodograms: Press et al., Numerical Recipes, 13.4.)
-void search_periodogram(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
-                        Vec centre_q8, int max_turn_deg, Lattice& lattice);
+void search_periodogram(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
+                        FixedVec centre_q8, int max_turn_deg, Lattice& lattice);
 
 }  // namespace dotpose::core

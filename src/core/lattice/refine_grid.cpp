@@ -18,18 +18,18 @@ constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
 /// Corrects the origin by eq. 6: its error is the median offset of the dots near it. The offset is
 /// relative to the estimate, so the paper's o - median becomes a sum.
-void centre_origin(std::span<const Dot> dots, PlaneFromImage& plane) {
+void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
     std::size_t n = 0;
-    for (const Dot& dot : dots) {
+    for (const DetectedDot& dot : dots) {
         const GridPoint g = grid_point(plane, dot.centre_q8);
         if (larger_component(g.cell) > kFirstReach_cells || n == kMedianSample) continue;
         x[n] = g.offset_q16.x;
         y[n++] = g.offset_q16.y;
     }
-    plane.at_centre_q16 =
-        plane.at_centre_q16 - Vec{median(std::span(x).first(n)), median(std::span(y).first(n))};
+    plane.at_centre_q16 = plane.at_centre_q16 -
+                          FixedVec{median(std::span(x).first(n)), median(std::span(y).first(n))};
 }
 
 /// Agreement of the dots within reach with the grid.
@@ -37,10 +37,10 @@ struct Judged : Regularity {
     std::int64_t squared_offsets_q20 = 0;
 };
 
-Judged judge(std::span<const Dot> dots, int reach_cells, const LatticeOptions& options,
+Judged judge(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
              const PlaneFromImage& plane) {
     Judged found;
-    for (const Dot& dot : dots) {
+    for (const DetectedDot& dot : dots) {
         const GridPoint g = grid_point(plane, dot.centre_q8);
         const int distance = larger_component(g.cell);
         if (distance > kFarthest_cells) continue;
@@ -62,26 +62,26 @@ struct Target {
     std::int16_t y_q16 = 0;
 
     Target() = default;
-    Target(Vec cell, Vec from_intersection_q16)
+    Target(FixedVec cell, FixedVec from_intersection_q16)
         : is_used(true),
           cell_x(static_cast<std::int16_t>(cell.x)),
           cell_y(static_cast<std::int16_t>(cell.y)),
           x_q16(static_cast<std::int16_t>(from_intersection_q16.x)),
           y_q16(static_cast<std::int16_t>(from_intersection_q16.y)) {}
-    Vec place_q16() const { return {cell_x * 65536 + x_q16, cell_y * 65536 + y_q16}; }
+    FixedVec place_q16() const { return {cell_x * 65536 + x_q16, cell_y * 65536 + y_q16}; }
 };
 
 /// Fits the plane to dots and their targets. `target_of(g)` returns the target of a dot with the
 /// GridPoint g.
 template <typename TargetOf>
-void fit_to_targets(std::span<const Dot> dots, Terms max_terms, PlaneFromImage& plane,
+void fit_to_targets(std::span<const DetectedDot> dots, Terms max_terms, PlaneFromImage& plane,
                     TargetOf target_of) {
     // The fit visits the dots several times. Targets are computed once for the dots of most images;
     // larger images recompute those of further dots.
     std::array<Target, 2048> targets;
     const std::size_t known = std::min(dots.size(), targets.size());
     const PlaneFromImage before = plane;
-    const auto target = [&](const Dot& dot) {
+    const auto target = [&](const DetectedDot& dot) {
         return target_of(grid_point(before, dot.centre_q8));
     };
     for (std::size_t i = 0; i < known; ++i)
@@ -99,7 +99,7 @@ void fit_to_targets(std::span<const Dot> dots, Terms max_terms, PlaneFromImage& 
 /// Fits the plane to the dots within reach. differs: eq. 6 continues with median lengths between
 /// neighbours. Here a least-squares fit, with displacements as noise, gives all terms, and the
 /// reach grows from round to round.
-void fit(std::span<const Dot> dots, int reach_cells, const LatticeOptions& options,
+void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
     const Terms max_terms =
         reach_cells < tuned::kLensReach_cells ? Terms::perspective : Terms::lens;
@@ -112,14 +112,14 @@ void fit(std::span<const Dot> dots, int reach_cells, const LatticeOptions& optio
 
 /// Fits the plane to the places of displaced dots. Each dot is assigned to the nearest of the four
 /// places of its cell. Dots far from all four are left out.
-void fit_places(std::span<const Dot> dots, PlaneFromImage& plane) {
+void fit_places(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     constexpr std::int32_t kFar_q16 = tuned::kFar_q16;
     fit_to_targets(dots, Terms::lens, plane, [](const GridPoint& g) {
         if (larger_component(g.cell) > kFarthest_cells) return Target();
         const bool is_across = std::abs(g.offset_q16.x) > std::abs(g.offset_q16.y);
         const std::int32_t d = is_across ? g.offset_q16.x : g.offset_q16.y;
         const std::int32_t along = d > 0 ? kDisplacement_q16 : -kDisplacement_q16;
-        const Vec place = is_across ? Vec{along, 0} : Vec{0, along};
+        const FixedVec place = is_across ? FixedVec{along, 0} : FixedVec{0, along};
         const bool is_near = squared(g.offset_q16 - place) <= std::int64_t{kFar_q16} * kFar_q16;
         return is_near ? Target(g.cell, place) : Target();
     });
@@ -127,8 +127,8 @@ void fit_places(std::span<const Dot> dots, PlaneFromImage& plane) {
 
 }  // namespace
 
-Status refine_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec image_centre_q8,
-                   const Lattice& first, PlaneFromImage& plane) {
+Status refine_grid(std::span<const DetectedDot> dots, const LatticeOptions& options,
+                   FixedVec image_centre_q8, const Lattice& first, PlaneFromImage& plane) {
     plane = plane_from_lattice(first, image_centre_q8);
     centre_origin(dots, plane);
     Judged found;

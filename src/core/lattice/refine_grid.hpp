@@ -2,16 +2,16 @@
 // section II-B.3, eq. 6.
 #pragma once
 
-#include "core/stages.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/status.hpp"
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 
 /// Sets the map from the image to the grid, with perspective, and with the curvature of an unknown
 /// lens if the dots determine it. Errors: no_grid, if the dots are not near intersections;
 /// no_displacement, if they are on the intersections (a plain dot grid).
-Status refine_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec image_centre_q8,
-                   const Lattice& first, PlaneFromImage& grid_from_image);
+Status refine_grid(std::span<const DetectedDot> dots, const LatticeOptions& options,
+                   FixedVec image_centre_q8, const Lattice& first, PlaneFromImage& grid_from_image);
 
 }  // namespace dotpose::core

@@ -9,29 +9,29 @@ namespace dotpose::core {
 class Cells {
   public:
     explicit Cells(const PlaneFromImage& plane)
-        : rounding_centre_q8_(plane.centre_q8 - Vec{16, 16}),
-          rounding_at_centre_q16_(plane.at_centre_q16 + Vec{kHalf_q16, kHalf_q16}),
+        : rounding_centre_q8_(plane.centre_q8 - FixedVec{16, 16}),
+          rounding_at_centre_q16_(plane.at_centre_q16 + FixedVec{kHalf_q16, kHalf_q16}),
           du_q18_{plane.du_q24.x >> 6, plane.du_q24.y >> 6},
           dv_q18_{plane.dv_q24.x >> 6, plane.dv_q24.y >> 6} {}
 
     /// Returns the offset from the centre in 1/8 px. The rounding error is at most 1/100 of the
     /// smallest spacing.
-    Vec from_centre_q3(Vec image_point_q8) const {
-        const Vec p = image_point_q8 - rounding_centre_q8_;
+    FixedVec from_centre_q3(FixedVec image_point_q8) const {
+        const FixedVec p = image_point_q8 - rounding_centre_q8_;
         return {p.x >> 5, p.y >> 5};
     }
     /// Returns the plane point in spacings. Valid within 512 spacings of the centre.
-    Vec plane_point_q16(Vec from_centre_q3) const {
-        return rounding_plane_point_q16(from_centre_q3) - Vec{kHalf_q16, kHalf_q16};
+    FixedVec plane_point_q16(FixedVec from_centre_q3) const {
+        return rounding_plane_point_q16(from_centre_q3) - FixedVec{kHalf_q16, kHalf_q16};
     }
     /// Returns the plane point plus half a spacing, which truncates to the nearest cell.
-    Vec rounding_plane_point_q16(Vec p) const {
+    FixedVec rounding_plane_point_q16(FixedVec p) const {
         return {rounding_at_centre_q16_.x + ((du_q18_.x * p.x + dv_q18_.x * p.y) >> 5),
                 rounding_at_centre_q16_.y + ((du_q18_.y * p.x + dv_q18_.y * p.y) >> 5)};
     }
     /// Returns the nearest cell and the offset from it: eq. 3-5.
-    GridPoint operator()(Vec from_centre_q3) const {
-        const Vec c = rounding_plane_point_q16(from_centre_q3);
+    GridPoint operator()(FixedVec from_centre_q3) const {
+        const FixedVec c = rounding_plane_point_q16(from_centre_q3);
         return {{c.x >> 16, c.y >> 16}, {(c.x & 0xFFFF) - kHalf_q16, (c.y & 0xFFFF) - kHalf_q16}};
     }
 
@@ -39,10 +39,10 @@ class Cells {
     static constexpr std::int32_t kHalf_q16 = 1 << 15;
 
     // Half a unit less, and half a cell more, make truncation round to nearest.
-    Vec rounding_centre_q8_;
-    Vec rounding_at_centre_q16_;
-    Vec du_q18_;
-    Vec dv_q18_;
+    FixedVec rounding_centre_q8_;
+    FixedVec rounding_at_centre_q16_;
+    FixedVec du_q18_;
+    FixedVec dv_q18_;
 };
 
 }  // namespace dotpose::core

@@ -108,7 +108,7 @@ std::int32_t upper_quartile(std::span<std::int32_t> values) {
     return values.empty() ? 0 : of_rank((values.size() - 1) * 3 / 4, values);
 }
 
-std::int32_t angle_bam(Vec direction) {
+std::int32_t angle_bam(FixedVec direction) {
     std::int64_t x = direction.x;
     std::int64_t y = direction.y;
     if (x == 0 && y == 0) return 0;
@@ -145,7 +145,7 @@ std::int32_t angle_bam(Vec direction) {
     return static_cast<std::int32_t>(angle);
 }
 
-Vec unit_q30(std::int32_t angle) {
+FixedVec unit_q30(std::int32_t angle) {
     constexpr std::int32_t kQuarterTurn = 1 << 30;
     bool opposite = false;
     if (angle > kQuarterTurn || angle < -kQuarterTurn) {
@@ -167,7 +167,7 @@ Vec unit_q30(std::int32_t angle) {
             angle += kAtan[i];
         }
     }
-    return opposite ? Vec{-x, -y} : Vec{x, y};
+    return opposite ? FixedVec{-x, -y} : FixedVec{x, y};
 }
 
 }  // namespace dotpose::core

@@ -11,23 +11,23 @@
 
 namespace dotpose::core {
 
-constexpr Vec operator+(Vec a, Vec b) {
+constexpr FixedVec operator+(FixedVec a, FixedVec b) {
     return {a.x + b.x, a.y + b.y};
 }
-constexpr Vec operator-(Vec a, Vec b) {
+constexpr FixedVec operator-(FixedVec a, FixedVec b) {
     return {a.x - b.x, a.y - b.y};
 }
-constexpr Vec operator-(Vec a) {
+constexpr FixedVec operator-(FixedVec a) {
     return {-a.x, -a.y};
 }
 
-constexpr std::int64_t dot(Vec a, Vec b) {
+constexpr std::int64_t dot(FixedVec a, FixedVec b) {
     return std::int64_t{a.x} * b.x + std::int64_t{a.y} * b.y;
 }
-constexpr std::int64_t cross(Vec a, Vec b) {
+constexpr std::int64_t cross(FixedVec a, FixedVec b) {
     return std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x;
 }
-constexpr std::int64_t squared(Vec a) {
+constexpr std::int64_t squared(FixedVec a) {
     return dot(a, a);
 }
 
@@ -37,11 +37,11 @@ constexpr T magnitude(T a) {
     return a < 0 ? -a : a;
 }
 /// Returns max(|x|, |y|).
-constexpr std::int32_t larger_component(Vec a) {
+constexpr std::int32_t larger_component(FixedVec a) {
     return std::max(magnitude(a.x), magnitude(a.y));
 }
 /// Returns true if |x| <= limit and |y| <= limit, for limit < 2^30.
-constexpr bool is_within(Vec a, std::int32_t limit) {
+constexpr bool is_within(FixedVec a, std::int32_t limit) {
     const auto reach = static_cast<std::uint32_t>(limit);
     return static_cast<std::uint32_t>(a.x) + reach <= 2 * reach &&
            static_cast<std::uint32_t>(a.y) + reach <= 2 * reach;
@@ -63,7 +63,7 @@ std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, i
 inline constexpr std::int64_t kOne_q30 = std::int64_t{1} << 30;
 
 /// Returns both components divided by d_q30 / 2^30, each rounded to nearest. Requires d_q30 > 0.
-constexpr Vec divided_q30(Vec n, std::int64_t d_q30) {
+constexpr FixedVec divided_q30(FixedVec n, std::int64_t d_q30) {
     return {static_cast<std::int32_t>(divide_rounded(n.x * kOne_q30, d_q30)),
             static_cast<std::int32_t>(divide_rounded(n.y * kOne_q30, d_q30))};
 }
@@ -159,9 +159,9 @@ constexpr std::int32_t rough_cosine(std::int32_t phase_q16) {
 
 /// Returns the angle of a vector from +x towards +y, with an error of about 1e-9 turns; the angle
 /// of (0, 0) is 0. Requires |x|, |y| < 2^29.
-std::int32_t angle_bam(Vec direction);
+std::int32_t angle_bam(FixedVec direction);
 
 /// Returns (cosine, sine) of an angle, times 2^30.
-Vec unit_q30(std::int32_t angle_bam);
+FixedVec unit_q30(std::int32_t angle_bam);
 
 }  // namespace dotpose::core

@@ -51,7 +51,7 @@ bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_h
            area > kFlattest * sides && fold < 0.75F && std::isfinite(plane.bend);
 }
 
-PlaneFromImage fixed_plane(const FloatPlane& plane, Vec centre_q8) {
+PlaneFromImage fixed_plane(const FloatPlane& plane, FixedVec centre_q8) {
     return {centre_q8,
             {rounded(plane.at_x * kPower16), rounded(plane.at_y * kPower16)},
             {rounded(plane.du_x * kPower24), rounded(plane.du_y * kPower24)},

@@ -51,7 +51,7 @@ inline float spacing_px(const FloatPlane& plane) {
 /// coordinates are small. Returns false if any value is NaN.
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px);
 
-PlaneFromImage fixed_plane(const FloatPlane& plane, Vec centre_q8);
+PlaneFromImage fixed_plane(const FloatPlane& plane, FixedVec centre_q8);
 FloatPlane float_plane(const PlaneFromImage& plane);
 
 }  // namespace dotpose::core

@@ -4,7 +4,7 @@ namespace dotpose::core {
 namespace {
 
 /// Returns du x + dv y in 2^-16 spacing.
-Vec linear_q16(const PlaneFromImage& plane, Vec from_centre_q8) {
+FixedVec linear_q16(const PlaneFromImage& plane, FixedVec from_centre_q8) {
     const std::int64_t x = from_centre_q8.x;
     const std::int64_t y = from_centre_q8.y;
     const auto component = [&](std::int64_t du_q24, std::int64_t dv_q24) {
@@ -16,7 +16,7 @@ Vec linear_q16(const PlaneFromImage& plane, Vec from_centre_q8) {
 
 }  // namespace
 
-PlaneFromImage plane_from_lattice(const Lattice& lattice, Vec centre_q8) {
+PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8) {
     const std::int64_t area_q16 =
         std::max<std::int64_t>(cross(lattice.u_q16, lattice.v_q16) >> 16, 1);
     const auto entry = [&](std::int32_t a_q16) {
@@ -26,56 +26,56 @@ PlaneFromImage plane_from_lattice(const Lattice& lattice, Vec centre_q8) {
     plane.centre_q8 = centre_q8;
     plane.du_q24 = {entry(lattice.v_q16.y), entry(-lattice.u_q16.y)};
     plane.dv_q24 = {entry(-lattice.v_q16.x), entry(lattice.u_q16.x)};
-    const Vec origin_q8{shift_rounded(lattice.origin_q16.x, 8),
-                        shift_rounded(lattice.origin_q16.y, 8)};
+    const FixedVec origin_q8{shift_rounded(lattice.origin_q16.x, 8),
+                             shift_rounded(lattice.origin_q16.y, 8)};
     plane.at_centre_q16 = -linear_q16(plane, origin_q8 - centre_q8);
     return plane;
 }
 
-std::int64_t divisor_q30(const PlaneFromImage& plane, Vec from_centre_q8) {
+std::int64_t divisor_q30(const PlaneFromImage& plane, FixedVec from_centre_q8) {
     const std::int64_t tilt_q30 = dot(plane.perspective_q30, from_centre_q8) >> 8;
     const std::int64_t bend_q30 = bend_q48(plane.lens_q40, from_centre_q8) >> 18;
     return std::max(kOne_q30 + tilt_q30 + bend_q30, kOne_q30 / 4);
 }
 
-Vec plane_point_q16(const PlaneFromImage& plane, Vec image_point_q8) {
-    const Vec p = image_point_q8 - plane.centre_q8;
-    const Vec linear = linear_q16(plane, p);
+FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8) {
+    const FixedVec p = image_point_q8 - plane.centre_q8;
+    const FixedVec linear = linear_q16(plane, p);
     if (is_affine(plane)) return plane.at_centre_q16 + linear;
     return plane.at_centre_q16 + divided_q30(linear, divisor_q30(plane, p));
 }
 
-GridPoint grid_point(const PlaneFromImage& plane, Vec image_point_q8) {
-    const Vec c = plane_point_q16(plane, image_point_q8);
-    const Vec cell{(c.x + 32768) >> 16, (c.y + 32768) >> 16};
+GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8) {
+    const FixedVec c = plane_point_q16(plane, image_point_q8);
+    const FixedVec cell{(c.x + 32768) >> 16, (c.y + 32768) >> 16};
     return {cell, {c.x - cell.x * 65536, c.y - cell.y * 65536}};
 }
 
-Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point) {
+FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point) {
     // Newton's method with the slope at the current point. For an affine plane, one round is exact
     // except for the truncation of the division.
     constexpr int kMaxRounds = 12;
     // The search may leave the range of all images where the map folds.
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
-    Vec point_q8 = plane.centre_q8;
+    FixedVec point_q8 = plane.centre_q8;
     for (int round = 0; round < kMaxRounds; ++round) {
         const PlaneFromImage here = is_affine(plane) ? plane : tangent(plane, point_q8);
         const std::int64_t area_q32 =
             std::max<std::int64_t>(cross(here.du_q24, here.dv_q24) >> 16, 1);
-        const Vec missing_q16 = plane_point - plane_point_q16(plane, point_q8);
+        const FixedVec missing_q16 = plane_point - plane_point_q16(plane, point_q8);
         const auto quotient = [&](std::int64_t numerator_q40) {
             return limited(divide_rounded(numerator_q40, area_q32), kFarthest_q8);
         };
-        const Vec step_q8{quotient(cross(missing_q16, here.dv_q24)),
-                          quotient(cross(here.du_q24, missing_q16))};
+        const FixedVec step_q8{quotient(cross(missing_q16, here.dv_q24)),
+                               quotient(cross(here.du_q24, missing_q16))};
         point_q8 = {limited(point_q8.x + step_q8.x, kFarthest_q8),
                     limited(point_q8.y + step_q8.y, kFarthest_q8)};
-        if (step_q8 == Vec{}) break;
+        if (step_q8 == FixedVec{}) break;
     }
     return point_q8;
 }
 
-PlaneFromImage affine_tangent(const PlaneFromImage& plane, Vec image_point_q8) {
+PlaneFromImage affine_tangent(const PlaneFromImage& plane, FixedVec image_point_q8) {
     PlaneFromImage result = plane;
     result.centre_q8 = image_point_q8;
     result.at_centre_q16 =
@@ -83,15 +83,16 @@ PlaneFromImage affine_tangent(const PlaneFromImage& plane, Vec image_point_q8) {
     return result;
 }
 
-PlaneFromImage tangent(const PlaneFromImage& plane, Vec image_point_q8) {
+PlaneFromImage tangent(const PlaneFromImage& plane, FixedVec image_point_q8) {
     PlaneFromImage result;
     result.centre_q8 = image_point_q8;
     result.at_centre_q16 = plane_point_q16(plane, image_point_q8);
-    const Vec p = image_point_q8 - plane.centre_q8;
+    const FixedVec p = image_point_q8 - plane.centre_q8;
     const std::int64_t divisor = divisor_q30(plane, p);
-    const Vec from_centre_q16 = result.at_centre_q16 - plane.at_centre_q16;
+    const FixedVec from_centre_q16 = result.at_centre_q16 - plane.at_centre_q16;
     // Quotient rule, with the derivative of the divisor, perspective + 2 lens (x, y).
-    const auto slope = [&](Vec linear_q24, std::int32_t perspective_q30, std::int32_t along_q8) {
+    const auto slope = [&](FixedVec linear_q24, std::int32_t perspective_q30,
+                           std::int32_t along_q8) {
         const std::int64_t bend_q30 = (std::int64_t{plane.lens_q40} * along_q8) >> 17;
         constexpr std::int64_t kSteepest_q30 = std::int64_t{1} << 31;
         const std::int64_t d_q30 =

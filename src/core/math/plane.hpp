@@ -2,14 +2,14 @@
 #pragma once
 
 #include "core/math/fixed.hpp"
-#include "core/stages.hpp"
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 
 /// A point of the grid: the nearest intersection and the offset from it.
 struct GridPoint {
-    Vec cell;        ///< paper eq. 4
-    Vec offset_q16;  ///< eq. 5, in spacings, each in [-1/2, 1/2)
+    FixedVec cell;        ///< paper eq. 4
+    FixedVec offset_q16;  ///< eq. 5, in spacings, each in [-1/2, 1/2)
 };
 
 /// Limit of coordinates in 2^-16 spacing and of slopes in 2^-24 spacings per px. No image shows
@@ -19,38 +19,38 @@ inline constexpr std::int32_t kBeyondReason = 1 << 28;
 /// Returns k r^2 in 2^-48, with r clamped to 4096 px. Points of images are rarely farther from the
 /// centre, but points of planes seen from the side may be. The limit keeps the result within 64
 /// bits for any k.
-inline std::int64_t bend_q48(std::int32_t k_q40, Vec r_q8) {
+inline std::int64_t bend_q48(std::int32_t k_q40, FixedVec r_q8) {
     constexpr std::int64_t kFarthest_q8 = 0xFFFFFFFF;
     return k_q40 * std::min(squared(r_q8) >> 8, kFarthest_q8);
 }
 
 /// Returns true if a plane has neither perspective nor lens.
 inline bool is_affine(const PlaneFromImage& plane) {
-    return plane.perspective_q30 == Vec{} && plane.lens_q40 == 0;
+    return plane.perspective_q30 == FixedVec{} && plane.lens_q40 == 0;
 }
 
 /// Returns the plane of a lattice, without perspective or lens. Requires |u x v| > 0.
-PlaneFromImage plane_from_lattice(const Lattice& lattice, Vec centre_q8);
+PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 
 /// Returns the plane point of an image point by eq. 3, in 2^-16 spacing. differs: the paper
 /// projects on u and v, which is correct only if they are at right angles and the camera is not
 /// tilted.
-Vec plane_point_q16(const PlaneFromImage& plane, Vec image_point_q8);
+FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the nearest intersection and the offset from it, by eq. 3-5.
-GridPoint grid_point(const PlaneFromImage& plane, Vec image_point_q8);
+GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the inverse of plane_point_q16, in 2^-8 px.
-Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point_q16);
+FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point_q16);
 
 /// Returns the tangent of the plane at an image point: the plane without perspective or lens that
 /// has the same value and slope there.
-PlaneFromImage tangent(const PlaneFromImage& plane, Vec image_point_q8);
+PlaneFromImage tangent(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the tangent of a plane that has neither perspective nor lens.
-PlaneFromImage affine_tangent(const PlaneFromImage& plane, Vec image_point_q8);
+PlaneFromImage affine_tangent(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the divisor 1 + perspective . (x, y) + lens (x^2 + y^2), at least 1/4.
-std::int64_t divisor_q30(const PlaneFromImage& plane, Vec from_centre_q8);
+std::int64_t divisor_q30(const PlaneFromImage& plane, FixedVec from_centre_q8);
 
 }  // namespace dotpose::core

@@ -45,7 +45,7 @@ float inner_product(const Parameters& a, const Parameters& b) {
 }  // namespace
 
 void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_image,
-                         Vec reference_q8, Fix& fix) {
+                         FixedVec reference_q8, Fix& fix) {
     fix.dots_used = fit.dots;
     fix.surface = fit.surface;
     // Some dots are found only when they are measured at their place in the code, not as blobs.
@@ -55,7 +55,7 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
     // Theta is the direction of the x axis of the image, here between two points that are 16 px
     // apart.
     constexpr float kStep_px = 8;
-    const Vec from_centre_q8 = reference_q8 - pattern_from_image.centre_q8;
+    const FixedVec from_centre_q8 = reference_q8 - pattern_from_image.centre_q8;
     const float x = static_cast<float>(from_centre_q8.x) / 256;
     const float y = static_cast<float>(from_centre_q8.y) / 256;
     const FourVecs places = plane.project(Four{x, x - kStep_px, x + kStep_px}, Four{y, y, y});

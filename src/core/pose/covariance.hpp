@@ -9,6 +9,6 @@ namespace dotpose::core {
 /// Sets `covariance`, `residual_px`, `dots_seen`, `dots_used` and `surface` of the fix for the pose
 /// at the reference point.
 void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_image,
-                         Vec reference_q8, Fix& fix);
+                         FixedVec reference_q8, Fix& fix);
 
 }  // namespace dotpose::core

@@ -18,7 +18,7 @@ namespace tuned = tuning::measure;
 
 constexpr int kMaxHalf_px = 24;
 
-Vec rounded_px(Vec point_q8) {
+FixedVec rounded_px(FixedVec point_q8) {
     return {(point_q8.x + 128) >> 8, (point_q8.y + 128) >> 8};
 }
 
@@ -97,7 +97,7 @@ struct BorderBackground {
 /// Fits the paper level to the sides of the window that are in the image. These are at least two,
 /// because no image is smaller than a window. If one of two opposite sides is missing, the slope in
 /// that direction is 0.
-BorderBackground border_background(const Patch& patch, Vec pixel, int half) {
+BorderBackground border_background(const Patch& patch, FixedVec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};
         float sum = 0;
@@ -137,9 +137,9 @@ BorderBackground border_background(const Patch& patch, Vec pixel, int half) {
 class DotFit {
   public:
     /// Adds four pixels of a row.
-    void add(Four profile, Four darkness, Four x, float y) {
-        const Four square = profile * profile;
-        const Four dark = profile * darkness;
+    void add(Four code, Four darkness, Four x, float y) {
+        const Four square = code * code;
+        const Four dark = code * darkness;
         add_each(one_x_y_xx_, square, square * x, square * y, square * x * x);
         add_each(xy_yy_dark_, square * x * y, square * y * y, dark, dark * x);
         add_each(dark_y_, dark * y, Four{}, Four{}, Four{});
@@ -179,12 +179,12 @@ class DotFit {
     Four dark_y_{};
 };
 
-/// Profile of the window along one axis: distances from its centre in sigma, and exp(-d^2 / 2).
+/// CodeVariant of the window along one axis: distances from its centre in sigma, and exp(-d^2 / 2).
 /// Padded with zeros to a multiple of four.
 struct AxisProfile {
     using Values = std::array<float, kMaxInFours>;
     Values distance;
-    Values profile;
+    Values code;
     Values from_pixel;  ///< distance from the central pixel, px
 
     AxisProfile(int first, int last, int pixel, std::int32_t middle_q8, std::int32_t sigma_q8) {
@@ -192,18 +192,18 @@ struct AxisProfile {
         for (int i = first; i <= last; ++i, ++count) {
             const float d = static_cast<float>(i * 256 - middle_q8) / static_cast<float>(sigma_q8);
             distance[count] = d;
-            profile[count] = std::exp(-d * d / 2);
+            code[count] = std::exp(-d * d / 2);
             from_pixel[count] = static_cast<float>(i - pixel);
         }
-        for (Values* values : {&distance, &profile, &from_pixel})
+        for (Values* values : {&distance, &code, &from_pixel})
             std::fill_n(values->begin() + static_cast<std::ptrdiff_t>(count), 3, 0.0F);
     }
 };
 
 DotFit fit_dot(const Patch& patch, const BorderBackground& light, std::int32_t sigma_q8,
-               Vec middle_q8) {
+               FixedVec middle_q8) {
     const Box& box = patch.box();
-    const Vec pixel = rounded_px(middle_q8);
+    const FixedVec pixel = rounded_px(middle_q8);
     const AxisProfile along_u(box.left, box.right, pixel.x, middle_q8.x, sigma_q8);
     const AxisProfile along_v(box.top, box.bottom, pixel.y, middle_q8.y, sigma_q8);
     const auto columns = static_cast<std::size_t>(box.right - box.left + 1);
@@ -215,7 +215,7 @@ DotFit fit_dot(const Patch& patch, const BorderBackground& light, std::int32_t s
         for (std::size_t i = 0; i < columns; i += 4) {
             const Four paper =
                 light.middle + light.slope_u * four_at(&along_u.from_pixel[i]) + slope_v;
-            fit.add(four_at(&along_u.profile[i]) * along_v.profile[j], paper - four_at(levels + i),
+            fit.add(four_at(&along_u.code[i]) * along_v.code[j], paper - four_at(levels + i),
                     four_at(&along_u.distance[i]), along_v.distance[j]);
         }
     }
@@ -223,14 +223,15 @@ DotFit fit_dot(const Patch& patch, const BorderBackground& light, std::int32_t s
 }
 
 /// Returns the dot near a point, or nullopt if the point is outside the image or has no dark spot.
-std::optional<Dot> measure(const ImageView& image, const Window& window, Vec start_q8) {
+std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
+                                   FixedVec start_q8) {
     const std::int64_t farthest =
         tuned::kFarthest_2 * std::int64_t{window.sigma_q8} * window.sigma_q8;
     const auto sigma_q8 = static_cast<float>(window.sigma_q8);
-    Dot dot{start_q8, 0, 0};
+    DetectedDot dot{start_q8, 0, 0};
     Patch patch;
     for (int iteration = 0; iteration < tuned::kMaxIterations; ++iteration) {
-        const Vec pixel = rounded_px(dot.centre_q8);
+        const FixedVec pixel = rounded_px(dot.centre_q8);
         const auto box = window.box_around(image, pixel.x, pixel.y);
         if (!box) return {};
         patch.load(image, *box);
@@ -242,7 +243,7 @@ std::optional<Dot> measure(const ImageView& image, const Window& window, Vec sta
             return static_cast<std::int32_t>(std::clamp(offset, -kFarthestStep, kFarthestStep) *
                                              sigma_q8);
         };
-        const Vec step{step_q8(fit->offset_x), step_q8(fit->offset_y)};
+        const FixedVec step{step_q8(fit->offset_x), step_q8(fit->offset_y)};
         dot.centre_q8 = dot.centre_q8 + step;
         // Darkness relative to the paper level does not depend on the light.
         const float mass = 16384 * fit->height / std::max(light.middle, 1.0F);
@@ -255,7 +256,7 @@ std::optional<Dot> measure(const ImageView& image, const Window& window, Vec sta
 
 /// Rejects dots whose mass differs much from the typical one: paper where a dot is missing, dirt,
 /// graphics.
-void reject_mass_outliers(Grid& grid, std::span<Dot> dots) {
+void reject_mass_outliers(Grid& grid, std::span<DetectedDot> dots) {
     constexpr std::size_t kSample = tuned::kMedianSample;
     std::array<std::int32_t, kSample> masses;
     std::size_t n = 0;
@@ -273,8 +274,9 @@ void reject_mass_outliers(Grid& grid, std::span<Dot> dots) {
 
 }  // namespace
 
-int measure_dots(const ImageView& image, const Lens& lens, const PlaneFromImage& pattern_from_image,
-                 const Nominal& nominal, Grid& grid, std::span<Dot> dots) {
+int measure_dots(const ImageView& image, const FixedLens& lens,
+                 const PlaneFromImage& pattern_from_image, const Nominal& nominal, Grid& grid,
+                 std::span<DetectedDot> dots) {
     const auto length_q24 =
         square_root(static_cast<std::uint64_t>(squared(pattern_from_image.du_q24)));
     const Window window(static_cast<std::int32_t>((std::int64_t{1} << 32) /
@@ -283,13 +285,13 @@ int measure_dots(const ImageView& image, const Lens& lens, const PlaneFromImage&
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
         for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
             GridCell& cell = grid.at(i, j);
-            const Vec step = nominal.pattern_step({i, j});
+            const FixedVec step = nominal.pattern_step({i, j});
             const Symbol symbol = nominal.symbol(step);
             const bool is_hidden = cell.is_hidden(static_cast<int>(symbol));
             cell.dot = GridCell::kNoDot;
             if (is_hidden || count == dots.size()) continue;
-            const Vec place{step.x * 65536 + dx(symbol) * kDisplacement_q16,
-                            step.y * 65536 + dy(symbol) * kDisplacement_q16};
+            const FixedVec place{step.x * 65536 + dx(symbol) * kDisplacement_q16,
+                                 step.y * 65536 + dy(symbol) * kDisplacement_q16};
             const auto dot =
                 measure(image, window, distorted_point_q8(lens, pattern_from_image, place));
             if (!dot) continue;

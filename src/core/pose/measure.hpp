@@ -3,8 +3,8 @@
 // docs/differs-from-paper.md.
 #pragma once
 
+#include "core/decode/grid.hpp"
 #include "core/decode/nominal.hpp"
-#include "core/stages.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
 
@@ -14,7 +14,8 @@ namespace dotpose::core {
 /// cells to them. Centres are Gaussian-windowed centroids (Bertin, SExtractor: XWIN), iterated from
 /// the nominal places; windows may be cut by the border of the image. Masses are darkness over
 /// paper level, in 2^-14. Returns the number of dots.
-int measure_dots(const ImageView& image, const Lens& lens, const PlaneFromImage& pattern_from_image,
-                 const Nominal& nominal, Grid& grid, std::span<Dot> dots);
+int measure_dots(const ImageView& image, const FixedLens& lens,
+                 const PlaneFromImage& pattern_from_image, const Nominal& nominal, Grid& grid,
+                 std::span<DetectedDot> dots);
 
 }  // namespace dotpose::core

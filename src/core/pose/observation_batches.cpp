@@ -3,14 +3,14 @@
 namespace dotpose::core {
 
 void ObservationBatch::fill_up() {
-    constexpr Vec kFar{1 << 14, 1 << 14};
+    constexpr FixedVec kFar{1 << 14, 1 << 14};
     const std::size_t counted = count;
     while (count % 4 != 0)
         add({}, kFar, Symbol::up, 0);
     count = counted;
 }
 
-ObservationBatches::ObservationBatches(const Observations& observations, Vec centre_q8)
+ObservationBatches::ObservationBatches(const Observations& observations, FixedVec centre_q8)
     : observations_(observations), centre_q8_(centre_q8) {
     const int every = observations.count() / static_cast<int>(ObservationBatch::kMax) + 1;
     sample_is_all_ = every == 1;

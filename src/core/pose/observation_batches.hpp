@@ -23,7 +23,7 @@ struct ObservationBatch {
     Values<std::int32_t> dy;
     Values<float> noise;  ///< Observations::noise, or 0 if it is not known
 
-    void add(Vec from_centre_q8, Vec pattern_step, Symbol symbol, float its_noise) {
+    void add(FixedVec from_centre_q8, FixedVec pattern_step, Symbol symbol, float its_noise) {
         x_q8[count] = from_centre_q8.x;
         y_q8[count] = from_centre_q8.y;
         step_x_q16[count] = pattern_step.x * 65536;
@@ -40,7 +40,7 @@ struct ObservationBatch {
 /// Observations relative to the centre of a plane.
 class ObservationBatches {
   public:
-    ObservationBatches(const Observations& observations, Vec centre_q8);
+    ObservationBatches(const Observations& observations, FixedVec centre_q8);
 
     /// Returns a bound of the distances of the dots from the centre along each axis.
     int reach_px() const { return reach_px_; }
@@ -70,7 +70,7 @@ class ObservationBatches {
     }
 
     const Observations& observations_;
-    Vec centre_q8_;
+    FixedVec centre_q8_;
     int reach_px_ = 1;
     bool sample_is_all_;
     ObservationBatch sample_;

@@ -8,13 +8,13 @@
 namespace dotpose::core {
 
 struct Observation {
-    Vec image_point_q8;
-    Vec pattern_step;  ///< its intersection, in spacings from `Decoding::place`
+    FixedVec image_point_q8;
+    FixedVec pattern_step;  ///< its intersection, in spacings from `Decoding::place`
     Symbol symbol;
 };
 
 /// Returns the printed place of the dot, in spacings from `Decoding::place`.
-inline Vec nominal_place_q16(const Observation& o, std::int32_t displacement_q16) {
+inline FixedVec nominal_place_q16(const Observation& o, std::int32_t displacement_q16) {
     return {o.pattern_step.x * 65536 + dx(o.symbol) * displacement_q16,
             o.pattern_step.y * 65536 + dy(o.symbol) * displacement_q16};
 }
@@ -24,7 +24,7 @@ class Observations {
   public:
     /// `paper` is the paper level of the image in which all dots were measured, or null if they
     /// were not measured.
-    Observations(std::span<const Dot> dots, const Grid& grid, const Nominal& nominal,
+    Observations(std::span<const DetectedDot> dots, const Grid& grid, const Nominal& nominal,
                  const PaperMap* paper = nullptr)
         : dots_(dots), grid_(grid), nominal_(nominal), paper_(paper) {}
 
@@ -43,11 +43,11 @@ class Observations {
     /// Calls `use` for every `every`-th observation.
     template <typename Use>
     void visit(Use use, int every = 1) const {
-        const Vec along_row = nominal_.pattern_step({1, 0});
+        const FixedVec along_row = nominal_.pattern_step({1, 0});
         const GridCell* cell = grid_.storage.data();
         int skipped = 0;
         for (int j = grid_.j0; j < grid_.j0 + grid_.rows; ++j) {
-            Vec step = nominal_.pattern_step({grid_.i0, j});
+            FixedVec step = nominal_.pattern_step({grid_.i0, j});
             for (const GridCell* end = cell + grid_.columns; cell != end;
                  ++cell, step = step + along_row) {
                 if (!cell->has_dot() || ++skipped < every) continue;
@@ -58,7 +58,7 @@ class Observations {
     }
 
   private:
-    std::span<const Dot> dots_;
+    std::span<const DetectedDot> dots_;
     const Grid& grid_;
     const Nominal& nominal_;
     const PaperMap* paper_;

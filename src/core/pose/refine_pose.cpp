@@ -68,8 +68,8 @@ class Round {
         ObservationBatch::Values<std::int32_t> y_q16;
         ObservationBatch::Values<std::int32_t> values;
         for (std::size_t i = 0; i < sample.count; ++i) {
-            const Vec offset =
-                point_q16(sample, i) - Vec{sample.step_x_q16[i], sample.step_y_q16[i]};
+            const FixedVec offset =
+                point_q16(sample, i) - FixedVec{sample.step_x_q16[i], sample.step_y_q16[i]};
             x_q16[i] = offset.x;
             y_q16[i] = offset.y;
             values[i] = offset.x * sample.dx[i] + offset.y * sample.dy[i];
@@ -111,21 +111,21 @@ class Round {
         return float_plane(plane);
     }
 
-    static std::int32_t squared_q30(Vec residual_q16) {
+    static std::int32_t squared_q30(FixedVec residual_q16) {
         return static_cast<std::int32_t>(
             std::min<std::int64_t>(squared(residual_q16) >> 2, INT32_MAX));
     }
 
-    Vec point_q16(const ObservationBatch& batch, std::size_t i) const {
-        return plane_point_q16(pose_, pose_.centre_q8 + Vec{batch.x_q8[i], batch.y_q8[i]});
+    FixedVec point_q16(const ObservationBatch& batch, std::size_t i) const {
+        return plane_point_q16(pose_, pose_.centre_q8 + FixedVec{batch.x_q8[i], batch.y_q8[i]});
     }
 
     Scatter scatter_of_dots() const {
         Scatter scatter;
         batches_.visit([&](const ObservationBatch& batch) {
             for (std::size_t i = 0; i < batch.count; ++i) {
-                const Vec target{batch.step_x_q16[i] + batch.dx[i] * displacement_q16_,
-                                 batch.step_y_q16[i] + batch.dy[i] * displacement_q16_};
+                const FixedVec target{batch.step_x_q16[i] + batch.dx[i] * displacement_q16_,
+                                      batch.step_y_q16[i] + batch.dy[i] * displacement_q16_};
                 const std::int32_t square_q30 = squared_q30(point_q16(batch, i) - target);
                 scatter.add(batch.noise[i],
                             std::min(static_cast<float>(square_q30) / kPower30, limit_));

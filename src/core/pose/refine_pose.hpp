@@ -7,8 +7,8 @@
 #include "core/fit/plane_normal_float.hpp"
 #include "core/pose/observations.hpp"
 #include "core/pose/posterior.hpp"
-#include "core/stages.hpp"
 #include "dotpose/fix.hpp"
+#include "dotpose/geometry.hpp"
 
 namespace dotpose::core {
 

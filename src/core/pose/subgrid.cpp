@@ -4,7 +4,7 @@
 
 namespace dotpose::core {
 
-PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, Turn pattern_from_grid) {
+PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn pattern_from_grid) {
     PlaneFromImage pattern = grid_from_image;
     pattern.at_centre_q16 = pattern_from_grid(grid_from_image.at_centre_q16);
     pattern.du_q24 = pattern_from_grid(grid_from_image.du_q24);
@@ -15,16 +15,16 @@ PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, Turn pattern
 namespace {
 
 /// Writes the pose at the centre of a plane without perspective and lens.
-void write_pose(const PlaneFromImage& there, Profile profile, const Place& place, Fix& fix) {
+void write_pose(const PlaneFromImage& there, CodeVariant code, const Place& place, Fix& fix) {
     // Eq. 10-12: the decoded position plus the vector from there to the reference point, in grid
     // units.
-    const Vec t = there.at_centre_q16;
-    const Place at = moved(profile, place, t.x >> 16, t.y >> 16);
+    const FixedVec t = there.at_centre_q16;
+    const Place at = moved(code, place, t.x >> 16, t.y >> 16);
     fix.cell = at.cell;
     fix.section = at.section;
     fix.fraction_x_q16 = static_cast<std::uint16_t>(t.x & 0xFFFF);
     fix.fraction_y_q16 = static_cast<std::uint16_t>(t.y & 0xFFFF);
-    const Vec du = there.du_q24;
+    const FixedVec du = there.du_q24;
     fix.theta_bam = angle_bam(du);
     // px per spacing is the inverse of the length of du. The length may be almost 0 far outside the
     // image, where the map may fold.
@@ -36,18 +36,18 @@ void write_pose(const PlaneFromImage& there, Profile profile, const Place& place
 
 }  // namespace
 
-void write_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
+void write_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8, CodeVariant code,
                 const Place& place, Fix& fix) {
     fix.pattern_from_image = pattern_from_image;
     fix.place = place;
-    write_pose(tangent(pattern_from_image, reference_q8), profile, place, fix);
+    write_pose(tangent(pattern_from_image, reference_q8), code, place, fix);
 }
 
-void write_affine_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
-                       const Place& place, Fix& fix) {
+void write_affine_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8,
+                       CodeVariant code, const Place& place, Fix& fix) {
     fix.pattern_from_image = pattern_from_image;
     fix.place = place;
-    write_pose(affine_tangent(pattern_from_image, reference_q8), profile, place, fix);
+    write_pose(affine_tangent(pattern_from_image, reference_q8), code, place, fix);
 }
 
 }  // namespace dotpose::core

@@ -2,20 +2,20 @@
 // II-B.8, eq. 10-12; the angle is at the end of II-B.6.
 #pragma once
 
-#include "core/stages.hpp"
 #include "dotpose/fix.hpp"
+#include "dotpose/geometry.hpp"
 
 namespace dotpose::core {
 
 /// Returns the plane of the grid, turned upright; its origin is `Decoding::place`.
-PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, Turn pattern_from_grid);
+PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn pattern_from_grid);
 
 /// Writes position, section, angle and spacing at the reference point into the fix.
-void write_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
+void write_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8, CodeVariant code,
                 const Place& place, Fix& fix);
 
 /// Writes the same values for a plane without perspective and lens.
-void write_affine_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
-                       const Place& place, Fix& fix);
+void write_affine_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8,
+                       CodeVariant code, const Place& place, Fix& fix);
 
 }  // namespace dotpose::core

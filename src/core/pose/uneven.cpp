@@ -164,13 +164,13 @@ void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_p
     fit_uneven_from(tuned::kSuspect, kernels, dots, blocks, reference_px, plane, fit);
 }
 
-void fit_uneven(const Kernels& kernels, const Observations& observations, Vec reference_q8,
+void fit_uneven(const Kernels& kernels, const Observations& observations, FixedVec reference_q8,
                 MeasuredDots& dots, PlaneFromImage& plane, PoseFit& fit) {
     fit.surface = Surface::even;
     fit.uneven = {};
     if (observations.count() > dots.capacity()) return;
-    const auto from_centre_px = [&](Vec point_q8) {
-        const Vec p = point_q8 - plane.centre_q8;
+    const auto from_centre_px = [&](FixedVec point_q8) {
+        const FixedVec p = point_q8 - plane.centre_q8;
         return FloatVec{static_cast<float>(p.x) / 256, static_cast<float>(p.y) / 256};
     };
     dots.count = 0;

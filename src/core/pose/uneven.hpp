@@ -16,7 +16,7 @@ void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_p
 /// Does the same for a plane that was fitted to observations. Searches for a line at a much lower
 /// correlation, which takes longer. `dots` is memory for the observations; if it is too small, the
 /// surface counts as even.
-void fit_uneven(const Kernels& kernels, const Observations& observations, Vec reference_q8,
+void fit_uneven(const Kernels& kernels, const Observations& observations, FixedVec reference_q8,
                 MeasuredDots& dots, PlaneFromImage& plane, PoseFit& fit);
 
 }  // namespace dotpose::core

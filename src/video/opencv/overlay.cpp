@@ -24,7 +24,7 @@ int even(double length) {
 
 /// Draws the grid. For a large grid, draws only every n-th line, at most a few hundred.
 void draw_grid(const draw::FrameView& view, cv::Mat& picture) {
-    const Region& grid = view.trace().grid.region;
+    const GridRegion& grid = view.trace().grid.region;
     const int step = std::max({1, grid.columns / 64, grid.rows / 64});
     const auto line = [&](int i0, int j0, int i1, int j1) {
         cv::line(picture, pixel(view.at_grid(i0, j0)), pixel(view.at_grid(i1, j1)), kGrid, 1,
@@ -41,7 +41,7 @@ void draw_grid(const draw::FrameView& view, cv::Mat& picture) {
 
 void draw_dots(const draw::FrameView& view, cv::Mat& picture) {
     const int radius = std::max(2, static_cast<int>(view.spacing() * 0.2));
-    for (const Dot& dot : view.trace().dots)
+    for (const DetectedDot& dot : view.trace().dots)
         cv::circle(picture, pixel(view.at_dot(dot)), radius, kDot, 1, cv::LINE_AA);
 }
 

@@ -71,15 +71,15 @@ void make_drawn(const fs::path& folder) {
         fuzz::LocateHeader header;
         header.width_px = 96;
         header.height_px = 80;
-        header.profile = static_cast<std::uint8_t>(n);
+        header.code = static_cast<std::uint8_t>(n);
         header.flags = fuzz::LocateHeader::drawn;
         header.angle = static_cast<std::uint16_t>(n * 11000);
         Bytes symbols;
         for (std::uint32_t y = 0; y < fuzz::kDrawnSide; ++y) {
             for (std::uint32_t x = 0; x < fuzz::kDrawnSide; ++x) {
                 const Cell cell{1000003u * (n + 1u) + x, 4000037u * (n + 1u) + y};
-                symbols.push_back(
-                    static_cast<std::uint8_t>(symbol_at(static_cast<Profile>(n), cell, {3, 5})));
+                symbols.push_back(static_cast<std::uint8_t>(
+                    symbol_at(static_cast<CodeVariant>(n), cell, {3, 5})));
             }
         }
         write(folder / ("drawn-" + std::to_string(n)), locate_input(header, symbols));

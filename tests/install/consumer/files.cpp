@@ -25,7 +25,7 @@ bool place(const std::filesystem::path& folder) {
     fix.section = {1, 2};
     fix.cell = {1100, 2100};
     fix.covariance[0][0] = fix.covariance[1][1] = 1e-6F;
-    const auto place = find_sheet(sheets, Profile::anoto, fix);
+    const auto place = find_sheet(sheets, CodeVariant::anoto, fix);
     const auto world = place ? world_place(*place) : std::nullopt;
     if (!world) return false;
     std::printf("%.3f mm, %.3f mm; %.4f m, %.4f m\n", place->x_mm, place->y_mm, world->x_m,

@@ -68,7 +68,7 @@ TEST(PrintContradictions, a_resolution_that_contradicts_the_spacing_is_a_fault) 
 TEST(PrintContradictions, judges_dots_that_are_83_pixels_apart) {
     SheetOptions options;
     options.paper = {9, 9};
-    options.pattern.profile = Profile::microdots;
+    options.pattern.code = CodeVariant::microdots;
     options.pattern.section = {10, 10};
     options.margin_mm = 0.5;
     ScanSettings settings;
@@ -80,7 +80,7 @@ TEST(PrintContradictions, judges_dots_that_are_83_pixels_apart) {
     const PrintCheck result =
         check_print(scan_page(make_sheet(options), settings).view(), expected);
     ASSERT_EQ(result.fields.size(), 1U);
-    EXPECT_EQ(result.code, Profile::microdots);
+    EXPECT_EQ(result.code, CodeVariant::microdots);
     EXPECT_NEAR(result.fields[0].spacing_px, 83, 0.05);
     EXPECT_THAT(faults(result), IsEmpty());
 }

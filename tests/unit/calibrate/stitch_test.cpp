@@ -84,10 +84,10 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
         use_camera(camera, image.width_px, image.height_px, options);
         locator.set_options(options);
         const Fix fix = locator.locate(image.view());
-        const auto seen = find_sheet(stitching.sheets, Profile::anoto, fix);
+        const auto seen = find_sheet(stitching.sheets, CodeVariant::anoto, fix);
         ASSERT_TRUE(seen);
         const auto place =
-            find_sheet(stitching.sheets, Profile::anoto,
+            find_sheet(stitching.sheets, CodeVariant::anoto,
                        with_camera(fix, camera, locator.trace(), seen->entry->print_scale()));
         const WorldPlace found = world_place(place.value()).value();
         EXPECT_NEAR(1000 * found.x_m, x_mm + 20 * std::cos(kTheta_rad), 0.02);

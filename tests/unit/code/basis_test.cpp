@@ -13,10 +13,9 @@ TEST(PositionAt, IsThePositionThatLeavesTheseRemainders) {
     std::vector<std::uint32_t> positions{0, 1, 235, 236, kPositionsPerAxis - 1};
     for (int i = 0; i < 1000; ++i)
         positions.push_back(static_cast<std::uint32_t>(rng() % kPositionsPerAxis));
-    for (const Profile profile : kProfiles) {
+    for (const CodeVariant code : kCodeVariants) {
         for (const std::uint32_t p : positions)
-            ASSERT_EQ(code::position_at(code::basis(profile), {p % 236, p % 233, p % 31, p % 241}),
-                      p);
+            ASSERT_EQ(code::position_at(code::basis(code), {p % 236, p % 233, p % 31, p % 241}), p);
     }
 }
 

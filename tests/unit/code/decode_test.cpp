@@ -36,32 +36,32 @@ Grid grid_of(const CodeVector& vector) {
 
 TEST(Decode, FindsTheVectors) {
     for (const CodeVector& vector : kCodeVectors) {
-        SCOPED_TRACE(describe(vector.profile, vector.place));
+        SCOPED_TRACE(describe(vector.code, vector.place));
         Place place;
-        ASSERT_EQ(decode(vector.profile, grid_of(vector).window(), place), Status::ok);
+        ASSERT_EQ(decode(vector.code, grid_of(vector).window(), place), Status::ok);
         EXPECT_EQ(place, vector.place);
     }
 }
 
-void expect_run(Profile profile, std::span<const std::uint8_t> rolls, std::uint32_t first) {
+void expect_run(CodeVariant code, std::span<const std::uint8_t> rolls, std::uint32_t first) {
     for (std::size_t i = 0; i + 6 <= rolls.size(); ++i) {
         std::uint32_t position = 0;
-        const bool twin = profile == Profile::libdots && first + i == 1134;
-        const Status status = position_from_rolls(profile, rolls.subspan(i, 6), position);
+        const bool twin = code == CodeVariant::libdots && first + i == 1134;
+        const Status status = position_from_rolls(code, rolls.subspan(i, 6), position);
         EXPECT_EQ(status, twin ? Status::ambiguous : Status::ok) << "window " << i;
         EXPECT_EQ(position, twin ? 0 : first + i) << "window " << i;
     }
 }
 
 TEST(Decode, RollsFromRealPaperAreOneStraightRun) {
-    expect_run(Profile::anoto, kPaperRollsFrom1117, 1117);
-    expect_run(Profile::anoto, kPaperRollsFrom1097, 1097);
+    expect_run(CodeVariant::anoto, kPaperRollsFrom1117, 1117);
+    expect_run(CodeVariant::anoto, kPaperRollsFrom1097, 1097);
 }
 
 TEST(Decode, RollsFromRealPaperShowTheMisprint) {
     // 1134 = 1117 + 17 is the eighteenth window, at place 170 of a4, where the misprint has a twin.
-    expect_run(Profile::libdots, kPaperRollsFrom1117, 1117);
-    expect_run(Profile::libdots, kPaperRollsFrom1097, 1097);
+    expect_run(CodeVariant::libdots, kPaperRollsFrom1117, 1117);
+    expect_run(CodeVariant::libdots, kPaperRollsFrom1097, 1097);
 }
 
 TEST(Decode, RollsFromRealPaperAreNotTheMicrodotsCode) {
@@ -69,17 +69,17 @@ TEST(Decode, RollsFromRealPaperAreNotTheMicrodotsCode) {
     for (std::size_t i = 0; i + 12 <= kPaperRollsFrom1117.size(); ++i) {
         std::uint32_t position = 0;
         const auto rolls = std::span(kPaperRollsFrom1117).subspan(i, 12);
-        found += position_from_rolls(Profile::microdots, rolls, position) == Status::ok ? 1 : 0;
+        found += position_from_rolls(CodeVariant::microdots, rolls, position) == Status::ok ? 1 : 0;
     }
     EXPECT_EQ(found, 0);
 }
 
 TEST(Decode, AllThePaperRollsTogetherGiveTheFirstPosition) {
-    for (const Profile profile : {Profile::anoto, Profile::libdots}) {
+    for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::libdots}) {
         std::uint32_t position = 0;
-        EXPECT_EQ(position_from_rolls(profile, kPaperRollsFrom1117, position), Status::ok);
+        EXPECT_EQ(position_from_rolls(code, kPaperRollsFrom1117, position), Status::ok);
         EXPECT_EQ(position, 1117U);
-        EXPECT_EQ(position_from_rolls(profile, kPaperRollsFrom1097, position), Status::ok);
+        EXPECT_EQ(position_from_rolls(code, kPaperRollsFrom1097, position), Status::ok);
         EXPECT_EQ(position, 1097U);
     }
 }
@@ -87,23 +87,23 @@ TEST(Decode, AllThePaperRollsTogetherGiveTheFirstPosition) {
 TEST(Decode, RefusesRollsThatAreTooFewTooManyOrTooClose) {
     std::array<std::uint8_t, 33> rolls{};
     for (std::size_t i = 0; i < rolls.size(); ++i) {
-        rolls[i] = static_cast<std::uint8_t>(reference_roll(Profile::anoto, 1000 + i));
+        rolls[i] = static_cast<std::uint8_t>(reference_roll(CodeVariant::anoto, 1000 + i));
     }
     std::uint32_t position = 77;
     for (const std::size_t count : {0U, 1U, 5U, 33U}) {
-        EXPECT_EQ(position_from_rolls(Profile::anoto, std::span(rolls).first(count), position),
+        EXPECT_EQ(position_from_rolls(CodeVariant::anoto, std::span(rolls).first(count), position),
                   Status::bad_window);
         EXPECT_EQ(position, 77U);
     }
     for (const int outside : {0, 1, 4, 59, 62}) {  // differences run from 5 to 58
         auto spoilt = rolls;
         spoilt[4] = static_cast<std::uint8_t>((spoilt[3] + outside) % 63);
-        EXPECT_EQ(position_from_rolls(Profile::anoto, std::span(spoilt).first(6), position),
+        EXPECT_EQ(position_from_rolls(CodeVariant::anoto, std::span(spoilt).first(6), position),
                   Status::not_in_code);
         EXPECT_EQ(position, 77U);
     }
     for (const std::size_t count : {6U, 32U}) {
-        EXPECT_EQ(position_from_rolls(Profile::anoto, std::span(rolls).first(count), position),
+        EXPECT_EQ(position_from_rolls(CodeVariant::anoto, std::span(rolls).first(count), position),
                   Status::ok);
         EXPECT_EQ(position, 1000U);
     }
@@ -118,7 +118,7 @@ TEST(Decode, RefusesBadWindows) {
                             Size{0, 0}, Size{0, 6}, Size{6, 0}, Size{-6, -6}, Size{-6, 6},
                             Size{6, -1}, Size{1 << 30, 8}, Size{65'536, 65'536}}) {
         Place place = kUntouched;
-        EXPECT_EQ(decode(Profile::anoto, {symbols, size.columns, size.rows}, place),
+        EXPECT_EQ(decode(CodeVariant::anoto, {symbols, size.columns, size.rows}, place),
                   Status::bad_window)
             << size.columns << " x " << size.rows;
         EXPECT_EQ(place, kUntouched);
@@ -126,13 +126,13 @@ TEST(Decode, RefusesBadWindows) {
 }
 
 TEST(Decode, RefusesAWindowWithTooFewSymbols) {
-    const Grid grid = reference_window(Profile::anoto, {{10, 20}, {3, 4}}, 7, 9);
+    const Grid grid = reference_window(CodeVariant::anoto, {{10, 20}, {3, 4}}, 7, 9);
     const std::span<const Symbol> all(grid.symbols);
     Place place = kUntouched;
-    EXPECT_EQ(decode(Profile::anoto, {all.first(62), 7, 9}, place), Status::bad_window);
-    EXPECT_EQ(decode(Profile::anoto, {{}, 7, 9}, place), Status::bad_window);
+    EXPECT_EQ(decode(CodeVariant::anoto, {all.first(62), 7, 9}, place), Status::bad_window);
+    EXPECT_EQ(decode(CodeVariant::anoto, {{}, 7, 9}, place), Status::bad_window);
     EXPECT_EQ(place, kUntouched);
-    EXPECT_EQ(decode(Profile::anoto, {all.first(63), 7, 9}, place), Status::ok);
+    EXPECT_EQ(decode(CodeVariant::anoto, {all.first(63), 7, 9}, place), Status::ok);
     EXPECT_EQ(place, (Place{{10, 20}, {3, 4}}));
 }
 
@@ -140,14 +140,14 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     struct Size {
         int columns, rows;
     };
-    for (const Profile profile : kProfiles) {
+    for (const CodeVariant code : kCodeVariants) {
         for (const Size size : {Size{6, 32}, Size{32, 6}, Size{7, 9}, Size{32, 32}, Size{6, 6}}) {
             // The 5 digits at places 100 and 59 of the published a4 stand nowhere else in it.
             const Place truth{{241 * 1000 + 100, 241 * 77 + 59}, {5, 60}};
-            const Grid grid = reference_window(profile, truth, size.columns, size.rows);
+            const Grid grid = reference_window(code, truth, size.columns, size.rows);
             Place place;
-            ASSERT_EQ(decode(profile, grid.window(), place), Status::ok)
-                << size.columns << " x " << size.rows << " " << describe(profile, truth);
+            ASSERT_EQ(decode(code, grid.window(), place), Status::ok)
+                << size.columns << " x " << size.rows << " " << describe(code, truth);
             EXPECT_EQ(place, truth);
         }
     }
@@ -160,9 +160,9 @@ std::set<std::uint32_t> ambiguous_places(int columns, int rows, bool along_x) {
     for (std::uint32_t p = 0; p < 241; ++p) {
         const std::uint32_t far = 241 * 1'234'567 + p;
         const Place truth{along_x ? Cell{far, 100} : Cell{100, far}, {9, 33}};
-        const Grid grid = reference_window(Profile::libdots, truth, columns, rows);
+        const Grid grid = reference_window(CodeVariant::libdots, truth, columns, rows);
         Place place = kUntouched;
-        const Status status = decode(Profile::libdots, grid.window(), place);
+        const Status status = decode(CodeVariant::libdots, grid.window(), place);
         if (status == Status::ambiguous) {
             result.insert(p);
             EXPECT_EQ(place, kUntouched) << p;
@@ -189,16 +189,16 @@ TEST(Decode, RefusesEveryChangedSymbolIn8x8) {
     // Two strings of 8 bits of main differ in at least 2 places, so one wrong bit is always seen.
     std::mt19937 rng(kSeed);
     for (int n = 0; n < 300; ++n) {
-        const Profile profile = kProfiles[static_cast<std::size_t>(n % 3)];
+        const CodeVariant code = kCodeVariants[static_cast<std::size_t>(n % 3)];
         const Place truth = random_place(rng);
-        const Grid grid = reference_window(profile, truth, 8, 8);
+        const Grid grid = reference_window(code, truth, 8, 8);
         for (std::size_t i = 0; i < grid.symbols.size(); ++i) {
             for (int change = 1; change < 4; ++change) {  // x bit, y bit, both
                 Grid spoilt = grid;
                 spoilt.symbols[i] = static_cast<Symbol>(static_cast<int>(grid.symbols[i]) ^ change);
                 Place place = kUntouched;
-                ASSERT_EQ(decode(profile, spoilt.window(), place), Status::not_in_code)
-                    << describe(profile, truth) << " symbol " << i << " seed " << kSeed;
+                ASSERT_EQ(decode(code, spoilt.window(), place), Status::not_in_code)
+                    << describe(code, truth) << " symbol " << i << " seed " << kSeed;
                 ASSERT_EQ(place, kUntouched);
             }
         }
@@ -212,19 +212,19 @@ TEST(Decode, NeverGuessesFromAChanged6x6) {
     constexpr int kDraws = 20'000;
     for (int n = 0; n < kDraws; ++n) {
         const Place truth = random_place(rng);
-        Grid grid = reference_window(Profile::anoto, truth, 6, 6);
+        Grid grid = reference_window(CodeVariant::anoto, truth, 6, 6);
         Symbol& symbol = grid.symbols[static_cast<std::size_t>(random_int(rng, 0, 35))];
         symbol = static_cast<Symbol>(static_cast<int>(symbol) ^ random_int(rng, 1, 2));
         Place place = kUntouched;
-        const Status status = decode(Profile::anoto, grid.window(), place);
-        SCOPED_TRACE(describe(Profile::anoto, truth) + " seed " + std::to_string(kSeed));
+        const Status status = decode(CodeVariant::anoto, grid.window(), place);
+        SCOPED_TRACE(describe(CodeVariant::anoto, truth) + " seed " + std::to_string(kSeed));
         if (status != Status::ok) {
             ASSERT_EQ(status, Status::not_in_code);
             ASSERT_EQ(place, kUntouched);
             continue;
         }
         ASSERT_NE(place, truth);
-        ASSERT_TRUE(shows(Profile::anoto, place, grid)) << describe(Profile::anoto, place);
+        ASSERT_TRUE(shows(CodeVariant::anoto, place, grid)) << describe(CodeVariant::anoto, place);
         ++elsewhere;
     }
     // 70.6 % by an independent simulation in another language; standard deviation 0.3 %.
@@ -240,11 +240,11 @@ TEST(Decode, NeverGuessesFromRandomSymbols) {
         for (Symbol& symbol : grid.symbols)
             symbol = static_cast<Symbol>(random_int(rng, 0, 3));
         Place place = kUntouched;
-        const Status status = decode(Profile::anoto, grid.window(), place);
+        const Status status = decode(CodeVariant::anoto, grid.window(), place);
         if (status == Status::ok) {
             ++found;
-            ASSERT_TRUE(shows(Profile::anoto, place, grid))
-                << describe(Profile::anoto, place) << " draw " << n << " seed " << kSeed;
+            ASSERT_TRUE(shows(CodeVariant::anoto, place, grid))
+                << describe(CodeVariant::anoto, place) << " draw " << n << " seed " << kSeed;
         } else {
             ASSERT_EQ(status, Status::not_in_code) << "draw " << n << " seed " << kSeed;
             ASSERT_EQ(place, kUntouched);
@@ -262,9 +262,9 @@ TEST(Decode, RefusesRandom8x8) {
         Grid grid{8, 8, std::vector<Symbol>(64)};
         for (Symbol& symbol : grid.symbols)
             symbol = static_cast<Symbol>(random_int(rng, 0, 3));
-        const Profile profile = kProfiles[static_cast<std::size_t>(n % 3)];
+        const CodeVariant code = kCodeVariants[static_cast<std::size_t>(n % 3)];
         Place place = kUntouched;
-        ASSERT_EQ(decode(profile, grid.window(), place), Status::not_in_code) << "seed " << kSeed;
+        ASSERT_EQ(decode(code, grid.window(), place), Status::not_in_code) << "seed " << kSeed;
         ASSERT_EQ(place, kUntouched);
     }
 }
@@ -273,16 +273,16 @@ TEST(Decode, RefusesOneSymbolAllOver) {
     for (const Symbol symbol : {Symbol::up, Symbol::left, Symbol::right, Symbol::down}) {
         const std::vector<Symbol> symbols(64, symbol);
         Place place = kUntouched;
-        EXPECT_EQ(decode(Profile::anoto, {symbols, 8, 8}, place), Status::not_in_code);
+        EXPECT_EQ(decode(CodeVariant::anoto, {symbols, 8, 8}, place), Status::not_in_code);
         EXPECT_EQ(place, kUntouched);
     }
 }
 
 /// A window whose columns from `cut` on belong to another section.
 Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int cut) {
-    Grid seam = reference_window(Profile::anoto, place, columns, 8);
+    Grid seam = reference_window(CodeVariant::anoto, place, columns, 8);
     const Place other{place.cell, {other_u, place.section.v}};
-    const Grid there = reference_window(Profile::anoto, other, columns, 8);
+    const Grid there = reference_window(CodeVariant::anoto, other, columns, 8);
     for (int r = 0; r < 8; ++r) {
         for (int c = cut; c < columns; ++c) {
             seam.symbols[seam.index(c, r)] = there.symbols[seam.index(c, r)];
@@ -301,14 +301,14 @@ TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
         const Place truth = random_place(rng);
         const auto other =
             static_cast<std::uint8_t>((truth.section.u + random_int(rng, 1, 62)) % 63);
-        SCOPED_TRACE(describe(Profile::anoto, truth) + " seed " + std::to_string(kSeed));
+        SCOPED_TRACE(describe(CodeVariant::anoto, truth) + " seed " + std::to_string(kSeed));
         Place place = kUntouched;
         const Grid eleven = across_sections(truth, other, 11, random_int(rng, 1, 10));
-        ASSERT_EQ(decode(Profile::anoto, eleven.window(), place), Status::not_in_code);
+        ASSERT_EQ(decode(CodeVariant::anoto, eleven.window(), place), Status::not_in_code);
         ASSERT_EQ(place, kUntouched);
         const Grid eight = across_sections(truth, other, 8, random_int(rng, 1, 7));
-        if (decode(Profile::anoto, eight.window(), place) != Status::ok) continue;
-        ASSERT_TRUE(shows(Profile::anoto, place, eight)) << describe(Profile::anoto, place);
+        if (decode(CodeVariant::anoto, eight.window(), place) != Status::ok) continue;
+        ASSERT_TRUE(shows(CodeVariant::anoto, place, eight)) << describe(CodeVariant::anoto, place);
         ++found_in_8;
     }
     // Eight columns are not always enough: 0.75 % by an independent simulation in another language
@@ -316,12 +316,12 @@ TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
     EXPECT_NEAR(static_cast<double>(found_in_8) / kDraws, 0.0075, 0.0025);
 }
 
-// The profile must be that of the sheet: windows were counted from the sequences by a program in
-// another language.
+// The code variant must be that of the sheet: windows were counted from the sequences by a program
+// in another language.
 TEST(Decode, TheOtherProfileReadsSomeWindowsWrong) {
-    using Pair = std::pair<Profile, Profile>;
-    for (const auto& [printed, read] :
-         {Pair{Profile::anoto, Profile::libdots}, Pair{Profile::libdots, Profile::anoto}}) {
+    using Pair = std::pair<CodeVariant, CodeVariant>;
+    for (const auto& [printed, read] : {Pair{CodeVariant::anoto, CodeVariant::libdots},
+                                        Pair{CodeVariant::libdots, CodeVariant::anoto}}) {
         SCOPED_TRACE(static_cast<int>(read));
         int right = 0;
         int wrong = 0;

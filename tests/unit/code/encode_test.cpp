@@ -21,8 +21,8 @@ constexpr std::uint32_t kSeed = 20130;
 
 /// Returns the roll by counting: each residue i of a sequence is passed ceil((p - i) / length)
 /// times before p.
-int roll_by_counting(Profile profile, std::uint64_t p) {
-    const auto texts = secondary_texts(profile);
+int roll_by_counting(CodeVariant code, std::uint64_t p) {
+    const auto texts = secondary_texts(code);
     std::uint64_t sum = 5 * p;
     for (std::size_t n = 0; n < texts.size(); ++n) {
         const std::uint64_t length = texts[n].size();
@@ -36,12 +36,12 @@ int roll_by_counting(Profile profile, std::uint64_t p) {
 
 TEST(Encode, GivesTheVectors) {
     for (const CodeVector& vector : kCodeVectors) {
-        SCOPED_TRACE(describe(vector.profile, vector.place));
+        SCOPED_TRACE(describe(vector.code, vector.place));
         for (std::uint32_t r = 0; r < 8; ++r) {
             std::string row;
             for (std::uint32_t c = 0; c < 8; ++c) {
                 const Cell cell{vector.place.cell.x + c, vector.place.cell.y + r};
-                row += letter(symbol_at(vector.profile, cell, vector.place.section));
+                row += letter(symbol_at(vector.code, cell, vector.place.section));
             }
             EXPECT_EQ(row, vector.rows[r]) << "row " << r;
         }
@@ -50,8 +50,8 @@ TEST(Encode, GivesTheVectors) {
 
 TEST(Encode, TheReferenceGivesTheVectors) {
     for (const CodeVector& vector : kCodeVectors) {
-        SCOPED_TRACE(describe(vector.profile, vector.place));
-        const Grid grid = reference_window(vector.profile, vector.place, 8, 8);
+        SCOPED_TRACE(describe(vector.code, vector.place));
+        const Grid grid = reference_window(vector.code, vector.place, 8, 8);
         for (int i = 0; i < 64; ++i) {
             const auto [row, column] = std::div(i, 8);
             EXPECT_EQ(
@@ -91,14 +91,14 @@ TEST(Encode, MainBitsAreCyclic) {
 
 TEST(Encode, DeltasStayWithin5To58AndReachBoth) {
     std::mt19937 rng(kSeed);
-    for (const Profile profile : kProfiles) {
-        SCOPED_TRACE(describe(profile, {}));
+    for (const CodeVariant code : kCodeVariants) {
+        SCOPED_TRACE(describe(code, {}));
         int smallest = 63;
         int largest = 0;
         for (std::uint32_t i = 0; i < 200'000; ++i) {
             const std::uint32_t p = i < 100'000 ? i : random_place(rng).cell.x;
-            const int d = delta(profile, p);
-            ASSERT_EQ(d, reference_delta(profile, p)) << "p " << p << " seed " << kSeed;
+            const int d = delta(code, p);
+            ASSERT_EQ(d, reference_delta(code, p)) << "p " << p << " seed " << kSeed;
             smallest = std::min(smallest, d);
             largest = std::max(largest, d);
         }
@@ -108,35 +108,34 @@ TEST(Encode, DeltasStayWithin5To58AndReachBoth) {
 }
 
 TEST(Encode, RollIsThePlainSumOfDifferences) {
-    for (const Profile profile : kProfiles) {
+    for (const CodeVariant code : kCodeVariants) {
         int sum = 0;
         for (std::uint32_t p = 0; p < 100'000; ++p) {
-            ASSERT_EQ(roll(profile, p), sum) << describe(profile, {}) << " p " << p;
-            sum = (sum + reference_delta(profile, p)) % 63;
+            ASSERT_EQ(roll(code, p), sum) << describe(code, {}) << " p " << p;
+            sum = (sum + reference_delta(code, p)) % 63;
         }
     }
 }
 
 TEST(Encode, RollAtRandomPositionsIsTheCountedSum) {
     std::mt19937 rng(kSeed);
-    for (const Profile profile : kProfiles) {
+    for (const CodeVariant code : kCodeVariants) {
         for (int i = 0; i < 20'000; ++i) {
             const auto p = static_cast<std::uint32_t>(rng());  // a tenth of them below L
-            const int expected = roll_by_counting(profile, p);
-            ASSERT_EQ(roll(profile, p), expected) << "p " << p << " seed " << kSeed;
-            ASSERT_EQ(reference_roll(profile, p), expected) << "p " << p << " seed " << kSeed;
-            ASSERT_EQ(roll(profile, p % kL), roll_by_counting(profile, p % kL)) << "p " << p % kL;
+            const int expected = roll_by_counting(code, p);
+            ASSERT_EQ(roll(code, p), expected) << "p " << p << " seed " << kSeed;
+            ASSERT_EQ(reference_roll(code, p), expected) << "p " << p << " seed " << kSeed;
+            ASSERT_EQ(roll(code, p % kL), roll_by_counting(code, p % kL)) << "p " << p % kL;
         }
     }
 }
 
 TEST(Encode, RollStepsByDeltaAcrossTheWrap) {
-    for (const Profile profile : kProfiles) {
+    for (const CodeVariant code : kCodeVariants) {
         for (std::uint32_t p = kL - 500; p < kL + 500; ++p) {
-            const int step = (roll(profile, p + 1) + 63 - roll(profile, p)) % 63;
-            ASSERT_EQ(step, delta(profile, p)) << describe(profile, {}) << " p " << p;
-            ASSERT_EQ(step, reference_delta(profile, p % kL))
-                << describe(profile, {}) << " p " << p;
+            const int step = (roll(code, p + 1) + 63 - roll(code, p)) % 63;
+            ASSERT_EQ(step, delta(code, p)) << describe(code, {}) << " p " << p;
+            ASSERT_EQ(step, reference_delta(code, p % kL)) << describe(code, {}) << " p " << p;
         }
     }
 }
@@ -148,21 +147,21 @@ TEST(Encode, ThePatternContinuesPastTheLastPosition) {
     EXPECT_EQ(kL, 410'815'348U);
     EXPECT_EQ(kL % 63, 34U);
     std::mt19937 rng(kSeed);
-    for (const Profile profile : kProfiles) {
-        const int turn = profile == Profile::microdots ? 25 : 52;
-        EXPECT_EQ(roll_by_counting(profile, kL), turn);
-        EXPECT_EQ(roll(profile, kL), turn);
+    for (const CodeVariant code : kCodeVariants) {
+        const int turn = code == CodeVariant::microdots ? 25 : 52;
+        EXPECT_EQ(roll_by_counting(code, kL), turn);
+        EXPECT_EQ(roll(code, kL), turn);
         for (int i = 0; i < 2'000; ++i) {
             const Place near = random_place(rng);
             const auto [u, v] = near.section;
             const auto shifted = [](int section, int by) {
                 return static_cast<std::uint8_t>((section + by) % 63);
             };
-            SCOPED_TRACE(describe(profile, near) + " seed " + std::to_string(kSeed));
-            ASSERT_EQ(symbol_at(profile, {near.cell.x + kL, near.cell.y}, {u, v}),
-                      symbol_at(profile, near.cell, {shifted(u, turn), shifted(v, 34)}));
-            ASSERT_EQ(symbol_at(profile, {near.cell.x, near.cell.y + kL}, {u, v}),
-                      symbol_at(profile, near.cell, {shifted(u, 34), shifted(v, turn)}));
+            SCOPED_TRACE(describe(code, near) + " seed " + std::to_string(kSeed));
+            ASSERT_EQ(symbol_at(code, {near.cell.x + kL, near.cell.y}, {u, v}),
+                      symbol_at(code, near.cell, {shifted(u, turn), shifted(v, 34)}));
+            ASSERT_EQ(symbol_at(code, {near.cell.x, near.cell.y + kL}, {u, v}),
+                      symbol_at(code, near.cell, {shifted(u, 34), shifted(v, turn)}));
         }
     }
 }
@@ -170,31 +169,30 @@ TEST(Encode, ThePatternContinuesPastTheLastPosition) {
 TEST(Encode, SymbolsAtRandomCellsAreTheReferences) {
     std::mt19937 rng(kSeed);
     for (int i = 0; i < 100'000; ++i) {
-        const Profile profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         const Place place = random_place(rng);
-        ASSERT_EQ(symbol_at(profile, place.cell, place.section),
-                  reference_window(profile, place, 1, 1).symbols[0])
-            << describe(profile, place) << " seed " << kSeed;
+        ASSERT_EQ(symbol_at(code, place.cell, place.section),
+                  reference_window(code, place, 1, 1).symbols[0])
+            << describe(code, place) << " seed " << kSeed;
     }
 }
 
 TEST(Encode, SectionIsWhatIsLeftOfTheRoll) {
     std::mt19937 rng(kSeed);
     for (int i = 0; i < 100'000; ++i) {
-        const Profile profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         const auto [cell, section] = random_place(rng);
         const int seen = static_cast<int>(
-            (static_cast<std::uint64_t>(reference_roll(profile, cell.x)) + section.u + cell.y) %
-            63);
-        ASSERT_EQ(section_of(profile, seen, cell.x, cell.y), section.u)
-            << describe(profile, {cell, section}) << " seed " << kSeed;
+            (static_cast<std::uint64_t>(reference_roll(code, cell.x)) + section.u + cell.y) % 63);
+        ASSERT_EQ(section_of(code, seen, cell.x, cell.y), section.u)
+            << describe(code, {cell, section}) << " seed " << kSeed;
     }
 }
 
 TEST(Encode, PublishedAndRestoredDifferInFewColumns) {
     std::set<std::uint32_t> differing;
     for (std::uint32_t p = 0; p < 5 * 241; ++p) {
-        if (roll(Profile::anoto, p) != roll(Profile::libdots, p)) differing.insert(p % 241);
+        if (roll(CodeVariant::anoto, p) != roll(CodeVariant::libdots, p)) differing.insert(p % 241);
     }
     EXPECT_EQ(differing, (std::set<std::uint32_t>{222, 223, 224, 225, 227, 228, 230, 231, 233, 234,
                                                   235, 236, 237, 238}));

@@ -16,7 +16,8 @@
 
 namespace dotpose::code_test {
 
-inline constexpr std::array kProfiles{Profile::anoto, Profile::libdots, Profile::microdots};
+inline constexpr std::array kCodeVariants{CodeVariant::anoto, CodeVariant::libdots,
+                                          CodeVariant::microdots};
 inline constexpr std::uint32_t kL = 236U * 233U * 31U * 241U;
 
 inline constexpr std::string_view kMainText =
@@ -43,14 +44,14 @@ inline constexpr std::string_view kA4MicrodotsText =
     "010020000122201221012200121201211012100120001122011210112001112011112222122211221112122121"
     "2112111110111001100010220102101020010120201201011020110101001";
 
-/// The sequences a1 to a4 of a profile.
-inline std::array<std::string_view, 4> secondary_texts(Profile profile) {
-    switch (profile) {
-        case Profile::anoto:
+/// The sequences a1 to a4 of a code variant.
+inline std::array<std::string_view, 4> secondary_texts(CodeVariant code) {
+    switch (code) {
+        case CodeVariant::anoto:
             return {kA1Text, kA2Text, kA3Text, kA4RestoredText};
-        case Profile::libdots:
+        case CodeVariant::libdots:
             return {kA1Text, kA2Text, kA3Text, kA4PublishedText};
-        case Profile::microdots:
+        case CodeVariant::microdots:
             return {kA1Text, kA2Text, kA3Text, kA4MicrodotsText};
     }
     return {};
@@ -62,8 +63,8 @@ inline int digit_at(std::string_view text, std::uint64_t index) {
     return text[index % text.size()] - '0';
 }
 
-inline int reference_delta(Profile profile, std::uint64_t p) {
-    const auto texts = secondary_texts(profile);
+inline int reference_delta(CodeVariant code, std::uint64_t p) {
+    const auto texts = secondary_texts(code);
     int d = 5;
     for (std::size_t n = 0; n < texts.size(); ++n)
         d += kWeights[n] * digit_at(texts[n], p);
@@ -71,8 +72,8 @@ inline int reference_delta(Profile profile, std::uint64_t p) {
 }
 
 /// Sum of the differences before p: whole turns of each sequence, then digit by digit.
-inline int reference_roll(Profile profile, std::uint64_t p) {
-    const auto texts = secondary_texts(profile);
+inline int reference_roll(CodeVariant code, std::uint64_t p) {
+    const auto texts = secondary_texts(code);
     std::uint64_t sum = 5 * p;
     for (std::size_t n = 0; n < texts.size(); ++n) {
         std::uint64_t turn = 0;
@@ -93,7 +94,7 @@ struct Grid {
     int rows = 0;
     std::vector<Symbol> symbols;
 
-    [[nodiscard]] Window window() const { return {symbols, columns, rows}; }
+    [[nodiscard]] SymbolWindow window() const { return {symbols, columns, rows}; }
     [[nodiscard]] std::size_t index(int column, int row) const {
         return static_cast<std::size_t>(row * columns + column);
     }
@@ -134,12 +135,12 @@ inline Symbol symbol_of_letter(char c) {
 }
 
 /// The window at `place`; it may run past position L.
-inline Grid reference_window(Profile profile, const Place& place, int columns, int rows) {
-    const auto rolls = [profile](std::uint64_t start, int section, int count) {
-        std::vector<int> result{reference_roll(profile, start) + section};
+inline Grid reference_window(CodeVariant code, const Place& place, int columns, int rows) {
+    const auto rolls = [code](std::uint64_t start, int section, int count) {
+        std::vector<int> result{reference_roll(code, start) + section};
         for (int i = 0; i + 1 < count; ++i) {
             result.push_back(result.back() +
-                             reference_delta(profile, start + static_cast<std::uint64_t>(i)));
+                             reference_delta(code, start + static_cast<std::uint64_t>(i)));
         }
         return result;
     };
@@ -186,9 +187,9 @@ inline Grid turned(const Grid& grid) {
 }
 
 /// Whether `place` really shows the window, as the status ok promises.
-inline bool shows(Profile profile, const Place& place, const Grid& grid) {
+inline bool shows(CodeVariant code, const Place& place, const Grid& grid) {
     return place.cell.x < kL && place.cell.y < kL && place.section.u < 63 && place.section.v < 63 &&
-           reference_window(profile, place, grid.columns, grid.rows) == grid;
+           reference_window(code, place, grid.columns, grid.rows) == grid;
 }
 
 template <typename Rng>
@@ -204,8 +205,8 @@ Place random_place(Rng& rng) {
              static_cast<std::uint8_t>(random_int(rng, 0, 62))}};
 }
 
-inline std::string describe(Profile profile, const Place& place) {
-    return "profile " + std::to_string(static_cast<int>(profile)) + " cell (" +
+inline std::string describe(CodeVariant code, const Place& place) {
+    return "code " + std::to_string(static_cast<int>(code)) + " cell (" +
            std::to_string(place.cell.x) + ", " + std::to_string(place.cell.y) + ") section (" +
            std::to_string(place.section.u) + ", " + std::to_string(place.section.v) + ")";
 }

@@ -12,31 +12,31 @@ namespace {
 constexpr std::uint32_t kSeed = 50;
 
 /// Rolls of `count` lines; the first shows `first_roll`.
-std::vector<std::uint8_t> followed(Profile profile, std::uint32_t position, int first_roll,
+std::vector<std::uint8_t> followed(CodeVariant code, std::uint32_t position, int first_roll,
                                    std::size_t count) {
     std::vector<std::uint8_t> rolls(count, 99);
-    code::follow_rolls(profile, position, first_roll, rolls);
+    code::follow_rolls(code, position, first_roll, rolls);
     return rolls;
 }
 
 TEST(RollFrom, GivesTheBitsBelowAndBeside) {
     std::mt19937 rng(kSeed);
     for (int i = 0; i < 300; ++i) {
-        const Profile profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         const Place place = random_place(rng);
         const auto [x, y] = place.cell;
-        const int column = code::roll_from(profile, x, place.section.u, y);
-        const int row = code::roll_from(profile, y, place.section.v, x);
+        const int column = code::roll_from(code, x, place.section.u, y);
+        const int row = code::roll_from(code, y, place.section.v, x);
         ASSERT_GE(std::min(column, row), 0);
         ASSERT_LT(std::max(column, row), kSections);
         for (std::uint32_t n = 0; n < 63; ++n) {
             const auto bit = [n](int roll) {
                 return main_bit(static_cast<std::uint32_t>(roll) + n);
             };
-            ASSERT_EQ(bit(column), x_bit(symbol_at(profile, {x, y + n}, place.section)))
-                << describe(profile, place) << ", " << n;
-            ASSERT_EQ(bit(row), y_bit(symbol_at(profile, {x + n, y}, place.section)))
-                << describe(profile, place) << ", " << n;
+            ASSERT_EQ(bit(column), x_bit(symbol_at(code, {x, y + n}, place.section)))
+                << describe(code, place) << ", " << n;
+            ASSERT_EQ(bit(row), y_bit(symbol_at(code, {x + n, y}, place.section)))
+                << describe(code, place) << ", " << n;
         }
     }
 }
@@ -44,15 +44,15 @@ TEST(RollFrom, GivesTheBitsBelowAndBeside) {
 TEST(FollowRolls, AreTheRollsOfEachPosition) {
     std::mt19937 rng(kSeed);
     for (int i = 0; i < 300; ++i) {
-        const Profile profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         const Place place = random_place(rng);
         const std::uint32_t position = place.cell.x / 2;
-        const auto rolls = followed(profile, position, roll(profile, position), 256);
+        const auto rolls = followed(code, position, roll(code, position), 256);
         for (std::size_t line = 0; line < rolls.size(); ++line) {
             const auto at = position + static_cast<std::uint32_t>(line);
-            ASSERT_EQ(rolls[line], roll(profile, at)) << describe(profile, place) << ", " << line;
+            ASSERT_EQ(rolls[line], roll(code, at)) << describe(code, place) << ", " << line;
             if (line % 50 == 0) {
-                ASSERT_EQ(rolls[line], reference_roll(profile, at));
+                ASSERT_EQ(rolls[line], reference_roll(code, at));
             }
         }
     }
@@ -61,25 +61,25 @@ TEST(FollowRolls, AreTheRollsOfEachPosition) {
 TEST(FollowRolls, CountFromTheFirstRollGiven) {
     std::mt19937 rng(kSeed);
     for (int first = 0; first < 63; ++first) {
-        const Profile profile = kProfiles[static_cast<std::size_t>(first % 3)];
+        const CodeVariant code = kCodeVariants[static_cast<std::size_t>(first % 3)];
         const std::uint32_t position = random_place(rng).cell.x;
         int expected = first;
         std::uint64_t at = position;
-        for (const std::uint8_t found : followed(profile, position, first, 64)) {
+        for (const std::uint8_t found : followed(code, position, first, 64)) {
             ASSERT_EQ(found, expected) << position << " + " << at - position << ", seed " << kSeed;
-            expected = (expected + reference_delta(profile, at++)) % 63;
+            expected = (expected + reference_delta(code, at++)) % 63;
         }
     }
 }
 
 TEST(FollowRolls, CarryOverTheEndOfTheCode) {
     // The sequences all end with the code, and begin again; the roll goes on.
-    for (const Profile profile : kProfiles) {
+    for (const CodeVariant code : kCodeVariants) {
         for (const std::uint32_t before : {1U, 2U, 31U, 200U}) {
             const std::uint32_t position = kL - before;
-            const auto rolls = followed(profile, position, roll(profile, position), 256);
+            const auto rolls = followed(code, position, roll(code, position), 256);
             for (std::size_t line = 0; line < rolls.size(); ++line) {
-                ASSERT_EQ(rolls[line], reference_roll(profile, std::uint64_t{position} + line))
+                ASSERT_EQ(rolls[line], reference_roll(code, std::uint64_t{position} + line))
                     << before << " before the end, line " << line;
             }
         }
@@ -87,16 +87,16 @@ TEST(FollowRolls, CarryOverTheEndOfTheCode) {
 }
 
 TEST(FollowRolls, OneLineShowsTheFirstRollAndNoneNothing) {
-    EXPECT_EQ(followed(Profile::anoto, 12345, 62, 1), (std::vector<std::uint8_t>{62}));
-    EXPECT_TRUE(followed(Profile::anoto, 12345, 62, 0).empty());
+    EXPECT_EQ(followed(CodeVariant::anoto, 12345, 62, 1), (std::vector<std::uint8_t>{62}));
+    EXPECT_TRUE(followed(CodeVariant::anoto, 12345, 62, 0).empty());
 }
 
 TEST(RollFurther, IsTheDifferenceOfTheRolls) {
     std::mt19937 rng(kSeed);
     for (int i = 0; i < 300; ++i) {
         const std::uint32_t position = i == 0 ? 0 : i == 1 ? kL - 1 : random_place(rng).cell.x;
-        for (const Profile read : kProfiles) {
-            for (const Profile other : kProfiles) {
+        for (const CodeVariant read : kCodeVariants) {
+            for (const CodeVariant other : kCodeVariants) {
                 const int further =
                     reference_roll(other, position) + 63 - reference_roll(read, position);
                 ASSERT_EQ(code::roll_further(read, other, position, position % 241), further % 63)

@@ -35,10 +35,10 @@ std::vector<std::string> main_strings(std::size_t length) {
 }
 
 /// Returns a4, the most significant digit of a difference: d = 5 + a1 + 3 a2 + 9 a3 + 18 a4.
-std::string a4_of(Profile profile) {
+std::string a4_of(CodeVariant code) {
     std::string cycle;
     for (std::uint32_t p = 0; p < 241; ++p) {
-        cycle += static_cast<char>('0' + (delta(profile, p) - 5) / 18);
+        cycle += static_cast<char>('0' + (delta(code, p) - 5) / 18);
     }
     return cycle;
 }
@@ -170,7 +170,7 @@ TEST(MainSequence, TheNearestStringIsTheRightOneIn38Percent) {
 }
 
 TEST(A4, ThePublishedOneIsMisprinted) {
-    const std::string a4 = a4_of(Profile::libdots);
+    const std::string a4 = a4_of(CodeVariant::libdots);
     std::set<std::vector<int>> places;
     for (const auto& [s, where] : doubled(a4, 5))
         places.insert(where);
@@ -182,20 +182,20 @@ TEST(A4, ThePublishedOneIsMisprinted) {
 }
 
 TEST(A4, TheRestoredOneLeavesOutTwoConstantStrings) {
-    const std::string a4 = a4_of(Profile::anoto);
+    const std::string a4 = a4_of(CodeVariant::anoto);
     EXPECT_TRUE(doubled(a4, 5).empty());
     EXPECT_EQ(absent(a4), (std::set<std::string>{"11111", "22222"}));
 }
 
 TEST(A4, TheMicrodotsOneIsSound) {
-    const std::string a4 = a4_of(Profile::microdots);
+    const std::string a4 = a4_of(CodeVariant::microdots);
     EXPECT_TRUE(doubled(a4, 5).empty());
     EXPECT_EQ(absent(a4).size(), 2U);
 }
 
 // The patent prints 240 digits; the 241st, a 1, was appended by open implementations.
 TEST(A4, OnlyOneInsertedDigitRestoresThePatents) {
-    const std::string printed = a4_of(Profile::libdots).substr(0, 240);
+    const std::string printed = a4_of(CodeVariant::libdots).substr(0, 240);
     std::set<std::string> sound;
     for (std::size_t i = 0; i <= printed.size(); ++i) {
         for (const char digit : {'0', '1', '2'}) {
@@ -204,8 +204,8 @@ TEST(A4, OnlyOneInsertedDigitRestoresThePatents) {
             if (doubled(candidate, 5).empty()) sound.insert(candidate);
         }
     }
-    EXPECT_EQ(sound, std::set<std::string>{a4_of(Profile::anoto)});
-    EXPECT_EQ(a4_of(Profile::anoto), std::string(printed).insert(220, 1, '1'));
+    EXPECT_EQ(sound, std::set<std::string>{a4_of(CodeVariant::anoto)});
+    EXPECT_EQ(a4_of(CodeVariant::anoto), std::string(printed).insert(220, 1, '1'));
 }
 
 }  // namespace

@@ -32,17 +32,17 @@ TEST(ModuloSections, LeavesWhatADivisionLeaves) {
 }
 
 TEST(Secondary, HasThePlaceThatADivisionLeaves) {
-    for (const code::Secondary& a : code::basis(Profile::anoto)) {
+    for (const code::Secondary& a : code::basis(CodeVariant::anoto)) {
         for (const std::uint32_t n : many_numbers())
             ASSERT_EQ(a.place_of(n), n % a.length) << n << " of " << int{a.length};
     }
 }
 
 TEST(Secondary, RollsAndPlacesOfDigitsGoOnBeyondTheEnd) {
-    for (const Profile profile : kProfiles) {
-        const auto texts = secondary_texts(profile);
+    for (const CodeVariant code : kCodeVariants) {
+        const auto texts = secondary_texts(code);
         for (std::size_t k = 0; k < texts.size(); ++k) {
-            const code::Secondary& a = code::basis(profile)[k];
+            const code::Secondary& a = code::basis(code)[k];
             ASSERT_EQ(a.length, texts[k].size());
             int roll = 0;
             for (std::size_t i = 0; i < a.length + code::kLinesAhead; ++i) {

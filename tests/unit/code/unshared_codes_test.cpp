@@ -1,5 +1,5 @@
-// The table of lines that places of other profiles do not share, compared with the rolls of the
-// reference.
+// The table of lines that places of other code variants do not share, compared with the rolls of
+// the reference.
 #include "code/unshared_codes.hpp"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace dotpose::code_test::unshared_codes_test {
 namespace {
 
 /// Returns what the digits of a4 before each line from `place` on add to the roll.
-std::vector<int> a4_rolls(Profile profile, std::size_t place, int lines) {
-    const std::string_view a4 = secondary_texts(profile)[3];
+std::vector<int> a4_rolls(CodeVariant code, std::size_t place, int lines) {
+    const std::string_view a4 = secondary_texts(code)[3];
     std::vector<int> rolls;
     int sum = 0;
     for (std::size_t p = 0; p < place; ++p)
@@ -26,9 +26,9 @@ std::vector<int> a4_rolls(Profile profile, std::size_t place, int lines) {
     return rolls;
 }
 
-int max_shared(Profile read, std::size_t own, Profile other, int lines) {
+int max_shared(CodeVariant read, std::size_t own, CodeVariant other, int lines) {
     const std::vector<int> rolls = a4_rolls(read, own, lines);
-    const bool have_same_rolls = read != Profile::microdots && other != Profile::microdots;
+    const bool have_same_rolls = read != CodeVariant::microdots && other != CodeVariant::microdots;
     int most = 0;
     for (std::size_t place = 0; place < 241; ++place) {
         const std::vector<int> theirs = a4_rolls(other, place, lines);
@@ -43,8 +43,8 @@ int max_shared(Profile read, std::size_t own, Profile other, int lines) {
 }
 
 TEST(UnsharedInOther, IsWhatCountingGives) {
-    for (const Profile read : kProfiles) {
-        for (const Profile other : kProfiles) {
+    for (const CodeVariant read : kCodeVariants) {
+        for (const CodeVariant other : kCodeVariants) {
             if (read == other) continue;
             for (std::size_t i = 0; i < code::kUnsharedOf.size(); ++i) {
                 const std::string_view row =
@@ -62,7 +62,7 @@ TEST(UnsharedInOther, IsWhatCountingGives) {
 TEST(UnsharedInOther, TheSamePlaceHasTheSameRollsInAnotoAndLibdots) {
     for (std::uint32_t position = 0; position < kPositionsPerAxis; position += 1'234'567) {
         if (position % 241 < 222) {
-            EXPECT_EQ(roll(Profile::anoto, position), roll(Profile::libdots, position));
+            EXPECT_EQ(roll(CodeVariant::anoto, position), roll(CodeVariant::libdots, position));
         }
     }
 }

@@ -49,7 +49,7 @@ Unshared counted(const Secondary& a, std::uint32_t place, std::size_t lines) {
 }
 
 TEST(UnsharedLines, AreAsCounted) {
-    const Basis& sequences = basis(Profile::anoto);
+    const Basis& sequences = basis(CodeVariant::anoto);
     for (std::size_t row = 0; row < kUnsharedOf.size(); ++row) {
         for (std::size_t k = 0; k < sequences.size(); ++k) {
             for (std::uint32_t place = 0; place < sequences[k].length; ++place) {
@@ -87,8 +87,8 @@ TEST(UnsharedLines, AreOfAsManyPositionsAsCounted) {
     for (std::size_t row = 0; row < kUnsharedOf.size(); ++row) {
         for (std::size_t k = 0; k < 4; ++k) {
             Counts most{};
-            for (const Profile profile : code_test::kProfiles) {
-                const Secondary& a = basis(profile)[k];
+            for (const CodeVariant code : code_test::kCodeVariants) {
+                const Secondary& a = basis(code)[k];
                 for (std::uint32_t place = 0; place < a.length; ++place) {
                     const Counts here =
                         counted_by_unshared(a, place, static_cast<std::size_t>(kUnsharedOf[row]));

@@ -12,37 +12,37 @@ namespace dotpose::code_test {
 
 /// The 8 x 8 letters of the window whose top left symbol stands at `place`.
 struct CodeVector {
-    Profile profile;
+    CodeVariant code;
     Place place;
     std::array<std::string_view, 8> rows;
 };
 
 inline constexpr std::array<CodeVector, 7> kCodeVectors{{
-    {Profile::anoto,
+    {CodeVariant::anoto,
      {{0, 0}, {0, 0}},
      {"uulluldu", "udlurrdr", "rrdruduu", "ruldllul", "ulurddur", "rldrduur", "dduuuuul",
       "ulurllrd"}},
-    {Profile::anoto,
+    {CodeVariant::anoto,
      {{122, 3219}, {0, 0}},
      {"ruldrdrr", "rdruudlr", "dllruuul", "lrlllrld", "dluruull", "luudlrrl", "lllulrll",
       "ulddurlr"}},
-    {Profile::anoto,
+    {CodeVariant::anoto,
      {{217, 1134}, {0, 0}},
      {"dddurddl", "rdddrudu", "rrluulul", "rdulduru", "ululuudu", "rlrrruud", "uuldddlr",
       "lrlddurr"}},
-    {Profile::anoto,
+    {CodeVariant::anoto,
      {{410815341, 5}, {62, 1}},
      {"urrrduul", "urdrllrl", "lrlrldlu", "drddduru", "drdurdru", "lulrurrl", "dlrlrdrd",
       "rrdllldr"}},
-    {Profile::anoto,
+    {CodeVariant::anoto,
      {{123456789, 400000000}, {10, 2}},
      {"lddruddd", "ldluudlr", "uddddull", "llruldrr", "ddrdlulr", "lrrllull", "rllulddr",
       "uulluuru"}},
-    {Profile::libdots,
+    {CodeVariant::libdots,
      {{122, 3219}, {0, 0}},
      {"ruldrdrr", "rdruudlr", "dllruuul", "lrlllrld", "dluruull", "luudlrrl", "lllulrll",
       "ulddurlr"}},
-    {Profile::microdots,
+    {CodeVariant::microdots,
      {{7, 3}, {10, 2}},
      {"drurrdll", "ruldldud", "llrddrdl", "ddullluu", "udurdurr", "urlllldd", "ldududuu",
       "dlllldrd"}},

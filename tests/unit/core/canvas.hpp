@@ -71,8 +71,8 @@ inline Levels levels_of_tile(const AdaptiveThreshold& threshold, int tile) {
 }
 
 /// Returns the blobs of an image that may be dots, before the size filter.
-inline std::vector<Dot> blobs_of(const GreyImage& image, Workspace& w,
-                                 const ThresholdOptions& options = {}) {
+inline std::vector<DetectedDot> blobs_of(const GreyImage& image, Workspace& w,
+                                         const ThresholdOptions& options = {}) {
     const core::DotList list{w.dots, w.dot_count, w.dots_kept_within_px};
     core::begin_threshold(image.width_px, image.height_px, w.threshold);
     core::begin_blobs(w.threshold, w.open, list);
@@ -91,15 +91,15 @@ inline std::vector<Dot> blobs_of(const GreyImage& image, Workspace& w,
     return {found.begin(), found.end()};
 }
 
-inline std::vector<Dot> blobs_of(const GreyImage& image) {
+inline std::vector<DetectedDot> blobs_of(const GreyImage& image) {
     static LargeWorkspace workspace;
     return blobs_of(image, workspace);
 }
 
 /// Returns the distance to the nearest of some dots.
-inline double nearest_px(const std::vector<Dot>& dots, Vec2 place) {
+inline double nearest_px(const std::vector<DetectedDot>& dots, Vec2 place) {
     double nearest = 1e9;
-    for (const Dot& dot : dots)
+    for (const DetectedDot& dot : dots)
         nearest = std::min(nearest, length(real(dot.centre_q8, 8) - place));
     return nearest;
 }

@@ -10,7 +10,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/stages.hpp"
+#include "core/decode/grid.hpp"
+#include "core/kernels/scores.hpp"
 #include "dotpose/code.hpp"
 #include "dotpose/tools/random.hpp"
 #include "dotpose/tools/simulate.hpp"
@@ -20,7 +21,8 @@ namespace dotpose::core_test {
 // The tests of the core call its stages by their own names.
 using namespace core;
 
-inline constexpr std::array kProfiles{Profile::anoto, Profile::libdots, Profile::microdots};
+inline constexpr std::array kCodeVariants{CodeVariant::anoto, CodeVariant::libdots,
+                                          CodeVariant::microdots};
 
 inline double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
@@ -40,15 +42,15 @@ inline double length(Vec2 a) {
 }
 
 /// Returns the nearest fixed-point value with `bits` fractional bits.
-inline Vec fixed(Vec2 a, int bits) {
+inline FixedVec fixed(Vec2 a, int bits) {
     return {static_cast<std::int32_t>(std::lround(std::ldexp(a.x, bits))),
             static_cast<std::int32_t>(std::lround(std::ldexp(a.y, bits)))};
 }
-inline Vec2 real(Vec a, int bits) {
+inline Vec2 real(FixedVec a, int bits) {
     return {std::ldexp(a.x, -bits), std::ldexp(a.y, -bits)};
 }
 
-inline Dot dot_at(Vec2 centre_px, int mass = 500, int area_px = 9) {
+inline DetectedDot dot_at(Vec2 centre_px, int mass = 500, int area_px = 9) {
     return {fixed(centre_px, 8), static_cast<std::uint16_t>(mass),
             static_cast<std::uint16_t>(area_px)};
 }
@@ -82,7 +84,7 @@ inline Mesh mesh_of(const Lattice& lattice) {
 
 /// A dot and the intersection that it belongs to.
 struct PlacedDot {
-    Vec cell;
+    FixedVec cell;
     Vec2 centre_px;
 };
 
@@ -104,8 +106,8 @@ std::vector<PlacedDot> placed_dots(const Mesh& mesh, int reach, Vec2 image_px,
     return dots;
 }
 
-inline std::vector<Dot> dots_of(const std::vector<PlacedDot>& placed) {
-    std::vector<Dot> dots;
+inline std::vector<DetectedDot> dots_of(const std::vector<PlacedDot>& placed) {
+    std::vector<DetectedDot> dots;
     for (const PlacedDot& p : placed)
         dots.push_back(dot_at(p.centre_px));
     return dots;
@@ -120,7 +122,7 @@ inline Vec2 random_displacement(Rng& rng) {
 /// The pattern as seen by a camera above it, without perspective: the image point p_px is the
 /// pattern point place + `at_centre` + R(theta) (p_px - centre_px) / spacing_px.
 struct View {
-    Profile profile = Profile::anoto;
+    CodeVariant code = CodeVariant::anoto;
     Place place;     ///< any cell of the pattern; pattern coordinates count from it
     Vec2 at_centre;  ///< pattern point under the image centre, in spacings from `place`
     double theta_rad = 0;
@@ -143,9 +145,9 @@ struct View {
     }
     /// Returns the same grid as a stage may find it: `turn` maps its steps to pattern steps, and
     /// its cell (0, 0) is the pattern's intersection `zero`.
-    Mesh mesh_turned(Turn turn, Vec zero) const {
+    Mesh mesh_turned(QuarterTurn turn, FixedVec zero) const {
         const Mesh m = mesh();
-        const auto along = [&](Vec step) { return step.x * m.u + step.y * m.v; };
+        const auto along = [&](FixedVec step) { return step.x * m.u + step.y * m.v; };
         return {along(turn({1, 0})), along(turn({0, 1})), m.at(zero.x, zero.y)};
     }
 };
@@ -153,8 +155,8 @@ struct View {
 /// Returns all dots of the view, in the order of pattern rows.
 inline std::vector<PlacedDot> pattern_dots(const View& view) {
     const auto displacement = [&](int i, int j) -> Vec2 {
-        const Place at = moved(view.profile, view.place, i, j);
-        const Symbol symbol = symbol_at(view.profile, at.cell, at.section);
+        const Place at = moved(view.code, view.place, i, j);
+        const Symbol symbol = symbol_at(view.code, at.cell, at.section);
         return {dx(symbol) / 6.0, dy(symbol) / 6.0};
     };
     const int reach =

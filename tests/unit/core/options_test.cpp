@@ -56,8 +56,8 @@ const Range kRanges[] = {
 
 /// Does not compile if Options has a new field, which must then be added to the tests below.
 [[maybe_unused]] void has_all_fields(const Options& o) {
-    [[maybe_unused]] const auto& [profile, effort, decoder, lens, threshold, blobs, lattice,
-                                  integrity, contrast, most_dots, spacing, show_stages, dx, dy] = o;
+    [[maybe_unused]] const auto& [code, effort, decoder, lens, threshold, blobs, lattice, integrity,
+                                  contrast, most_dots, spacing, show_stages, dx, dy] = o;
     [[maybe_unused]] const auto& [k, centre_dx, centre_dy] = lens;
     [[maybe_unused]] const auto& [low, high, min_contrast] = threshold;
     [[maybe_unused]] const auto& [min_area, min_mass, max_area] = blobs;
@@ -111,9 +111,9 @@ TEST(Options, AFaultIsToldWithItsRange) {
 TEST(Options, EnumerationsAreTakenAsFarAsTheyHaveNames) {
     for (int value = 0; value < 256; ++value) {
         const auto byte = static_cast<std::uint8_t>(value);
-        Options profile;
-        profile.profile = static_cast<Profile>(byte);
-        expect_refusal(profile, value >= 3, "profile", value);
+        Options code;
+        code.code = static_cast<CodeVariant>(byte);
+        expect_refusal(code, value >= 3, "code", value);
         Options effort;
         effort.effort = static_cast<Effort>(byte);
         expect_refusal(effort, value >= static_cast<int>(kEfforts.size()), "effort", value);

@@ -34,7 +34,7 @@ TEST(Prediction, LikeAFixTakesItsPlane) {
     fix.place = {{3, 4}, {5, 6}};
     fix.displacement_q16 = 7;
     const Prediction p = Prediction::like(fix);
-    EXPECT_EQ(p.pattern_from_image.du_q24, (Vec{1, 2}));
+    EXPECT_EQ(p.pattern_from_image.du_q24, (FixedVec{1, 2}));
     EXPECT_EQ(p.place, fix.place);
     EXPECT_EQ(p.displacement_q16, 7);
 }
@@ -49,7 +49,7 @@ TEST(Prediction, MovesAndTurnsAboutThePivot) {
         const Vec2 pivot{rng.uniform(0, 188), rng.uniform(0, 188)};
         const auto turn_bam = static_cast<std::int32_t>(turn * 2147483648.0 / std::numbers::pi);
         const Prediction after =
-            moved(before, Profile::anoto, fixed(by, 16), turn_bam, fixed(pivot, 8));
+            moved(before, CodeVariant::anoto, fixed(by, 16), turn_bam, fixed(pivot, 8));
         const Cell from = before.place.cell;
         const Vec2 pivot_before = seen_from(before, pivot, from);
         for (int k = 0; k < 5; ++k) {
@@ -70,13 +70,13 @@ TEST(Prediction, MovesAndTurnsAboutThePivot) {
 }
 
 TEST(Prediction, GoesOnPastTheEndOfTheCode) {
-    for (const Profile profile : kProfiles) {
+    for (const CodeVariant code : kCodeVariants) {
         Prediction p;
         p.pattern_from_image.du_q24 = {1 << 20, 0};
         p.pattern_from_image.dv_q24 = {0, 1 << 20};
         p.place = {{kPositionsPerAxis - 2, 1}, {7, 8}};
-        const Prediction after = moved(p, profile, fixed({5.25, -3.5}, 16), 0, {});
-        EXPECT_EQ(after.place, moved(profile, p.place, 5, -4));
+        const Prediction after = moved(p, code, fixed({5.25, -3.5}, 16), 0, {});
+        EXPECT_EQ(after.place, moved(code, p.place, 5, -4));
         EXPECT_EQ(after.pattern_from_image.at_centre_q16, fixed({0.25, 0.5}, 16));
     }
 }

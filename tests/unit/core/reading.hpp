@@ -12,7 +12,7 @@ namespace dotpose::core_test {
 
 /// The dots of a view in the matrices P, with the grid found at some turn and cell.
 struct Reading {
-    Reading(const View& view_, Turn turn_, std::vector<Dot> dots_, int side = 64)
+    Reading(const View& view_, QuarterTurn turn_, std::vector<DetectedDot> dots_, int side = 64)
         : view(view_), turn(turn_), dots(std::move(dots_)), owned(side) {
         zero = {static_cast<int>(std::lround(view.at_centre.x)) + 2,
                 static_cast<int>(std::lround(view.at_centre.y)) - 1};
@@ -23,22 +23,23 @@ struct Reading {
         decoding.window = core::choose_window(grid(), kWindowSide);
         decoding.region = core::choose_window(grid(), kMaxLines);
     }
-    Reading(const View& view_, Turn turn_) : Reading(view_, turn_, dots_of(pattern_dots(view_))) {}
+    Reading(const View& view_, QuarterTurn turn_)
+        : Reading(view_, turn_, dots_of(pattern_dots(view_))) {}
 
     const Grid& grid() const { return owned.grid; }
     /// Returns the true decoding of the grid, by geometry.
     Decoding truth() const {
         Decoding true_decoding = decoding;
         true_decoding.pattern_from_grid = turn;
-        true_decoding.place = moved(view.profile, view.place, zero.x, zero.y);
+        true_decoding.place = moved(view.code, view.place, zero.x, zero.y);
         return true_decoding;
     }
 
     View view;
-    Turn turn;
-    std::vector<Dot> dots;
+    QuarterTurn turn;
+    std::vector<DetectedDot> dots;
     OwnedGrid owned;
-    Vec zero;  ///< steps on the pattern from `view.place` to the grid's cell (0, 0)
+    FixedVec zero;  ///< steps on the pattern from `view.place` to the grid's cell (0, 0)
     PlaneFromImage plane;
     Status status;
     Decoding decoding;  ///< with the regions to decode

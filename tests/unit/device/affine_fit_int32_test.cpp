@@ -16,8 +16,8 @@ using namespace core;
 constexpr std::uint64_t kSeed = 49;
 
 struct Pair {
-    Vec p_q3;  ///< 1/8 px from the centre
-    Vec cell;
+    FixedVec p_q3;  ///< 1/8 px from the centre
+    FixedVec cell;
 };
 
 /// Returns displaced dots anywhere in the view, each with its cell.
@@ -47,7 +47,7 @@ struct Solution {
     long double dv;
 };
 
-Solution least_squares(const std::vector<Pair>& pairs, std::int32_t Vec::*coordinate) {
+Solution least_squares(const std::vector<Pair>& pairs, std::int32_t FixedVec::*coordinate) {
     const auto n = static_cast<long double>(pairs.size());
     long double mx = 0, my = 0, mt = 0;
     for (const Pair& pair : pairs) {
@@ -86,8 +86,8 @@ TEST(AffineFitInt32, IsTheLeastSquaresSolution) {
         AffineFitInt32 fit = fit_of(pairs);
         EXPECT_EQ(fit.count(), count);
         ASSERT_TRUE(fit.solve(0, plane));
-        const Solution x = least_squares(pairs, &Vec::x);
-        const Solution y = least_squares(pairs, &Vec::y);
+        const Solution x = least_squares(pairs, &FixedVec::x);
+        const Solution y = least_squares(pairs, &FixedVec::y);
         // Moments are kept to some 28 bits, so slopes are right to 2^-24 and values over the reach
         // to 1/1000 of a spacing.
         constexpr double kSlope = 3.0 / (1 << 24);
@@ -99,7 +99,7 @@ TEST(AffineFitInt32, IsTheLeastSquaresSolution) {
         const double tolerance = 2.0 / 65536 + kSlope * 0.3 * reach;
         EXPECT_NEAR(real(plane.at_centre_q16, 16).x, static_cast<double>(x.at_centre), tolerance);
         EXPECT_NEAR(real(plane.at_centre_q16, 16).y, static_cast<double>(y.at_centre), tolerance);
-        EXPECT_EQ(plane.centre_q8, (Vec{123, 456}));
+        EXPECT_EQ(plane.centre_q8, (FixedVec{123, 456}));
         EXPECT_TRUE(is_affine(plane));
     }
 }
@@ -160,7 +160,7 @@ TEST(AffineFitInt32, TargetsMayBePartsOfCells) {
                                       {rng.uniform(-20, 20), rng.uniform(-20, 20)});
         std::vector<Pair> pairs;
         for (int d = 0; d < 400; ++d) {
-            const Vec p = fixed({rng.uniform(-94, 94), rng.uniform(-60, 60)}, 3);
+            const FixedVec p = fixed({rng.uniform(-94, 94), rng.uniform(-60, 60)}, 3);
             pairs.push_back({p, fixed(mesh.inverse(real(p, 3)), bits)});
         }
         PlaneFromImage plane;
@@ -189,7 +189,7 @@ TEST(AffineFitInt32, PointsOnALineDetermineNothing) {
         std::vector<Pair> on_line;
         std::vector<Pair> beside;
         for (int k = -40; k <= 40; ++k) {
-            const Vec cell = fixed(k / 4.0 * along, 0);
+            const FixedVec cell = fixed(k / 4.0 * along, 0);
             on_line.push_back({fixed(3.0 * k * along, 3), cell});
             // The second set of points is a fifth as wide as it is long.
             beside.push_back({fixed(3.0 * k * along + (k % 2 == 0 ? 15 : -15) * across, 3), cell});

@@ -19,7 +19,7 @@ struct Fitted {
 };
 
 Fitted fitted(const Reading& reading) {
-    const Nominal nominal(reading.grid(), reading.view.profile, reading.truth());
+    const Nominal nominal(reading.grid(), reading.view.code, reading.truth());
     const Observations observations(reading.dots, reading.grid(), nominal);
     Fitted result;
     result.pose = upright_plane(reading.plane, reading.turn);
@@ -54,7 +54,7 @@ TEST(AffinePose, OutliersAreLeftOut) {
     for (int i = 0; i < 100; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
         const View view = random_view(rng);
-        const Reading reading(view, Turn{i % 4}, dots_with_outliers(view, 0.7, rng));
+        const Reading reading(view, QuarterTurn{i % 4}, dots_with_outliers(view, 0.7, rng));
         const Fitted fit = fitted(reading);
         expect_affine_pose(reading, fit.pose, kExact);
         const auto dots = static_cast<int>(reading.dots.size());
@@ -70,7 +70,7 @@ TEST(AffinePose, ADisplacementOtherThanASixthIsMeasured) {
             SCOPED_TRACE(testing::Message() << "view " << i << ", displacement " << displacement
                                             << ", seed " << kSeed);
             const View view = random_view(rng);
-            const Reading reading(view, Turn{1}, dots_displaced_by(displacement, view));
+            const Reading reading(view, QuarterTurn{1}, dots_displaced_by(displacement, view));
             const Fitted fit = fitted(reading);
             expect_affine_pose(reading, fit.pose, 2 * kExact);
             EXPECT_GE(fit.dots_used, static_cast<int>(reading.dots.size()) * 9 / 10);
@@ -86,7 +86,7 @@ TEST(AffinePose, ScatterAveragesOut) {
     constexpr int kViews = 200;
     for (int i = 0; i < kViews; ++i) {
         const View view = random_view(rng);
-        const Reading reading(view, Turn{i % 4}, noisy_dots(pattern_dots(view), 0.2, rng));
+        const Reading reading(view, QuarterTurn{i % 4}, noisy_dots(pattern_dots(view), 0.2, rng));
         const Vec2 error = error_at(reading, fitted(reading).pose, view.centre_px());
         squares += error.x * error.x + error.y * error.y;
         const double per_axis = 0.2 / view.spacing_px;

@@ -70,7 +70,7 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         // One dot in six is missing. For one dot in twelve, a spurious dot is added at a random
         // place. A stroke hides a strip.
         const double strip = rng.uniform(20, 160);
-        std::vector<Dot> dots;
+        std::vector<DetectedDot> dots;
         for (const PlacedDot& d : placed) {
             if (std::abs(d.centre_px.x - strip) < 8) continue;
             const double fate = rng.uniform();
@@ -107,12 +107,12 @@ TEST(GrowGrid, LeavesOutWhatLiesBetweenIntersections) {
 TEST(GrowGrid, RefusesWhatDoesNotSpanAPlane) {
     const Mesh mesh = square_mesh(11, 0, {93, 60});
     PlaneFromImage plane;
-    const auto status_of = [&](const std::vector<Dot>& dots) {
+    const auto status_of = [&](const std::vector<DetectedDot>& dots) {
         return grow_grid(dots, {}, centre_q8(kImage_px), lattice_of(mesh), plane);
     };
     EXPECT_EQ(status_of({}), Status::no_grid);
     EXPECT_EQ(status_of({dot_at({93, 60}), dot_at({104, 62})}), Status::no_grid);
-    std::vector<Dot> row;
+    std::vector<DetectedDot> row;
     for (int i = -8; i <= 8; ++i)
         row.push_back(dot_at(mesh.at(i, 0)));
     EXPECT_EQ(status_of(row), Status::no_grid);

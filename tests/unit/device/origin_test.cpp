@@ -15,7 +15,7 @@ constexpr Vec2 kImage_px{188, 120};
 constexpr Vec2 kCentre_px{93.5, 59.5};
 
 /// Returns the origin found from all dots.
-Vec2 origin_of(const std::vector<Dot>& dots, const Mesh& mesh, Vec2 near_px) {
+Vec2 origin_of(const std::vector<DetectedDot>& dots, const Mesh& mesh, Vec2 near_px) {
     std::vector<std::uint16_t> seeds(dots.size());
     std::iota(seeds.begin(), seeds.end(), std::uint16_t{0});
     Lattice lattice = lattice_of(mesh);
@@ -34,7 +34,8 @@ double off_intersection(const Mesh& mesh, Vec2 p) {
 }
 
 /// Expects the origin at the intersection nearest to a point, within a tolerance in spacings.
-void expect_origin(const std::vector<Dot>& dots, const Mesh& mesh, Vec2 near_px, double tolerance) {
+void expect_origin(const std::vector<DetectedDot>& dots, const Mesh& mesh, Vec2 near_px,
+                   double tolerance) {
     const Vec2 origin = origin_of(dots, mesh, near_px);
     EXPECT_LT(off_intersection(mesh, origin), tolerance);
     const Vec2 g = mesh.inverse(origin) - mesh.inverse(near_px);
@@ -78,7 +79,7 @@ TEST(Origin, IsTheMeanOfDisplacedDots) {
 
 TEST(Origin, BearsDotsThatAreMissingOrFalse) {
     for_many_grids([](const Mesh& mesh, Rng& rng) {
-        std::vector<Dot> dots;
+        std::vector<DetectedDot> dots;
         for (const PlacedDot& d :
              placed_dots(mesh, 20, kImage_px, [&](int, int) { return random_displacement(rng); })) {
             const double fate = rng.uniform();

@@ -19,7 +19,7 @@ using namespace core;
 TEST(ReadDots, LooksAtAllCellsInView) {
     Rng rng(4);
     for (int round = 0; round < 500; ++round) {
-        std::array<TrackedRow, kMaxTracked> rows{};
+        std::array<TrackedRow, kMaxComparedLines> rows{};
         Tracking tracking;
         tracking.grid_rows = rows;
         tracking.width_px = 188;
@@ -44,20 +44,20 @@ TEST(ReadDots, LooksAtAllCellsInView) {
         ASSERT_TRUE(begin_reading(tracking));
 
         std::set<std::pair<int, int>> looked_at;
-        const Vec x = tracking.cells.along_x_q16;
+        const FixedVec x = tracking.cells.along_x_q16;
         const int way = x.y < 0 ? -1 : 1;
-        for (int j = 0; j < kMaxTracked; ++j) {
+        for (int j = 0; j < kMaxComparedLines; ++j) {
             const TrackedRow& row = rows[static_cast<std::size_t>(j)];
             if (row.next_q16.y == TrackedRow::kNever_q16) continue;
-            const Vec first_q16 = place_q16(tracking.cells, row.i, j);
+            const FixedVec first_q16 = place_q16(tracking.cells, row.i, j);
             EXPECT_EQ(row.next_q16.x, first_q16.x);
             EXPECT_EQ(row.next_q16.y, first_q16.y);
             for (int i = row.i; tracking.view.has(place_q16(tracking.cells, i, j)); i += way)
                 looked_at.emplace(i, j);
         }
-        for (int j = 0; j < kMaxTracked; ++j) {
-            for (int i = 0; i < kMaxTracked; ++i) {
-                const Vec at_q16 = place_q16(tracking.cells, i, j);
+        for (int j = 0; j < kMaxComparedLines; ++j) {
+            for (int i = 0; i < kMaxComparedLines; ++i) {
+                const FixedVec at_q16 = place_q16(tracking.cells, i, j);
                 // Squares of 9 x 9 px around intersections and of 5 x 5 px around dots have to be
                 // in the image.
                 const auto is_in = [&](double at_px, double displaced_px, int side_px) {
@@ -70,7 +70,7 @@ TEST(ReadDots, LooksAtAllCellsInView) {
                     return in;
                 };
                 double most = 0;
-                for (const Vec displaced : tracking.displaced_q16) {
+                for (const FixedVec displaced : tracking.displaced_q16) {
                     most = std::max(
                         {most, std::abs(displaced.x / 65536.0), std::abs(displaced.y / 65536.0)});
                 }

@@ -38,8 +38,8 @@ struct Frame {
     /// Adds a dot that lies so far off to the sums of its row.
     void add(int i, int j, int symbol, std::int32_t mass, double x_px, double y_px) {
         TrackedRow& row = rows[static_cast<std::size_t>(j)];
-        const Vec off{static_cast<std::int32_t>(std::lround(x_px * 256 * mass)),
-                      static_cast<std::int32_t>(std::lround(y_px * 256 * mass))};
+        const FixedVec off{static_cast<std::int32_t>(std::lround(x_px * 256 * mass)),
+                           static_cast<std::int32_t>(std::lround(y_px * 256 * mass))};
         const int from_middle = i - 16;
         row.mass += mass;
         row.mass_i += mass * from_middle;
@@ -47,13 +47,13 @@ struct Frame {
         row.offset_q8 = {row.offset_q8.x + off.x, row.offset_q8.y + off.y};
         row.offset_i_q8 = {row.offset_i_q8.x + from_middle * off.x,
                            row.offset_i_q8.y + from_middle * off.y};
-        Vec& of_symbol = tracking.offset_q8[static_cast<std::size_t>(symbol)];
+        FixedVec& of_symbol = tracking.offset_q8[static_cast<std::size_t>(symbol)];
         of_symbol = {of_symbol.x + off.x, of_symbol.y + off.y};
         ++tracking.dots_measured;
     }
 
     Tracking tracking;
-    std::array<TrackedRow, kMaxTracked> rows{};
+    std::array<TrackedRow, kMaxComparedLines> rows{};
 };
 
 double at(std::int32_t origin, std::int32_t x, std::int32_t y, double i, double j) {
@@ -105,7 +105,7 @@ TEST(TrackedPose, TellsHowFarDotsAreDisplaced) {
     for (int j = 10; j <= 21; ++j) {
         for (int i = 9; i <= 24; ++i) {
             const int symbol = (i + 2 * j) % 4;
-            const Vec displaced_q16 =
+            const FixedVec displaced_q16 =
                 frame.tracking.displaced_q16[static_cast<std::size_t>(symbol)];
             frame.add(i, j, symbol, 300, 0.05 * displaced_q16.x / 65536,
                       0.05 * displaced_q16.y / 65536);

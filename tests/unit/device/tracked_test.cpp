@@ -54,7 +54,7 @@ class DeviceTracked : public testing::Test {
 
     Prediction disturbed(const Prediction& prediction, double shift, double turn_deg) {
         const double direction = rng_.uniform(-std::numbers::pi, std::numbers::pi);
-        return moved(prediction, Profile::anoto,
+        return moved(prediction, CodeVariant::anoto,
                      {static_cast<std::int32_t>(65536 * shift * std::cos(direction)),
                       static_cast<std::int32_t>(65536 * shift * std::sin(direction))},
                      static_cast<std::int32_t>(turn_deg * kBamPerDegree), {187 * 128, 119 * 128});
@@ -129,7 +129,7 @@ TEST_F(DeviceTracked, LocatesAfreshWhatItRefuses) {
 /// rolls with it.
 Place worst_alternative(Place place) {
     constexpr std::size_t kLines = 20;
-    const code::Basis& basis = code::basis(Profile::anoto);
+    const code::Basis& basis = code::basis(CodeVariant::anoto);
     std::array<std::uint32_t, 4> places;
     for (std::size_t k = 0; k < 4; ++k)
         places[k] = basis[k].place_of(place.cell.x);
@@ -148,18 +148,19 @@ Place worst_alternative(Place place) {
                 std::array<std::uint32_t, 4> there = places;
                 there[k] = other;
                 alternative.cell.x = code::position_at(basis, there);
-                const int here =
-                    code::roll_from(Profile::anoto, place.cell.x, place.section.u, place.cell.y);
+                const int here = code::roll_from(CodeVariant::anoto, place.cell.x, place.section.u,
+                                                 place.cell.y);
                 const int wanted = (here + kSections - grown % kSections) % kSections;
                 alternative.section.u = static_cast<std::uint8_t>(
-                    section_of(Profile::anoto, wanted, alternative.cell.x, place.cell.y));
+                    section_of(CodeVariant::anoto, wanted, alternative.cell.x, place.cell.y));
             }
         }
     }
     // The rows stay as they were.
-    const int row = code::roll_from(Profile::anoto, place.cell.y, place.section.v, place.cell.x);
+    const int row =
+        code::roll_from(CodeVariant::anoto, place.cell.y, place.section.v, place.cell.x);
     alternative.section.v = static_cast<std::uint8_t>(
-        section_of(Profile::anoto, row, place.cell.y, alternative.cell.x));
+        section_of(CodeVariant::anoto, row, place.cell.y, alternative.cell.x));
     return alternative;
 }
 
@@ -174,8 +175,8 @@ TEST_F(DeviceTracked, FollowsNoWrongPrediction) {
         std::array<Prediction, 7> wrong;
         wrong.fill(right);
         wrong[0] = other;
-        wrong[1].place = moved(Profile::anoto, right.place, 1, 0);
-        wrong[2].place = moved(Profile::anoto, right.place, 0, -2);
+        wrong[1].place = moved(CodeVariant::anoto, right.place, 1, 0);
+        wrong[2].place = moved(CodeVariant::anoto, right.place, 0, -2);
         wrong[3].place.section.v = static_cast<std::uint8_t>((right.place.section.v + 5) % 63);
         wrong[4].place.cell.y = (right.place.cell.y + 12345) % kPositionsPerAxis;
         // Turned by a quarter turn.
@@ -183,7 +184,7 @@ TEST_F(DeviceTracked, FollowsNoWrongPrediction) {
         wrong[5].pattern_from_image.du_q24.x *= -1;
         wrong[5].pattern_from_image.du_q24.y *= -1;
         // Counted from the first line in view.
-        const Place first = moved(Profile::anoto, right.place,
+        const Place first = moved(CodeVariant::anoto, right.place,
                                   (right.pattern_from_image.at_centre_q16.x >> 16) - 10, 0);
         wrong[6].place = worst_alternative(first);
         wrong[6].pattern_from_image.at_centre_q16.x =
@@ -248,14 +249,14 @@ TEST_F(DeviceTracked, RefusesFramesThatEndTooSoonOrHaveNoRoom) {
     EXPECT_EQ(locator_.begin(188, 4096, prediction), Status::not_tracked);
     // A frame begun without a prediction is located, not tracked, however far the last prediction
     // is off.
-    const Prediction wrong = moved(prediction, Profile::anoto, {50 << 16, 0}, 0, {});
+    const Prediction wrong = moved(prediction, CodeVariant::anoto, {50 << 16, 0}, 0, {});
     EXPECT_EQ(tracked(image, wrong).status, Status::not_tracked);
     ASSERT_EQ(locator_.begin(188, 120), Status::ok);
     for (int v = 0; v < 120; ++v)
         locator_.push_row(image.view().row(v));
     EXPECT_EQ(locator_.finish().attempt, Attempt::device);
     Options bent;
-    bent.lens = Lens::from_k(-1e-6);
+    bent.lens = FixedLens::from_k(-1e-6);
     locator_.set_options(bent);
     EXPECT_EQ(locator_.begin(188, 120, prediction), Status::not_tracked);
     EXPECT_EQ(locator_.finish().status, Status::not_tracked);

@@ -61,7 +61,7 @@ class DeviceWorkspace : public testing::Test {
     Prediction disturbed(const Fix& fix) {
         const double shift_q16 = 32768 * std::sqrt(rng_.uniform());
         const double direction_rad = rng_.uniform(-std::numbers::pi, std::numbers::pi);
-        return moved(Prediction::like(fix), Profile::anoto,
+        return moved(Prediction::like(fix), CodeVariant::anoto,
                      {static_cast<std::int32_t>(shift_q16 * std::cos(direction_rad)),
                       static_cast<std::int32_t>(shift_q16 * std::sin(direction_rad))},
                      static_cast<std::int32_t>(rng_.uniform(-4, 4) * 4294967296.0 / 360),

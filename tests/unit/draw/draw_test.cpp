@@ -113,7 +113,7 @@ std::vector<Mark> letters(const std::string& text, const GreyImage& image) {
 }
 
 /// The intersection nearest to a pixel, in cells from the one of the pose.
-Vec nearest_cell(const Shot& shot, Vec2 pixel) {
+FixedVec nearest_cell(const Shot& shot, Vec2 pixel) {
     const double spacing_mm = shot.page.pattern.spacing_mm;
     const Vec2 offset_mm = Projection(shot.camera, shot.pose).offset_from_pixel(pixel);
     return {static_cast<int>(std::lround(offset_mm.x / spacing_mm + shot.pose.fraction_x)),
@@ -164,7 +164,7 @@ TEST(DrawFrame, draws_dots_where_the_lens_shows_them) {
     shot.camera.height_px = 240;
     shot.camera.k = -4e-6;
     Options options;
-    options.lens = Lens::from_k(shot.camera.k);
+    options.lens = FixedLens::from_k(shot.camera.k);
     const Located located(render(shot), options);
     ASSERT_EQ(located.fix.status, Status::ok);
     const auto marks = circles(group(located.drawn(), "dots"), located.image);
@@ -187,11 +187,10 @@ TEST_P(DrawTurned, letters_are_those_of_the_pattern) {
     EXPECT_GT(marks.size(), 150U);
     std::size_t errors = 0;
     for (const Mark& mark : marks) {
-        const Vec step = nearest_cell(shot, mark.pixel);
+        const FixedVec step = nearest_cell(shot, mark.pixel);
         const Pattern& pattern = shot.page.pattern;
-        const Place place =
-            moved(pattern.profile, {shot.pose.cell, pattern.section}, step.x, step.y);
-        const char expected = letter(symbol_at(pattern.profile, place.cell, place.section));
+        const Place place = moved(pattern.code, {shot.pose.cell, pattern.section}, step.x, step.y);
+        const char expected = letter(symbol_at(pattern.code, place.cell, place.section));
         if (std::tolower(mark.letter) != expected) ++errors;
     }
     // Misread dots, at most a bit or two each, are marked as such.
@@ -208,7 +207,7 @@ TEST_P(DrawTurned, the_corner_is_at_the_position_that_the_head_names) {
     const std::size_t corner = svg.find("class=\"corner\"");
     ASSERT_NE(corner, std::string::npos);
     const auto marks = circles(svg.substr(svg.rfind("<circle", corner), 60), located.image);
-    const Vec step = nearest_cell(shot, marks.at(0).pixel);
+    const FixedVec step = nearest_cell(shot, marks.at(0).pixel);
     const std::string position =
         std::to_string(static_cast<std::int64_t>(shot.pose.cell.x) + step.x) + ", " +
         std::to_string(static_cast<std::int64_t>(shot.pose.cell.y) + step.y);

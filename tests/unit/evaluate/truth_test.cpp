@@ -66,13 +66,13 @@ TEST_F(TruthFile, HasPlacesOnSheetsOrInTheWorld) {
 
 TEST_F(TruthFile, IsReadAsSimulateWritesIt) {
     const auto rows = read(
-        "file,x_mm,y_mm,theta_deg,x_grid,y_grid,section_u,section_v,profile,spacing_mm,"
+        "file,x_mm,y_mm,theta_deg,x_grid,y_grid,section_u,section_v,code,spacing_mm,"
         "px_per_spacing,preset,seed\n"
         "a.pgm,50,100,90,100.5,200.25,3,62,microdots,0.5,11,hard,1\n"
         "b.pgm,,,,,,,,anoto,0.5,11,hard,1\n");
     ASSERT_EQ(rows.size(), 2u);
     EXPECT_EQ(rows[0].file, "a.pgm");
-    EXPECT_EQ(rows[0].profile, Profile::microdots);
+    EXPECT_EQ(rows[0].code, CodeVariant::microdots);
     const Truth& truth = rows[0].truth;
     EXPECT_TRUE(truth.has_pose);
     EXPECT_EQ(truth.x_grid, 100.5);  // grid units win over millimetres
@@ -89,7 +89,7 @@ TEST_F(TruthFile, NeedsFewColumnsInAnyOrder) {
         "-90,100,50,\"a, b\",\"fr\"\"1.png\"\r\n\r\n");
     ASSERT_EQ(rows.size(), 1u);
     EXPECT_EQ(rows[0].file, "fr\"1.png");
-    EXPECT_FALSE(rows[0].profile);
+    EXPECT_FALSE(rows[0].code);
     EXPECT_FALSE(rows[0].truth.section);
     EXPECT_NEAR(rows[0].truth.x_grid, 50 / 0.508, 1e-9);
     EXPECT_NEAR(rows[0].truth.y_grid, 100 / 0.508, 1e-9);
@@ -102,7 +102,7 @@ TEST_F(TruthFile, AGivenSpacingReplacesThatOfTheFile) {
 }
 
 TEST_F(TruthFile, ErrorsNameTheLineAndWhatIsWrong) {
-    const std::string header = "file,x_grid,y_grid,theta_deg,section_u,section_v,profile\n";
+    const std::string header = "file,x_grid,y_grid,theta_deg,section_u,section_v,code\n";
     EXPECT_THAT(error_of("file,x_grid,theta_deg\n"), HasSubstr("y_grid"));
     EXPECT_THAT(error_of("x_grid,y_grid,theta_deg\n"), HasSubstr("file"));
     EXPECT_THAT(error_of(header + "a,1,2,3,,,\nb,1,two,3,,,\n"),

@@ -49,9 +49,9 @@ TEST(overlap, means_a_common_cell_in_the_same_section_of_the_same_code) {
     const Sheet a = page();
     Sheet b = a;
     EXPECT_TRUE(overlap(a, b));
-    b.pattern.profile = Profile::libdots;  // agrees with anoto on most of the plane
+    b.pattern.code = CodeVariant::libdots;  // agrees with anoto on most of the plane
     EXPECT_TRUE(overlap(a, b));
-    b.pattern.profile = Profile::microdots;
+    b.pattern.code = CodeVariant::microdots;
     EXPECT_FALSE(overlap(a, b));
     b = a;
     b.pattern.section.v = 1;
@@ -82,13 +82,13 @@ TEST(SheetFile, allocates_regions_that_keep_their_distance) {
     std::mt19937 random(4);
     std::printf("seed 4\n");
     SheetFile file(directory / "s.json");
-    // Some regions were chosen by others, in other sections and profiles too.
+    // Some regions were chosen by others, in other sections and code variants too.
     for (int i = 0; i < 10; ++i) {
         SheetEntry other = entry("old " + std::to_string(i), {});
         other.sheet.origin = {static_cast<std::uint32_t>(random() % 6000),
                               static_cast<std::uint32_t>(i * 700)};
         other.sheet.pattern.section.u = static_cast<std::uint8_t>(random() % 63);
-        if (i % 2 == 0) other.sheet.pattern.profile = Profile::microdots;
+        if (i % 2 == 0) other.sheet.pattern.code = CodeVariant::microdots;
         file.add(other);
     }
     for (int i = 0; i < 10; ++i) {
@@ -227,7 +227,7 @@ void expect_equal(const SheetEntry& a, const SheetEntry& b) {
     };
     EXPECT_EQ(numbers(a), numbers(b));
     EXPECT_EQ(a.sheet.origin, b.sheet.origin);
-    EXPECT_EQ(a.sheet.pattern.profile, b.sheet.pattern.profile);
+    EXPECT_EQ(a.sheet.pattern.code, b.sheet.pattern.code);
     EXPECT_EQ(a.sheet.pattern.section, b.sheet.pattern.section);
     EXPECT_EQ(a.world.has_value(), b.world.has_value());
 }
@@ -236,7 +236,7 @@ TEST(SheetFile, what_is_saved_is_read_back_exactly) {
     const TemporaryDirectory directory;
     SheetEntry full = entry("\"Tisch\" Nº 1", {123'456'789, 400'000'000});
     full.page = 7;
-    full.sheet.pattern.profile = Profile::libdots;
+    full.sheet.pattern.code = CodeVariant::libdots;
     full.sheet.pattern.section = {62, 1};
     full.print_scale_x = 1 + 1e-9 / 3;
     full.world = {1e-7 / 3, -12345.6789, -3.0 / 7};

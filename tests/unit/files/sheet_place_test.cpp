@@ -45,12 +45,13 @@ Fix fix_at(Cell cell, double fraction_x = 0, double fraction_y = 0, double theta
 
 TEST(find_sheet, tells_the_place_on_the_page) {
     const std::vector<SheetEntry> sheets = {small_entry({1000, 2000}), small_entry({9000, 2000})};
-    const auto first = find_sheet(sheets, Profile::anoto, fix_at({1000, 2000}));
+    const auto first = find_sheet(sheets, CodeVariant::anoto, fix_at({1000, 2000}));
     ASSERT_TRUE(first);
     EXPECT_EQ(first->entry, &sheets[0]);
     EXPECT_EQ(first->x_mm, 4);
     EXPECT_EQ(first->y_mm, 3);
-    const auto inside = find_sheet(sheets, Profile::anoto, fix_at({9011, 2003}, 0.5, 0.25, 1.25));
+    const auto inside =
+        find_sheet(sheets, CodeVariant::anoto, fix_at({9011, 2003}, 0.5, 0.25, 1.25));
     ASSERT_TRUE(inside);
     EXPECT_EQ(inside->entry, &sheets[1]);
     EXPECT_NEAR(inside->x_mm, 4 + 11.5 * 0.5, 1e-12);
@@ -62,7 +63,8 @@ TEST(find_sheet, margins_belong_to_the_page_and_nothing_beyond_its_edges) {
     const std::vector<SheetEntry> sheets = {small_entry({1000, 2000})};
     // The page reaches 8 cells left of, 6 above, 32 right of and 14 below the first intersection.
     const auto is_found = [&](Cell cell, double fraction_x = 0, double fraction_y = 0) {
-        return find_sheet(sheets, Profile::anoto, fix_at(cell, fraction_x, fraction_y)).has_value();
+        return find_sheet(sheets, CodeVariant::anoto, fix_at(cell, fraction_x, fraction_y))
+            .has_value();
     };
     EXPECT_TRUE(is_found({992, 2004}));
     EXPECT_FALSE(is_found({991, 2004}, 0.99));
@@ -80,7 +82,7 @@ TEST(find_sheet, a_margin_gives_way_to_the_neighbours_own_region) {
     // The second region begins where the first ends, as on a poster of several pages.
     const std::vector<SheetEntry> sheets = {small_entry({1000, 2000}), small_entry({1020, 2000})};
     const auto entry_at = [&](Cell cell, double fraction_x) {
-        const auto place = find_sheet(sheets, Profile::anoto, fix_at(cell, fraction_x));
+        const auto place = find_sheet(sheets, CodeVariant::anoto, fix_at(cell, fraction_x));
         return place ? place->entry : nullptr;
     };
     EXPECT_EQ(entry_at({1018, 2000}, 0), &sheets[0]);
@@ -93,11 +95,11 @@ TEST(find_sheet, the_margin_of_a_sheet_at_the_plane_s_corner_has_the_last_cells)
     const std::vector<SheetEntry> sheets = {small_entry({0, 0})};
     // The place is three cells to the upper left, in the section in which the pattern continues
     // there.
-    const Place place = moved(Profile::anoto, {{0, 0}, {10, 20}}, -3, -3);
+    const Place place = moved(CodeVariant::anoto, {{0, 0}, {10, 20}}, -3, -3);
     ASSERT_EQ(place.cell, (Cell{kPositionsPerAxis - 3, kPositionsPerAxis - 3}));
     Fix fix = fix_at(place.cell, 0.5, 0);
     fix.section = place.section;
-    const auto found = find_sheet(sheets, Profile::anoto, fix);
+    const auto found = find_sheet(sheets, CodeVariant::anoto, fix);
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->x_mm, 4 - 2.5 * 0.5, 1e-12);
     EXPECT_NEAR(found->y_mm, 3 - 3 * 0.5, 1e-12);
@@ -106,23 +108,23 @@ TEST(find_sheet, the_margin_of_a_sheet_at_the_plane_s_corner_has_the_last_cells)
 TEST(find_sheet, wants_a_fix_in_the_same_section_and_profile) {
     const std::vector<SheetEntry> sheets = {small_entry({1000, 2000})};
     Fix fix = fix_at({1004, 2004});
-    EXPECT_TRUE(find_sheet(sheets, Profile::anoto, fix));
-    EXPECT_FALSE(find_sheet(sheets, Profile::libdots, fix));
-    EXPECT_FALSE(find_sheet({}, Profile::anoto, fix));
+    EXPECT_TRUE(find_sheet(sheets, CodeVariant::anoto, fix));
+    EXPECT_FALSE(find_sheet(sheets, CodeVariant::libdots, fix));
+    EXPECT_FALSE(find_sheet({}, CodeVariant::anoto, fix));
     fix.section.u = 11;
-    EXPECT_FALSE(find_sheet(sheets, Profile::anoto, fix));
+    EXPECT_FALSE(find_sheet(sheets, CodeVariant::anoto, fix));
     fix.section = {10, 21};
-    EXPECT_FALSE(find_sheet(sheets, Profile::anoto, fix));
+    EXPECT_FALSE(find_sheet(sheets, CodeVariant::anoto, fix));
     fix.section = {10, 20};
     fix.status = Status::not_certain;
-    EXPECT_FALSE(find_sheet(sheets, Profile::anoto, fix));
+    EXPECT_FALSE(find_sheet(sheets, CodeVariant::anoto, fix));
 }
 
 TEST(find_sheet, applies_the_print_scale_about_the_first_intersection) {
     std::vector<SheetEntry> sheets = {small_entry({1000, 2000})};
     sheets[0].print_scale_x = 1.02;
     sheets[0].print_scale_y = 0.99;
-    const auto place = find_sheet(sheets, Profile::anoto, fix_at({1010, 2008}, 0, 0, kPi / 4));
+    const auto place = find_sheet(sheets, CodeVariant::anoto, fix_at({1010, 2008}, 0, 0, kPi / 4));
     ASSERT_TRUE(place);
     EXPECT_NEAR(place->x_mm, 4 + 5.1, 1e-12);
     EXPECT_NEAR(place->y_mm, 3 + 3.96, 1e-12);
@@ -238,7 +240,7 @@ TEST(covariance_on_a_sheet, is_what_small_movements_say) {
         entry.print_scale_y = y_scale;
         const std::vector sheets = {entry};
         const auto place_of = [&](const Fix& moved) {
-            return find_sheet(sheets, Profile::anoto, moved).value();
+            return find_sheet(sheets, CodeVariant::anoto, moved).value();
         };
         const auto expected = expected_covariance(fix, [&](const Fix& moved) {
             const SheetPlace place = place_of(moved);
@@ -257,7 +259,7 @@ TEST(covariance_in_the_world, is_what_small_movements_say) {
         entry.world = {-2, 0.5, yaw_rad};
         const std::vector sheets = {entry};
         const auto place_of = [&](const Fix& moved) {
-            return world_place(find_sheet(sheets, Profile::anoto, moved).value()).value();
+            return world_place(find_sheet(sheets, CodeVariant::anoto, moved).value()).value();
         };
         const auto expected = expected_covariance(fix, [&](const Fix& moved) {
             const WorldPlace place = place_of(moved);
@@ -281,7 +283,7 @@ TEST(covariance_in_the_world, of_a_page_turned_by_a_quarter) {
 
 TEST(covariance_on_a_sheet, is_none_if_the_fix_has_none) {
     const std::vector sheets = {small_entry({1000, 2000})};
-    const auto place = find_sheet(sheets, Profile::anoto, fix_at({1010, 2003}));
+    const auto place = find_sheet(sheets, CodeVariant::anoto, fix_at({1010, 2003}));
     EXPECT_EQ(place.value().covariance, PoseCovariance{});
 }
 

@@ -7,7 +7,7 @@
 
 #include "../../paths.hpp"
 #include "../print/files.hpp"
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/print.hpp"
 #include "sheet_files.hpp"
@@ -34,7 +34,7 @@ TEST(read_sheets, reads_every_value) {
     const SheetEntry& table = sheets[0];
     EXPECT_EQ(table.name, "table");
     EXPECT_EQ(table.page, 2);
-    EXPECT_EQ(table.sheet.pattern.profile, Profile::microdots);
+    EXPECT_EQ(table.sheet.pattern.code, CodeVariant::microdots);
     EXPECT_EQ(table.sheet.pattern.section, (Section{5, 62}));
     EXPECT_EQ(table.sheet.pattern.spacing_mm, 0.6);
     EXPECT_EQ(table.sheet.pattern.displacement_mm, 0.1);
@@ -220,12 +220,13 @@ TEST(read_sheets, says_why_a_file_cannot_be_read) {
                 ThrowsMessage<Error>(AllOf(HasSubstr("cannot lock"), HasSubstr("No such file"))));
 }
 
-TEST(profile_by_name, is_the_way_back) {
-    for (const Profile profile : {Profile::anoto, Profile::libdots, Profile::microdots})
-        EXPECT_EQ(profile_by_name(name(profile)), profile);
-    EXPECT_EQ(profile_by_name("published"), std::nullopt);
-    EXPECT_EQ(profile_by_name(""), std::nullopt);
-    EXPECT_EQ(profile_by_name("Anoto"), std::nullopt);
+TEST(code_by_name, is_the_way_back) {
+    for (const CodeVariant code :
+         {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots})
+        EXPECT_EQ(code_by_name(name(code)), code);
+    EXPECT_EQ(code_by_name("published"), std::nullopt);
+    EXPECT_EQ(code_by_name(""), std::nullopt);
+    EXPECT_EQ(code_by_name("Anoto"), std::nullopt);
 }
 
 }  // namespace

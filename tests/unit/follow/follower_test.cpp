@@ -48,7 +48,7 @@ double turn_between(double a_rad, double b_rad) {
 TEST(Follower, TellsWhereTheRobotIsByItsCameraFile) {
     const CameraModel model;
     FollowerOptions options;
-    options.code = Profile::anoto;
+    options.code = CodeVariant::anoto;
     options.camera = mounted_camera(model, 30 * kDegree_rad);
     Follower follower(options);
     // The robot turns on the spot: its centre stays where it is.
@@ -103,7 +103,7 @@ TEST(Follower, AReferencePointReplacesThatOfTheCameraFile) {
     const CameraModel model;
     const GreyImage image = robot_frame(model, kSeed, 0, kPivot_x_mm, kPivot_y_mm, 0.5);
     FollowerOptions options;
-    options.code = Profile::anoto;
+    options.code = CodeVariant::anoto;
     options.camera = mounted_camera(model, 0);
     options.reference_px = PixelPoint{(model.width_px - 1) / 2.0, (model.height_px - 1) / 2.0};
     const Fix fix = Follower(options).locate(image).fix;
@@ -130,7 +130,7 @@ TEST(Follower, LargeImagesAreReduced) {
     setup.camera.working_distance_mm = 2000;
     const Shot shot = draw_shot(setup, 1);
     FollowerOptions options;
-    options.code = Profile::anoto;
+    options.code = CodeVariant::anoto;
     Follower follower(options);
     const Located located = follower.locate(render(shot));
     ASSERT_EQ(located.fix.status, Status::ok) << message(located.fix.status);
@@ -149,7 +149,7 @@ std::vector<Fix> both_fixes(const FollowerOptions& options, const GreyImage& ima
 TEST(Follower, FlipsFramesIfItsOptionsOrTheCameraFileSaySo) {
     const CameraModel model;
     FollowerOptions options;
-    options.code = Profile::anoto;
+    options.code = CodeVariant::anoto;
     options.camera = mounted_camera(model, 30 * kDegree_rad);
     const GreyImage image = robot_frame(model, kSeed, 0, kPivot_x_mm, kPivot_y_mm, 0.3);
     const GreyImage mirrored = flipped(image.view());

@@ -23,7 +23,7 @@ PosePacket typical() {
     packet.sequence = 258;
     packet.time_us = 0x01020304;
     packet.status = Status::ok;
-    packet.profile = Profile::microdots;
+    packet.code = CodeVariant::microdots;
     packet.cell = {410'815'347, 70'000};
     packet.fraction_x_q16 = 0xABCD;
     packet.fraction_y_q16 = 1;
@@ -39,7 +39,7 @@ PosePacket random_packet(Rng& rng) {
     packet.sequence = static_cast<std::uint16_t>(rng.bits());
     packet.time_us = static_cast<std::uint32_t>(rng.bits());
     packet.status = static_cast<Status>(rng.below(kStatusCount));
-    packet.profile = static_cast<Profile>(rng.below(3));
+    packet.code = static_cast<CodeVariant>(rng.below(3));
     packet.cell = {rng.below(kPositionsPerAxis), rng.below(kPositionsPerAxis)};
     packet.fraction_x_q16 = static_cast<std::uint16_t>(rng.bits());
     packet.fraction_y_q16 = static_cast<std::uint16_t>(rng.below(2));  // zeros are frequent
@@ -242,7 +242,7 @@ TEST(PosePacket, RefusesValuesThatNoPoseHas) {
     EXPECT_TRUE(is_refused([](PosePacket& p) { p.cell.y = kPositionsPerAxis; }));
     EXPECT_TRUE(is_refused([](PosePacket& p) { p.section.u = 63; }));
     EXPECT_TRUE(is_refused([](PosePacket& p) { p.section.v = 63; }));
-    EXPECT_TRUE(is_refused([](PosePacket& p) { p.profile = static_cast<Profile>(3); }));
+    EXPECT_TRUE(is_refused([](PosePacket& p) { p.code = static_cast<CodeVariant>(3); }));
 }
 
 // A receiver need not be newer than its senders.
@@ -267,10 +267,10 @@ TEST(PosePacket, CarriesAFix) {
     fix.p_wrong_log2 = -90;
     fix.covariance[0][0] = 4e-6F;  // 0.002 spacings, 8.19 steps
     fix.covariance[1][1] = 1e-6F;
-    const PosePacket packet = make_packet(fix, Profile::libdots, 3, 4);
+    const PosePacket packet = make_packet(fix, CodeVariant::libdots, 3, 4);
     EXPECT_EQ(packet.sequence, 3);
     EXPECT_EQ(packet.time_us, 4U);
-    EXPECT_EQ(packet.profile, Profile::libdots);
+    EXPECT_EQ(packet.code, CodeVariant::libdots);
     EXPECT_EQ(packet.x_grid(), 5.5);
     EXPECT_EQ(packet.y_grid(), 6);
     EXPECT_EQ(packet.theta_bam16, -16384);
@@ -285,7 +285,7 @@ TEST(PosePacket, LimitsWhatDoesNotFit) {
     fix.p_wrong_log2 = -1000;
     fix.covariance[0][0] = 1;
     fix.theta_bam = std::numeric_limits<std::int32_t>::max();
-    const PosePacket packet = make_packet(fix, Profile::anoto, 0, 0);
+    const PosePacket packet = make_packet(fix, CodeVariant::anoto, 0, 0);
     EXPECT_EQ(packet.certainty, 255);
     EXPECT_EQ(packet.deviation_q12, 255);
     EXPECT_EQ(packet.theta_bam16, -32768);
@@ -295,7 +295,7 @@ TEST(PosePacket, OfAFrameWithoutAFixSaysOnlyWhy) {
     Fix fix;
     fix.status = Status::too_few_dots;
     fix.cell = {5, 6};
-    const PosePacket packet = make_packet(fix, Profile::anoto, 1, 2);
+    const PosePacket packet = make_packet(fix, CodeVariant::anoto, 1, 2);
     PosePacket expected;
     expected.sequence = 1;
     expected.time_us = 2;

@@ -1,4 +1,4 @@
-// Frames whose profile is not given, compared with frames whose profile is given.
+// Frames whose code variant is not given, compared with frames whose code variant is given.
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST_F(AnyCodeTest, OnceTheProfileIsKnownNothingIsLost) {
                 Locator(*memory_, Options{}).locate_in_any_code(image.view(), evidence);
             EXPECT_EQ(reading.fix.status, fix.status);
             EXPECT_EQ(reading.fix.cell, fix.cell);
-            EXPECT_EQ(reading.code, Profile::anoto);
+            EXPECT_EQ(reading.code, CodeVariant::anoto);
         }
     }
 }
@@ -75,8 +75,8 @@ TEST_F(AnyCodeTest, FramesThatBothProfilesExplainSayNothing) {
         ASSERT_EQ(reading.fix.status, Status::ok);
         evidence = reading.evidence;
     }
-    EXPECT_EQ(evidence.log2_q8(Profile::anoto), evidence.log2_q8(Profile::libdots));
-    EXPECT_LT(evidence.log2_q8(Profile::microdots), -30 * 256);
+    EXPECT_EQ(evidence.log2_q8(CodeVariant::anoto), evidence.log2_q8(CodeVariant::libdots));
+    EXPECT_LT(evidence.log2_q8(CodeVariant::microdots), -30 * 256);
 }
 
 TEST_F(AnyCodeTest, RefusesWhatLocateRefuses) {

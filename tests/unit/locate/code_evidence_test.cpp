@@ -13,71 +13,72 @@ namespace {
 constexpr Cell kPlace{1000, 2000};
 /// Maximum amount by which the evidence of a place is rounded down, in 2^-8 of log2.
 constexpr int kRounding = 24;
-/// Returns the log odds of a frame that makes `profile` less likely by `log2` bits.
-CodeEvidence::LogOdds against(Profile profile, int log2) {
+/// Returns the log odds of a frame that makes `code` less likely by `log2` bits.
+CodeEvidence::LogOdds against(CodeVariant code, int log2) {
     CodeEvidence::LogOdds odds{};
-    odds[static_cast<std::size_t>(profile)] = -256 * log2;
+    odds[static_cast<std::size_t>(code)] = -256 * log2;
     return odds;
 }
 
 TEST(CodeEvidence, KnowsNothingAtFirst) {
     const CodeEvidence evidence;
-    EXPECT_EQ(evidence.likeliest(), Profile::anoto);
-    for (const Profile profile : {Profile::anoto, Profile::libdots, Profile::microdots}) {
-        EXPECT_EQ(evidence.log2_q8(profile), 0);
-        EXPECT_NEAR(evidence.p_wrong(profile), 2.0 / 3, 0.01);
+    EXPECT_EQ(evidence.likeliest(), CodeVariant::anoto);
+    for (const CodeVariant code :
+         {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {
+        EXPECT_EQ(evidence.log2_q8(code), 0);
+        EXPECT_NEAR(evidence.p_wrong(code), 2.0 / 3, 0.01);
     }
 }
 
 TEST(CodeEvidence, AddsUpFromPlaceToPlace) {
     CodeEvidence evidence;
-    evidence.add(kPlace, against(Profile::anoto, 10));
-    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -10 * 256, kRounding);
-    evidence.add({kPlace.x + 64, kPlace.y}, against(Profile::anoto, 12));
-    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -22 * 256, 2 * kRounding);
-    EXPECT_NE(evidence.likeliest(), Profile::anoto);
-    EXPECT_NEAR(evidence.p_wrong(Profile::libdots), 0.5, 0.01);
+    evidence.add(kPlace, against(CodeVariant::anoto, 10));
+    EXPECT_NEAR(evidence.log2_q8(CodeVariant::anoto), -10 * 256, kRounding);
+    evidence.add({kPlace.x + 64, kPlace.y}, against(CodeVariant::anoto, 12));
+    EXPECT_NEAR(evidence.log2_q8(CodeVariant::anoto), -22 * 256, 2 * kRounding);
+    EXPECT_NE(evidence.likeliest(), CodeVariant::anoto);
+    EXPECT_NEAR(evidence.p_wrong(CodeVariant::libdots), 0.5, 0.01);
 }
 
 TEST(CodeEvidence, CountsThePlaceOnceAtTheMeanOfItsFrames) {
     CodeEvidence evidence;
     for (const int log2 : {8, 20, 8, 8})
         evidence.add({kPlace.x + static_cast<std::uint32_t>(log2), kPlace.y},
-                     against(Profile::anoto, log2));
+                     against(CodeVariant::anoto, log2));
     // (2^20 + 3 * 2^8) / 4 is just above 2^18.
-    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -18 * 256, kRounding);
+    EXPECT_NEAR(evidence.log2_q8(CodeVariant::anoto), -18 * 256, kRounding);
     // Frames with equal evidence do not change the mean.
     CodeEvidence alike;
     for (int frame = 0; frame < 1000; ++frame)
-        alike.add(kPlace, against(Profile::anoto, 20));
-    EXPECT_NEAR(alike.log2_q8(Profile::anoto), -20 * 256, kRounding);
+        alike.add(kPlace, against(CodeVariant::anoto, 20));
+    EXPECT_NEAR(alike.log2_q8(CodeVariant::anoto), -20 * 256, kRounding);
 }
 
 TEST(CodeEvidence, CountsAPlaceAtMost32BitsHoweverManyFramesSayMore) {
     CodeEvidence evidence;
     for (int frame = 0; frame < 3; ++frame)
-        evidence.add(kPlace, against(Profile::anoto, 60));
-    EXPECT_EQ(evidence.log2_q8(Profile::anoto), -32 * 256);
+        evidence.add(kPlace, against(CodeVariant::anoto, 60));
+    EXPECT_EQ(evidence.log2_q8(CodeVariant::anoto), -32 * 256);
     // Here, one frame in 256 is strong: 40 bits, the maximum per frame, minus 8 bits.
     for (int frame = 0; frame < 3 * 255; ++frame)
-        evidence.add(kPlace, against(Profile::anoto, 0));
-    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -32 * 256, kRounding);
+        evidence.add(kPlace, against(CodeVariant::anoto, 0));
+    EXPECT_NEAR(evidence.log2_q8(CodeVariant::anoto), -32 * 256, kRounding);
     for (int frame = 0; frame < 3 * 256 * 3; ++frame)
-        evidence.add(kPlace, against(Profile::anoto, 0));
-    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -30 * 256, kRounding);
+        evidence.add(kPlace, against(CodeVariant::anoto, 0));
+    EXPECT_NEAR(evidence.log2_q8(CodeVariant::anoto), -30 * 256, kRounding);
 }
 
 TEST(CodeEvidence, FramesAgainstEachOtherCancelOut) {
     CodeEvidence evidence;
-    for (const Profile profile : {Profile::anoto, Profile::libdots}) {
+    for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::libdots}) {
         for (int frame = 0; frame < 5; ++frame)
-            evidence.add(kPlace, against(profile, 60));
+            evidence.add(kPlace, against(code, 60));
     }
-    EXPECT_EQ(evidence.log2_q8(Profile::anoto), evidence.log2_q8(Profile::libdots));
+    EXPECT_EQ(evidence.log2_q8(CodeVariant::anoto), evidence.log2_q8(CodeVariant::libdots));
 }
 
-// Views of the same bits, which are fair coins at the true profile and three quarters ones at the
-// others: log2 of 1.5 for the others, or of 2 against them. The views overlap.
+// Views of the same bits, which are fair coins at the true code variant and three quarters ones at
+// the others: log2 of 1.5 for the others, or of 2 against them. The views overlap.
 TEST(CodeEvidence, IsSeldomMuchAgainstTheTruth) {
     constexpr std::size_t kBits = 40;
     constexpr std::size_t kSeen = 25;
@@ -93,7 +94,7 @@ TEST(CodeEvidence, IsSeldomMuchAgainstTheTruth) {
             const int* first = log2_q8.data() + random() % (kBits - kSeen);
             evidence.add(kPlace, {-std::accumulate(first, first + kSeen, 0), 0, 0});
         }
-        const int bits = -evidence.log2_q8(Profile::anoto) / 256;
+        const int bits = -evidence.log2_q8(CodeVariant::anoto) / 256;
         ++sheets_by_bits[static_cast<std::size_t>(bits)];
     }
     int beyond = kSheets;
@@ -109,18 +110,18 @@ TEST(CodeEvidence, IsNotBeyondBeingMended) {
     CodeEvidence evidence;
     for (std::uint32_t place = 0; place < 1000; ++place)
         evidence.add({100 * place, 0}, {0, kMuch, kMuch});
-    EXPECT_EQ(evidence.likeliest(), Profile::anoto);
-    EXPECT_EQ(evidence.log2_q8(Profile::libdots), -40 * 256);
+    EXPECT_EQ(evidence.likeliest(), CodeVariant::anoto);
+    EXPECT_EQ(evidence.log2_q8(CodeVariant::libdots), -40 * 256);
     for (std::uint32_t place = 0; place < 2; ++place)
         evidence.add({100 * place, 5000}, {kMuch, 0, kMuch});
-    EXPECT_EQ(evidence.likeliest(), Profile::libdots);
+    EXPECT_EQ(evidence.likeliest(), CodeVariant::libdots);
 }
 
 TEST(CodeEvidence, TellsFromTheOtherSideOfTheCodeWhatIsNear) {
     CodeEvidence evidence;
-    evidence.add({kPositionsPerAxis - 5, 0}, against(Profile::anoto, 10));
-    evidence.add({5, 10}, against(Profile::anoto, 10));
-    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -10 * 256, kRounding);
+    evidence.add({kPositionsPerAxis - 5, 0}, against(CodeVariant::anoto, 10));
+    evidence.add({5, 10}, against(CodeVariant::anoto, 10));
+    EXPECT_NEAR(evidence.log2_q8(CodeVariant::anoto), -10 * 256, kRounding);
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ TEST(LocateFirst, FindsAllProfilesAtEveryTurn) {
     for (int i = 0; i < kFrames; ++i) {
         SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
         Options options;
-        options.profile = kProfiles[static_cast<std::size_t>(i % 3)];
-        Shot shot = shot_of({.profile = options.profile}, kSeed, static_cast<std::uint64_t>(i));
+        options.code = kCodeVariants[static_cast<std::size_t>(i % 3)];
+        Shot shot = shot_of({.code = options.code}, kSeed, static_cast<std::uint64_t>(i));
         shot.pose.theta_rad = radians(10 * i);
         const Fix fix = outwards(render(shot), options);
         if (fix.status != Status::ok) continue;
@@ -71,7 +71,7 @@ TEST(LocateFirst, LooksThroughTheLensThatItIsTold) {
         Shot shot = shot_of({}, kSeed, i);
         shot.camera.k = i % 2 == 0 ? -8e-6 : 8e-6;
         Options options;
-        options.lens = Lens::from_k(shot.camera.k);
+        options.lens = FixedLens::from_k(shot.camera.k);
         const Fix fix = outwards(render(shot), options);
         ASSERT_EQ(fix.status, Status::ok);
         EXPECT_TRUE(is_right(fix, shot));
@@ -86,14 +86,14 @@ TEST(LocateFirst, FindsFramesAcrossTheEndsOfThePlane) {
     for (int i = 0; i < 12; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
         View view = random_view(rng);
-        view.profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        view.code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         if (i % 2 == 0) view.place.cell.x = i % 4 == 0 ? 1 : kPositionsPerAxis - 2;
         if (i % 3 != 1) view.place.cell.y = i % 4 < 2 ? kPositionsPerAxis - 1 : 0;
         GreyImage image = blank(188, 120);
         for (const PlacedDot& dot : pattern_dots(view))
             darken(image, dot.centre_px, 1.4, 0.7);
         Options options;
-        options.profile = view.profile;
+        options.code = view.code;
         const Fix fix = outwards(image, options);
         if (fix.status != Status::ok) continue;
         ++found;
@@ -155,7 +155,7 @@ TEST(LocateFirst, ShowsItsDotsAndCellsWhenAsked) {
         EXPECT_GE(w.dot_count, blobs.dot_count * 9 / 10);
         EXPECT_LE(w.dot_count, blobs.dot_count * 11 / 10);
         const auto found = blobs.found_dots();
-        const std::vector<Dot> others(found.begin(), found.end());
+        const std::vector<DetectedDot> others(found.begin(), found.end());
         int read = 0;
         int alone = 0;
         for (int j = w.grid.j0; j < w.grid.j0 + w.grid.rows; ++j) {
@@ -170,8 +170,8 @@ TEST(LocateFirst, ShowsItsDotsAndCellsWhenAsked) {
                 // Two dots that touch are one blob or none.
                 if (is_inside && off_px > 5) ++alone;
                 EXPECT_TRUE(!is_inside || off_px < 0.3 || off_px > 5) << off_px;
-                const Place place = moved(options.profile, w.decoding.place, k, j);
-                const Symbol symbol = symbol_at(options.profile, place.cell, place.section);
+                const Place place = moved(options.code, w.decoding.place, k, j);
+                const Symbol symbol = symbol_at(options.code, place.cell, place.section);
                 EXPECT_EQ(cell.x > 0, x_bit(symbol) == 1);
                 EXPECT_EQ(cell.y > 0, y_bit(symbol) == 1);
             }

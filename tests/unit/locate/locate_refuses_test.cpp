@@ -127,9 +127,9 @@ TEST(LocateRefuses, EveryStageCanRefuse) {
     options = {};
     options.lattice.min_dots = 10000;
     EXPECT_EQ(Locator(memory, options).locate(frame.view()).status, Status::too_few_dots);
-    // Another profile differs in a4, and so in nearly every difference.
+    // Another code variant differs in a4, and so in nearly every difference.
     options = {};
-    options.profile = Profile::microdots;
+    options.code = CodeVariant::microdots;
     const Status other = Locator(memory, options).locate(frame.view()).status;
     EXPECT_TRUE(other == Status::not_certain || other == Status::not_in_code) << name(other);
     // Only five columns have dots.

@@ -337,7 +337,7 @@ TEST(Locate, ALensIsUndone) {
         shot.camera.k = -1.5e-5;
         const GreyImage frame = render(shot);
         Options options;
-        options.lens = Lens::from_k(shot.camera.k);
+        options.lens = FixedLens::from_k(shot.camera.k);
         const Fix fix = Locator(memory, options).locate(frame.view());
         ASSERT_EQ(fix.status, Status::ok) << "shot " << i << ", seed " << kSeed;
         EXPECT_NEAR(fix.x_grid() - shot.pose.cell.x, shot.pose.fraction_x, 0.01);

@@ -19,11 +19,11 @@
 namespace dotpose::core_test::locator_options_test {
 namespace {
 
-Shot shot(Preset preset, std::uint64_t index, Profile code = Profile::anoto) {
+Shot shot(Preset preset, std::uint64_t index, CodeVariant code = CodeVariant::anoto) {
     Setup setup;
     setup.preset = preset;
     setup.seed = 77;
-    setup.pattern.profile = code;
+    setup.pattern.code = code;
     return draw_shot(setup, index);
 }
 
@@ -33,7 +33,7 @@ GreyImage frame(std::uint64_t index, Preset preset = Preset::nominal) {
 
 LocatorOptions with_contrast(int min_contrast) {
     LocatorOptions options;
-    options.code = Profile::anoto;
+    options.code = CodeVariant::anoto;
     options.min_contrast = min_contrast;
     return options;
 }
@@ -52,7 +52,7 @@ TEST(LocatorOptions, AreConvertedToFixedPoint) {
     EXPECT_EQ(defaults.effort, Effort::twice);
     EXPECT_EQ(defaults.decoder, Decoder::all);
     LocatorOptions given;
-    given.code = Profile::microdots;
+    given.code = CodeVariant::microdots;
     given.spacing_mm = 0.6;
     given.lens_k_per_px2 = -0x1p-20;
     given.lens_centre_dx_px = 1.5;
@@ -65,7 +65,7 @@ TEST(LocatorOptions, AreConvertedToFixedPoint) {
     given.min_dots = 50;
     given.show_stages = true;
     const Options fixed = given;
-    EXPECT_EQ(fixed.profile, Profile::microdots);
+    EXPECT_EQ(fixed.code, CodeVariant::microdots);
     EXPECT_EQ(fixed.spacing_nm, 600'000);
     EXPECT_EQ(fixed.lens.k_q40, -(1 << 20));
     EXPECT_EQ(fixed.lens.centre_dx_q8, 384);
@@ -128,7 +128,7 @@ TEST(LocatorOptions, ABadOneIsNamedAndRefused) {
         EXPECT_NE(bad_option(options), nullptr);
     }
     LocatorOptions options;
-    options.code = static_cast<Profile>(3);
+    options.code = static_cast<CodeVariant>(3);
     expect(options, "code");
     options = {};
     options.effort = static_cast<Effort>(3);
@@ -139,13 +139,14 @@ TEST(LocatorOptions, ABadOneIsNamedAndRefused) {
 }
 
 TEST(LocatorOptions, TheCodeIsDetectedUnlessItIsGiven) {
-    for (const Profile code : {Profile::anoto, Profile::libdots, Profile::microdots}) {
+    for (const CodeVariant code :
+         {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {
         Locator locator;
         Fix fix;
         for (std::uint64_t i = 0; i < 4; ++i)
             fix = locator.locate(render(shot(Preset::nominal, i, code)).view());
         ASSERT_EQ(fix.status, Status::ok);
-        EXPECT_EQ(locator.options().profile, code);
+        EXPECT_EQ(locator.options().code, code);
         const Shot last = shot(Preset::nominal, 3, code);
         EXPECT_EQ(fix.cell.x, static_cast<std::uint32_t>(std::floor(x_grid(last.pose))));
         const Fix tracked = locator.locate(render(last).view(), Prediction::like(fix));
@@ -153,11 +154,11 @@ TEST(LocatorOptions, TheCodeIsDetectedUnlessItIsGiven) {
         EXPECT_EQ(tracked.cell, fix.cell);
         // Options without a code forget what was detected.
         locator.set_options(LocatorOptions{});
-        EXPECT_EQ(locator.options().profile, Profile::anoto);
+        EXPECT_EQ(locator.options().code, CodeVariant::anoto);
         EXPECT_EQ(locator.locate(render(last).view()).status, Status::ok);
     }
-    Locator given({.code = Profile::anoto});
-    EXPECT_NE(given.locate(render(shot(Preset::nominal, 3, Profile::microdots)).view()).status,
+    Locator given({.code = CodeVariant::anoto});
+    EXPECT_NE(given.locate(render(shot(Preset::nominal, 3, CodeVariant::microdots)).view()).status,
               Status::ok);
 }
 

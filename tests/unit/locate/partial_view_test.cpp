@@ -34,7 +34,7 @@ void expect_located_at_once(const PartialView& view) {
         EXPECT_EQ(outcome.fix.status, Status::ok) << "frame " << i;
         EXPECT_FALSE(outcome.is_wrong()) << "frame " << i;
         // The next prediction counts from the image centre.
-        EXPECT_EQ(outcome.fix.pattern_from_image.centre_q8, (Vec{639 * 128, 479 * 128}));
+        EXPECT_EQ(outcome.fix.pattern_from_image.centre_q8, (FixedVec{639 * 128, 479 * 128}));
         const Fix next =
             Locator(*memory, options).locate(image.view(), Prediction::like(outcome.fix));
         EXPECT_EQ(next.status, Status::ok) << "frame " << i;
@@ -76,7 +76,7 @@ TEST(PartialViews, BordersAndCornersAreLocatedByDevices) {
             EXPECT_FALSE(outcome.is_wrong()) << "frame " << i;
             if (outcome.fix.status != Status::ok) continue;
             ++located;
-            EXPECT_EQ(outcome.fix.pattern_from_image.centre_q8, (Vec{639 * 128, 479 * 128}));
+            EXPECT_EQ(outcome.fix.pattern_from_image.centre_q8, (FixedVec{639 * 128, 479 * 128}));
         }
         EXPECT_GE(located, kFrames * 9 / 10) << (on_table ? "on a table" : "on paper");
     }

@@ -21,14 +21,14 @@ struct ShotSize {
     int width_px = 188;
     int height_px = 120;
     Preset preset = Preset::nominal;
-    Profile profile = Profile::anoto;
+    CodeVariant code = CodeVariant::anoto;
 };
 
 inline Shot shot_of(const ShotSize& size, std::uint64_t seed, std::uint64_t index) {
     Setup setup;
     setup.preset = size.preset;
     setup.seed = seed;
-    setup.pattern.profile = size.profile;
+    setup.pattern.code = size.code;
     setup.camera.width_px = size.width_px;
     setup.camera.height_px = size.height_px;
     setup.camera.mm_per_px = setup.pattern.spacing_mm / size.spacing_px;

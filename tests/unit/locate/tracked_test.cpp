@@ -47,7 +47,7 @@ Prediction true_prediction(const Shot& shot) {
 
 Prediction turned_and_moved(const Shot& shot, const Prediction& prediction, Vec2 by,
                             double turn_rad) {
-    return moved(prediction, shot.page.pattern.profile, fixed(by, 16), bam(turn_rad),
+    return moved(prediction, shot.page.pattern.code, fixed(by, 16), bam(turn_rad),
                  prediction.pattern_from_image.centre_q8);
 }
 
@@ -66,7 +66,7 @@ Fix tracked(const GreyImage& image, const Prediction& prediction, const Options&
 
 Options options_for(const Shot& shot) {
     Options options;
-    options.profile = shot.page.pattern.profile;
+    options.code = shot.page.pattern.code;
     return options;
 }
 
@@ -171,7 +171,7 @@ TEST(LocateTracked, FollowsATiltedCamera) {
 TEST(LocateTracked, AWrongPredictionGivesNoWrongFix) {
     Rng rng(kSeed);
     for (int i = 0; i < 30; ++i) {
-        Shot shot = shot_of({.profile = kProfiles[static_cast<std::size_t>(i % 3)]}, kSeed,
+        Shot shot = shot_of({.code = kCodeVariants[static_cast<std::size_t>(i % 3)]}, kSeed,
                             static_cast<std::uint64_t>(i));
         const GreyImage image = render(shot);
         const Options options = options_for(shot);

@@ -137,7 +137,7 @@ TEST(TestPage, patches_lie_apart_on_the_page_and_name_themselves) {
         const Cell last{sheet.origin.x + static_cast<std::uint32_t>(sheet.columns - 1),
                         sheet.origin.y + static_cast<std::uint32_t>(sheet.rows - 1)};
         for (const Cell cell : {sheet.origin, last}) {
-            const auto patch = test_patch_at(Profile::anoto, cell);
+            const auto patch = test_patch_at(CodeVariant::anoto, cell);
             ASSERT_TRUE(patch);
             EXPECT_DOUBLE_EQ(patch->spacing_mm, sheet.pattern.spacing_mm);
             EXPECT_DOUBLE_EQ(patch->dot_mm, sheet.pattern.dot_mm);
@@ -149,7 +149,7 @@ TEST(TestPage, other_cells_are_no_patches) {
     for (const Cell cell : {Cell{0, 0}, Cell{410'180'000, 1000}, Cell{1000, 410'040'000},
                             Cell{409'999'000, 410'040'000}, Cell{410'810'000, 410'040'000},
                             Cell{410'180'000, 410'170'000}}) {  // dots that would touch
-        EXPECT_FALSE(test_patch_at(Profile::anoto, cell)) << cell.x << ", " << cell.y;
+        EXPECT_FALSE(test_patch_at(CodeVariant::anoto, cell)) << cell.x << ", " << cell.y;
     }
 }
 

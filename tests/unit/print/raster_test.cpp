@@ -25,7 +25,7 @@ Bitmap print_and_read(const Sheet& sheet, const char* name, double dpi) {
 }
 
 Symbol symbol_of(const Sheet& sheet, int i, int j) {
-    return symbol_at(sheet.pattern.profile,
+    return symbol_at(sheet.pattern.code,
                      {sheet.origin.x + static_cast<std::uint32_t>(i),
                       sheet.origin.y + static_cast<std::uint32_t>(j)},
                      sheet.pattern.section);

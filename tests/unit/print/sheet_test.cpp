@@ -33,7 +33,7 @@ TEST(make_sheet, fills_a4_inside_the_default_margin) {
     SheetOptions options;
     options.origin = {.x = 7, .y = 9};
     options.pattern.section = {.u = 3, .v = 62};
-    options.pattern.profile = Profile::microdots;
+    options.pattern.code = CodeVariant::microdots;
     const Sheet sheet = make_sheet(options);
     // By hand: 200 mm hold 1 + floor((200 - 0.254) / 0.508) = 394 columns, 287 mm hold 565 rows.
     EXPECT_EQ(sheet.columns, 394);
@@ -42,7 +42,7 @@ TEST(make_sheet, fills_a4_inside_the_default_margin) {
     EXPECT_EQ(sheet.height_mm, 297);
     EXPECT_EQ(sheet.origin, (Cell{7, 9}));
     EXPECT_EQ(sheet.pattern.section, (Section{3, 62}));
-    EXPECT_EQ(sheet.pattern.profile, Profile::microdots);
+    EXPECT_EQ(sheet.pattern.code, CodeVariant::microdots);
 }
 
 TEST(make_sheet, keeps_the_margin_and_wastes_less_than_a_cell) {

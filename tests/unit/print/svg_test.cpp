@@ -79,7 +79,7 @@ void expect_dots_where_they_belong(const SheetOptions& options) {
         const auto& dots = paths[static_cast<std::size_t>(j)];
         ASSERT_EQ(dots.size(), static_cast<std::size_t>(sheet.columns));
         for (int i = 0; i < sheet.columns; ++i) {
-            const Symbol symbol = symbol_at(sheet.pattern.profile,
+            const Symbol symbol = symbol_at(sheet.pattern.code,
                                             {sheet.origin.x + static_cast<std::uint32_t>(i),
                                              sheet.origin.y + static_cast<std::uint32_t>(j)},
                                             sheet.pattern.section);

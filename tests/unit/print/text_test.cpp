@@ -13,7 +13,7 @@ namespace {
 using print_test::TemporaryDirectory;
 
 struct Vector {
-    Profile profile;
+    CodeVariant code;
     Cell origin;
     Section section;
     std::vector<std::string> rows;
@@ -21,32 +21,32 @@ struct Vector {
 
 // Vectors made by an implementation that shares nothing with this one.
 const std::vector<Vector> kVectors = {
-    {Profile::anoto,
+    {CodeVariant::anoto,
      {0, 0},
      {0, 0},
      {"uulluldu", "udlurrdr", "rrdruduu", "ruldllul", "ulurddur", "rldrduur", "dduuuuul",
       "ulurllrd"}},
-    {Profile::anoto,
+    {CodeVariant::anoto,
      {122, 3219},
      {0, 0},
      {"ruldrdrr", "rdruudlr", "dllruuul", "lrlllrld", "dluruull", "luudlrrl", "lllulrll",
       "ulddurlr"}},
-    {Profile::anoto,
+    {CodeVariant::anoto,
      {217, 1134},
      {0, 0},
      {"dddurddl", "rdddrudu", "rrluulul", "rdulduru", "ululuudu", "rlrrruud", "uuldddlr",
       "lrlddurr"}},
-    {Profile::anoto,
+    {CodeVariant::anoto,
      {123456789, 400000000},
      {10, 2},
      {"lddruddd", "ldluudlr", "uddddull", "llruldrr", "ddrdlulr", "lrrllull", "rllulddr",
       "uulluuru"}},
-    {Profile::libdots,
+    {CodeVariant::libdots,
      {122, 3219},
      {0, 0},
      {"ruldrdrr", "rdruudlr", "dllruuul", "lrlllrld", "dluruull", "luudlrrl", "lllulrll",
       "ulddurlr"}},
-    {Profile::microdots,
+    {CodeVariant::microdots,
      {7, 3},
      {10, 2},
      {"drurrdll", "ruldldud", "llrddrdl", "ddullluu", "udurdurr", "urlllldd", "ldududuu",
@@ -65,7 +65,7 @@ TEST(write_text, writes_the_letters_of_the_code) {
     const TemporaryDirectory directory;
     for (const Vector& expected : kVectors) {
         SheetOptions options;
-        options.pattern.profile = expected.profile;
+        options.pattern.code = expected.code;
         options.pattern.section = expected.section;
         options.origin = expected.origin;
         options.paper = {.width_mm = 20, .height_mm = 30};

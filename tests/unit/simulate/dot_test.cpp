@@ -219,7 +219,7 @@ TEST(Dot, IsAsExactAtTheFarEndOfThePlane) {
     pose.fraction_x = 0.123456789;
     Imperfections seen;
     seen.blur_sigma_px = 0.5;
-    const Symbol symbol = symbol_at(page.pattern.profile, kFar, page.pattern.section);
+    const Symbol symbol = symbol_at(page.pattern.code, kFar, page.pattern.section);
     const double px_per_mm = 1 / CameraModel{}.mm_per_px;
     const Vec2 expected{93.5 + (dx(symbol) / 6.0 - 0.123456789) * kDefaultSpacing_mm * px_per_mm,
                         59.5 + dy(symbol) / 6.0 * kDefaultSpacing_mm * px_per_mm};

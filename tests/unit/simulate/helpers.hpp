@@ -27,7 +27,7 @@ inline Page one_dot_page() {
 
 /// Offset of that dot's centre from the pose point, from the definitions of code.hpp alone.
 inline Vec2 dot_offset_mm(const Page& page, const CameraPose& pose) {
-    const Symbol symbol = symbol_at(page.pattern.profile, kDotCell, page.pattern.section);
+    const Symbol symbol = symbol_at(page.pattern.code, kDotCell, page.pattern.section);
     const double cells_x = static_cast<double>(kDotCell.x) - pose.cell.x - pose.fraction_x;
     const double cells_y = static_cast<double>(kDotCell.y) - pose.cell.y - pose.fraction_y;
     return {cells_x * page.pattern.spacing_mm + dx(symbol) * page.pattern.displacement_mm,

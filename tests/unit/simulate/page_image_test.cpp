@@ -26,7 +26,7 @@ GreyImage painted(const Page& page, double mm_per_px) {
         if (i < 0 || j < 0 || i >= page.columns || j >= page.rows) return false;
         const Cell cell{page.origin.x + static_cast<std::uint32_t>(i),
                         page.origin.y + static_cast<std::uint32_t>(j)};
-        const Symbol symbol = symbol_at(pattern.profile, cell, pattern.section);
+        const Symbol symbol = symbol_at(pattern.code, cell, pattern.section);
         const auto at = [&](long k, int step) {
             return kFirst_mm + static_cast<double>(k) * pattern.spacing_mm +
                    step * pattern.displacement_mm;

@@ -304,7 +304,7 @@ static void any_code(dotpose_locator* large, dotpose_locator* device) {
     dotpose_code_evidence evidence = {{0}};
     dotpose_code_reading reading;
     dotpose_fix fix;
-    int32_t profile = -1;
+    int32_t code = -1;
     int32_t count = -1;
     float p_wrong = -1;
     dotpose_fix_init(&fix, sizeof fix);
@@ -313,10 +313,10 @@ static void any_code(dotpose_locator* large, dotpose_locator* device) {
     EXPECT(WRONG_KIND,
            dotpose_locate_in_code(device, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, &reading, &fix));
     EXPECT(WRONG_KIND, dotpose_dots(device, NULL, 0, &count));
-    EXPECT(NULL_POINTER, dotpose_code_of(NULL, &profile));
+    EXPECT(NULL_POINTER, dotpose_code_of(NULL, &code));
     EXPECT(NULL_POINTER, dotpose_code_of(large, NULL));
-    EXPECT(OK, dotpose_code_of(device, &profile));
-    CHECK(profile == DOTPOSE_CODE_ANOTO);
+    EXPECT(OK, dotpose_code_of(device, &code));
+    CHECK(code == DOTPOSE_CODE_ANOTO);
     EXPECT(NO_CONTRAST, dotpose_locate_any_code(large, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL,
                                                 NULL, NULL, &fix));
     EXPECT(NULL_POINTER, dotpose_locate_any_code(large, NULL, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL,
@@ -327,15 +327,15 @@ static void any_code(dotpose_locator* large, dotpose_locator* device) {
            dotpose_locate_in_code(NULL, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, &reading, &fix));
     EXPECT(NO_CONTRAST,
            dotpose_locate_in_code(large, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL, &fix));
-    EXPECT(OK, dotpose_code_likeliest(&evidence, &profile, &p_wrong));
-    CHECK(profile == DOTPOSE_CODE_ANOTO && p_wrong > 0.6F && p_wrong < 0.7F);
+    EXPECT(OK, dotpose_code_likeliest(&evidence, &code, &p_wrong));
+    CHECK(code == DOTPOSE_CODE_ANOTO && p_wrong > 0.6F && p_wrong < 0.7F);
     memset(&evidence, 0x55, sizeof evidence);
-    EXPECT(BAD_VALUE, dotpose_code_likeliest(&evidence, &profile, &p_wrong));
+    EXPECT(BAD_VALUE, dotpose_code_likeliest(&evidence, &code, &p_wrong));
     EXPECT(BAD_VALUE, dotpose_locate_any_code(large, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL,
                                               &evidence, &reading, &fix));
-    EXPECT(NULL_POINTER, dotpose_code_likeliest(NULL, &profile, &p_wrong));
+    EXPECT(NULL_POINTER, dotpose_code_likeliest(NULL, &code, &p_wrong));
     EXPECT(NULL_POINTER, dotpose_code_likeliest(&evidence, NULL, &p_wrong));
-    EXPECT(NULL_POINTER, dotpose_code_likeliest(&evidence, &profile, NULL));
+    EXPECT(NULL_POINTER, dotpose_code_likeliest(&evidence, &code, NULL));
     EXPECT(OK, dotpose_dots(large, NULL, 0, &count));
     CHECK(count == 0);
     EXPECT(NULL_POINTER, dotpose_dots(large, NULL, 1, &count));

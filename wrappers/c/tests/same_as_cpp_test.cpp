@@ -73,10 +73,10 @@ std::vector<GreyImage> drive(int frames) {
     return images;
 }
 
-/// Frames of places far apart on a sheet of another profile than the default.
+/// Frames of places far apart on a sheet of another code variant than the default.
 std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
     Setup setup;
-    setup.pattern.profile = Profile::libdots;
+    setup.pattern.code = CodeVariant::libdots;
     std::vector<GreyImage> images;
     for (std::uint64_t i = 0; i < frames; ++i)
         images.push_back(render(draw_shot(setup, i)));
@@ -119,7 +119,7 @@ TEST(C, GivesTheSymbolsOfTheCodePastTheEndsOfItsAxes) {
     constexpr int kRows = 70;
     Rng rng(3);
     for (int n = 0; n < 30; ++n) {
-        const auto profile = static_cast<Profile>(n % kProfileCount);
+        const auto code = static_cast<CodeVariant>(n % kCodeVariantCount);
         const auto near_end = [&] { return kPositionsPerAxis - 1 - rng.below(200); };
         const bool is_far = n % 2 == 0;
         const Place place{
@@ -133,8 +133,8 @@ TEST(C, GivesTheSymbolsOfTheCodePastTheEndsOfItsAxes) {
                   DOTPOSE_OK);
         for (int row = 0; row < kRows; ++row) {
             for (int column = 0; column < kColumns; ++column) {
-                const Place at = moved(profile, place, column, row);
-                const Symbol symbol = symbol_at(profile, at.cell, at.section);
+                const Place at = moved(code, place, column, row);
+                const Symbol symbol = symbol_at(code, at.cell, at.section);
                 ASSERT_EQ(symbols[static_cast<std::size_t>(row * kColumns + column)],
                           static_cast<std::uint8_t>(symbol))
                     << column << ", " << row;
@@ -156,7 +156,7 @@ TEST(C, PassesEveryOption) {
     given = {given.size, 1, 0, 0, 0.6, -1e-5, 11, -12, 13, -14, 1e-6, 0.2, 200, 50, 1, 0};
     LocatorOptions read;
     ASSERT_EQ(c::to_core(&given, read), DOTPOSE_OK);
-    EXPECT_EQ(read.code, Profile::libdots);
+    EXPECT_EQ(read.code, CodeVariant::libdots);
     EXPECT_EQ(read.effort, Effort::device);
     EXPECT_EQ(read.decoder, Decoder::window);
     EXPECT_EQ(read.spacing_mm, 0.6);
@@ -277,8 +277,8 @@ TEST(C, FollowsARobotAsTheTrackerDoes) {
 TEST(C, MovesPredictions) {
     const auto memory = std::make_unique<LargeMemory>();
     const Fix fix = Locator(*memory, Options{}).locate(drive(3)[0].view());
-    const Prediction expected = moved(Prediction::like(fix), Profile::libdots, {70'000, -90'000},
-                                      1 << 24, {24'000, 15'000});
+    const Prediction expected = moved(Prediction::like(fix), CodeVariant::libdots,
+                                      {70'000, -90'000}, 1 << 24, {24'000, 15'000});
     const dotpose_fix given = as_c(fix);
     dotpose_prediction prediction;
     ASSERT_EQ(dotpose_prediction_like(&given, &prediction), DOTPOSE_OK);
@@ -299,7 +299,8 @@ TEST(C, SendsAndReadsPackets) {
     int completed = 0;
     for (const GreyImage& image : drive(5)) {
         const Fix fix = Locator(*memory, Options{}).locate(image.view());
-        const PacketBytes expected = encode(make_packet(fix, Profile::microdots, ++sequence, 99));
+        const PacketBytes expected =
+            encode(make_packet(fix, CodeVariant::microdots, ++sequence, 99));
         const dotpose_fix given = as_c(fix);
         dotpose_packet packet;
         ASSERT_EQ(dotpose_packet_of(&given, DOTPOSE_CODE_MICRODOTS, sequence, 99, &packet),
@@ -366,10 +367,10 @@ TEST(C, FindsTheCodeOfASheet) {
         EXPECT_EQ(reading.has_other != 0, expected.has_other);
         EXPECT_EQ(reading.other.x, expected.other_cell.x);
         EXPECT_EQ(reading.other.v, expected.other_section.v);
-        std::int32_t profile = -1;
+        std::int32_t code = -1;
         float p_wrong = -1;
-        ASSERT_EQ(dotpose_code_likeliest(&evidence, &profile, &p_wrong), DOTPOSE_OK);
-        EXPECT_EQ(profile, static_cast<std::int32_t>(core_evidence.likeliest()));
+        ASSERT_EQ(dotpose_code_likeliest(&evidence, &code, &p_wrong), DOTPOSE_OK);
+        EXPECT_EQ(code, static_cast<std::int32_t>(core_evidence.likeliest()));
         EXPECT_EQ(p_wrong, core_evidence.p_wrong(core_evidence.likeliest()));
         const CodeReading in_code = core.locate_in_code(image.view());
         dotpose_locate_in_code(locator.get(), image.pixels.data(), image.width_px, image.height_px,
@@ -377,7 +378,7 @@ TEST(C, FindsTheCodeOfASheet) {
         EXPECT_EQ(fix.fraction_x_q16, in_code.fix.fraction_x_q16);
         EXPECT_EQ(reading.has_other != 0, in_code.has_other);
     }
-    EXPECT_EQ(core_evidence.likeliest(), Profile::libdots);
+    EXPECT_EQ(core_evidence.likeliest(), CodeVariant::libdots);
 }
 
 TEST(C, DetectsTheCodeByDefault) {
@@ -395,7 +396,7 @@ TEST(C, DetectsTheCodeByDefault) {
         ASSERT_EQ(dotpose_code_of(locator.get(), &code), DOTPOSE_OK);
         EXPECT_EQ(code, static_cast<std::int32_t>(expected.code));
     }
-    EXPECT_EQ(evidence.likeliest(), Profile::libdots);
+    EXPECT_EQ(evidence.likeliest(), CodeVariant::libdots);
 }
 
 TEST(C, GivesTheDots) {
@@ -410,7 +411,7 @@ TEST(C, GivesTheDots) {
     const auto memory = std::make_unique<LargeMemory>();
     Locator core(*memory, core_options);
     static_cast<void>(core.locate(image.view()));
-    const std::span<const Dot> expected = core.trace().dots;
+    const std::span<const DetectedDot> expected = core.trace().dots;
     std::array<dotpose_dot, 400> dots{};
     std::int32_t count = 0;
     ASSERT_EQ(dotpose_dots(locator.get(), dots.data(), 100, &count), DOTPOSE_OK);

@@ -78,7 +78,7 @@ void draw_overlay(const Luma& luma, const Trace& trace) {
     const draw::FrameView view(image, trace, side_px);
     const Canvas canvas(luma);
     const double radius = std::max(2.0, 0.3 * view.spacing());
-    for (const Dot& dot : trace.dots)
+    for (const DetectedDot& dot : trace.dots)
         canvas.ring(view.at_dot(dot), radius, kBlack);
     if (!view.reached().pose) return;
     draw_arrow(canvas, view.at(view.reference_px()), view.ahead_of_reference(), 0.15 * side_px);

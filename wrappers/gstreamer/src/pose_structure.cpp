@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/tools/track_names.hpp"
 
 namespace dotpose::gstreamer {

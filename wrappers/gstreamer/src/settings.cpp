@@ -7,7 +7,7 @@
 
 #include <gst/gst.h>
 
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 
 namespace dotpose::gstreamer {
 namespace {
@@ -36,23 +36,23 @@ constexpr GParamFlags kAtStart =
 
 constexpr gint kAnyCode = 0;
 
-gint number(std::optional<Profile> code) {
+gint number(std::optional<CodeVariant> code) {
     return code ? static_cast<gint>(*code) + 1 : kAnyCode;
 }
 
-std::optional<Profile> code_of(gint number) {
+std::optional<CodeVariant> code_of(gint number) {
     if (number == kAnyCode) return std::nullopt;
-    return static_cast<Profile>(number - 1);
+    return static_cast<CodeVariant>(number - 1);
 }
 
 /// The values of `code`, registered once as a type of GObject.
 GType code_type() {
-    static const std::array<GEnumValue, kProfileCount + 2> values = [] {
-        std::array<GEnumValue, kProfileCount + 2> all{};
+    static const std::array<GEnumValue, kCodeVariantCount + 2> values = [] {
+        std::array<GEnumValue, kCodeVariantCount + 2> all{};
         all[0] = {kAnyCode, "Found out from the frames", "auto"};
-        for (int i = 0; i < kProfileCount; ++i) {
-            const auto profile = static_cast<Profile>(i);
-            all[static_cast<std::size_t>(i) + 1] = {number(profile), name(profile), name(profile)};
+        for (int i = 0; i < kCodeVariantCount; ++i) {
+            const auto code = static_cast<CodeVariant>(i);
+            all[static_cast<std::size_t>(i) + 1] = {number(code), name(code), name(code)};
         }
         return all;
     }();

@@ -37,9 +37,9 @@ void define_protocol(py::module_& module);
 /// Returns options in fixed point. Throws BadArgument if one is outside of its range.
 Options checked(const LocatorOptions& options);
 
-/// Returns the profile of a name, none for "auto". Throws BadArgument for any other text.
-std::optional<Profile> code_or_auto(const std::string& name);
-/// Returns the profile of a name. Throws BadArgument for any other text.
-Profile code_named(const std::string& name);
+/// Returns the code variant of a name, none for "auto". Throws BadArgument for any other text.
+std::optional<CodeVariant> code_or_auto(const std::string& name);
+/// Returns the code variant of a name. Throws BadArgument for any other text.
+CodeVariant code_named(const std::string& name);
 
 }  // namespace dotpose::python

@@ -3,7 +3,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/tools/draw.hpp"
 #include "frames.hpp"
 #include "progress.hpp"
@@ -12,11 +12,11 @@
 namespace dotpose::python {
 namespace {
 
-CalibrateOptions options_of(const std::string& code, double spacing_mm) {
+CalibrateOptions options_of(const std::string& name, double spacing_mm) {
     CalibrateOptions options;
-    const auto profile = code_or_auto(code);
-    options.any_code = !profile;
-    options.pattern.profile = profile.value_or(Profile::anoto);
+    const auto code = code_or_auto(name);
+    options.any_code = !code;
+    options.pattern.code = code.value_or(CodeVariant::anoto);
     options.pattern.spacing_mm = spacing_mm;
     options.progress = [](int, int) { return !was_interrupted(); };
     return options;

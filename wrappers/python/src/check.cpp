@@ -1,7 +1,7 @@
 // check_print: what a scan or photo of a printed sheet shows about printer and paper.
 #include <fmt/core.h>
 
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/tools/check_print.hpp"
 #include "dotpose/tools/draw.hpp"
 #include "frames.hpp"
@@ -42,7 +42,7 @@ void define_scale(py::module_& module) {
 void define_field(py::module_& module) {
     py::class_<PrintField>(module, "PrintField", "One contiguous region of the code on a scan.")
         .def_property_readonly(
-            "code", [](const PrintField& f) { return name(f.pattern.profile); }, "Its code.")
+            "code", [](const PrintField& f) { return name(f.pattern.code); }, "Its code.")
         .def_property_readonly(
             "section",
             [](const PrintField& f) {

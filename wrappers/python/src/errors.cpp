@@ -2,8 +2,8 @@
 #include <exception>
 
 #include "binding.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/files/error.hpp"
-#include "dotpose/files/profile_names.hpp"
 #include "dotpose/tools/image_file.hpp"
 
 namespace dotpose::python {
@@ -59,14 +59,14 @@ void define_errors(py::module_& module) {
     py::register_exception_translator(translate);
 }
 
-Profile code_named(const std::string& name) {
-    if (const auto profile = profile_by_name(name)) return *profile;
+CodeVariant code_named(const std::string& name) {
+    if (const auto code = code_by_name(name)) return *code;
     throw BadArgument("code: '" + name + "' is none of anoto, libdots, microdots");
 }
 
-std::optional<Profile> code_or_auto(const std::string& name) {
+std::optional<CodeVariant> code_or_auto(const std::string& name) {
     if (name == "auto") return std::nullopt;
-    if (const auto profile = profile_by_name(name)) return profile;
+    if (const auto code = code_by_name(name)) return code;
     throw BadArgument("code: '" + name + "' is none of auto, anoto, libdots, microdots");
 }
 

@@ -8,8 +8,8 @@
 
 #include <fmt/core.h>
 
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/files/error.hpp"
-#include "dotpose/files/profile_names.hpp"
 #include "picture.hpp"
 #include "rounded.hpp"
 
@@ -83,8 +83,8 @@ class Bits {
             put(value);
     }
     void put(const PlaneFromImage& plane) {
-        for (const Vec vec : {plane.centre_q8, plane.at_centre_q16, plane.du_q24, plane.dv_q24,
-                              plane.perspective_q30}) {
+        for (const FixedVec vec : {plane.centre_q8, plane.at_centre_q16, plane.du_q24, plane.dv_q24,
+                                   plane.perspective_q30}) {
             put(vec.x);
             put(vec.y);
         }
@@ -275,7 +275,7 @@ SeenFix seen_fix(const CodeReading& reading) {
 
 SeenPrediction SeenPrediction::like(const SeenFix& seen) {
     if (!seen.is_ok()) throw BadArgument("a prediction needs a fix that is ok");
-    const Vec centre_q8 = seen.fix.pattern_from_image.centre_q8;
+    const FixedVec centre_q8 = seen.fix.pattern_from_image.centre_q8;
     return {Prediction::like(seen.fix),
             seen.code,
             seen.fix.spacing_mm(),

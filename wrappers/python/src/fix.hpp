@@ -16,18 +16,18 @@ namespace dotpose::python {
 
 /// Another place that explains a frame as well as its fix does.
 struct OtherPlace {
-    Profile code = Profile::anoto;
+    CodeVariant code = CodeVariant::anoto;
     Cell cell;
     Section section;
 };
 
-/// A fix, the profile it was read in, and the way to the stages of its frame.
+/// A fix, the code variant it was read in, and the way to the stages of its frame.
 struct SeenFix {
     Fix fix;
-    Profile code = Profile::anoto;
+    CodeVariant code = CodeVariant::anoto;
     std::optional<OtherPlace> other;
     /// The reference point, which the pose belongs to, in 2^-8 px from the image centre.
-    Vec reference_q8;
+    FixedVec reference_q8;
     std::shared_ptr<StageSource> source;   ///< who located the frame
     std::uint64_t number = 0;              ///< of the frame, among those of `source`
     std::string fault;                     ///< option outside of its range; empty if none is
@@ -43,9 +43,9 @@ SeenFix seen_fix(const CodeReading& reading);
 /// A prediction and what it was made for.
 struct SeenPrediction {
     Prediction prediction;
-    Profile code = Profile::anoto;
+    CodeVariant code = CodeVariant::anoto;
     double spacing_mm = 0;
-    Vec pivot_q8;  ///< the reference point in the image
+    FixedVec pivot_q8;  ///< the reference point in the image
 
     static SeenPrediction like(const SeenFix& fix);
 };

@@ -2,8 +2,8 @@
 
 #include <chrono>
 
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/files/error.hpp"
-#include "dotpose/files/profile_names.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
 #include "dotpose/tools/option_names.hpp"
@@ -29,13 +29,13 @@ std::int32_t offset_q8(double px, int side_px) {
 
 LocatorOfPython::LocatorOfPython(const LocatorSetup& setup)
     : setup_(setup), locator_(setup.options), options_(setup.options) {
-    if (setup.code) options_.profile = *setup.code;
+    if (setup.code) options_.code = *setup.code;
 }
 
 void LocatorOfPython::use_options_for(int width_px, int height_px) {
     if (width_px == width_px_ && height_px == height_px_) return;
     Options options = setup_.options;
-    options.profile = options_.profile;
+    options.code = options_.code;
     if (setup_.camera) use_camera(*setup_.camera, width_px, height_px, options);
     if (setup_.reference_px) {
         options.reference_dx_q8 = offset_q8(setup_.reference_px->u, width_px);
@@ -48,9 +48,9 @@ void LocatorOfPython::use_options_for(int width_px, int height_px) {
     locator_.set_options(options_);
 }
 
-void LocatorOfPython::set_options(Profile code, bool show_stages) {
+void LocatorOfPython::set_options(CodeVariant code, bool show_stages) {
     Options options = options_;
-    options.profile = code;
+    options.code = code;
     options.show_stages |= show_stages;
     locator_.set_options(options);
 }
@@ -75,7 +75,7 @@ SeenFix LocatorOfPython::locate_locked(const ImageView& image,
     use_options_for(image.width_px, image.height_px);
     ++newest_.number;
     newest_.evidence = evidence_;
-    newest_.code = locator_.options().profile;
+    newest_.code = locator_.options().code;
     newest_.expected = expected;
     if (expected && !setup_.code && expected->code != newest_.code) {
         newest_.code = expected->code;
@@ -121,7 +121,7 @@ std::shared_ptr<const Stages> LocatorOfPython::stages_of(std::uint64_t number) {
             "the locator has located another frame since, so dots and picture of this one "
             "are gone; Locator(keep_stages=True) keeps them with each fix");
     }
-    const Profile code = locator_.options().profile;
+    const CodeVariant code = locator_.options().code;
     set_options(newest_.code, true);
     const CodeReading again = read(view, newest_);
     std::shared_ptr<const Stages> stages;
@@ -139,13 +139,13 @@ double LocatorOfPython::cpp_us(const py::object& image, int repeats) {
     use_options_for(view.width_px, view.height_px);
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < repeats; ++i)
-        read(view, {0, evidence_, locator_.options().profile, std::nullopt, {}});
+        read(view, {0, evidence_, locator_.options().code, std::nullopt, {}});
     const std::chrono::duration<double, std::micro> elapsed =
         std::chrono::steady_clock::now() - start;
     return elapsed.count() / repeats;
 }
 
-Profile LocatorOfPython::code() {
+CodeVariant LocatorOfPython::code() {
     const py::gil_scoped_release others_may_run;
     const std::scoped_lock lock(mutex_);
     return setup_.code.value_or(evidence_.likeliest());

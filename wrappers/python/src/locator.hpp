@@ -15,7 +15,7 @@ namespace dotpose::python {
 
 /// What is known of code and camera.
 struct LocatorSetup {
-    std::optional<Profile> code;  ///< none: found from all frames
+    std::optional<CodeVariant> code;  ///< none: found from all frames
     std::optional<Camera> camera;
     std::optional<PixelPoint> reference_px;
     Options options;
@@ -37,21 +37,21 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
     /// Returns the mean time in us that the same image takes in C++, for tests of what Python adds.
     double cpp_us(const py::object& image, int repeats);
 
-    /// Returns the profile that was given, otherwise the likeliest so far.
-    Profile code();
+    /// Returns the code variant that was given, otherwise the likeliest so far.
+    CodeVariant code();
 
   private:
     /// What the newest frame was located with, so that its stages can be found once more.
     struct Request {
         std::uint64_t number = 0;
         CodeEvidence evidence;  ///< before the frame
-        Profile code = Profile::anoto;
+        CodeVariant code = CodeVariant::anoto;
         std::optional<SeenPrediction> expected;
         Fix fix;  ///< before the camera file is applied
     };
 
     void use_options_for(int width_px, int height_px);
-    void set_options(Profile code, bool show_stages);
+    void set_options(CodeVariant code, bool show_stages);
     CodeReading read(const ImageView& image, const Request& request);
     SeenFix locate_locked(const ImageView& image, const std::optional<SeenPrediction>& expected);
 

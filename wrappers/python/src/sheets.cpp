@@ -6,8 +6,8 @@
 
 #include <fmt/core.h>
 
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/files/error.hpp"
-#include "dotpose/files/profile_names.hpp"
 #include "progress.hpp"
 
 namespace dotpose::python {
@@ -50,7 +50,7 @@ void define_sheet(py::module_& module) {
                       "its origin.\n\nThe sheet frame is in mm from the top left corner of the "
                       "page, x right, y DOWN.")
         .def_property_readonly(
-            "code", [](const Sheet& s) { return name(s.pattern.profile); }, "Code of the dots.")
+            "code", [](const Sheet& s) { return name(s.pattern.code); }, "Code of the dots.")
         .def_property_readonly(
             "section",
             [](const Sheet& s) { return py::make_tuple(s.pattern.section.u, s.pattern.section.v); },
@@ -75,7 +75,7 @@ void define_sheet(py::module_& module) {
         .def("__repr__", [](const Sheet& s) {
             return fmt::format("<Sheet {:g} x {:g} mm, {} x {} cells from ({}, {}), code {}>",
                                s.width_mm, s.height_mm, s.columns, s.rows, s.origin.x, s.origin.y,
-                               name(s.pattern.profile));
+                               name(s.pattern.code));
         });
 }
 

@@ -8,7 +8,7 @@
 #include <fmt/core.h>
 
 #include "binding.hpp"
-#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/code_names.hpp"
 #include "dotpose/tools/truth.hpp"
 #include "image.hpp"
 
@@ -73,7 +73,7 @@ Setup new_setup(const std::string& preset, std::uint64_t seed, const std::string
     Setup setup;
     setup.preset = preset_named(preset);
     setup.seed = seed;
-    setup.pattern.profile = code_named(code);
+    setup.pattern.code = code_named(code);
     setup.pattern.spacing_mm = spacing_mm;
     setup.pattern.displacement_mm = setup.pattern.dot_mm = spacing_mm / 6;
     if (section) {
@@ -147,7 +147,7 @@ void define_shot(py::module_& module) {
             },
             "Section (u, v) that is printed.")
         .def_property_readonly(
-            "code", [](const Shot& s) { return name(s.page.pattern.profile); },
+            "code", [](const Shot& s) { return name(s.page.pattern.code); },
             "Code that is printed.")
         .def_readwrite("seed", &Shot::seed, "Seed of noise, dirt and graphics.")
         .def("render", &rendered, "Return the image: uint8, height x width.")

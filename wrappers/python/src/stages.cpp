@@ -16,7 +16,7 @@ std::vector<T> kept(std::span<const T>& shown) {
 }
 
 /// Returns a camera that has no more than the lens of the options.
-Camera camera_of(const Lens& lens, int width_px, int height_px) {
+Camera camera_of(const FixedLens& lens, int width_px, int height_px) {
     Camera camera;
     camera.width_px = width_px;
     camera.height_px = height_px;
@@ -40,7 +40,7 @@ std::vector<PixelPoint> Stages::dots_px() const {
     const Camera camera = camera_of(trace_.options.lens, image_.width_px, image_.height_px);
     std::vector<PixelPoint> pixels;
     pixels.reserve(dots_.size());
-    for (const Dot& dot : dots_) {
+    for (const DetectedDot& dot : dots_) {
         const PixelPoint point{dot.centre_q8.x / 256.0, dot.centre_q8.y / 256.0};
         pixels.push_back(camera.k_per_px2 == 0 ? point : distorted(camera, point));
     }

@@ -29,9 +29,9 @@ class Stages {
   private:
     GreyImage image_;
     Trace trace_;
-    std::vector<Dot> dots_;
+    std::vector<DetectedDot> dots_;
     std::vector<std::uint16_t> seeds_;
-    std::vector<Edge> edges_;
+    std::vector<SeedEdge> edges_;
     std::vector<GridCell> cells_;
 };
 

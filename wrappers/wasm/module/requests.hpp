@@ -5,7 +5,7 @@
 namespace dotpose::wasm {
 
 struct SheetRequest {
-    double profile;
+    double code;
     double section_u;
     double section_v;
     double spacing_mm;

@@ -44,7 +44,7 @@ std::uint32_t natural(double value) {
 
 Pattern pattern_of(const wasm::SheetRequest& sheet) {
     return {
-        static_cast<Profile>(natural(sheet.profile)),
+        static_cast<CodeVariant>(natural(sheet.code)),
         {static_cast<std::uint8_t>(sheet.section_u), static_cast<std::uint8_t>(sheet.section_v)},
         sheet.spacing_mm,
         sheet.displacement_mm,
@@ -153,7 +153,7 @@ const char* dotpose_tools_error() {
 
 /// Returns where the request of the next call is written.
 double* dotpose_tools_request() {
-    return &request.sheet.profile;
+    return &request.sheet.code;
 }
 
 /// Lays out the sheet; returns a SheetLayout.

@@ -19,7 +19,7 @@ using core_test::operator-;
 constexpr std::uint64_t kSeed = 76;
 
 /// Returns the cell that `core::turned` has to make of a cell of a block.
-Vec cell_turned(int quarters, Vec cell) {
+FixedVec cell_turned(int quarters, FixedVec cell) {
     switch (quarters) {
         case 1:
             return {-1 - cell.y, cell.x};
@@ -46,16 +46,16 @@ void set_bit(core::BitLines& lines, int line, int cell, bool value) {
 
 /// Returns the block that a camera turned by `quarters` sees of a rectangle of cells; the
 /// displacement of a dot turns with the paper.
-BitBlock seen_block(Profile profile, const Place& zero, int quarters, Vec least, Vec most,
-                    const Damage& damage, Rng& rng) {
+BitBlock seen_block(CodeVariant code, const Place& zero, int quarters, FixedVec least,
+                    FixedVec most, const Damage& damage, Rng& rng) {
     BitBlock block;
-    const Turn back = Turn{quarters}.inverse();
+    const QuarterTurn back = QuarterTurn{quarters}.inverse();
     for (int j = least.y; j < most.y; ++j) {
         for (int i = least.x; i < most.x; ++i) {
-            const Vec cell = cell_turned(quarters, {i, j});
-            const Place at = moved(profile, zero, cell.x, cell.y);
-            const Symbol symbol = symbol_at(profile, at.cell, at.section);
-            const Vec seen = back({dx(symbol), dy(symbol)});
+            const FixedVec cell = cell_turned(quarters, {i, j});
+            const Place at = moved(code, zero, cell.x, cell.y);
+            const Symbol symbol = symbol_at(code, at.cell, at.section);
+            const FixedVec seen = back({dx(symbol), dy(symbol)});
             if (rng.uniform() < damage.missing) continue;
             // A dot displaced to the right or down has y bit 1, to the left or down x bit 1.
             const bool y = seen.x + seen.y > 0;
@@ -89,17 +89,18 @@ TEST(BitLines, ABlockTurnsAsTheCodeDoes) {
     Rng rng(kSeed);
     for (int i = 0; i < 48; ++i) {
         SCOPED_TRACE(testing::Message() << "block " << i << ", seed " << kSeed);
-        const Profile profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         const int quarters = i / 3 % 4;
         const Place zero = some_place(i, rng);
-        const Vec least{-static_cast<int>(rng.below(33)), -static_cast<int>(rng.below(33))};
-        const Vec most{1 + static_cast<int>(rng.below(31)), 1 + static_cast<int>(rng.below(31))};
-        const BitBlock seen = seen_block(profile, zero, quarters, least, most, {}, rng);
+        const FixedVec least{-static_cast<int>(rng.below(33)), -static_cast<int>(rng.below(33))};
+        const FixedVec most{1 + static_cast<int>(rng.below(31)),
+                            1 + static_cast<int>(rng.below(31))};
+        const BitBlock seen = seen_block(code, zero, quarters, least, most, {}, rng);
         // An upright camera sees the same cells.
-        const Vec a = cell_turned(quarters, least);
-        const Vec b = cell_turned(quarters, most - Vec{1, 1});
+        const FixedVec a = cell_turned(quarters, least);
+        const FixedVec b = cell_turned(quarters, most - FixedVec{1, 1});
         const BitBlock upright =
-            seen_block(profile, zero, 0, {std::min(a.x, b.x), std::min(a.y, b.y)},
+            seen_block(code, zero, 0, {std::min(a.x, b.x), std::min(a.y, b.y)},
                        {std::max(a.x, b.x) + 1, std::max(a.y, b.y) + 1}, {}, rng);
         expect_same(core::turned(quarters, seen), upright);
     }
@@ -121,9 +122,9 @@ TEST(BitLines, APlaneTurnsAsItsCellsDo) {
             const Vec2 before = at(plane, x, y);
             // A cell becomes the one that `turned` of blocks says, and points between cells move
             // with them.
-            const Vec zero = cell_turned(quarters, {});
-            const Vec right = cell_turned(quarters, {1, 0}) - zero;
-            const Vec down = cell_turned(quarters, {0, 1}) - zero;
+            const FixedVec zero = cell_turned(quarters, {});
+            const FixedVec right = cell_turned(quarters, {1, 0}) - zero;
+            const FixedVec down = cell_turned(quarters, {0, 1}) - zero;
             const Vec2 expected{zero.x + before.x * right.x + before.y * down.x,
                                 zero.y + before.x * right.y + before.y * down.y};
             EXPECT_LT(length(at(turned, x, y) - expected), 1e-4);
@@ -145,13 +146,13 @@ Found find_blocks(int blocks, int least_side, const Damage& damage, const core::
     std::array<ScoredLine, 2 * kMaxLines> storage;
     for (int i = 0; i < blocks; ++i) {
         SCOPED_TRACE(testing::Message() << "block " << i << ", seed " << kSeed);
-        const Profile profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         const int quarters = i / 3 % 4;
         const Place zero = some_place(i, rng);
         const auto half = [&] { return (least_side + static_cast<int>(rng.below(12))) / 2; };
-        const Vec least{-half(), -half()};
-        const Vec most{half(), half()};
-        const BitBlock seen = seen_block(profile, zero, quarters, least, most, damage, rng);
+        const FixedVec least{-half(), -half()};
+        const FixedVec most{half(), half()};
+        const BitBlock seen = seen_block(code, zero, quarters, least, most, damage, rng);
         ++found.blocks;
         const int turn = core::likeliest_turn(kernels, seen);
         found.turns += turn == quarters;
@@ -159,10 +160,10 @@ Found find_blocks(int blocks, int least_side, const Damage& damage, const core::
         const core::BlockLines lines =
             core::score_block(kernels, core::turned(turn, seen), storage);
         Place place;
-        if (!core::find_place(profile, lines, place)) continue;
+        if (!core::find_place(code, lines, place)) continue;
         EXPECT_EQ(place, zero);
         ++found.places;
-        if (!core::find_place_exactly(profile, core::turned(turn, seen), place)) continue;
+        if (!core::find_place_exactly(code, core::turned(turn, seen), place)) continue;
         EXPECT_EQ(place, zero);
         ++found.exactly;
     }
@@ -218,14 +219,14 @@ TEST(BitLines, LinesOfTwoPlacesAreNotOnePlace) {
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "block " << i << ", seed " << kSeed);
-        const Profile profile = kProfiles[static_cast<std::size_t>(i % 3)];
-        BitBlock block = seen_block(profile, some_place(i, rng), 0, {-8, -8}, {8, 8}, {}, rng);
-        const BitBlock other = seen_block(profile, random_place(rng), 0, {-8, -8}, {8, 8}, {}, rng);
+        const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
+        BitBlock block = seen_block(code, some_place(i, rng), 0, {-8, -8}, {8, 8}, {}, rng);
+        const BitBlock other = seen_block(code, random_place(rng), 0, {-8, -8}, {8, 8}, {}, rng);
         // The first columns are of another place.
         for (std::size_t line = 24; line < 28; ++line)
             block.columns.bits[line] = other.columns.bits[line];
         Place place;
-        EXPECT_FALSE(core::find_place_exactly(profile, block, place));
+        EXPECT_FALSE(core::find_place_exactly(code, block, place));
     }
 }
 
@@ -233,14 +234,14 @@ TEST(BitLines, FewLinesSpellNoPlace) {
     Rng rng(kSeed);
     std::array<ScoredLine, 2 * kMaxLines> storage;
     const Place zero = random_place(rng);
-    for (const Vec most : {Vec{5, 12}, Vec{12, 5}, Vec{1, 1}}) {
-        const BitBlock block = seen_block(Profile::anoto, zero, 0, {0, 0}, most, {}, rng);
+    for (const FixedVec most : {FixedVec{5, 12}, FixedVec{12, 5}, FixedVec{1, 1}}) {
+        const BitBlock block = seen_block(CodeVariant::anoto, zero, 0, {0, 0}, most, {}, rng);
         Place place;
-        EXPECT_FALSE(core::find_place(Profile::anoto,
+        EXPECT_FALSE(core::find_place(CodeVariant::anoto,
                                       core::score_block(core::kernels(), block, storage), place));
     }
     Place place;
-    EXPECT_FALSE(core::find_place(Profile::anoto,
+    EXPECT_FALSE(core::find_place(CodeVariant::anoto,
                                   core::score_block(core::kernels(), BitBlock{}, storage), place));
     EXPECT_EQ(core::turned(core::likeliest_turn(core::kernels(), BitBlock{}), BitBlock{})
                   .columns.valid[0],
@@ -251,14 +252,14 @@ TEST(BitLines, MoreLinesThanThereIsRoomForAreThoseAroundTheMiddle) {
     Rng rng(kSeed);
     std::array<ScoredLine, 2 * 24> storage;
     const Place zero = random_place(rng);
-    const BitBlock block = seen_block(Profile::anoto, zero, 0, {-30, -25}, {30, 31}, {}, rng);
+    const BitBlock block = seen_block(CodeVariant::anoto, zero, 0, {-30, -25}, {30, 31}, {}, rng);
     const core::BlockLines lines = core::score_block(core::kernels(), block, storage);
     EXPECT_EQ(lines.columns.count(), 24);
     EXPECT_EQ(lines.rows.count(), 24);
     EXPECT_EQ(lines.first_column, BitBlock::kMiddle - 12);
     EXPECT_EQ(lines.first_row, BitBlock::kMiddle - 12);
     Place place;
-    ASSERT_TRUE(core::find_place(Profile::anoto, lines, place));
+    ASSERT_TRUE(core::find_place(CodeVariant::anoto, lines, place));
     EXPECT_EQ(place, zero);
 }
 

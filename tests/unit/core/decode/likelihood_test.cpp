@@ -33,13 +33,13 @@ TEST(Likelihood, QuasiProbabilityIsEquation9) {
 const Mesh kMesh = square_mesh(16, 0, {100, 100});
 const PlaneFromImage kPlane = core::plane_from_lattice(lattice_of(kMesh), fixed({90, 60}, 8));
 
-Dot dot_in(int i, int j, Vec2 offset) {
+DetectedDot dot_in(int i, int j, Vec2 offset) {
     return dot_at(kMesh.at(i + offset.x, j + offset.y));
 }
 
 /// Returns dots at two corners of `columns` x `rows` cells from (i0, j0), which give the grid its
 /// extent.
-std::vector<Dot> corners(int i0, int j0, int columns, int rows) {
+std::vector<DetectedDot> corners(int i0, int j0, int columns, int rows) {
     return {dot_in(i0, j0, {0, -1 / 6.0}), dot_in(i0 + columns - 1, j0 + rows - 1, {0, -1 / 6.0})};
 }
 
@@ -65,8 +65,8 @@ TEST(Likelihood, EachSymbolHasItsBits) {
 }
 
 TEST(Likelihood, TheLikelierOfTwoDotsInACellStaysWhateverTheOrder) {
-    const Dot good = dot_in(1, 2, {0.16, 0.01});
-    const Dot doubtful = dot_in(1, 2, {-0.02, 0.09});
+    const DetectedDot good = dot_in(1, 2, {0.16, 0.01});
+    const DetectedDot doubtful = dot_in(1, 2, {-0.02, 0.09});
     for (const bool good_first : {true, false}) {
         auto dots = corners(-4, -4, 9, 9);
         dots.push_back(good_first ? good : doubtful);
@@ -113,11 +113,11 @@ TEST(Likelihood, PerspectiveAndLensAreUndone) {
     PlaneFromImage bent = kPlane;
     bent.perspective_q30 = {1 << 19, -(1 << 18)};
     bent.lens_q40 = 3 << 20;
-    std::vector<Dot> dots;
+    std::vector<DetectedDot> dots;
     for (int j = -4; j <= 4; ++j) {
         for (int i = -4; i <= 4; ++i) {
             const Vec2 on_plane{i + 1 / 6.0, static_cast<double>(j)};
-            const Vec centre_q8 = core::image_point_q8(bent, fixed(on_plane, 16));
+            const FixedVec centre_q8 = core::image_point_q8(bent, fixed(on_plane, 16));
             dots.push_back({centre_q8, 500, 9});
         }
     }

@@ -15,10 +15,10 @@ constexpr std::uint64_t kSeed = 31;
 constexpr std::uint32_t kL = code_test::kL;
 
 /// Returns the place at a position past the end of an axis, counted from the beginning of the code.
-Place wrapped(Profile profile, std::uint64_t x, std::uint64_t y, Section section) {
+Place wrapped(CodeVariant code, std::uint64_t x, std::uint64_t y, Section section) {
     int u = section.u;
     int v = section.v;
-    const int roll_there = code_test::reference_roll(profile, kL);
+    const int roll_there = code_test::reference_roll(code, kL);
     if (x >= kL) {
         u += roll_there;
         v += static_cast<int>(kL % 63);
@@ -33,11 +33,12 @@ Place wrapped(Profile profile, std::uint64_t x, std::uint64_t y, Section section
 
 /// Checks a grid that shows a window of the pattern at some turn, where the window's symbol `known`
 /// is at cell (0, 0).
-void check(Profile profile, const Place& first, int columns, int rows, Turn turn, Vec known) {
-    const code_test::Grid expected = code_test::reference_window(profile, first, columns, rows);
+void check(CodeVariant code, const Place& first, int columns, int rows, QuarterTurn turn,
+           FixedVec known) {
+    const code_test::Grid expected = code_test::reference_window(code, first, columns, rows);
     const auto cell_of = [&](int x, int y) { return turn.inverse()({x - known.x, y - known.y}); };
-    const Vec a = cell_of(0, 0);
-    const Vec b = cell_of(columns - 1, rows - 1);
+    const FixedVec a = cell_of(0, 0);
+    const FixedVec b = cell_of(columns - 1, rows - 1);
     Grid grid;
     grid.i0 = std::min(a.x, b.x);
     grid.j0 = std::min(a.y, b.y);
@@ -46,13 +47,13 @@ void check(Profile profile, const Place& first, int columns, int rows, Turn turn
     Decoding decoding;
     decoding.pattern_from_grid = turn;
     decoding.place =
-        wrapped(profile, std::uint64_t{first.cell.x} + static_cast<unsigned>(known.x),
+        wrapped(code, std::uint64_t{first.cell.x} + static_cast<unsigned>(known.x),
                 std::uint64_t{first.cell.y} + static_cast<unsigned>(known.y), first.section);
-    const Nominal nominal(grid, profile, decoding);
+    const Nominal nominal(grid, code, decoding);
     for (int y = 0; y < rows; ++y) {
         for (int x = 0; x < columns; ++x) {
-            const Vec step = nominal.pattern_step(cell_of(x, y));
-            ASSERT_EQ(step, (Vec{x - known.x, y - known.y}));
+            const FixedVec step = nominal.pattern_step(cell_of(x, y));
+            ASSERT_EQ(step, (FixedVec{x - known.x, y - known.y}));
             ASSERT_EQ(nominal.symbol(step), expected.symbols[expected.index(x, y)])
                 << x << ", " << y;
         }
@@ -65,12 +66,13 @@ TEST(Nominal, IsTheCodeAtEveryTurn) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
         const int columns = 8 + static_cast<int>(rng.below(40));
         const int rows = 8 + static_cast<int>(rng.below(40));
-        const Vec known{static_cast<std::int32_t>(rng.below(static_cast<std::uint32_t>(columns))),
-                        static_cast<std::int32_t>(rng.below(static_cast<std::uint32_t>(rows)))};
+        const FixedVec known{
+            static_cast<std::int32_t>(rng.below(static_cast<std::uint32_t>(columns))),
+            static_cast<std::int32_t>(rng.below(static_cast<std::uint32_t>(rows)))};
         Place first = random_place(rng);
         first.cell = {first.cell.x / 2, first.cell.y / 2};
-        check(code_test::kProfiles[static_cast<std::size_t>(i % 3)], first, columns, rows,
-              Turn{i % 4}, known);
+        check(code_test::kCodeVariants[static_cast<std::size_t>(i % 3)], first, columns, rows,
+              QuarterTurn{i % 4}, known);
     }
 }
 
@@ -82,10 +84,10 @@ TEST(Nominal, ContinuesPastBothEndsOfTheCode) {
         // The end of the code is inside the grid on one axis or both, before or behind `known`.
         if (i % 3 != 0) first.cell.x = kL - 1 - rng.below(29);
         if (i % 3 != 1) first.cell.y = kL - 1 - rng.below(29);
-        const Vec known{static_cast<std::int32_t>(rng.below(30)),
-                        static_cast<std::int32_t>(rng.below(30))};
-        check(code_test::kProfiles[static_cast<std::size_t>(i % 3)], first, 30, 30, Turn{i / 3 % 4},
-              known);
+        const FixedVec known{static_cast<std::int32_t>(rng.below(30)),
+                             static_cast<std::int32_t>(rng.below(30))};
+        check(code_test::kCodeVariants[static_cast<std::size_t>(i % 3)], first, 30, 30,
+              QuarterTurn{i / 3 % 4}, known);
     }
 }
 
@@ -96,7 +98,7 @@ TEST(Nominal, CellZeroNeedNotBeInTheGrid) {
         Place first = random_place(rng);
         // Half of the places are at the ends of the code.
         if (i % 2 == 0) first.cell = {kL - 1 - rng.below(50), kL - 1 - rng.below(50)};
-        check(Profile::anoto, first, 20, 12, Turn{i % 4},
+        check(CodeVariant::anoto, first, 20, 12, QuarterTurn{i % 4},
               {20 + static_cast<std::int32_t>(rng.below(100)),
                12 + static_cast<std::int32_t>(rng.below(100))});
     }
@@ -105,8 +107,9 @@ TEST(Nominal, CellZeroNeedNotBeInTheGrid) {
 TEST(Nominal, HoldsForTheLargestGrid) {
     const Place first{{kL - 100, 5}, {62, 62}};
     for (int quarters = 0; quarters < 4; ++quarters) {
-        check(Profile::anoto, first, kMaxGridSide, kMaxGridSide, Turn{quarters}, {200, 250});
-        check(Profile::anoto, first, kMaxGridSide, kMaxGridSide, Turn{quarters}, {0, 0});
+        check(CodeVariant::anoto, first, kMaxGridSide, kMaxGridSide, QuarterTurn{quarters},
+              {200, 250});
+        check(CodeVariant::anoto, first, kMaxGridSide, kMaxGridSide, QuarterTurn{quarters}, {0, 0});
     }
 }
 

@@ -13,38 +13,38 @@ namespace {
 using namespace core;
 
 constexpr std::uint64_t kSeed = 29;
-using Decode = Status (*)(const Grid&, Profile, std::span<ScoredLine>, Decoding&);
+using Decode = Status (*)(const Grid&, CodeVariant, std::span<ScoredLine>, Decoding&);
 
 /// Decodes a view and compares the result with its geometry.
 void expect_truth(Decode decode, const Reading& reading) {
     std::array<ScoredLine, 2 * kMaxLines> storage;
     Decoding found = reading.decoding;
-    ASSERT_EQ(decode(reading.grid(), reading.view.profile, storage, found), Status::ok);
+    ASSERT_EQ(decode(reading.grid(), reading.view.code, storage, found), Status::ok);
     const Decoding truth = reading.truth();
     EXPECT_EQ(found.pattern_from_grid.quarters, truth.pattern_from_grid.quarters);
     EXPECT_EQ(found.place.cell, truth.place.cell);
     EXPECT_EQ(found.place.section, truth.place.section);
 }
 
-/// Runs a check on views anywhere on the plane, for all profiles and turns.
+/// Runs a check on views anywhere on the plane, for all code variants and turns.
 template <typename Check>
 void for_many_views(int count, Check check) {
     Rng rng(kSeed);
     for (int i = 0; i < count; ++i) {
         View view = random_view(rng);
-        view.profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        view.code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         for (int quarters = 0; quarters < 4; ++quarters) {
             SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed << ", cell "
                                             << view.place.cell.x << ", " << view.place.cell.y
-                                            << ", turn " << quarters << ", profile " << i % 3);
-            check(view, Turn{quarters});
+                                            << ", turn " << quarters << ", code " << i % 3);
+            check(view, QuarterTurn{quarters});
             if (testing::Test::HasFailure()) return;
         }
     }
 }
 
 TEST(Position, IsReadAtAllFourTurns) {
-    for_many_views(150, [](const View& view, Turn turn) {
+    for_many_views(150, [](const View& view, QuarterTurn turn) {
         const Reading reading(view, turn);
         ASSERT_EQ(reading.status, Status::ok);
         expect_truth(decode_window, reading);
@@ -65,10 +65,10 @@ TEST(Position, IsReadAcrossBothEndsOfTheCode) {
         for (int i = 0; i < 12; ++i) {
             View view = random_view(rng);
             view.place.cell = cell;
-            view.profile = kProfiles[static_cast<std::size_t>(i % 3)];
+            view.code = kCodeVariants[static_cast<std::size_t>(i % 3)];
             SCOPED_TRACE(testing::Message() << "cell " << cell.x << ", " << cell.y << ", view " << i
                                             << ", seed " << kSeed);
-            const Reading reading(view, Turn{i % 4});
+            const Reading reading(view, QuarterTurn{i % 4});
             expect_truth(decode_window, reading);
             expect_truth(decode_all, reading);
         }
@@ -78,8 +78,8 @@ TEST(Position, IsReadAcrossBothEndsOfTheCode) {
 TEST(Position, IsReadFromManyDotsThoughSomeAreWrong) {
     // 6 % of the dots show another symbol, and as many are missing.
     Rng rng(kSeed);
-    for_many_views(60, [&](const View& view, Turn turn) {
-        std::vector<Dot> dots;
+    for_many_views(60, [&](const View& view, QuarterTurn turn) {
+        std::vector<DetectedDot> dots;
         const Mesh mesh = view.mesh();
         for (const PlacedDot& d : pattern_dots(view)) {
             const double fate = rng.uniform();
@@ -93,8 +93,8 @@ TEST(Position, IsReadFromManyDotsThoughSomeAreWrong) {
 }
 
 TEST(Position, TheMirrorImageIsKnown) {
-    for_many_views(60, [](const View& view, Turn turn) {
-        std::vector<Dot> dots;
+    for_many_views(60, [](const View& view, QuarterTurn turn) {
+        std::vector<DetectedDot> dots;
         for (const PlacedDot& d : pattern_dots(view)) {
             dots.push_back(dot_at({view.image_px.x - 1 - d.centre_px.x, d.centre_px.y}));
         }
@@ -119,26 +119,29 @@ TEST(Position, TooFewLinesAreRefused) {
     std::array<ScoredLine, 2 * kMaxLines> storage;
     Decoding narrow = reading.decoding;
     narrow.region.columns = narrow.window.columns = 5;
-    EXPECT_EQ(decode_all(reading.grid(), Profile::anoto, storage, narrow), Status::grid_too_small);
-    EXPECT_EQ(decode_window(reading.grid(), Profile::anoto, storage, narrow),
+    EXPECT_EQ(decode_all(reading.grid(), CodeVariant::anoto, storage, narrow),
+              Status::grid_too_small);
+    EXPECT_EQ(decode_window(reading.grid(), CodeVariant::anoto, storage, narrow),
               Status::grid_too_small);
     Decoding flat = reading.decoding;
     flat.region.rows = flat.window.rows = 5;
-    EXPECT_EQ(decode_all(reading.grid(), Profile::anoto, storage, flat), Status::grid_too_small);
-    EXPECT_EQ(decode_window(reading.grid(), Profile::anoto, storage, flat), Status::grid_too_small);
+    EXPECT_EQ(decode_all(reading.grid(), CodeVariant::anoto, storage, flat),
+              Status::grid_too_small);
+    EXPECT_EQ(decode_window(reading.grid(), CodeVariant::anoto, storage, flat),
+              Status::grid_too_small);
 }
 
 TEST(Position, TheWindowNeedsItsDots) {
     Rng rng(kSeed);
     const View view = random_view(rng);
-    std::vector<Dot> dots;
+    std::vector<DetectedDot> dots;
     for (const PlacedDot& d : pattern_dots(view)) {
         if (rng.below(5) == 0) dots.push_back(dot_at(d.centre_px));
     }
     const Reading sparse(view, {}, dots);
     std::array<ScoredLine, 2 * kMaxLines> storage;
     Decoding decoding = sparse.decoding;
-    EXPECT_EQ(decode_window(sparse.grid(), Profile::anoto, storage, decoding),
+    EXPECT_EQ(decode_window(sparse.grid(), CodeVariant::anoto, storage, decoding),
               Status::grid_too_small);
 }
 

@@ -24,7 +24,7 @@ GreyImage drawn(const View& view) {
 
 /// The view's cells as sampled from an image.
 struct Sampled {
-    Sampled(const View& view_, Turn turn_, const GreyImage& image)
+    Sampled(const View& view_, QuarterTurn turn_, const GreyImage& image)
         : view(view_), turn(turn_), owned(64) {
         zero = {static_cast<int>(std::lround(view.at_centre.x)),
                 static_cast<int>(std::lround(view.at_centre.y))};
@@ -36,7 +36,7 @@ struct Sampled {
         measure_paper(image.view(), paper);
         const PlaneFromImage plane = plane_from_lattice(lattice_of(view.mesh_turned(turn, zero)),
                                                         fixed(view.centre_px(), 8));
-        sample_cells(image.view(), paper, Lens{}, plane, owned.grid);
+        sample_cells(image.view(), paper, FixedLens{}, plane, owned.grid);
     }
     const Grid& grid() const { return owned.grid; }
     /// Calls `use(cell, its place in px, its bits on the pattern, the code's symbol)` for all
@@ -46,19 +46,19 @@ struct Sampled {
         for (int j = grid().j0; j < grid().j0 + grid().rows; ++j) {
             for (int i = grid().i0; i < grid().i0 + grid().columns; ++i) {
                 const GridCell& cell = grid().at(i, j);
-                const Vec step = turn({i, j});
-                const Vec on_pattern{zero.x + step.x, zero.y + step.y};
-                const Place at = moved(view.profile, view.place, on_pattern.x, on_pattern.y);
+                const FixedVec step = turn({i, j});
+                const FixedVec on_pattern{zero.x + step.x, zero.y + step.y};
+                const Place at = moved(view.code, view.place, on_pattern.x, on_pattern.y);
                 use(cell, view.mesh().at(on_pattern.x, on_pattern.y), turned(turn, cell),
-                    symbol_at(view.profile, at.cell, at.section));
+                    symbol_at(view.code, at.cell, at.section));
             }
         }
     }
 
     View view;
-    Turn turn;
+    QuarterTurn turn;
     OwnedGrid owned;
-    Vec zero;
+    FixedVec zero;
 };
 
 bool is_right(Bits bits, Symbol symbol) {
@@ -70,7 +70,7 @@ TEST(SampleCells, ReadsTheBitsOfACleanFrame) {
     for (int i = 0; i < 20; ++i) {
         View view = random_view(rng);
         view.spacing_px = rng.uniform(8, 16);
-        const Sampled sampled(view, Turn{i % 4}, drawn(view));
+        const Sampled sampled(view, QuarterTurn{i % 4}, drawn(view));
         int inside = 0;
         sampled.visit([&](const GridCell& cell, Vec2 at, Bits bits, Symbol symbol) {
             SCOPED_TRACE(testing::Message()
@@ -105,7 +105,7 @@ TEST(SampleCells, CellsUnderABlackStrokeSayNothing) {
         constexpr int kTop = 50;
         constexpr int kBottom = 66;
         fill(image, 0, kTop, image.width_px, kBottom, 5);
-        const Sampled sampled(view, Turn{i % 4}, image);
+        const Sampled sampled(view, QuarterTurn{i % 4}, image);
         int under = 0;
         int beside = 0;
         sampled.visit([&](const GridCell& cell, Vec2 at, Bits bits, Symbol symbol) {

@@ -23,9 +23,9 @@ struct ScoredWindow {
         owned.grid.rows = rows;
     }
 
-    Status find(Profile profile, AxisReading& reading) {
-        const Region all{0, 0, owned.grid.columns, owned.grid.rows};
-        return find_axis(profile, score_lines(Upright(owned.grid, all, {}), Axis::x, storage),
+    Status find(CodeVariant code, AxisReading& reading) {
+        const GridRegion all{0, 0, owned.grid.columns, owned.grid.rows};
+        return find_axis(code, score_lines(Upright(owned.grid, all, {}), Axis::x, storage),
                          reading);
     }
 
@@ -34,13 +34,13 @@ struct ScoredWindow {
 };
 
 /// Returns the window of the code at a place, with a fraction of its bits flipped.
-ScoredWindow window(Profile profile, const Place& place, int columns, int rows, double flipped,
+ScoredWindow window(CodeVariant code, const Place& place, int columns, int rows, double flipped,
                     Rng& rng) {
     ScoredWindow result(columns, rows);
     for (int j = 0; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {
-            const Place at = moved(profile, place, i, j);
-            const int bit = x_bit(symbol_at(profile, at.cell, at.section));
+            const Place at = moved(code, place, i, j);
+            const int bit = x_bit(symbol_at(code, at.cell, at.section));
             const bool is_one = (bit == 1) != (rng.uniform() < flipped);
             result.owned.grid.at(i, j).x = is_one ? 127 : -127;
         }
@@ -48,21 +48,21 @@ ScoredWindow window(Profile profile, const Place& place, int columns, int rows, 
     return result;
 }
 
-int roll_at(Profile profile, const Place& place) {
+int roll_at(CodeVariant code, const Place& place) {
     const auto cross = static_cast<int>(place.cell.y % 63);
-    return (code_test::reference_roll(profile, place.cell.x) + place.section.u + cross) % 63;
+    return (code_test::reference_roll(code, place.cell.x) + place.section.u + cross) % 63;
 }
 
 /// Returns the number of windows that are found, among 200 windows of 20 columns.
-int found_of_200(Profile profile, int rows, double flipped) {
+int found_of_200(CodeVariant code, int rows, double flipped) {
     Rng rng(kSeed);
     int found = 0;
     for (int i = 0; i < 200; ++i) {
         const Place place = random_place(rng);
-        ScoredWindow lines = window(profile, place, 20, rows, flipped, rng);
+        ScoredWindow lines = window(code, place, 20, rows, flipped, rng);
         AxisReading reading;
-        if (lines.find(profile, reading) != Status::ok) continue;
-        found += reading.position == place.cell.x && reading.roll == roll_at(profile, place);
+        if (lines.find(code, reading) != Status::ok) continue;
+        found += reading.position == place.cell.x && reading.roll == roll_at(code, place);
     }
     return found;
 }
@@ -70,8 +70,8 @@ int found_of_200(Profile profile, int rows, double flipped) {
 TEST(ScoreLines, TellsByHowMuchTheBestOfEachLineLeads) {
     Rng rng(kSeed);
     for (const int columns : {1, 2, 7, 8, 9, 20}) {
-        ScoredWindow lines = window(Profile::anoto, random_place(rng), columns, 12, 0.1, rng);
-        const Region all{0, 0, columns, 12};
+        ScoredWindow lines = window(CodeVariant::anoto, random_place(rng), columns, 12, 0.1, rng);
+        const GridRegion all{0, 0, columns, 12};
         score_lines(Upright(lines.owned.grid, all, {}), Axis::x, lines.storage);
         for (int i = 0; i < columns; ++i) {
             const ScoredLine& line = lines.storage[static_cast<std::size_t>(i)];
@@ -88,18 +88,18 @@ TEST(FindAxis, FindsThePositionAmongWrongBits) {
     // among the best of each sequence. Longer lines tolerate more wrong bits. With 12 rows and
     // every fifth bit wrong only half of the windows are found, though 240 bits with 0.28 bits of
     // information each would distinguish all 4e8 * 63 hypotheses.
-    for (const Profile profile : {Profile::anoto, Profile::microdots}) {
-        EXPECT_GE(found_of_200(profile, 12, 0.08), 198) << "seed " << kSeed;
-        EXPECT_GE(found_of_200(profile, 20, 0.12), 198) << "seed " << kSeed;
-        EXPECT_GE(found_of_200(profile, 30, 0.2), 198) << "seed " << kSeed;
+    for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::microdots}) {
+        EXPECT_GE(found_of_200(code, 12, 0.08), 198) << "seed " << kSeed;
+        EXPECT_GE(found_of_200(code, 20, 0.12), 198) << "seed " << kSeed;
+        EXPECT_GE(found_of_200(code, 30, 0.2), 198) << "seed " << kSeed;
     }
 }
 
 TEST(FindAxis, HoldsForThePublishedCode) {
     // Runs of this code have eight lines.
-    EXPECT_EQ(found_of_200(Profile::libdots, 12, 0), 200) << "seed " << kSeed;
-    EXPECT_GE(found_of_200(Profile::libdots, 12, 0.05), 198) << "seed " << kSeed;
-    EXPECT_GE(found_of_200(Profile::libdots, 30, 0.2), 198) << "seed " << kSeed;
+    EXPECT_EQ(found_of_200(CodeVariant::libdots, 12, 0), 200) << "seed " << kSeed;
+    EXPECT_GE(found_of_200(CodeVariant::libdots, 12, 0.05), 198) << "seed " << kSeed;
+    EXPECT_GE(found_of_200(CodeVariant::libdots, 30, 0.2), 198) << "seed " << kSeed;
 }
 
 TEST(FindAxis, CleanLinesGiveAllThatThereIsToBeHad) {
@@ -108,11 +108,11 @@ TEST(FindAxis, CleanLinesGiveAllThatThereIsToBeHad) {
         // One window extends across the end of the code.
         Place place = random_place(rng);
         if (columns == 20) place.cell.x = kPositionsPerAxis - 10;
-        ScoredWindow lines = window(Profile::anoto, place, columns, 12, 0, rng);
+        ScoredWindow lines = window(CodeVariant::anoto, place, columns, 12, 0, rng);
         AxisReading reading;
-        ASSERT_EQ(lines.find(Profile::anoto, reading), Status::ok) << columns;
+        ASSERT_EQ(lines.find(CodeVariant::anoto, reading), Status::ok) << columns;
         EXPECT_EQ(reading.position, place.cell.x) << columns;
-        EXPECT_EQ(reading.roll, roll_at(Profile::anoto, place)) << columns;
+        EXPECT_EQ(reading.roll, roll_at(CodeVariant::anoto, place)) << columns;
         EXPECT_EQ(reading.score, 127 * 12 * columns);
         EXPECT_EQ(reading.max_possible, reading.score);
         EXPECT_TRUE(reading.is_clear());
@@ -123,14 +123,15 @@ TEST(FindAxis, ThePositionIsThatOfTheFirstLineWhereverTheClearRunLies) {
     Rng rng(kSeed);
     for (int clear = 0; clear <= 10; ++clear) {
         const Place place = random_place(rng);
-        ScoredWindow lines = window(Profile::anoto, place, 16, 12, 0, rng);
+        ScoredWindow lines = window(CodeVariant::anoto, place, 16, 12, 0, rng);
         for (int j = 0; j < 12; ++j) {
             for (int i = 0; i < 16; ++i) {
                 if (i < clear || i >= clear + 6) lines.owned.grid.at(i, j).x = 0;
             }
         }
         AxisReading reading;
-        ASSERT_EQ(lines.find(Profile::anoto, reading), Status::ok) << clear << ", seed " << kSeed;
+        ASSERT_EQ(lines.find(CodeVariant::anoto, reading), Status::ok)
+            << clear << ", seed " << kSeed;
         EXPECT_EQ(reading.position, place.cell.x) << clear << ", seed " << kSeed;
         EXPECT_EQ(reading.score, 127 * 12 * 6) << clear;
     }
@@ -141,12 +142,13 @@ TEST(FindAxis, GraphicsMayHideLinesSoThatNoSixAreInARow) {
     int right = 0;
     for (int i = 0; i < 100; ++i) {
         const Place place = random_place(rng);
-        ScoredWindow lines = window(Profile::anoto, place, 12, 12, 0.02, rng);
+        ScoredWindow lines = window(CodeVariant::anoto, place, 12, 12, 0.02, rng);
         for (int j = 0; j < 12; ++j)
             lines.owned.grid.at(5, j).x = lines.owned.grid.at(6, j).x = 0;
         AxisReading reading;
-        if (lines.find(Profile::anoto, reading) != Status::ok) continue;
-        right += reading.position == place.cell.x && reading.roll == roll_at(Profile::anoto, place);
+        if (lines.find(CodeVariant::anoto, reading) != Status::ok) continue;
+        right +=
+            reading.position == place.cell.x && reading.roll == roll_at(CodeVariant::anoto, place);
     }
     EXPECT_GE(right, 99) << "seed " << kSeed;
 }
@@ -154,9 +156,9 @@ TEST(FindAxis, GraphicsMayHideLinesSoThatNoSixAreInARow) {
 TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
     Rng rng(kSeed);
     for (int i = 0; i < 200; ++i) {
-        ScoredWindow lines = window(Profile::anoto, random_place(rng), 20, 12, 0.5, rng);
+        ScoredWindow lines = window(CodeVariant::anoto, random_place(rng), 20, 12, 0.5, rng);
         AxisReading reading;
-        if (lines.find(Profile::anoto, reading) == Status::not_in_code) continue;
+        if (lines.find(CodeVariant::anoto, reading) == Status::not_in_code) continue;
         // A line of random bits agrees with its best roll in 9 or 10 of 12 bits. The 6 lines of the
         // selected run reach this score, and the other 14 lines score 0 on average. Selecting the
         // best of 15 runs adds a little.
@@ -169,16 +171,18 @@ TEST(FindAxis, FewerLinesThanCarryAPositionAreNotInTheCode) {
     Rng rng(kSeed);
     AxisReading reading;
     for (const int columns : {1, 5}) {
-        EXPECT_EQ(window(Profile::anoto, random_place(rng), columns, 12, 0, rng)
-                      .find(Profile::anoto, reading),
+        EXPECT_EQ(window(CodeVariant::anoto, random_place(rng), columns, 12, 0, rng)
+                      .find(CodeVariant::anoto, reading),
                   Status::not_in_code);
     }
     // The misprinted sequence needs two more lines.
     const Place place = random_place(rng);
-    EXPECT_EQ(window(Profile::libdots, place, 7, 12, 0, rng).find(Profile::libdots, reading),
-              Status::not_in_code);
-    EXPECT_EQ(window(Profile::libdots, place, 8, 12, 0, rng).find(Profile::libdots, reading),
-              Status::ok);
+    EXPECT_EQ(
+        window(CodeVariant::libdots, place, 7, 12, 0, rng).find(CodeVariant::libdots, reading),
+        Status::not_in_code);
+    EXPECT_EQ(
+        window(CodeVariant::libdots, place, 8, 12, 0, rng).find(CodeVariant::libdots, reading),
+        Status::ok);
     EXPECT_EQ(reading.position, place.cell.x);
 }
 

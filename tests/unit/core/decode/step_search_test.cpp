@@ -23,7 +23,7 @@ void read_lines(RatiosCase& c, int bits, double wrong, Rng& rng, IsHidden is_hid
 
 AxisReading found(const RatiosCase& c) {
     AxisReading reading{0, 0, INT32_MIN, 0};
-    search_by_steps(c.profile, c.lines(), reading);
+    search_by_steps(c.code, c.lines(), reading);
     return reading;
 }
 
@@ -59,11 +59,11 @@ TEST(SearchBySteps, ReadsLinesWithWrongBits) {
 TEST(SearchBySteps, ReadsOnOverTheEndOfTheCode) {
     Rng rng(kSeed + 2);
     RatiosCase c = at_random_place(rng, 12);
-    c.profile = Profile::anoto;
+    c.code = CodeVariant::anoto;
     c.position = kPositionsPerAxis - 5;
     for (std::size_t i = 1; i < c.rolls.size(); ++i) {
         const std::uint64_t before = (std::uint64_t{c.position} + i - 1) % kPositionsPerAxis;
-        c.rolls[i] = (c.rolls[i - 1] + code_test::reference_delta(c.profile, before)) % 63;
+        c.rolls[i] = (c.rolls[i - 1] + code_test::reference_delta(c.code, before)) % 63;
     }
     read_lines(c, 12, 0, rng, [](std::size_t) { return false; });
     EXPECT_TRUE(is_true(found(c), c));
@@ -75,11 +75,11 @@ TEST(SearchBySteps, KeepsWhatIsAsGood) {
     read_lines(c, 12, 0, rng, [](std::size_t) { return false; });
     const std::int32_t most = found(c).score;
     AxisReading better{7, 8, most, most};
-    search_by_steps(c.profile, c.lines(), better);
+    search_by_steps(c.code, c.lines(), better);
     EXPECT_EQ(better.position, 7u);
     EXPECT_EQ(better.roll, 8);
     AxisReading worse{7, 8, most - 1, most};
-    search_by_steps(c.profile, c.lines(), worse);
+    search_by_steps(c.code, c.lines(), worse);
     EXPECT_TRUE(is_true(worse, c));
     EXPECT_EQ(worse.max_possible, most);
 }

@@ -13,7 +13,7 @@ using namespace core;
 constexpr std::uint64_t kSeed = 28;
 
 /// Returns the sum of |P^(x) P^(y)| over a region.
-int clarity(const Grid& grid, const Region& region) {
+int clarity(const Grid& grid, const GridRegion& region) {
     int sum = 0;
     for (int j = region.j0; j < region.j0 + region.rows; ++j) {
         for (int i = region.i0; i < region.i0 + region.columns; ++i) {
@@ -49,12 +49,12 @@ TEST(Window, IsTheClearestOfAll) {
         }
         SCOPED_TRACE(testing::Message() << "grid " << n << ", seed " << kSeed);
         const int side = n % 2 == 0 ? 8 : 1 + static_cast<int>(rng.below(40));
-        const Region window = choose_window(grid, side);
+        const GridRegion window = choose_window(grid, side);
         ASSERT_EQ(window.columns, std::min(side, grid.columns));
         ASSERT_EQ(window.rows, std::min(side, grid.rows));
         ASSERT_TRUE(grid.contains(window.i0, window.j0));
         ASSERT_TRUE(grid.contains(window.i0 + window.columns - 1, window.j0 + window.rows - 1));
-        Region any = window;
+        GridRegion any = window;
         int best = 0;
         for (any.j0 = grid.j0; any.j0 + any.rows <= grid.j0 + grid.rows; ++any.j0) {
             for (any.i0 = grid.i0; any.i0 + any.columns <= grid.i0 + grid.columns; ++any.i0) {

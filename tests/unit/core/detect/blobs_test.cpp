@@ -118,10 +118,10 @@ TEST(Blobs, WhatTouchesTheBorderIsNoDot) {
     for (int away = 0; away <= 1; ++away) {
         const int right = kWidth - 3 - away;
         const int bottom = kHeight - 3 - away;
-        const std::vector<Vec> corners{{away, 30},    {right, 30},   {40, away},
-                                       {40, bottom},  {away, away},  {right, bottom},
-                                       {right, away}, {away, bottom}};
-        for (const Vec corner : corners) {
+        const std::vector<FixedVec> corners{{away, 30},    {right, 30},   {40, away},
+                                            {40, bottom},  {away, away},  {right, bottom},
+                                            {right, away}, {away, bottom}};
+        for (const FixedVec corner : corners) {
             GreyImage image = blank(kWidth, kHeight);
             fill(image, corner.x, corner.y, corner.x + 3, corner.y + 3, 40);
             const auto dots = blobs_of(image);
@@ -249,10 +249,10 @@ struct Flood {
 
 Flood flood(GreyImage& image, int u, int v) {
     Flood found{{}, 0, u, v, u, v};
-    std::vector<Vec> open{{u, v}};
+    std::vector<FixedVec> open{{u, v}};
     pixel(image, u, v) = 255;
     while (!open.empty()) {
-        const Vec p = open.back();
+        const FixedVec p = open.back();
         open.pop_back();
         found.centre = found.centre + Vec2{static_cast<double>(p.x), static_cast<double>(p.y)};
         ++found.area;
@@ -272,7 +272,7 @@ Flood flood(GreyImage& image, int u, int v) {
     return found;
 }
 
-bool is_at(const Dot& dot, const Flood& blob) {
+bool is_at(const DetectedDot& dot, const Flood& blob) {
     // Weights vary with the threshold from tile to tile, at most by the blob's size.
     const double size = std::max(blob.right - blob.left, blob.bottom - blob.top) + 1;
     return dot.area_px == blob.area && length(real(dot.centre_q8, 8) - blob.centre) <= 0.1 * size;
@@ -282,7 +282,7 @@ void compare_with_flooding(GreyImage image) {
     const auto dots = blobs_of(image);
     const auto contains = [&](const Flood& blob) {
         return std::any_of(dots.begin(), dots.end(),
-                           [&](const Dot& dot) { return is_at(dot, blob); });
+                           [&](const DetectedDot& dot) { return is_at(dot, blob); });
     };
     std::size_t all = 0;
     std::size_t least = 0;
@@ -330,11 +330,11 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
 
 /// Dots of one size with some others among them, and those that the filter leaves.
 struct Sifted {
-    std::vector<Dot> dots;
+    std::vector<DetectedDot> dots;
     int count = 0;
 };
 
-Sifted sift(std::vector<Dot> dots, const BlobOptions& options) {
+Sifted sift(std::vector<DetectedDot> dots, const BlobOptions& options) {
     int count = static_cast<int>(dots.size());
     int kept_within_px = 1000;
     sift_dots(options, {dots, count, kept_within_px});
@@ -343,7 +343,7 @@ Sifted sift(std::vector<Dot> dots, const BlobOptions& options) {
 
 TEST(Blobs, TheSizeFilterIsRelativeToTheMedianDot) {
     for (const int scale : {1, 6}) {
-        std::vector<Dot> dots;
+        std::vector<DetectedDot> dots;
         for (int i = 0; i < 300; ++i)
             dots.push_back(dot_at({i * 1.0, 50}, 1000 * scale, 8 * scale));
         BlobOptions options;

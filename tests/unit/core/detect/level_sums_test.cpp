@@ -26,9 +26,10 @@ TEST(LevelSums, AreThoseOfThePixels) {
     constexpr int kHalf_px = (LevelSums::kMaxSide_px - 1) / 2;
     for (int i = 0; i < 500; ++i) {
         SCOPED_TRACE(testing::Message() << "box " << i << ", seed " << kSeed);
-        const Vec middle_q8{random_q8(63), random_q8(69)};
+        const FixedVec middle_q8{random_q8(63), random_q8(69)};
         const LevelSums sums(image.view(), PixelBox(image.view(), middle_q8, kHalf_px));
-        const Vec inside_q8{middle_q8.x + random_q8(20) - 2560, middle_q8.y + random_q8(20) - 2560};
+        const FixedVec inside_q8{middle_q8.x + random_q8(20) - 2560,
+                                 middle_q8.y + random_q8(20) - 2560};
         const PixelBox box(image.view(), inside_q8, static_cast<int>(rng.below(13)));
         int expected = 0;
         int pixels = 0;

@@ -51,14 +51,14 @@ Marked marked(const GreyImage& image, AdaptiveThreshold& threshold) {
 
 Set flood(Marked& pixels, int width, int height, int u, int v) {
     Set found{0, u, v, u, v, false};
-    std::vector<Vec> open{{u, v}};
+    std::vector<FixedVec> open{{u, v}};
     const auto take = [&](int x, int y) {
         char& is_dark = pixels.is_dark[static_cast<std::size_t>(y * width + x)];
         return std::exchange(is_dark, char{0}) != 0;
     };
     take(u, v);
     while (!open.empty()) {
-        const Vec p = open.back();
+        const FixedVec p = open.back();
         open.pop_back();
         ++found.area_px;
         found.left = std::min(found.left, p.x);
@@ -99,7 +99,7 @@ void expect_sets(const GreyImage& image) {
     ASSERT_GT(sets.size(), 20u);
     ASSERT_EQ(dots.size(), sets.size());
     for (const Set& set : sets) {
-        const auto is_it = [&](const Dot& dot) {
+        const auto is_it = [&](const DetectedDot& dot) {
             const Vec2 centre = real(dot.centre_q8, 8);
             return dot.area_px == set.area_px && centre.x >= set.left - 0.01 &&
                    centre.x <= set.right + 0.01 && centre.y >= set.top - 0.01 &&
@@ -151,7 +151,7 @@ TEST(PixelSets, RunsBeginAndEndAtAnyColumn) {
         }
         const auto dots = blobs_of(image);
         ASSERT_EQ(dots.size(), bars) << length;
-        for (const Dot& dot : dots)
+        for (const DetectedDot& dot : dots)
             ASSERT_EQ(dot.area_px, 2 * length);
     }
 }

@@ -17,12 +17,12 @@ TEST(Undistort, IsEquations1And2) {
         // The lens changes the radius at the corner to between half of it and twice.
         for (const double at_corner : {-0.5, -0.2, -0.01, 0.0, 0.01, 0.3, 1.0}) {
             const double k = at_corner / (centre.x * centre.x + centre.y * centre.y);
-            std::vector<Dot> dots;
+            std::vector<DetectedDot> dots;
             for (int i = 0; i < 500; ++i) {
                 dots.push_back(dot_at({rng.uniform(0, size.x - 1), rng.uniform(0, size.y - 1)}));
             }
-            const std::vector<Dot> before = dots;
-            core::undistort(Lens::from_k(k), fixed(centre, 8), dots);
+            const std::vector<DetectedDot> before = dots;
+            core::undistort(FixedLens::from_k(k), fixed(centre, 8), dots);
             for (std::size_t i = 0; i < dots.size(); ++i) {
                 const Vec2 r = real(before[i].centre_q8, 8) - centre;
                 const Vec2 expected = centre + 1 / (1 + k * (r.x * r.x + r.y * r.y)) * r;
@@ -40,13 +40,14 @@ TEST(Undistort, IsEquations1And2) {
 TEST(Undistort, DistortedIsTheInverse) {
     Rng rng(kSeed);
     for (const Vec2 size : {Vec2{64, 64}, Vec2{188, 120}, Vec2{640, 480}, Vec2{4096, 4096}}) {
-        const Vec centre = fixed({(size.x - 1) / 2, (size.y - 1) / 2}, 8);
+        const FixedVec centre = fixed({(size.x - 1) / 2, (size.y - 1) / 2}, 8);
         const Vec2 half = real(centre, 8);
         for (const double at_corner : {-0.12, -0.01, 0.0, 0.05, 0.2}) {
-            const Lens lens = Lens::from_k(at_corner / (half.x * half.x + half.y * half.y));
+            const FixedLens lens =
+                FixedLens::from_k(at_corner / (half.x * half.x + half.y * half.y));
             for (int i = 0; i < 200; ++i) {
-                const Vec seen = fixed({rng.uniform(0, size.x), rng.uniform(0, size.y)}, 8);
-                const Vec again =
+                const FixedVec seen = fixed({rng.uniform(0, size.x), rng.uniform(0, size.y)}, 8);
+                const FixedVec again =
                     core::distorted(lens, centre, core::undistorted(lens, centre, seen));
                 // Both directions round to 1/256 px; a lens of 0.2 magnifies the rounding up to
                 // twofold.
@@ -58,13 +59,14 @@ TEST(Undistort, DistortedIsTheInverse) {
 }
 
 TEST(Undistort, TheLensMayBeCentredElsewhere) {
-    const Vec image_centre{94 * 256, 60 * 256};
-    Lens lens = Lens::from_k(-1e-5);
-    const Lens centred = lens;
+    const FixedVec image_centre{94 * 256, 60 * 256};
+    FixedLens lens = FixedLens::from_k(-1e-5);
+    const FixedLens centred = lens;
     lens.centre_dx_q8 = 3 * 256;
     lens.centre_dy_q8 = -2 * 256;
-    const auto shifted = [](Vec p) { return Vec{p.x + 3 * 256, p.y - 2 * 256}; };
-    for (const Vec seen : {Vec{0, 0}, Vec{180 * 256, 20 * 256}, Vec{97 * 256, 58 * 256}}) {
+    const auto shifted = [](FixedVec p) { return FixedVec{p.x + 3 * 256, p.y - 2 * 256}; };
+    for (const FixedVec seen :
+         {FixedVec{0, 0}, FixedVec{180 * 256, 20 * 256}, FixedVec{97 * 256, 58 * 256}}) {
         EXPECT_EQ(core::undistorted(lens, image_centre, shifted(seen)),
                   shifted(core::undistorted(centred, image_centre, seen)));
         EXPECT_EQ(core::distorted(lens, image_centre, shifted(seen)),
@@ -75,16 +77,16 @@ TEST(Undistort, TheLensMayBeCentredElsewhere) {
 // Regression: the fuzzer found a plane seen from the side, which has such points.
 TEST(Undistort, PointsFarOutsideTheImageKeepTheirDirection) {
     for (const std::int32_t k_q40 : {-385875968, INT32_MIN, INT32_MAX}) {
-        const Lens lens{k_q40};
+        const FixedLens lens{k_q40};
         for (const int far_px : {4096, 11'500, 1'000'000}) {
-            const Vec r{far_px * 256, -far_px * 128};
+            const FixedVec r{far_px * 256, -far_px * 128};
             // The factors are in fifths: 2 / (1 + 4), and 2 where no point of the image shows the
             // point.
             const int fifths = k_q40 < 0 ? 2 : 10;
-            const Vec seen = core::distorted(lens, {}, r);
+            const FixedVec seen = core::distorted(lens, {}, r);
             EXPECT_NEAR(seen.x, r.x / 5 * fifths, far_px) << k_q40;
             EXPECT_NEAR(seen.y, r.y / 5 * fifths, far_px) << k_q40;
-            const Vec unseen = core::undistorted(lens, {}, r);
+            const FixedVec unseen = core::undistorted(lens, {}, r);
             EXPECT_GE(unseen.x, 0) << k_q40;
             EXPECT_LE(unseen.y, 0) << k_q40;
         }
@@ -92,10 +94,10 @@ TEST(Undistort, PointsFarOutsideTheImageKeepTheirDirection) {
 }
 
 TEST(Undistort, NoLensMovesNothing) {
-    std::vector<Dot> dots{dot_at({1.25, 3.5}), dot_at({4000.75, 12})};
+    std::vector<DetectedDot> dots{dot_at({1.25, 3.5}), dot_at({4000.75, 12})};
     core::undistort({}, {2048 * 256, 2048 * 256}, dots);
-    EXPECT_EQ(dots[0].centre_q8, (Vec{320, 896}));
-    EXPECT_EQ(dots[1].centre_q8, (Vec{1024192, 3072}));
+    EXPECT_EQ(dots[0].centre_q8, (FixedVec{320, 896}));
+    EXPECT_EQ(dots[1].centre_q8, (FixedVec{1024192, 3072}));
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ using namespace core;
 constexpr std::uint64_t kSeed = 21;
 
 struct Pair {
-    Vec source;
-    Vec target;
+    FixedVec source;
+    FixedVec target;
 };
 
 struct Reference {
@@ -153,9 +153,9 @@ TEST(Affine, PointsOnALineDetermineNothing) {
     AffineMap map;
     EXPECT_FALSE(AffineFitInt64{}.solve(16, map));
     EXPECT_FALSE(fit_of({{{0, 0}, {1, 1}}, {{5, 9}, {3, 4}}}).solve(16, map));
-    const std::vector<Vec> directions{{1, 0}, {0, 1}, {1, 1}, {-3, 7}, {100, 1}, {1, 1000}};
-    for (const Vec d : directions) {
-        for (const Vec corner : {Vec{0, 0}, Vec{8000000, -8000000}}) {
+    const std::vector<FixedVec> directions{{1, 0}, {0, 1}, {1, 1}, {-3, 7}, {100, 1}, {1, 1000}};
+    for (const FixedVec d : directions) {
+        for (const FixedVec corner : {FixedVec{0, 0}, FixedVec{8000000, -8000000}}) {
             AffineFitInt64 fit;
             for (int i = 0; i < 200; ++i) {
                 fit.add({corner.x + i * d.x, corner.y + i * d.y}, {i, i * i % 71});
@@ -174,7 +174,7 @@ TEST(Affine, AStripOfDotsStillFits) {
     Rng rng(kSeed);
     std::vector<Pair> pairs;
     for (int i = 0; i < 80; ++i) {
-        const Vec s{i / 2 * 2816, i % 2 * 2816};
+        const FixedVec s{i / 2 * 2816, i % 2 * 2816};
         pairs.push_back({s,
                          {23 * s.x - 5 * s.y + whole(5000 * rng.normal()),
                           5 * s.x + 23 * s.y + whole(5000 * rng.normal())}});
@@ -192,12 +192,12 @@ TEST(Affine, HoldsAtItsDocumentedLimits) {
     std::vector<Pair> identity;
     std::vector<Pair> far_off;
     for (int i = 0; i < kMost; ++i) {
-        const Vec corner{i & 1 ? kFar : -kFar, i & 2 ? kFar : -kFar};
+        const FixedVec corner{i & 1 ? kFar : -kFar, i & 2 ? kFar : -kFar};
         corners.push_back({corner, {-corner.y, corner.x}});
-        const Vec any{anywhere(), anywhere()};
+        const FixedVec any{anywhere(), anywhere()};
         identity.push_back({any, any});
-        const Vec distant{kFar - static_cast<std::int32_t>(rng.below(200000)),
-                          -kFar + static_cast<std::int32_t>(rng.below(200000))};
+        const FixedVec distant{kFar - static_cast<std::int32_t>(rng.below(200000)),
+                               -kFar + static_cast<std::int32_t>(rng.below(200000))};
         far_off.push_back({distant, {distant.y, -distant.x}});
     }
     expect_same_map(corners, 16);
@@ -220,7 +220,7 @@ TEST(Affine, MomentsAndMeanAreThoseOfTheSources) {
         ASSERT_NEAR(static_cast<double>(m.xy), static_cast<double>(r.xy), 1);
         ASSERT_NEAR(static_cast<double>(m.yy), static_cast<double>(r.yy), 1);
     }
-    EXPECT_EQ(AffineFitInt64{}.source_mean(), Vec{});
+    EXPECT_EQ(AffineFitInt64{}.source_mean(), FixedVec{});
     EXPECT_EQ(AffineFitInt64{}.source_moments().xx, 0);
 }
 

@@ -52,8 +52,8 @@ TruePlane random_plane(Rng& rng, Vec2 image_px, double spacing_px, Terms terms) 
 }
 
 struct Pair {
-    Vec image_point_q8;
-    Vec target_q16;
+    FixedVec image_point_q8;
+    FixedVec target_q16;
 };
 
 /// Returns points all over the image with their places in the plane, rounded to fixed point, plus
@@ -62,7 +62,8 @@ std::vector<Pair> pairs(const TruePlane& plane, Vec2 image_px, int count, Rng& r
                         double noise_spacings = 0) {
     std::vector<Pair> result;
     for (int i = 0; i < count; ++i) {
-        const Vec p = fixed({rng.uniform(0, image_px.x - 1), rng.uniform(0, image_px.y - 1)}, 8);
+        const FixedVec p =
+            fixed({rng.uniform(0, image_px.x - 1), rng.uniform(0, image_px.y - 1)}, 8);
         Vec2 target = plane(real(p, 8));
         if (noise_spacings > 0) {
             target = target + noise_spacings * Vec2{rng.normal(), rng.normal()};
@@ -95,7 +96,7 @@ double worst_error(const PlaneFromImage& found, const TruePlane& plane, Vec2 ima
     double worst = 0;
     for (int n = 0; n <= 10; ++n) {
         for (int m = 0; m <= 10; ++m) {
-            const Vec p = fixed({(image_px.x - 1) * n / 10, (image_px.y - 1) * m / 10}, 8);
+            const FixedVec p = fixed({(image_px.x - 1) * n / 10, (image_px.y - 1) * m / 10}, 8);
             worst =
                 std::max(worst, length(real(plane_point_q16(found, p), 16) - plane(real(p, 8))));
         }
@@ -200,7 +201,7 @@ TEST(PlaneFitInt64, WhatDoesNotDetermineAPlaneGivesNone) {
     const auto line = [&](double slope) {
         std::vector<Pair> points;
         for (int i = 0; i < 100; ++i) {
-            const Vec p = fixed({10 + 1.5 * i, 20 + slope * i}, 8);
+            const FixedVec p = fixed({10 + 1.5 * i, 20 + slope * i}, 8);
             points.push_back({p, fixed(truth(real(p, 8)), 16)});
         }
         return points;
@@ -211,7 +212,7 @@ TEST(PlaneFitInt64, WhatDoesNotDetermineAPlaneGivesNone) {
     EXPECT_FALSE(fit(estimate, heap, found));
     // One point beside the line is enough for an affine map.
     auto points = line(0);
-    const Vec beside = fixed({90, 90}, 8);
+    const FixedVec beside = fixed({90, 90}, 8);
     points.push_back({beside, fixed(truth(real(beside, 8)), 16)});
     EXPECT_TRUE(fit(estimate, points, found, Terms::affine));
 }
@@ -232,7 +233,7 @@ TEST(PlaneFitInt64, HoldsForTheLargestImageAndMostPoints) {
         std::vector<Pair> points;
         for (int n = 0; n < 128; ++n) {
             for (int m = 0; m < 128; ++m) {
-                const Vec p = fixed({4095.0 * n / 127, 4095.0 * m / 127}, 8);
+                const FixedVec p = fixed({4095.0 * n / 127, 4095.0 * m / 127}, 8);
                 points.push_back({p, fixed(truth(real(p, 8)), 16)});
             }
         }

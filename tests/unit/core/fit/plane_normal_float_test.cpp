@@ -34,7 +34,7 @@ PlaneFromImage random_plane(Rng& rng) {
     return plane;
 }
 
-Vec random_pixel_q8(Rng& rng) {
+FixedVec random_pixel_q8(Rng& rng) {
     return fixed({rng.uniform(0, 187), rng.uniform(0, 119)}, 8);
 }
 
@@ -43,7 +43,7 @@ ScaledPlane scaled(const PlaneFromImage& plane) {
 }
 
 /// Returns the place of a pixel as the first of four; the other three lie elsewhere.
-FourVecs project(const ScaledPlane& scaled, const PlaneFromImage& plane, Vec pixel_q8) {
+FourVecs project(const ScaledPlane& scaled, const PlaneFromImage& plane, FixedVec pixel_q8) {
     const auto x = static_cast<float>(pixel_q8.x - plane.centre_q8.x) / 256;
     const auto y = static_cast<float>(pixel_q8.y - plane.centre_q8.y) / 256;
     return scaled.project(Four{x, 1, -20, 27}, Four{y, -1, 12, 12});
@@ -53,7 +53,7 @@ TEST(ScaledPlane, SeesPointsWhereThePlaneHasThem) {
     Rng rng(kSeed);
     for (int i = 0; i < 1000; ++i) {
         const PlaneFromImage plane = random_plane(rng);
-        const Vec pixel_q8 = random_pixel_q8(rng);
+        const FixedVec pixel_q8 = random_pixel_q8(rng);
         const FourVecs places = project(scaled(plane), plane, pixel_q8);
         const Vec2 expected =
             real(plane_point_q16(plane, pixel_q8), 16) - real(plane.at_centre_q16, 16);
@@ -70,7 +70,7 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
     for (int i = 0; i < 200; ++i) {
         const PlaneFromImage plane = random_plane(rng);
         const FloatPlane seen = float_plane(plane);
-        const Vec pixel_q8 = random_pixel_q8(rng);
+        const FixedVec pixel_q8 = random_pixel_q8(rng);
         const Vec2 px = real(pixel_q8, 8) - real(plane.centre_q8, 8);
         const auto derivatives = jacobian(project(scaled(plane), plane, pixel_q8), 0);
         for (std::size_t k = 0; k < kPoseParameters; ++k) {
@@ -111,8 +111,8 @@ TEST(ScaledPlane, ChangesThatMakeNoSenseAreLimited) {
         Parameters all;
         all.fill(change);
         const PlaneFromImage changed = fixed_plane(scaled(plane).changed(all), {});
-        for (const Vec part : {changed.at_centre_q16, changed.du_q24, changed.dv_q24,
-                               changed.perspective_q30, Vec{changed.lens_q40, 0}}) {
+        for (const FixedVec part : {changed.at_centre_q16, changed.du_q24, changed.dv_q24,
+                                    changed.perspective_q30, FixedVec{changed.lens_q40, 0}}) {
             EXPECT_LE(larger_component(part), 1 << 28);
         }
     }

@@ -15,15 +15,15 @@ using namespace core;
 constexpr std::uint64_t kSeed = 42;
 
 /// Returns log2 of the alternatives' odds for an error-free window of 12 rows.
-int alternatives_of_window(Profile profile, const Place& place, int columns, int odds_q8) {
+int alternatives_of_window(CodeVariant code, const Place& place, int columns, int odds_q8) {
     constexpr int kRows = 12;
     OwnedGrid owned(std::max(columns, kRows));
     owned.grid.columns = columns;
     owned.grid.rows = kRows;
     for (int j = 0; j < kRows; ++j) {
         for (int i = 0; i < columns; ++i) {
-            const Place at = moved(profile, place, i, j);
-            const Symbol symbol = symbol_at(profile, at.cell, at.section);
+            const Place at = moved(code, place, i, j);
+            const Symbol symbol = symbol_at(code, at.cell, at.section);
             GridCell& cell = owned.grid.at(i, j);
             cell.x = x_bit(symbol) == 1 ? 127 : -127;
             cell.y = y_bit(symbol) == 1 ? 127 : -127;
@@ -35,21 +35,21 @@ int alternatives_of_window(Profile profile, const Place& place, int columns, int
     AxisReading reading;
     reading.position = place.cell.x;
     reading.roll = static_cast<std::uint8_t>(
-        (roll(profile, place.cell.x) + place.section.u + static_cast<int>(place.cell.y % 63)) % 63);
+        (roll(code, place.cell.x) + place.section.u + static_cast<int>(place.cell.y % 63)) % 63);
     // All bits of the line agree with the roll that the code has there.
     EXPECT_EQ(lines[0][reading.roll], 127 * kRows);
-    return alternatives_log2(LikelihoodRatios(profile, lines, reading, odds_q8));
+    return alternatives_log2(LikelihoodRatios(code, lines, reading, odds_q8));
 }
 
 TEST(Alternatives, GetFewerWithEveryColumn) {
     Rng rng(kSeed);
     for (int i = 0; i < 20; ++i) {
-        const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
+        const CodeVariant code = code_test::kCodeVariants[static_cast<std::size_t>(i % 3)];
         const Place place = random_place(rng);
         constexpr int kOdds_q8 = 5 * 256;
         int before = 1;
         for (const int columns : {6, 8, 11, 17}) {
-            const int log2 = alternatives_of_window(profile, place, columns, kOdds_q8);
+            const int log2 = alternatives_of_window(code, place, columns, kOdds_q8);
             ASSERT_LT(log2, before) << columns << " columns, window " << i << ", seed " << kSeed;
             before = log2;
         }
@@ -57,8 +57,8 @@ TEST(Alternatives, GetFewerWithEveryColumn) {
         // that makes 2^-120 times their number, 2^29. What is left is the floor of negligible odds.
         EXPECT_LE(before, -40);
         // Better odds per bit leave less for alternatives.
-        EXPECT_LT(alternatives_of_window(profile, place, 8, 2 * kOdds_q8),
-                  alternatives_of_window(profile, place, 8, kOdds_q8));
+        EXPECT_LT(alternatives_of_window(code, place, 8, 2 * kOdds_q8),
+                  alternatives_of_window(code, place, 8, kOdds_q8));
     }
 }
 
@@ -66,9 +66,10 @@ TEST(Alternatives, FewLinesExcludeNone) {
     Rng rng(kSeed);
     const Place place = random_place(rng);
     for (int columns = 1; columns <= 5; ++columns) {
-        EXPECT_EQ(alternatives_of_window(Profile::anoto, place, columns, 8 * 256), 0) << columns;
+        EXPECT_EQ(alternatives_of_window(CodeVariant::anoto, place, columns, 8 * 256), 0)
+            << columns;
     }
-    EXPECT_LT(alternatives_of_window(Profile::anoto, place, 17, 8 * 256), 0);
+    EXPECT_LT(alternatives_of_window(CodeVariant::anoto, place, 17, 8 * 256), 0);
 }
 
 using Odds = std::array<float, kSections>;
@@ -78,7 +79,7 @@ using Odds = std::array<float, kSections>;
 /// `factor` is that of the step between the lines.
 double two_lines(std::uint32_t position, const Odds& first, const Odds& second, double factor) {
     constexpr std::array<int, 4> kBases{3, 3, 2, 3};
-    const auto texts = code_test::secondary_texts(Profile::anoto);
+    const auto texts = code_test::secondary_texts(CodeVariant::anoto);
     double total = 0;
     for (unsigned set = 0; set < 16; ++set) {
         double alternatives = 1;
@@ -122,7 +123,7 @@ double two_lines(std::uint32_t position, const Odds& first, const Odds& second, 
 constexpr double kUnevenness = 1.03;
 
 float sum_of(std::uint32_t position, int max_shared, const std::vector<Odds>& lines) {
-    ExpectedAlternatives expected(code::basis(Profile::anoto), position, max_shared, 2);
+    ExpectedAlternatives expected(code::basis(CodeVariant::anoto), position, max_shared, 2);
     for (const Odds& odds : lines)
         expected.add_line(odds);
     return expected.sum();

@@ -25,8 +25,8 @@ Verdict judge(const Block& block, const Place& claimed, const IntegrityOptions& 
         for (int column = 0; column < block.columns; ++column) {
             const std::size_t i = block.index(column, row);
             if (block.x[i] < 0) continue;
-            const Place at = moved(block.profile, claimed, column, row);
-            const Symbol symbol = symbol_at(block.profile, at.cell, at.section);
+            const Place at = moved(block.code, claimed, column, row);
+            const Symbol symbol = symbol_at(block.code, at.cell, at.section);
             evidence.bits[0].add(127, block.x[i] != x_bit(symbol));
             evidence.bits[1].add(127, block.y[i] != y_bit(symbol));
             const auto set = [](core::BitLines& lines, int line, int cell, int bit) {
@@ -44,7 +44,7 @@ Verdict judge(const Block& block, const Place& claimed, const IntegrityOptions& 
     evidence.rows = lines.rows;
     Verdict verdict;
     verdict.is_certain =
-        core::is_certain(core::kernels(), evidence, block.profile, options, verdict.fix);
+        core::is_certain(core::kernels(), evidence, block.code, options, verdict.fix);
     return verdict;
 }
 
@@ -69,7 +69,7 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "block " << i << ", seed " << kSeed);
-        const Block block = cut_block(code_test::kProfiles[static_cast<std::size_t>(i % 3)],
+        const Block block = cut_block(code_test::kCodeVariants[static_cast<std::size_t>(i % 3)],
                                       any_place(rng), 14, 13);
         const Verdict verdict = judge(block, block.place);
         EXPECT_TRUE(verdict.is_certain);
@@ -102,13 +102,13 @@ TEST(IsCertain, RefusesWhatAnAlternativeExplainsAsWell) {
     int without_errors = 0;
     for (int i = 0; i < 24; ++i) {
         SCOPED_TRACE(testing::Message() << "block " << i << ", seed " << kSeed);
-        const Block block = cut_block(code_test::kProfiles[static_cast<std::size_t>(i % 3)],
+        const Block block = cut_block(code_test::kCodeVariants[static_cast<std::size_t>(i % 3)],
                                       any_place(rng), 11, 12);
         const auto own = rolls_of(block, true, 0, 0, 0);
         // The worst alternative is the one that differs in the fewest bits.
         std::vector<int> worst;
         int fewest = INT32_MAX;
-        const auto texts = code_test::secondary_texts(block.profile);
+        const auto texts = code_test::secondary_texts(block.code);
         for (std::size_t n = 0; n < texts.size(); ++n) {
             for (int further = 1; further < static_cast<int>(texts[n].size()); ++further) {
                 for (std::size_t line = 0; line < own.size(); ++line) {
@@ -139,8 +139,8 @@ TEST(IsCertain, RefusesWrongPlaces) {
         const Block block = random_block(rng, i, 0.1, 0.02);
         Place wrong = block.place;
         if (i % 5 == 0) wrong = any_place(rng);
-        if (i % 5 == 1) wrong = moved(block.profile, wrong, 1, 0);
-        if (i % 5 == 2) wrong = moved(block.profile, wrong, 0, -1);
+        if (i % 5 == 1) wrong = moved(block.code, wrong, 1, 0);
+        if (i % 5 == 2) wrong = moved(block.code, wrong, 0, -1);
         if (i % 5 == 3) wrong.section.u = static_cast<std::uint8_t>((wrong.section.u + 1) % 63);
         if (i % 5 == 4) wrong.cell.y = (wrong.cell.y + 236 * 233 * 31) % kPositionsPerAxis;
         IntegrityOptions any;
@@ -154,7 +154,7 @@ TEST(IsCertain, RefusesTwoPatternsWhateverTheLimit) {
     Rng rng(kSeed);
     for (int i = 0; i < 20; ++i) {
         const Block block =
-            damaged(cut_block(Profile::anoto, any_place(rng), 30, 30), 0, 0.25, rng);
+            damaged(cut_block(CodeVariant::anoto, any_place(rng), 30, 30), 0, 0.25, rng);
         IntegrityOptions options;
         options.max_p_wrong_log2 = 0;
         EXPECT_FALSE(judge(block, block.place, options).is_certain) << i << ", seed " << kSeed;
@@ -177,8 +177,8 @@ Verdict verify_block(const Block& block, const IntegrityOptions& options) {
     decoding.place = block.place;
     std::array<core::ScoredLine, 2 * core::kMaxLines> storage;
     Verdict verdict;
-    verdict.is_certain =
-        core::verify(grid, block.profile, decoding, options, storage, verdict.fix) == Status::ok;
+    verdict.is_certain = core::verify(grid, block.code, nullptr, decoding, options, storage,
+                                      verdict.fix) == Status::ok;
     return verdict;
 }
 

@@ -16,7 +16,7 @@ namespace dotpose::core_test {
 
 /// Bits of a block of the code from `place` on: 1, 0, or -1 for a bit that was not read.
 struct Block {
-    Profile profile;
+    CodeVariant code;
     Place place;
     int columns;
     int rows;
@@ -28,12 +28,12 @@ struct Block {
     }
 };
 
-inline Block cut_block(Profile profile, const Place& place, int columns, int rows) {
-    Block block{profile, place, columns, rows, {}, {}};
+inline Block cut_block(CodeVariant code, const Place& place, int columns, int rows) {
+    Block block{code, place, columns, rows, {}, {}};
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
-            const Place at = moved(profile, place, column, row);
-            const Symbol symbol = symbol_at(profile, at.cell, at.section);
+            const Place at = moved(code, place, column, row);
+            const Symbol symbol = symbol_at(code, at.cell, at.section);
             block.x.push_back(x_bit(symbol));
             block.y.push_back(y_bit(symbol));
         }
@@ -80,8 +80,8 @@ inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequ
     const Place& p = block.place;
     const std::uint64_t own = is_x ? p.cell.x : p.cell.y;
     const std::uint64_t cross = is_x ? p.cell.y : p.cell.x;
-    const auto texts = code_test::secondary_texts(block.profile);
-    const int first = code_test::reference_roll(block.profile, own) +
+    const auto texts = code_test::secondary_texts(block.code);
+    const int first = code_test::reference_roll(block.code, own) +
                       (is_x ? p.section.u : p.section.v) + static_cast<int>(cross % 63);
     std::vector<int> rolls{(first + shift) % 63};
     for (int line = 0; line + 1 < (is_x ? block.columns : block.rows); ++line) {
@@ -116,7 +116,7 @@ inline double exact_log2(const Block& block) {
         // Chance cannot be less probable than the sum over the binomial distribution.
         sum += std::exp2(
             static_cast<double>(exact_chance_log2(read)[static_cast<std::size_t>(own_wrong)]));
-        const auto texts = code_test::secondary_texts(block.profile);
+        const auto texts = code_test::secondary_texts(block.code);
         const auto own = rolls_of(block, is_x, 0, 0, 0);
         const auto add = [&](const std::vector<int>& rolls) {
             sum += std::exp2(-odds_per_bit * (contradictions(block, is_x, rolls) - own_wrong));
@@ -147,8 +147,8 @@ inline Place any_place(Rng& rng) {
 
 inline Block random_block(Rng& rng, int i, double most_missing, double most_wrong) {
     const auto side = [&] { return 8 + static_cast<int>(rng.below(12)); };
-    return damaged(cut_block(code_test::kProfiles[static_cast<std::size_t>(i % 3)], any_place(rng),
-                             side(), side()),
+    return damaged(cut_block(code_test::kCodeVariants[static_cast<std::size_t>(i % 3)],
+                             any_place(rng), side(), side()),
                    rng.uniform(0, most_missing), rng.uniform(0, most_wrong), rng);
 }
 

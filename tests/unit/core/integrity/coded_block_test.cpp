@@ -23,11 +23,12 @@ struct Seen {
     core::BitBlock block;
 
     explicit Seen(const Place& place) {
-        const Place corner = moved(Profile::anoto, place, kFirst, kFirst);
+        const Place corner = moved(CodeVariant::anoto, place, kFirst, kFirst);
         const auto follow = [](std::uint32_t position, int section, std::uint32_t cross,
                                std::span<std::uint8_t> rolls) {
-            code::follow_rolls(Profile::anoto, position,
-                               code::roll_from(Profile::anoto, position, section, cross), rolls);
+            code::follow_rolls(CodeVariant::anoto, position,
+                               code::roll_from(CodeVariant::anoto, position, section, cross),
+                               rolls);
         };
         follow(corner.cell.x, corner.section.u, corner.cell.y, column_rolls);
         follow(corner.cell.y, corner.section.v, corner.cell.x, row_rolls);
@@ -61,26 +62,26 @@ TEST(CodedBlock, HasTheCodesBitsInTheMiddleAndWhichAreWrong) {
         constexpr int kWrongRow = -2;
         for (int row = -18; row < 19; ++row) {
             for (int column = -7; column < 9; ++column) {
-                const Place at = moved(Profile::anoto, place, column, row);
-                const Symbol symbol = symbol_at(Profile::anoto, at.cell, at.section);
+                const Place at = moved(CodeVariant::anoto, place, column, row);
+                const Symbol symbol = symbol_at(CodeVariant::anoto, at.cell, at.section);
                 const bool is_wrong = column == kWrongColumn && row == kWrongRow;
                 seen.show(column, row, (x_bit(symbol) != 0) != is_wrong, y_bit(symbol) != 0);
             }
         }
-        const core::CodedBlock coded(Profile::anoto, place, seen.view, seen.block);
+        const core::CodedBlock coded(CodeVariant::anoto, place, seen.view, seen.block);
         const core::AxisBits x = coded.axis(core::Axis::x, {});
         const core::AxisBits y = coded.axis(core::Axis::y, {});
         // A line has at most 32 cells, from -16 on.
         ASSERT_EQ(x.lines.size(), 16U);
         ASSERT_EQ(y.lines.size(), 32U);
-        EXPECT_EQ(x.reading.position, moved(Profile::anoto, place, -7, 0).cell.x);
-        EXPECT_EQ(y.reading.position, moved(Profile::anoto, place, 0, -16).cell.y);
+        EXPECT_EQ(x.reading.position, moved(CodeVariant::anoto, place, -7, 0).cell.x);
+        EXPECT_EQ(y.reading.position, moved(CodeVariant::anoto, place, 0, -16).cell.y);
         for (std::size_t line = 0; line < x.lines.size(); ++line) {
             EXPECT_EQ(x.lines[line].seen, ~std::uint32_t{0});
             const bool is_wrong = static_cast<int>(line) - 7 == kWrongColumn;
             EXPECT_EQ(x.lines[line].wrong, is_wrong ? 1U << (kWrongRow + 16) : 0U) << line;
         }
-        for (const core::TrackedLine& line : y.lines) {
+        for (const core::ComparedLine& line : y.lines) {
             EXPECT_EQ(line.seen, 0xFFFFU << 9);
             EXPECT_EQ(line.wrong, 0U);
         }
@@ -93,11 +94,11 @@ TEST(CodedBlock, KeepsTheLongestStretchOfLinesWithGapsUnlessABitIsWrong) {
     for (const bool is_wrong : {false, true}) {
         Seen seen(place);
         for (const int row : {-9, -8, -5, -4, -3, -2, 4, 5, 6}) {
-            const Place at = moved(Profile::anoto, place, 0, row);
-            const Symbol symbol = symbol_at(Profile::anoto, at.cell, at.section);
+            const Place at = moved(CodeVariant::anoto, place, 0, row);
+            const Symbol symbol = symbol_at(CodeVariant::anoto, at.cell, at.section);
             seen.show(0, row, (x_bit(symbol) != 0) != (is_wrong && row == 5), y_bit(symbol) != 0);
         }
-        const core::CodedBlock coded(Profile::anoto, place, seen.view, seen.block);
+        const core::CodedBlock coded(CodeVariant::anoto, place, seen.view, seen.block);
         const core::AxisBits x = coded.axis(core::Axis::x, {});
         ASSERT_EQ(x.lines.size(), 1U);
         EXPECT_EQ(std::popcount(x.lines[0].seen), is_wrong ? 9 : 4);

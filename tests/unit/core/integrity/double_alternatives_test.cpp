@@ -24,17 +24,17 @@ struct Case {
     Case(Rng& rng, int least) : position(rng.below(kPositionsPerAxis)) {
         lines.all = storage;
         std::uint32_t p = position;
-        int here = roll(Profile::anoto, p);
+        int here = roll(CodeVariant::anoto, p);
         for (int line = 0; line < kLines; ++line) {
             const auto n = static_cast<std::size_t>(line);
             for (std::int16_t& score : storage[n].scores)
                 score = static_cast<std::int16_t>(least + static_cast<int>(rng.below(600)));
             storage[n].scores[static_cast<std::size_t>(here)] = 1000;
             storage[n].best = best_score(storage[n].scores);
-            here = (here + delta(Profile::anoto, p)) % kSections;
+            here = (here + delta(CodeVariant::anoto, p)) % kSections;
             p = p + 1 == kPositionsPerAxis ? 0 : p + 1;
         }
-        reading = {position, static_cast<std::uint8_t>(roll(Profile::anoto, position)), 0, 0};
+        reading = {position, static_cast<std::uint8_t>(roll(CodeVariant::anoto, position)), 0, 0};
     }
     std::uint32_t position;
     std::array<ScoredLine, kLines> storage{};
@@ -45,8 +45,8 @@ struct Case {
 /// Returns the sum over every pair of places in two sequences, at every shift that shares some
 /// line.
 double exact_sum(const Case& c) {
-    const auto texts = code_test::secondary_texts(Profile::anoto);
-    const int first_roll = roll(Profile::anoto, c.position);
+    const auto texts = code_test::secondary_texts(CodeVariant::anoto);
+    const int first_roll = roll(CodeVariant::anoto, c.position);
     double sum = 0;
     std::array<std::array<std::array<int, kLines>, 241>, 4> rolls{};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -77,7 +77,7 @@ double exact_sum(const Case& c) {
                             const int other = ((own + further) % 63 + 63) % 63;
                             shares = shares || other == own;
                             lost += 1000 - c.storage[line].scores[static_cast<std::size_t>(other)];
-                            own = (own + delta(Profile::anoto, p)) % 63;
+                            own = (own + delta(CodeVariant::anoto, p)) % 63;
                             ++p;
                         }
                         if (shares) sum += std::exp2(-lost * kOdds_q8 / 256 / 254);
@@ -94,7 +94,7 @@ TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
     // The reading's own score is 1000, so in the last case other rolls fit some lines better.
     for (const int least : {-600, -200, 420}) {
         const Case c(rng, least);
-        const LikelihoodRatios ratios(Profile::anoto, c.lines, c.reading, kOdds_q8);
+        const LikelihoodRatios ratios(CodeVariant::anoto, c.lines, c.reading, kOdds_q8);
         EXPECT_EQ(ratios.max_gain() > 0, least == 420);
         const double exact = exact_sum(c);
         ASSERT_GT(exact, 1e-12);
@@ -114,7 +114,7 @@ TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
 TEST(DoubleAlternatives, AreExpectedWhereThatIsNegligible) {
     Rng rng(kSeed);
     const Case c(rng, -200);
-    const LikelihoodRatios ratios(Profile::anoto, c.lines, c.reading, kOdds_q8);
+    const LikelihoodRatios ratios(CodeVariant::anoto, c.lines, c.reading, kOdds_q8);
     const RankedLines lines(ratios);
     const double exact = exact_sum(c);
     const auto expected = expected_double_alternatives(lines, kLines);
@@ -130,7 +130,7 @@ TEST(DoubleAlternatives, AreExpectedWhereThatIsNegligible) {
 TEST(DoubleAlternatives, AreNotLookedAtWhereTheExpectationIsTooMuch) {
     Rng rng(kSeed);
     const Case c(rng, -200);
-    const LikelihoodRatios ratios(Profile::anoto, c.lines, c.reading, kOdds_q8);
+    const LikelihoodRatios ratios(CodeVariant::anoto, c.lines, c.reading, kOdds_q8);
     const RankedLines lines(ratios);
     const auto expected = expected_double_alternatives(lines, kLines);
     const double sum = static_cast<double>(sum_of_double_alternatives(lines, 0, expected[2] / 2));

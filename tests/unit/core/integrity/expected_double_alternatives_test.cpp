@@ -35,7 +35,7 @@ void add_alternative(const RatiosCase& c, const RankedLines& lines, int anchors,
 }
 
 ByAnchors exact_sums(const RatiosCase& c, const RankedLines& lines, int anchors) {
-    const auto texts = code_test::secondary_texts(c.profile);
+    const auto texts = code_test::secondary_texts(c.code);
     const PlacesOfAlternative own = own_places(c);
     ByAnchors sums{};
     for (std::size_t k = 0; k < 4; ++k) {

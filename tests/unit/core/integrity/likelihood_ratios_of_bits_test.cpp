@@ -33,12 +33,12 @@ struct Columns {
         reading.position = static_cast<std::uint32_t>(rng.below(kPositionsPerAxis - 100));
         reading.roll = static_cast<std::uint8_t>(rng.below(kSections));
         std::array<std::uint8_t, kLines> rolls;
-        code::follow_rolls(Profile::anoto, reading.position, reading.roll, rolls);
+        code::follow_rolls(CodeVariant::anoto, reading.position, reading.roll, rolls);
         workspace->grid.columns = kLines;
         workspace->grid.rows = kLength;
         const int lost = static_cast<int>(rng.below(4));
         for (int i = 0; i < kLines; ++i) {
-            TrackedLine& line = lines[static_cast<std::size_t>(i)];
+            ComparedLine& line = lines[static_cast<std::size_t>(i)];
             line.code = code::kMainWords[rolls[static_cast<std::size_t>(i)]];
             for (int j = 0; j < kLength; ++j) {
                 const std::uint32_t bit = std::uint32_t{1} << j;
@@ -55,15 +55,15 @@ struct Columns {
             }
         }
     }
-    LikelihoodRatios of_bits() const { return {Profile::anoto, lines, reading, kOdds_q8}; }
+    LikelihoodRatios of_bits() const { return {CodeVariant::anoto, lines, reading, kOdds_q8}; }
     LikelihoodRatios of_weights() {
         const Upright upright(workspace->grid, {0, 0, kLines, kLength}, {});
-        return {Profile::anoto, score_lines(upright, Axis::x, workspace->line_scores), reading,
+        return {CodeVariant::anoto, score_lines(upright, Axis::x, workspace->line_scores), reading,
                 kOdds_q8};
     }
 
     AxisReading reading;
-    std::array<TrackedLine, kLines> lines{};
+    std::array<ComparedLine, kLines> lines{};
     std::unique_ptr<SmallWorkspace> workspace = std::make_unique<SmallWorkspace>();
 };
 
@@ -183,11 +183,11 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     int doubtful = 0;
     for (int round = 0; round < 400; ++round) {
         const Columns columns(rng);
-        std::array<TrackedLine, kLines> lines = columns.lines;
+        std::array<ComparedLine, kLines> lines = columns.lines;
         const std::uint32_t seen = (std::uint32_t{1} << (12 + rng.below(18))) - 1;
-        for (TrackedLine& line : lines)
+        for (ComparedLine& line : lines)
             line = {line.code, seen, 0};
-        const LikelihoodRatios ratios(Profile::anoto, std::span(lines).first(6 + rng.below(4)),
+        const LikelihoodRatios ratios(CodeVariant::anoto, std::span(lines).first(6 + rng.below(4)),
                                       columns.reading, kOdds_q8);
         double expected = 0;
         for (const AlternativeSet& set : kAlternativeSets)

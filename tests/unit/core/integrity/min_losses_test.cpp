@@ -11,9 +11,9 @@ namespace {
 constexpr std::uint64_t kSeed = 77;
 
 /// Returns some lines with some wrong bits.
-RatiosCase random_case(int lines, Profile profile, Rng& rng) {
+RatiosCase random_case(int lines, CodeVariant code, Rng& rng) {
     RatiosCase c = at_random_place(rng, lines);
-    while (c.profile != profile)
+    while (c.code != code)
         c = at_random_place(rng, lines);
     for (const int own : c.rolls)
         c.storage.push_back(scored_line(own, 6 + static_cast<int>(rng.below(14)), 0.08, 127, rng));
@@ -59,9 +59,9 @@ TEST(MinLosses, AreTheMinimumOverAllPatternsOfSharedRuns) {
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
-        const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
-        const int max_shared = profile == Profile::libdots ? 7 : 5;
-        const RatiosCase c = random_case(1 + i % 12, profile, rng);
+        const CodeVariant code = code_test::kCodeVariants[static_cast<std::size_t>(i % 3)];
+        const int max_shared = code == CodeVariant::libdots ? 7 : 5;
+        const RatiosCase c = random_case(1 + i % 12, code, rng);
         const std::vector<int> losses = losses_of(c);
         const std::vector<int> backwards(losses.rbegin(), losses.rend());
         const core::MinLosses from_first = core::min_losses(c.ratios(), false);
@@ -82,9 +82,9 @@ TEST(MinLosses, ABorderSeparatesTwoPatterns) {
     Rng rng(kSeed);
     for (int i = 0; i < 40; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
-        const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
-        const int max_shared = profile == Profile::libdots ? 7 : 5;
-        const RatiosCase c = random_case(2 + i % 11, profile, rng);
+        const CodeVariant code = code_test::kCodeVariants[static_cast<std::size_t>(i % 3)];
+        const int max_shared = code == CodeVariant::libdots ? 7 : 5;
+        const RatiosCase c = random_case(2 + i % 11, code, rng);
         const std::vector<int> losses = losses_of(c);
         int least = INT32_MAX;
         for (auto border = losses.begin(); border != losses.end(); ++border) {

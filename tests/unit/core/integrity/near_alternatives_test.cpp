@@ -34,7 +34,7 @@ struct ExactSum {
 };
 
 ExactSum exact_sum(const RatiosCase& c, int shared_lines) {
-    const auto texts = code_test::secondary_texts(c.profile);
+    const auto texts = code_test::secondary_texts(c.code);
     const PlacesOfAlternative own = own_places(c);
     ExactSum exact;
     for (int run = 0; run + shared_lines <= static_cast<int>(c.rolls.size()); ++run) {

@@ -54,13 +54,13 @@ Verdict judge_plainly(const Block& block, const Place& claimed,
     view.first_row = first_row;
     view.columns = block.columns;
     view.rows = block.rows;
-    const Place middle = moved(block.profile, claimed, -first_column, -first_row);
-    const core::CodedBlock coded(block.profile, middle, view, words);
+    const Place middle = moved(block.code, claimed, -first_column, -first_row);
+    const core::CodedBlock coded(block.code, middle, view, words);
     Verdict verdict;
     verdict.is_certain = core::passes_hard_bit_test(
         core::kernels(),
         {coded.axis(core::Axis::x, confidences[0]), coded.axis(core::Axis::y, confidences[1])},
-        block.profile, options, verdict.fix);
+        block.code, options, verdict.fix);
     return verdict;
 }
 
@@ -88,7 +88,7 @@ TEST(IsPlainlyCertain, AcceptsWhatIsClearlyRead) {
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "block " << i << ", seed " << kSeed);
-        const Block block = cut_block(code_test::kProfiles[static_cast<std::size_t>(i % 3)],
+        const Block block = cut_block(code_test::kCodeVariants[static_cast<std::size_t>(i % 3)],
                                       any_place(rng), 17, 13);
         const Verdict verdict = judge_plainly(block, block.place);
         EXPECT_TRUE(verdict.is_certain);
@@ -103,7 +103,7 @@ TEST(IsPlainlyCertain, RefusesWrongPlaces) {
         const Block block = random_block(rng, i, 0.1, 0.02);
         Place wrong = block.place;
         if (i % 4 == 0) wrong = any_place(rng);
-        if (i % 4 == 1) wrong = moved(block.profile, wrong, 1, 0);
+        if (i % 4 == 1) wrong = moved(block.code, wrong, 1, 0);
         if (i % 4 == 2) wrong.section.u = static_cast<std::uint8_t>((wrong.section.u + 1) % 63);
         if (i % 4 == 3) wrong.cell.y = (wrong.cell.y + 236 * 233 * 31) % kPositionsPerAxis;
         IntegrityOptions any;
@@ -118,12 +118,12 @@ TEST(IsPlainlyCertain, RefusesWhatASeamExplainsBetter) {
     int alone = 0;
     for (int i = 0; i < 30; ++i) {
         SCOPED_TRACE(testing::Message() << "block " << i << ", seed " << kSeed);
-        Block block = cut_block(Profile::anoto, any_place(rng), 16, 16);
+        Block block = cut_block(CodeVariant::anoto, any_place(rng), 16, 16);
         alone += judge_plainly(block, block.place).is_certain;
         // Most columns show another section.
         Place other = block.place;
         other.section.u = static_cast<std::uint8_t>((other.section.u + 30) % 63);
-        const Block beyond = cut_block(Profile::anoto, other, 16, 16);
+        const Block beyond = cut_block(CodeVariant::anoto, other, 16, 16);
         for (int row = 0; row < 16; ++row) {
             for (int column = 5; column < 16; ++column)
                 block.x[block.index(column, row)] = beyond.x[block.index(column, row)];

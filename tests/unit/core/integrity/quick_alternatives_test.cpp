@@ -29,7 +29,7 @@ RatiosCase random_case(Rng& rng) {
 /// Returns the odds of all places of one sequence except the reading's, at every shift that shares
 /// some line.
 double sum_of_singles(const RatiosCase& c) {
-    const auto texts = code_test::secondary_texts(c.profile);
+    const auto texts = code_test::secondary_texts(c.code);
     const std::size_t count = c.rolls.size();
     double sum = 0;
     for (std::size_t k = 0; k < texts.size(); ++k) {

@@ -17,7 +17,7 @@ using namespace core;
 
 /// Lines of the code from some position on, read with some odds.
 struct RatiosCase {
-    Profile profile;
+    CodeVariant code;
     std::uint32_t position;
     std::vector<int> rolls;
     std::vector<ScoredLine> storage;
@@ -25,7 +25,7 @@ struct RatiosCase {
 
     Lines lines() const { return {storage}; }
     AxisReading reading() const { return {position, static_cast<std::uint8_t>(rolls[0]), 0, 0}; }
-    LikelihoodRatios ratios() const { return {profile, lines(), reading(), odds_q8}; }
+    LikelihoodRatios ratios() const { return {code, lines(), reading(), odds_q8}; }
 };
 
 /// Returns a line of `bits` bits of the main sequence with weights up to `most`; a share `wrong` of
@@ -48,13 +48,13 @@ inline ScoredLine scored_line(int roll, int bits, double wrong, int most, Rng& r
 /// Returns the rolls of lines at a random place; the lines are still to be added.
 inline RatiosCase at_random_place(Rng& rng, int lines) {
     RatiosCase c;
-    c.profile = code_test::kProfiles[rng.below(3)];
+    c.code = code_test::kCodeVariants[rng.below(3)];
     c.position = rng.below(kPositionsPerAxis);
     int here = static_cast<int>(rng.below(kSections));
     for (int line = 0; line < lines; ++line) {
         c.rolls.push_back(here);
         here = (here + code_test::reference_delta(
-                           c.profile, std::uint64_t{c.position} + static_cast<unsigned>(line))) %
+                           c.code, std::uint64_t{c.position} + static_cast<unsigned>(line))) %
                63;
     }
     return c;
@@ -73,7 +73,7 @@ inline RatiosCase read_at_random(Rng& rng, int lines) {
 using PlacesOfAlternative = std::array<std::uint32_t, 4>;
 
 inline PlacesOfAlternative own_places(const RatiosCase& c) {
-    const auto texts = code_test::secondary_texts(c.profile);
+    const auto texts = code_test::secondary_texts(c.code);
     PlacesOfAlternative places;
     for (std::size_t k = 0; k < places.size(); ++k)
         places[k] = static_cast<std::uint32_t>(c.position % texts[k].size());
@@ -83,7 +83,7 @@ inline PlacesOfAlternative own_places(const RatiosCase& c) {
 /// Returns the rolls of the lines from these places on, where line `shared` has the reading's roll.
 inline std::vector<int> rolls_from(const RatiosCase& c, const PlacesOfAlternative& places,
                                    std::size_t shared) {
-    const auto texts = code_test::secondary_texts(c.profile);
+    const auto texts = code_test::secondary_texts(c.code);
     std::vector<int> rolls{0};
     for (std::size_t line = 0; line + 1 < c.rolls.size(); ++line) {
         int step = 5;

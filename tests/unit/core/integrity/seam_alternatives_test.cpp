@@ -30,7 +30,7 @@ int modulo_63(int n) {
 
 std::vector<Alternative> all_alternatives(const RatiosCase& c) {
     std::vector<Alternative> alternatives;
-    const auto texts = code_test::secondary_texts(c.profile);
+    const auto texts = code_test::secondary_texts(c.code);
     for (std::size_t k = 0; k < texts.size(); ++k) {
         const std::size_t length = texts[k].size();
         for (std::size_t place = 0; place < length; ++place) {
@@ -147,7 +147,7 @@ TEST(SeamAlternatives, ASeamExplainsTenLinesAsWell) {
                        std::count(alternative.offsets.begin() + kBorder, alternative.offsets.end(),
                                   alternative.offsets.back()) == kLines - kBorder;
             });
-        if (count == 0 || c.profile == Profile::libdots) continue;
+        if (count == 0 || c.code == CodeVariant::libdots) continue;
         ++seams;
         EXPECT_NEAR(seam_alternatives_log2_q8(c.ratios()) / 256.0,
                     kSeamLog2 + std::log2(static_cast<double>(count)), 0.1);

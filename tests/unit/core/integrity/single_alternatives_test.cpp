@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t kSeed = 51;
 
 double exact_sum(const RatiosCase& c) {
-    const auto texts = code_test::secondary_texts(c.profile);
+    const auto texts = code_test::secondary_texts(c.code);
     double sum = 0;
     for (std::size_t k = 0; k < texts.size(); ++k) {
         PlacesOfAlternative places = own_places(c);

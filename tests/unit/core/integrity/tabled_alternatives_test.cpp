@@ -90,12 +90,12 @@ std::uint32_t any_position(Rng& rng, int i) {
 
 /// Lines of hard bits. Some bits are missing, and some bits are wrong.
 struct BitsCase {
-    BitsCase(Profile profile_, Rng& rng, int i) : profile(profile_) {
+    BitsCase(CodeVariant code_, Rng& rng, int i) : code(code_) {
         reading.position = any_position(rng, i);
         reading.roll = static_cast<std::uint8_t>(rng.below(kSections));
         lines.resize(8 + rng.below(20));
         std::vector<std::uint8_t> rolls(lines.size());
-        code::follow_rolls(profile, reading.position, reading.roll, rolls);
+        code::follow_rolls(code, reading.position, reading.roll, rolls);
         const std::uint64_t missing = rng.below(3) * rng.below(6);
         const std::uint64_t wrong = rng.below(3);
         for (std::size_t n = 0; n < lines.size(); ++n) {
@@ -109,11 +109,11 @@ struct BitsCase {
         }
         odds_q8 = static_cast<int>(256 * (2 + rng.below(8)));
     }
-    LikelihoodRatios ratios() const { return {profile, lines, reading, odds_q8}; }
+    LikelihoodRatios ratios() const { return {code, lines, reading, odds_q8}; }
 
-    Profile profile;
+    CodeVariant code;
     AxisReading reading;
-    std::vector<TrackedLine> lines;
+    std::vector<ComparedLine> lines;
     int odds_q8;
 };
 
@@ -122,7 +122,7 @@ TEST(TabledAlternatives, AreNoLessThanThereAreByBits) {
     Comparison comparison;
     for (int i = 0; i < 600; ++i) {
         SCOPED_TRACE(testing::Message() << "lines " << i << ", seed " << kSeed);
-        const BitsCase c(code_test::kProfiles[static_cast<std::size_t>(i % 3)], rng, i);
+        const BitsCase c(code_test::kCodeVariants[static_cast<std::size_t>(i % 3)], rng, i);
         comparison.compare(c.ratios());
     }
     EXPECT_GT(comparison.settled(), 1000);

@@ -23,13 +23,18 @@ struct Verdict {
 
 using Storage = std::array<ScoredLine, 2 * kMaxLines>;
 
+Status verify_one_code(const core::Grid& grid, CodeVariant code, Decoding& decoding,
+                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix) {
+    return verify(grid, code, nullptr, decoding, options, storage, fix);
+}
+
 Verdict judge(const Reading& reading, const IntegrityOptions& options = {},
-              decltype(verify) how = verify) {
+              decltype(verify_one_code) how = verify_one_code) {
     Storage storage;
     Verdict verdict;
     Decoding decoding = reading.truth();
     verdict.status =
-        how(reading.grid(), reading.view.profile, decoding, options, storage, verdict.fix);
+        how(reading.grid(), reading.view.code, decoding, options, storage, verdict.fix);
     return verdict;
 }
 
@@ -37,7 +42,7 @@ TEST(Verify, CountsEveryBitThatContradicts) {
     Rng rng(kSeed);
     for (int i = 0; i < 40; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
-        Reading reading(random_view(rng), Turn{i % 4});
+        Reading reading(random_view(rng), QuarterTurn{i % 4});
         Verdict before = judge(reading);
         ASSERT_EQ(before.status, Status::ok);
         ASSERT_EQ(before.fix.bit_errors, 0);
@@ -77,7 +82,7 @@ TEST(Verify, RefusesWhatMissesTheAskedCertainty) {
     const Reading reading(random_view(rng), {});
     const Verdict usual = judge(reading);
     ASSERT_EQ(usual.status, Status::ok);
-    for (const auto how : {verify, verify_quickly}) {
+    for (const auto how : {verify_one_code, verify_quickly}) {
         IntegrityOptions options;
         options.max_p_wrong_log2 = usual.fix.p_wrong_log2;
         Verdict verdict = judge(reading, options, how);
@@ -91,24 +96,24 @@ TEST(Verify, RefusesWhatMissesTheAskedCertainty) {
             verdict = judge(reading, options, how);
         }
         EXPECT_EQ(verdict.status, Status::not_certain);
-        EXPECT_EQ(looks, how == verify ? 2 : 1);
+        EXPECT_EQ(looks, how == verify_one_code ? 2 : 1);
     }
 }
 
 TEST(Verify, AWrongPlaceIsNotCertain) {
     Rng rng(kSeed);
     for (int i = 0; i < 200; ++i) {
-        const Reading reading(random_view(rng), Turn{i % 4});
+        const Reading reading(random_view(rng), QuarterTurn{i % 4});
         Decoding wrong = reading.truth();
         switch (i % 5) {
             case 0:
                 wrong.place = random_place(rng);
                 break;
             case 1:
-                wrong.place = moved(Profile::anoto, wrong.place, 1, 0);
+                wrong.place = moved(CodeVariant::anoto, wrong.place, 1, 0);
                 break;
             case 2:
-                wrong.place = moved(Profile::anoto, wrong.place, 0, -1);
+                wrong.place = moved(CodeVariant::anoto, wrong.place, 0, -1);
                 break;
             case 3:
                 wrong.place.section.u = static_cast<std::uint8_t>((wrong.place.section.u + 1) % 63);
@@ -118,10 +123,10 @@ TEST(Verify, AWrongPlaceIsNotCertain) {
         }
         Storage storage;
         Fix fix;
-        EXPECT_EQ(verify(reading.grid(), Profile::anoto, wrong, {}, storage, fix),
+        EXPECT_EQ(verify(reading.grid(), CodeVariant::anoto, nullptr, wrong, {}, storage, fix),
                   Status::not_certain)
             << "view " << i << ", seed " << kSeed;
-        EXPECT_EQ(verify_quickly(reading.grid(), Profile::anoto, wrong, {}, storage, fix),
+        EXPECT_EQ(verify_quickly(reading.grid(), CodeVariant::anoto, wrong, {}, storage, fix),
                   Status::not_certain)
             << "view " << i << ", seed " << kSeed;
     }
@@ -131,19 +136,20 @@ TEST(Verify, LinesThatAreScoredAreNotScoredAgain) {
     Rng rng(kSeed);
     for (int i = 0; i < 40; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
-        const Reading reading(random_view(rng), Turn{i % 4});
+        const Reading reading(random_view(rng), QuarterTurn{i % 4});
         Storage storage;
         Decoding found = reading.decoding;
-        ASSERT_EQ(decode_all(reading.grid(), Profile::anoto, storage, found), Status::ok);
+        ASSERT_EQ(decode_all(reading.grid(), CodeVariant::anoto, storage, found), Status::ok);
         ASSERT_TRUE(found.lines_are_scored);
         const Verdict fresh = judge(reading);
         Fix fix;
-        EXPECT_EQ(verify(reading.grid(), Profile::anoto, found, {}, storage, fix), Status::ok);
+        EXPECT_EQ(verify(reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
+                  Status::ok);
         EXPECT_EQ(fix.p_wrong_log2, fresh.fix.p_wrong_log2);
         // The result depends on the scores in the storage: lines that agree with every roll exclude
         // none.
         storage.fill({});
-        EXPECT_EQ(verify(reading.grid(), Profile::anoto, found, {}, storage, fix),
+        EXPECT_EQ(verify(reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
                   Status::not_certain);
     }
 }
@@ -152,7 +158,7 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     Rng rng(kSeed);
     for (int i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
-        Reading reading(random_view(rng), Turn{i % 4});
+        Reading reading(random_view(rng), QuarterTurn{i % 4});
         // Half of the bits contradict, as where the frame shows another pattern.
         for (GridCell& cell : reading.owned.cells) {
             if (rng.below(2) == 0) cell.x = static_cast<std::int8_t>(-cell.x);
@@ -160,7 +166,7 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
         }
         IntegrityOptions any;
         any.max_p_wrong_log2 = 0;
-        for (const auto how : {verify, verify_quickly}) {
+        for (const auto how : {verify_one_code, verify_quickly}) {
             const Verdict verdict = judge(reading, any, how);
             EXPECT_EQ(verdict.status, Status::not_certain);
             EXPECT_EQ(verdict.fix.p_wrong_log2, 0);
@@ -172,13 +178,13 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
 /// show another symbol.
 Reading troubled(Rng& rng, int turn) {
     View view = random_view(rng);
-    view.profile = kProfiles[static_cast<std::size_t>(rng.below(3))];
+    view.code = kCodeVariants[static_cast<std::size_t>(rng.below(3))];
     view.image_px = {rng.uniform(100, 200), rng.uniform(100, 130)};
     const double wrong = rng.uniform(0, 0.08);
     const double missing = rng.uniform(0, 0.15);
     const double scatter_px = rng.uniform(0, 0.7);
     const Mesh mesh = view.mesh();
-    std::vector<Dot> dots;
+    std::vector<DetectedDot> dots;
     for (const PlacedDot& d : pattern_dots(view)) {
         if (rng.uniform() < missing) continue;
         const Vec2 other = random_displacement(rng);
@@ -186,23 +192,23 @@ Reading troubled(Rng& rng, int turn) {
             rng.uniform() < wrong ? mesh.at(d.cell.x + other.x, d.cell.y + other.y) : d.centre_px;
         dots.push_back(dot_at(place + scatter_px * Vec2{rng.normal(), rng.normal()}));
     }
-    return Reading(view, Turn{turn}, dots);
+    return Reading(view, QuarterTurn{turn}, dots);
 }
 
 /// Returns the probability of chance and of all alternatives of both axes, by the exact sums.
 double exact_p_wrong(const Reading& reading) {
     const Decoding truth = reading.truth();
-    const Profile profile = reading.view.profile;
+    const CodeVariant code = reading.view.code;
     const Grid& grid = reading.grid();
-    const auto place_of = [&](Vec cell) {
-        const Vec step = truth.pattern_from_grid(cell);
-        return moved(profile, truth.place, step.x, step.y);
+    const auto place_of = [&](FixedVec cell) {
+        const FixedVec step = truth.pattern_from_grid(cell);
+        return moved(code, truth.place, step.x, step.y);
     };
     std::array<Confidence, 2> axes;
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
         for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
             const Place at = place_of({i, j});
-            const Symbol symbol = symbol_at(profile, at.cell, at.section);
+            const Symbol symbol = symbol_at(code, at.cell, at.section);
             const Bits bits = turned(truth.pattern_from_grid, grid.at(i, j));
             if (bits.x != 0) axes[0].add(bits.x, (bits.x > 0) != (x_bit(symbol) == 1));
             if (bits.y != 0) axes[1].add(bits.y, (bits.y > 0) != (y_bit(symbol) == 1));
@@ -224,10 +230,10 @@ double exact_p_wrong(const Reading& reading) {
         AxisReading read;
         read.position = own;
         read.roll = static_cast<std::uint8_t>(
-            (roll(profile, own) + section + static_cast<int>(cross % kSections)) % kSections);
+            (roll(code, own) + section + static_cast<int>(cross % kSections)) % kSections);
         sum += std::exp2(chance_log2(axes[is_x ? 0 : 1], odds)) +
                std::exp2(alternatives_log2(
-                   LikelihoodRatios(profile, score_lines(upright, axis, storage), read, odds)));
+                   LikelihoodRatios(code, score_lines(upright, axis, storage), read, odds)));
     }
     return std::log2(sum);
 }
@@ -259,8 +265,8 @@ TEST(VerifyQuickly, AcceptsWhatIsClearlyRead) {
     for (int i = 0; i < 100; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
         View view = random_view(rng);
-        view.profile = kProfiles[static_cast<std::size_t>(i % 3)];
-        const Verdict verdict = judge(Reading(view, Turn{i % 4}), {}, verify_quickly);
+        view.code = kCodeVariants[static_cast<std::size_t>(i % 3)];
+        const Verdict verdict = judge(Reading(view, QuarterTurn{i % 4}), {}, verify_quickly);
         EXPECT_EQ(verdict.status, Status::ok);
         EXPECT_EQ(verdict.fix.bit_errors, 0);
         EXPECT_LE(verdict.fix.p_wrong_log2, -30);

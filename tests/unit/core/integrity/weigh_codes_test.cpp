@@ -1,5 +1,5 @@
-// What places of other profiles explain, compared with sums over all places that differ in a4 and
-// with the decoder of windows.
+// What places of other code variants explain, compared with sums over all places that differ in a4
+// and with the decoder of windows.
 #include "core/integrity/weigh_codes.hpp"
 
 #include <gtest/gtest.h>
@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::uint64_t kSeed = 83;
 
-/// Returns the same lines as if they were of another profile.
-RatiosCase as_in(Profile profile, const RatiosCase& c) {
+/// Returns the same lines as if they were of another code variant.
+RatiosCase as_in(CodeVariant code, const RatiosCase& c) {
     RatiosCase other;
-    other.profile = profile;
+    other.code = code;
     other.position = c.position;
     other.rolls = c.rolls;
     other.storage = c.storage;
@@ -23,9 +23,9 @@ RatiosCase as_in(Profile profile, const RatiosCase& c) {
     return other;
 }
 
-/// Returns the rolls of the same place in the other profile.
-std::vector<int> rolls_here(const RatiosCase& c, Profile other) {
-    const int further = roll(other, c.position) - roll(c.profile, c.position) + kSections;
+/// Returns the rolls of the same place in the other code variant.
+std::vector<int> rolls_here(const RatiosCase& c, CodeVariant other) {
+    const int further = roll(other, c.position) - roll(c.code, c.position) + kSections;
     std::vector<int> rolls = rolls_from(as_in(other, c), own_places(c), 0);
     for (int& line : rolls)
         line = (line + further) % kSections;
@@ -33,7 +33,7 @@ std::vector<int> rolls_here(const RatiosCase& c, Profile other) {
 }
 
 /// Returns the odds of all places at all shifts, except the same place, in double precision.
-double exact_elsewhere(const RatiosCase& c, Profile other) {
+double exact_elsewhere(const RatiosCase& c, CodeVariant other) {
     const RatiosCase theirs = as_in(other, c);
     const std::vector<int> same = rolls_here(c, other);
     double sum = 0;
@@ -55,10 +55,10 @@ TEST(WeighOtherCode, IsTheSumOverAllPlaces) {
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         const RatiosCase c = read_at_random(rng, 8 + i % 9);
-        for (const Profile other : code_test::kProfiles) {
-            if (other == c.profile) continue;
+        for (const CodeVariant other : code_test::kCodeVariants) {
+            if (other == c.code) continue;
             SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
-            const OtherAxis axis = weigh_other_code(core::kernels(), c.ratios(), c.profile, other);
+            const OtherAxis axis = weigh_other_code(core::kernels(), c.ratios(), c.code, other);
             const double here = odds_of_rolls(c, rolls_here(c, other));
             EXPECT_NEAR(static_cast<double>(axis.here) / here, 1, 0.03);
             const double exact = exact_elsewhere(c, other);
@@ -76,15 +76,15 @@ TEST(WeighOtherCodes, SumsUpPlacesAlongBothAxes) {
         RatiosCase y;
         do
             y = read_at_random(rng, 8 + i * 7 % 11);
-        while (y.profile != x.profile);
+        while (y.code != x.code);
         const LikelihoodRatios by_x = x.ratios();
         const LikelihoodRatios by_y = y.ratios();
         OtherCodes others;
-        weigh_other_codes(core::kernels(), UnsharedLines(by_x), UnsharedLines(by_y), x.profile,
+        weigh_other_codes(core::kernels(), UnsharedLines(by_x), UnsharedLines(by_y), x.code,
                           others);
         EXPECT_EQ(others.first, (Cell{x.position, y.position}));
-        for (const Profile other : code_test::kProfiles) {
-            if (other == x.profile) continue;
+        for (const CodeVariant other : code_test::kCodeVariants) {
+            if (other == x.code) continue;
             SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
             const double x_here = odds_of_rolls(x, rolls_here(x, other));
             const double y_here = odds_of_rolls(y, rolls_here(y, other));
@@ -105,17 +105,17 @@ TEST(WeighOtherCodes, SumsUpPlacesAlongBothAxes) {
 }
 
 /// Returns clear lines of 12 bits, from a position on.
-RatiosCase clear_lines(Profile profile, std::uint32_t position, int lines) {
+RatiosCase clear_lines(CodeVariant code, std::uint32_t position, int lines) {
     Rng rng(kSeed);
     RatiosCase c;
-    c.profile = profile;
+    c.code = code;
     c.position = position;
     c.odds_q8 = 7 * 256;
     int here = 20;
     for (int line = 0; line < lines; ++line) {
         c.rolls.push_back(here);
         c.storage.push_back(scored_line(here, 12, 0, 127, rng));
-        here = (here + delta(profile, position + static_cast<std::uint32_t>(line))) % kSections;
+        here = (here + delta(code, position + static_cast<std::uint32_t>(line))) % kSections;
     }
     return c;
 }
@@ -126,10 +126,10 @@ TEST(WeighOtherCode, FindsThePlaceThatTheDecoderFinds) {
     int same = 0;
     int elsewhere = 0;
     for (std::uint32_t position = kFirst; position < kFirst + 241; ++position) {
-        for (const Profile read : code_test::kProfiles) {
+        for (const CodeVariant read : code_test::kCodeVariants) {
             const RatiosCase c = clear_lines(read, position, kLines);
             std::vector<std::uint8_t> rolls(c.rolls.begin(), c.rolls.end());
-            for (const Profile other : code_test::kProfiles) {
+            for (const CodeVariant other : code_test::kCodeVariants) {
                 if (other == read) continue;
                 SCOPED_TRACE(testing::Message() << "position " << position);
                 const OtherAxis axis = weigh_other_code(core::kernels(), c.ratios(), read, other);

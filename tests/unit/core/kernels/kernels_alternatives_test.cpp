@@ -18,7 +18,7 @@ struct OwnPlaces {
     const code::Basis& basis;
     std::array<std::uint32_t, 4> own;
 
-    explicit OwnPlaces(Rng& rng) : basis(code::basis(static_cast<Profile>(rng.below(3)))) {
+    explicit OwnPlaces(Rng& rng) : basis(code::basis(static_cast<CodeVariant>(rng.below(3)))) {
         for (std::size_t k = 0; k < own.size(); ++k)
             own[k] = rng.below(basis[k].length);
     }

@@ -208,7 +208,7 @@ TEST_F(KernelsTest, ShiftsAreTheSame) {
         const int step_px = whole(rng, 1, 4);
         const int most_px = whole(rng, 1, 8 * step_px);
         expect_same([&](const Kernels& kernels, Record& record) {
-            Vec shift;
+            FixedVec shift;
             int cut_q8 = 0;
             record.add(
                 kernels.find_shift(picture.view, table.dots, most_px, step_px, shift, cut_q8));
@@ -307,8 +307,8 @@ TEST_F(KernelsTest, SumsOfFitsAreTheSame) {
 
 TEST_F(KernelsTest, SimilarPlacesAreTheSame) {
     repeat(300, [](Rng& rng) {
-        const auto profile = static_cast<Profile>(rng.below(3));
-        const code::Basis& basis = code::basis(profile);
+        const auto code = static_cast<CodeVariant>(rng.below(3));
+        const code::Basis& basis = code::basis(code);
         std::array<std::uint32_t, 4> own;
         for (std::size_t k = 0; k < own.size(); ++k)
             own[k] = rng.below(basis[k].length);

@@ -15,20 +15,20 @@ using namespace core;
 constexpr std::uint64_t kSeed = 25;
 
 /// Returns the symmetric edges among the dots nearest the middle of an image.
-std::vector<Edge> edges_of(const std::vector<Dot>& dots, Vec2 image_px) {
+std::vector<SeedEdge> edges_of(const std::vector<DetectedDot>& dots, Vec2 image_px) {
     std::array<std::uint16_t, kMaxSeeds> seeds;
-    const Vec centre = fixed({(image_px.x - 1) / 2, (image_px.y - 1) / 2}, 8);
+    const FixedVec centre = fixed({(image_px.x - 1) / 2, (image_px.y - 1) / 2}, 8);
     const auto count = static_cast<std::size_t>(choose_seeds(dots, centre, seeds));
     const auto chosen = std::span<const std::uint16_t>(seeds).first(count);
     std::vector<std::array<std::int16_t, 4>> neighbours(count);
     std::vector<BucketedSeed> memory(count + 1);
     find_neighbours(dots, chosen, memory, neighbours);
-    std::vector<Edge> edges(2 * kMaxSeeds);
+    std::vector<SeedEdge> edges(2 * kMaxSeeds);
     edges.resize(static_cast<std::size_t>(connect_symmetric(dots, chosen, neighbours, edges)));
     return edges;
 }
 
-Status axes_of(const std::vector<Edge>& edges, Lattice& lattice) {
+Status axes_of(const std::vector<SeedEdge>& edges, Lattice& lattice) {
     std::vector<std::int32_t> memory(2 * edges.size());
     return estimate_axes(edges, memory, lattice);
 }
@@ -88,10 +88,10 @@ TEST(Axes, AreNearlyExactWithoutDisplacements) {
 TEST(Axes, NeedEdgesInTwoDirections) {
     Lattice lattice;
     EXPECT_EQ(axes_of({}, lattice), Status::no_grid);
-    const auto edges = [](std::initializer_list<Vec> steps, int copies) {
-        std::vector<Edge> result;
+    const auto edges = [](std::initializer_list<FixedVec> steps, int copies) {
+        std::vector<SeedEdge> result;
         for (int i = 0; i < copies; ++i) {
-            for (const Vec step : steps)
+            for (const FixedVec step : steps)
                 result.push_back({0, 1, step});
         }
         return result;
@@ -145,7 +145,7 @@ TEST(Axes, BlobsFarApartDoNotOverflow) {
     // spacing.
     Lattice lattice;
     for (const int step_px : {70, 100, 300, 1000}) {
-        std::vector<Edge> edges;
+        std::vector<SeedEdge> edges;
         for (int i = 0; i < 40; ++i) {
             edges.push_back({0, 1, {step_px * 256, i}});
             edges.push_back({0, 1, {-i, step_px * 256}});

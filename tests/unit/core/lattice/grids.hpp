@@ -56,7 +56,7 @@ inline double affine_tolerance(const std::vector<PlacedDot>& dots) {
     return 5 * 0.118 * std::sqrt(7.0 / static_cast<double>(dots.size()));
 }
 
-inline Vec centre_q8(Vec2 image_px) {
+inline FixedVec centre_q8(Vec2 image_px) {
     return fixed({(image_px.x - 1) / 2, (image_px.y - 1) / 2}, 8);
 }
 

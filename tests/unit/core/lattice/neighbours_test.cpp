@@ -16,20 +16,20 @@ using namespace core;
 constexpr std::uint64_t kSeed = 24;
 using Table = std::vector<std::array<std::int16_t, 4>>;
 
-std::vector<std::uint16_t> all_of(const std::vector<Dot>& dots) {
+std::vector<std::uint16_t> all_of(const std::vector<DetectedDot>& dots) {
     std::vector<std::uint16_t> seeds(dots.size());
     std::iota(seeds.begin(), seeds.end(), std::uint16_t{0});
     return seeds;
 }
 
-std::int64_t squared_distance(const Dot& a, const Dot& b) {
+std::int64_t squared_distance(const DetectedDot& a, const DetectedDot& b) {
     const std::int64_t x = a.centre_q8.x - b.centre_q8.x;
     const std::int64_t y = a.centre_q8.y - b.centre_q8.y;
     return x * x + y * y;
 }
 
 /// Whether two dots are near enough: no grid has cells of 128 px.
-bool may_be_neighbours(const Dot& a, const Dot& b) {
+bool may_be_neighbours(const DetectedDot& a, const DetectedDot& b) {
     const std::int32_t x = std::abs(a.centre_q8.x - b.centre_q8.x);
     const std::int32_t y = std::abs(a.centre_q8.y - b.centre_q8.y);
     return std::max(x, y) < 128 * 256;
@@ -39,8 +39,8 @@ constexpr int kKinds = 6;
 
 /// Returns points of one of several kinds: scattered, in clumps, on a line, on a grid, some twice,
 /// on a grid whose last row has one dot when the list is full.
-std::vector<Dot> points(Rng& rng, int count, int kind) {
-    std::vector<Dot> dots;
+std::vector<DetectedDot> points(Rng& rng, int count, int kind) {
+    std::vector<DetectedDot> dots;
     for (int i = 0; i < count; ++i) {
         Vec2 p{rng.uniform(0, 187), rng.uniform(0, 119)};
         if (kind == 1) p = {10.0 * (i % 3) + rng.uniform(), 600.0 * (i % 2) + rng.uniform()};
@@ -73,8 +73,8 @@ TEST(Neighbours, AreTheFourNearestOfAll) {
         for (std::size_t s = 0; s < seeds.size(); ++s) {
             std::vector<std::int64_t> expected;
             for (std::size_t t = 0; t < seeds.size(); ++t) {
-                const Dot& a = dots[seeds[s]];
-                const Dot& b = dots[seeds[t]];
+                const DetectedDot& a = dots[seeds[s]];
+                const DetectedDot& b = dots[seeds[t]];
                 if (t != s && may_be_neighbours(a, b)) expected.push_back(squared_distance(a, b));
             }
             std::sort(expected.begin(), expected.end());
@@ -124,15 +124,15 @@ TEST(Neighbours, EdgesAreThosePairsThatBothEndsCount) {
                           a_counts_b && b_counts_a);
             }
         }
-        std::array<Edge, 2 * kMaxSeeds> edges;
+        std::array<SeedEdge, 2 * kMaxSeeds> edges;
         const int count = connect_symmetric(dots, seeds, neighbours, edges);
         std::set<std::pair<int, int>> found;
         for (int e = 0; e < count; ++e) {
-            const Edge& edge = edges[static_cast<std::size_t>(e)];
+            const SeedEdge& edge = edges[static_cast<std::size_t>(e)];
             found.insert({std::min(edge.from, edge.to), std::max(edge.from, edge.to)});
-            const Vec from = dots[static_cast<std::size_t>(edge.from)].centre_q8;
-            const Vec to = dots[static_cast<std::size_t>(edge.to)].centre_q8;
-            ASSERT_EQ(edge.step_q8, (Vec{to.x - from.x, to.y - from.y}));
+            const FixedVec from = dots[static_cast<std::size_t>(edge.from)].centre_q8;
+            const FixedVec to = dots[static_cast<std::size_t>(edge.to)].centre_q8;
+            ASSERT_EQ(edge.step_q8, (FixedVec{to.x - from.x, to.y - from.y}));
             // As in Fig. 4, all edges point down, level ones to the right.
             ASSERT_TRUE(edge.step_q8.y > 0 || (edge.step_q8.y == 0 && edge.step_q8.x >= 0));
         }
@@ -146,7 +146,7 @@ TEST(Neighbours, SeedsAreTheDotsNearestTheCentre) {
     for (const int count : {1, 40, 255, 256, 257, 400, 3000, 16000}) {
         SCOPED_TRACE(testing::Message() << count << " dots, seed " << kSeed);
         const double side = 11 * std::sqrt(count);
-        std::vector<Dot> dots;
+        std::vector<DetectedDot> dots;
         for (int i = 0; i < count; ++i)
             dots.push_back(dot_at({rng.uniform(0, side), rng.uniform(0, side)}));
         const Vec2 centre{0.4 * side, 0.6 * side};
@@ -176,7 +176,7 @@ TEST(Neighbours, SeedsAreTheDotsNearestTheCentre) {
 
 TEST(Neighbours, AMixedUpCrowdAtTheCentreStillGivesSeeds) {
     // More dots than seeds have the same distance: some of them are chosen.
-    std::vector<Dot> dots(500, dot_at({50, 50}));
+    std::vector<DetectedDot> dots(500, dot_at({50, 50}));
     dots.push_back(dot_at({4000, 4000}));
     std::array<std::uint16_t, kMaxSeeds> seeds;
     EXPECT_EQ(choose_seeds(dots, {50 * 256, 50 * 256}, seeds), kMaxSeeds);

@@ -33,7 +33,7 @@ TEST(SearchPeriodogram, RecoversTheGridWithAThirdOfTheDotsMissing) {
         for (const PlacedDot& dot : placed_dots(mesh, 40, image, displacement)) {
             if (rng.uniform() > 0.3) placed.push_back(dot);
         }
-        const std::vector<Dot> dots = dots_of(placed);
+        const std::vector<DetectedDot> dots = dots_of(placed);
         std::array<std::uint16_t, kMaxSeeds> seeds;
         const int count = choose_seeds(dots, fixed(centre, 8), seeds);
         ASSERT_GE(count, 150);
@@ -75,7 +75,7 @@ TEST(SearchPeriodogram, RecoversTheGridThatATiltedCameraSees) {
         const Mesh flat = square_mesh(spacing, rng.uniform(-3.1, 3.1), centre);
         const Mesh mesh{seen(flat.u), seen(flat.v), centre};
         const auto displacement = [&](int, int) { return random_displacement(rng); };
-        const std::vector<Dot> dots = dots_of(placed_dots(mesh, 40, image, displacement));
+        const std::vector<DetectedDot> dots = dots_of(placed_dots(mesh, 40, image, displacement));
         std::array<std::uint16_t, kMaxSeeds> seeds;
         const int count = choose_seeds(dots, fixed(centre, 8), seeds);
         // Clustered edges give an estimate that is about square.

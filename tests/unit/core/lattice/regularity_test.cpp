@@ -84,7 +84,7 @@ TEST_P(OutwardGrid, RefusesScatteredDots) {
     Rng rng(kSeed);
     for (int i = 0; i < 100; ++i) {
         const int count = 60 + static_cast<int>(rng.below(200));
-        std::vector<Dot> dots;
+        std::vector<DetectedDot> dots;
         for (int d = 0; d < count; ++d)
             dots.push_back(dot_at({rng.uniform(2, 185), rng.uniform(2, 117)}));
         const Lattice lattice =

@@ -18,9 +18,9 @@ TEST(Cells, PointsAreRoundedToEighthsOfAPixel) {
         const PlaneFromImage plane = affine_plane(side, 11, 1, rng);
         const Cells cells(plane);
         for (int i = 0; i < 10000; ++i) {
-            const Vec p_q8 = fixed({rng.uniform(0, side), rng.uniform(0, side)}, 8);
+            const FixedVec p_q8 = fixed({rng.uniform(0, side), rng.uniform(0, side)}, 8);
             const Vec2 exact = 8 * (real(p_q8, 8) - real(plane.centre_q8, 8));
-            const Vec found = cells.from_centre_q3(p_q8);
+            const FixedVec found = cells.from_centre_q3(p_q8);
             ASSERT_LE(std::abs(found.x - exact.x), 0.5) << "seed " << kSeed;
             ASSERT_LE(std::abs(found.y - exact.y), 0.5) << "seed " << kSeed;
         }
@@ -44,7 +44,7 @@ TEST(Cells, PlanePointsAreThoseOfTheFormula) {
                 return static_cast<std::int32_t>(rng.below(static_cast<std::uint32_t>(2 * reach))) -
                        reach;
             };
-            const Vec p{coordinate(j & 1), coordinate(j & 2)};
+            const FixedVec p{coordinate(j & 1), coordinate(j & 2)};
             const Vec2 exact = formula(plane, real(plane.centre_q8, 8) + real(p, 3));
             // Slopes are truncated to 2^-18 per px on either axis, the sum to 2^-16.
             const double tolerance =

@@ -159,7 +159,7 @@ TEST(Fixed, SumsOfPowersOfTwoAreRoundedUp) {
 }
 
 TEST(Fixed, ProductsOfVectorsDoNotOverflow) {
-    constexpr Vec kFar{INT32_MAX, INT32_MIN};
+    constexpr FixedVec kFar{INT32_MAX, INT32_MIN};
     EXPECT_EQ(dot(kFar, {1, -1}), std::int64_t{INT32_MAX} - INT32_MIN);
     EXPECT_EQ(cross({1 << 30, 0}, {0, 1 << 30}), std::int64_t{1} << 60);
     EXPECT_EQ(cross({0, 1}, {1, 0}), -1);  // from +x towards +y is positive
@@ -169,27 +169,27 @@ TEST(Fixed, ProductsOfVectorsDoNotOverflow) {
 TEST(Fixed, AnglesAreThoseOfAtan2) {
     constexpr double kTolerance = 2e-9 * 4294967296.0;
     EXPECT_EQ(angle_bam({0, 0}), 0);
-    std::vector<Vec> directions{{1, 0},
-                                {0, 1},
-                                {0, -1},
-                                {-1, 0},
-                                {1, 1},
-                                {-1, -1},
-                                {-1, 1},
-                                {(1 << 29) - 1, 1},
-                                {-(1 << 29) + 1, -1},
-                                {1, (1 << 29) - 1},
-                                {-(1 << 29) + 1, (1 << 29) - 1},
-                                {-1, 1 << 20},
-                                {-(1 << 20), -1}};
+    std::vector<FixedVec> directions{{1, 0},
+                                     {0, 1},
+                                     {0, -1},
+                                     {-1, 0},
+                                     {1, 1},
+                                     {-1, -1},
+                                     {-1, 1},
+                                     {(1 << 29) - 1, 1},
+                                     {-(1 << 29) + 1, -1},
+                                     {1, (1 << 29) - 1},
+                                     {-(1 << 29) + 1, (1 << 29) - 1},
+                                     {-1, 1 << 20},
+                                     {-(1 << 20), -1}};
     Rng rng(kSeed);
     for (int i = 0; i < 200000; ++i) {
         const std::uint32_t range = 2U << rng.below(29);
         directions.push_back({static_cast<std::int32_t>(rng.below(range) - range / 2),
                               static_cast<std::int32_t>(rng.below(range) - range / 2)});
     }
-    for (const Vec d : directions) {
-        if (d == Vec{}) continue;
+    for (const FixedVec d : directions) {
+        if (d == FixedVec{}) continue;
         const double expected = std::atan2(d.y, d.x);
         ASSERT_NEAR(bam_difference(angle_bam(d), expected), 0, kTolerance)
             << d.x << ", " << d.y << ", seed " << kSeed;

@@ -21,7 +21,7 @@ PlaneFromImage random_plane(Rng& rng, double side_px, bool is_bent) {
     if (is_bent) {
         plane.perspective_q30 =
             fixed({rng.uniform(-0.1, 0.1) / side_px, rng.uniform(-0.1, 0.1) / side_px}, 30);
-        plane.lens_q40 = Lens::from_k(rng.uniform(-0.2, 0.2) / (side_px * side_px)).k_q40;
+        plane.lens_q40 = FixedLens::from_k(rng.uniform(-0.2, 0.2) / (side_px * side_px)).k_q40;
     }
     return plane;
 }
@@ -33,7 +33,7 @@ TEST(Plane, PointsAreThoseOfTheFormula) {
         const double side = i % 2 == 0 ? 188 : 4096;
         const PlaneFromImage plane = random_plane(rng, side, i % 3 > 0);
         for (int j = 0; j < 100; ++j) {
-            const Vec p_q8 = fixed({rng.uniform(0, side), rng.uniform(0, side)}, 8);
+            const FixedVec p_q8 = fixed({rng.uniform(0, side), rng.uniform(0, side)}, 8);
             const Vec2 expected = formula(plane, real(p_q8, 8));
             const Vec2 found = real(plane_point_q16(plane, p_q8), 16);
             // The divisor is kept to 2^-30 and the products are rounded to 2^-16 spacing.
@@ -102,8 +102,8 @@ TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
             plane.dv_q24 = {any(), any()};
             plane.perspective_q30 = {any(), any()};
         }
-        const Vec far = fixed({rng.uniform(-250, 250), rng.uniform(-250, 250)}, 16);
-        const Vec found = image_point_q8(plane, far);
+        const FixedVec far = fixed({rng.uniform(-250, 250), rng.uniform(-250, 250)}, 16);
+        const FixedVec found = image_point_q8(plane, far);
         EXPECT_LE(larger_component(found), 1 << 21);
     }
 }
@@ -115,7 +115,7 @@ TEST(Plane, TheTangentHasItsValueAndSlope) {
         const PlaneFromImage plane = random_plane(rng, 188, true);
         const Vec2 p = real(fixed({rng.uniform(0, 187), rng.uniform(0, 187)}, 8), 8);
         const PlaneFromImage flat = tangent(plane, fixed(p, 8));
-        EXPECT_EQ(flat.perspective_q30, Vec{});
+        EXPECT_EQ(flat.perspective_q30, FixedVec{});
         EXPECT_EQ(flat.lens_q40, 0);
         const Vec2 value = formula(plane, p);
         EXPECT_NEAR(formula(flat, p).x, value.x, 4e-5);

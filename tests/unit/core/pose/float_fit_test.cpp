@@ -90,7 +90,7 @@ TEST(FitPlane, SaysHowFarItMayBeOff) {
         EXPECT_LT(worst_difference(plane, truth), 0.02);
         Fix fix;
         fix.spacing_px_q16 = 11 * 65536;
-        const Vec centre_q8{};
+        const FixedVec centre_q8{};
         core::estimate_covariance(fit, core::fixed_plane(plane, centre_q8), centre_q8, fix);
         const Vec2 off = formula(plane, {}) - formula(truth, {});
         const double turn = std::atan2(double{plane.du_y}, double{plane.du_x}) -

@@ -41,16 +41,16 @@ bool is_inside(const View& view, Vec2 point_px, double margin_px) {
 void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int quarters,
                      double margin_px, double tolerance_px, Rng& rng) {
     const GreyImage image = drawn(view, placed, rng.uniform(0, 6.3));
-    Reading reading(view, Turn{quarters}, dots_of(placed));
+    Reading reading(view, QuarterTurn{quarters}, dots_of(placed));
     ASSERT_EQ(reading.status, Status::ok);
-    const Nominal nominal(reading.grid(), view.profile, reading.truth());
+    const Nominal nominal(reading.grid(), view.code, reading.truth());
     PlaneFromImage pose = upright_plane(reading.plane, reading.turn);
     // The first attempt leaves a pose some hundredths of a spacing off.
     const Vec2 off{rng.uniform(-0.03, 0.03), rng.uniform(-0.03, 0.03)};
     pose.at_centre_q16 = fixed(real(pose.at_centre_q16, 16) + off, 16);
-    std::vector<Dot> measured(1000);
+    std::vector<DetectedDot> measured(1000);
     const int count =
-        measure_dots(image.view(), Lens{}, pose, nominal, reading.owned.grid, measured);
+        measure_dots(image.view(), FixedLens{}, pose, nominal, reading.owned.grid, measured);
     int seen = 0;
     for (int j = reading.grid().j0; j < reading.grid().j0 + reading.grid().rows; ++j) {
         for (int c = reading.grid().i0; c < reading.grid().i0 + reading.grid().columns; ++c) {
@@ -59,8 +59,8 @@ void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int
             ASSERT_LT(int{cell.dot}, count);
             ++seen;
             const Vec2 found = real(measured[cell.dot].centre_q8, 8);
-            const Vec step = reading.turn({c, j});
-            const Vec at{step.x + reading.zero.x, step.y + reading.zero.y};
+            const FixedVec step = reading.turn({c, j});
+            const FixedVec at{step.x + reading.zero.x, step.y + reading.zero.y};
             const auto own = std::find_if(placed.begin(), placed.end(),
                                           [&](const PlacedDot& dot) { return dot.cell == at; });
             ASSERT_NE(own, placed.end());
@@ -111,16 +111,16 @@ TEST(MeasureDots, BlankPaperAndHiddenCellsHaveNone) {
     const View view = random_view(rng);
     Reading reading(view, {});
     ASSERT_EQ(reading.status, Status::ok);
-    const Nominal nominal(reading.grid(), view.profile, reading.truth());
-    std::vector<Dot> measured(1000);
-    EXPECT_EQ(measure_dots(blank(188, 120).view(), Lens{}, reading.plane, nominal,
+    const Nominal nominal(reading.grid(), view.code, reading.truth());
+    std::vector<DetectedDot> measured(1000);
+    EXPECT_EQ(measure_dots(blank(188, 120).view(), FixedLens{}, reading.plane, nominal,
                            reading.owned.grid, measured),
               0);
     for (GridCell& cell : reading.owned.cells) {
         EXPECT_FALSE(cell.has_dot());
         cell.dot = GridCell::kHidden + 0b1111;
     }
-    EXPECT_EQ(measure_dots(drawn(view, pattern_dots(view), 0).view(), Lens{}, reading.plane,
+    EXPECT_EQ(measure_dots(drawn(view, pattern_dots(view), 0).view(), FixedLens{}, reading.plane,
                            nominal, reading.owned.grid, measured),
               0);
 }
@@ -131,7 +131,7 @@ TEST(MeasureDots, DotsBesideGraphicsAreSeen) {
     const auto placed = pattern_dots(view);
     Reading reading(view, {}, dots_of(placed));
     ASSERT_EQ(reading.status, Status::ok);
-    const Nominal nominal(reading.grid(), view.profile, reading.truth());
+    const Nominal nominal(reading.grid(), view.code, reading.truth());
     const Grid& grid = reading.grid();
     const auto symbol_at = [&](int i, int j) {
         return static_cast<int>(nominal.symbol(nominal.pattern_step({i, j})));
@@ -144,9 +144,9 @@ TEST(MeasureDots, DotsBesideGraphicsAreSeen) {
         }
     };
     const GreyImage image = drawn(view, placed, 0);
-    std::vector<Dot> measured(1000);
+    std::vector<DetectedDot> measured(1000);
     const auto count = [&] {
-        return measure_dots(image.view(), Lens{}, upright_plane(reading.plane, reading.turn),
+        return measure_dots(image.view(), FixedLens{}, upright_plane(reading.plane, reading.turn),
                             nominal, reading.owned.grid, measured);
     };
     mark([](int symbol) { return 0b1111 & ~(1 << symbol); });
@@ -160,12 +160,12 @@ TEST(MeasureDots, StopsWhereTheirMemoryEnds) {
     const View view = random_view(rng);
     Reading reading(view, {});
     ASSERT_EQ(reading.status, Status::ok);
-    const Nominal nominal(reading.grid(), view.profile, reading.truth());
-    std::vector<Dot> measured(11);
-    EXPECT_EQ(measure_dots(drawn(view, pattern_dots(view), 0).view(), Lens{}, reading.plane,
+    const Nominal nominal(reading.grid(), view.code, reading.truth());
+    std::vector<DetectedDot> measured(11);
+    EXPECT_EQ(measure_dots(drawn(view, pattern_dots(view), 0).view(), FixedLens{}, reading.plane,
                            nominal, reading.owned.grid, std::span(measured).first(10)),
               10);
-    EXPECT_EQ(measured[10].centre_q8, Vec{});
+    EXPECT_EQ(measured[10].centre_q8, FixedVec{});
     // Cells refer to measured dots only.
     EXPECT_EQ(std::count_if(reading.owned.cells.begin(), reading.owned.cells.end(),
                             [](const GridCell& cell) { return cell.has_dot() && cell.dot < 10; }),

@@ -30,14 +30,14 @@ TEST(ObservationBatches, ShowsAllDotsInOrder) {
         // Views have fewer dots than fit one batch, or more.
         View view = random_view(rng);
         view.spacing_px = i % 2 == 0 ? 12 : 6;
-        const Reading reading(view, Turn{i % 4});
-        const Nominal nominal(reading.grid(), reading.view.profile, reading.truth());
+        const Reading reading(view, QuarterTurn{i % 4});
+        const Nominal nominal(reading.grid(), reading.view.code, reading.truth());
         const Observations observations(reading.dots, reading.grid(), nominal);
-        const Vec centre_q8 = fixed(view.centre_px(), 8);
+        const FixedVec centre_q8 = fixed(view.centre_px(), 8);
         Counted expected;
         int reach_q8 = 0;
         observations.visit([&](const Observation& o) {
-            const Vec p{o.image_point_q8.x - centre_q8.x, o.image_point_q8.y - centre_q8.y};
+            const FixedVec p{o.image_point_q8.x - centre_q8.x, o.image_point_q8.y - centre_q8.y};
             reach_q8 = std::max(reach_q8, larger_component(p));
             expected.add(p.x, p.y, o.pattern_step.x, o.pattern_step.y,
                          2 * dx(o.symbol) + dy(o.symbol));

@@ -28,7 +28,7 @@ struct OwnedDots {
         floats[2].fill(kNoDot_px);
     }
 
-    void add(Vec cell, Symbol symbol, Vec2 px) {
+    void add(FixedVec cell, Symbol symbol, Vec2 px) {
         const auto k = static_cast<std::size_t>(dots.count++);
         dots.column[k] = static_cast<float>(cell.x);
         dots.row[k] = static_cast<float>(cell.y);

@@ -24,14 +24,13 @@ struct Fitted {
 };
 
 Fitted fitted(const Reading& reading, Vec2 pixel, const PaperMap* paper = nullptr) {
-    const Nominal nominal(reading.grid(), reading.view.profile, reading.truth());
+    const Nominal nominal(reading.grid(), reading.view.code, reading.truth());
     const Observations observations(reading.dots, reading.grid(), nominal, paper);
     Fitted result;
     result.pose = upright_plane(reading.plane, reading.turn);
     result.ok = refine_pose(observations, result.pose, result.fit);
     if (!result.ok) return result;
-    write_pose(result.pose, fixed(pixel, 8), reading.view.profile, reading.truth().place,
-               result.fix);
+    write_pose(result.pose, fixed(pixel, 8), reading.view.code, reading.truth().place, result.fix);
     estimate_covariance(result.fit, result.pose, fixed(pixel, 8), result.fix);
     return result;
 }
@@ -46,7 +45,7 @@ TEST(Pose, OfTheGridIsThatOfTheCamera) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
         View view = random_view(rng);
         view.spacing_px = rng.uniform(6, 11);
-        const Reading reading(view, Turn{i % 4});
+        const Reading reading(view, QuarterTurn{i % 4});
         const Vec2 pixel =
             i % 2 == 0 ? view.centre_px() : Vec2{rng.uniform(-50, 250), rng.uniform(-50, 200)};
         expect_pose(reading, upright_plane(reading.plane, reading.turn), pixel, 1e-3);
@@ -71,7 +70,7 @@ TEST(Pose, OutliersAreLeftOut) {
     for (int i = 0; i < 100; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
         const View view = random_view(rng);
-        const Reading reading(view, Turn{i % 4}, dots_with_outliers(view, 0.5, rng));
+        const Reading reading(view, QuarterTurn{i % 4}, dots_with_outliers(view, 0.5, rng));
         const Fitted fit = fitted(reading);
         ASSERT_TRUE(fit.ok);
         expect_pose(reading, fit.pose, view.centre_px(), 1e-4);
@@ -85,7 +84,7 @@ TEST(Pose, ADisplacementOtherThanASixthIsMeasured) {
     Rng rng(kSeed);
     for (const double displacement : {0.11, 0.14, 0.2, 0.23}) {
         const View view = random_view(rng);
-        const Reading reading(view, Turn{1}, dots_displaced_by(displacement, view));
+        const Reading reading(view, QuarterTurn{1}, dots_displaced_by(displacement, view));
         const Fitted fit = fitted(reading);
         ASSERT_TRUE(fit.ok);
         expect_pose(reading, fit.pose, view.centre_px(), 2e-4);
@@ -116,7 +115,7 @@ TEST(Pose, IsWrittenAsCellFractionAngleAndSpacing) {
         const PlaneFromImage plane{
             fixed(centre, 8), fixed(at, 16), fixed(du, 24), fixed({-du.y, du.x}, 24), {}, 0};
         auto* const write = i % 2 == 0 ? write_pose : write_affine_pose;
-        write(plane, fixed(centre, 8), Profile::anoto, place, fix);
+        write(plane, fixed(centre, 8), CodeVariant::anoto, place, fix);
         const auto nearest = [](double value) { return std::remainder(value, kPositionsPerAxis); };
         ASSERT_NEAR(nearest(fix.x_grid() - place.cell.x - at.x), 0, 1e-5);
         ASSERT_NEAR(nearest(fix.y_grid() - place.cell.y - at.y), 0, 1e-5);
@@ -134,7 +133,7 @@ TEST(Pose, WhereTheMapHardlyMovesTheSpacingSaturates) {
         const PlaneFromImage plane{{}, {}, {du_q24, 0}, {0, du_q24}, {}, 0};
         for (auto* const write : {write_pose, write_affine_pose}) {
             Fix fix;
-            write(plane, {}, Profile::anoto, {}, fix);
+            write(plane, {}, CodeVariant::anoto, {}, fix);
             if (du_q24 > 512) {
                 EXPECT_NEAR(fix.spacing_px(), 16777216.0 / du_q24, 0.01);
             } else {
@@ -151,12 +150,12 @@ TEST(Pose, PastTheEndOfTheCodeItContinuesInAnotherSection) {
     const auto at = [](Vec2 point) {
         return PlaneFromImage{{}, fixed(point, 16), {1 << 20, 0}, {0, 1 << 20}, {}, 0};
     };
-    write_pose(at({3.25, 1.5}), {}, Profile::anoto, place, fix);
+    write_pose(at({3.25, 1.5}), {}, CodeVariant::anoto, place, fix);
     EXPECT_EQ(fix.cell, (Cell{1, 6}));
     EXPECT_EQ(fix.section, (Section{(60 + 52) % 63, (40 + 34) % 63}));
     EXPECT_EQ(fix.x_grid(), 1.25);
     EXPECT_EQ(fix.y_grid(), 6.5);
-    write_pose(at({-5.25, 0.5}), {}, Profile::anoto, {{3, 5}, {60, 40}}, fix);
+    write_pose(at({-5.25, 0.5}), {}, CodeVariant::anoto, {{3, 5}, {60, 40}}, fix);
     EXPECT_EQ(fix.cell, (Cell{kPositionsPerAxis - 3, 5}));
     EXPECT_EQ(fix.section, (Section{60 - 52, 40 - 34}));
     EXPECT_EQ(fix.fraction_x_q16, 0.75 * 65536);
@@ -249,7 +248,7 @@ TEST(Pose, DotsInTheDarkCountLess) {
     double squares_weighted = 0;
     double claimed = 0;
     for (int i = 0; i < 1000; ++i) {
-        std::vector<Dot> dots;
+        std::vector<DetectedDot> dots;
         for (const PlacedDot& dot : placed) {
             const double sigma_px = 0.02 * HalfDark::kLight / HalfDark::at(dot.centre_px);
             dots.push_back(dot_at(dot.centre_px + sigma_px * Vec2{rng.normal(), rng.normal()}));

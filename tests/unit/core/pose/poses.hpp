@@ -35,19 +35,19 @@ inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec
     EXPECT_NEAR(real(flat.dv_q24, 24).y, view.dv().y, slope);
 }
 
-/// Returns exact dots of any profile with a grid that is off a little, which must not matter.
+/// Returns exact dots of any code variant with a grid that is off a little, which must not matter.
 inline Reading reading_off_grid(int i, Rng& rng) {
     View view = random_view(rng);
     view.spacing_px = rng.uniform(6, 11);
-    view.profile = kProfiles[static_cast<std::size_t>(i % 3)];
-    Reading reading(view, Turn{i % 4});
+    view.code = kCodeVariants[static_cast<std::size_t>(i % 3)];
+    Reading reading(view, QuarterTurn{i % 4});
     reading.plane.at_centre_q16.x += 2000;
     reading.plane.du_q24.y += 3000;
     return reading;
 }
 
 /// Returns dots of which every eighth is moved, by `least_px` to 2 px.
-inline std::vector<Dot> dots_with_outliers(const View& view, double least_px, Rng& rng) {
+inline std::vector<DetectedDot> dots_with_outliers(const View& view, double least_px, Rng& rng) {
     auto dots = dots_of(pattern_dots(view));
     for (std::size_t d = 0; d < dots.size(); d += 8) {
         const double angle = rng.uniform(0, 6.3);
@@ -59,8 +59,8 @@ inline std::vector<Dot> dots_with_outliers(const View& view, double least_px, Rn
 }
 
 /// Returns dots whose displacement is not a sixth of the spacing.
-inline std::vector<Dot> dots_displaced_by(double displacement, const View& view) {
-    std::vector<Dot> dots;
+inline std::vector<DetectedDot> dots_displaced_by(double displacement, const View& view) {
+    std::vector<DetectedDot> dots;
     for (const PlacedDot& d : pattern_dots(view)) {
         const Vec2 own = view.mesh().at(d.cell.x, d.cell.y);
         dots.push_back(dot_at(own + 6 * displacement * (d.centre_px - own)));
@@ -68,9 +68,9 @@ inline std::vector<Dot> dots_displaced_by(double displacement, const View& view)
     return dots;
 }
 
-inline std::vector<Dot> noisy_dots(const std::vector<PlacedDot>& placed, double sigma_px,
-                                   Rng& rng) {
-    std::vector<Dot> dots;
+inline std::vector<DetectedDot> noisy_dots(const std::vector<PlacedDot>& placed, double sigma_px,
+                                           Rng& rng) {
+    std::vector<DetectedDot> dots;
     for (const PlacedDot& d : placed)
         dots.push_back(dot_at(d.centre_px + sigma_px * Vec2{rng.normal(), rng.normal()}));
     return dots;

@@ -1,0 +1,21 @@
+/// Names of code variants, as used in files, on the command line and in tables.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "dotpose/code.hpp"
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+/// Returns the name of a code variant: anoto, libdots, microdots.
+const char* name(CodeVariant code);
+
+/// Returns the code variant of a name, or none if there is no such code variant.
+std::optional<CodeVariant> code_by_name(std::string_view name);
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -1,0 +1,96 @@
+// Tracking: the state of a frame that a DeviceLocator tracks.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/integrity/compared_line.hpp"
+#include "dotpose/code.hpp"
+#include "dotpose/geometry.hpp"
+#include "dotpose/status.hpp"
+
+namespace dotpose::core {
+
+/// Map from the cells of a grid to the image: cell (i, j) is at origin + i along_x + j along_y.
+/// Unlike a Lattice, it is upright on the pattern.
+struct CellMap {
+    FixedVec origin_q16;  ///< px
+    FixedVec along_x_q16;
+    FixedVec along_y_q16;
+};
+
+/// A row of cells of a tracked frame: its next cell in the order of the image rows, and sums over
+/// the dots measured so far, weighted with their masses.
+struct TrackedRow {
+    static constexpr std::int32_t kNever_q16 = INT32_MAX;
+
+    FixedVec next_q16{
+        0, kNever_q16};  ///< place of that cell in the image, px; y is kNever_q16 if there is none
+    std::int32_t i = 0;  ///< column of that cell
+    // Columns in the following sums are relative to the middle column.
+    std::int32_t mass = 0;
+    std::int32_t mass_i = 0;
+    std::int32_t mass_ii = 0;
+    FixedVec offset_q8;  ///< sum of the offsets of dots from their predicted places, px
+    FixedVec offset_i_q8;
+};
+
+/// The range of intersections around which all examined pixels are in the image.
+struct TrackedView {
+    FixedVec min_q16;
+    std::uint32_t width_q16 = 0;
+    std::uint32_t height_q16 = 0;
+
+    bool has(FixedVec at_q16) const {
+        return static_cast<std::uint32_t>(at_q16.x - min_q16.x) < width_q16 &&
+               static_cast<std::uint32_t>(at_q16.y - min_q16.y) < height_q16;
+    }
+};
+
+/// A frame whose dots are measured at predicted places while its rows arrive. If a frame shows too
+/// many cells, only its middle is tracked and counts as the image.
+struct Tracking {
+    Status status = Status::not_tracked;
+    std::uint8_t min_contrast = 0;  ///< see Options
+    // Small processors access the first members fastest. The members used for every dot are
+    // therefore first.
+    int width_px = 0;
+    int height_px = 0;
+    int rows_taken = 0;  ///< negative before the first row of the tracked part
+    int first_kept = 0;  ///< row of the image that is the first in memory
+    int stride_px = 0;
+    std::span<std::uint8_t> rows;  ///< the newest rows of the image
+    int cut_q8 = 0;                ///< contrast of a dark pixel, in 1/256 of the paper level
+    std::int32_t min_mass = 0;
+    std::int32_t max_mass = 0;
+    int dots_measured = 0;
+    std::int32_t spacing_q8 = 0;    ///< px
+    std::span<ComparedLine> lines;  ///< the columns, then in the second half the rows
+    std::array<FixedVec, 4>
+        displaced_q16{};                  ///< by Symbol: offset of a dot from its intersection, px
+    std::array<FixedVec, 4> offset_q8{};  ///< by Symbol: sum of `offset_q8` over all rows
+    /// Offset of the first of the four pixels around a dot, in bytes from the pixel of the
+    /// intersection. By the quarter of that pixel that contains the intersection, and by Symbol.
+    std::array<std::array<std::int16_t, 4>, 4> dot_pixels{};
+    std::int16_t left_out_px = 0;  ///< columns to the left of the tracked part
+    std::int16_t rows_above = 0;   ///< rows above the tracked part
+    CellMap cells;
+    /// Change of the pattern point per image px, in 2^-20 spacings per px.
+    FixedVec du_q20;
+    FixedVec dv_q20;
+    std::int32_t displacement_q12 = 0;
+    int rows_kept = 0;     ///< maximum number of rows in memory
+    int rows_needed = 0;   ///< number of newest rows that are still needed after dots were read:
+                           ///< less than half of rows_kept
+    int first_rows = 0;    ///< number of rows that determine the error of the prediction
+    int next_reading = 0;  ///< value of rows_taken at which dots are read next
+    int reach_px = 0;      ///< maximum error of the prediction at the image centre, px
+    Place corner;          ///< place of cell (0, 0) in the code
+    int first_cell = 0;    ///< first cell, per axis, that may be in view
+    int last_cell = 0;
+    std::span<TrackedRow> grid_rows;
+    TrackedView view;
+};
+
+}  // namespace dotpose::core
