@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/fit/affine_fit_int64.hpp"
 #include "core/math/fixed.hpp"
 #include "device/affine_fit_int32.hpp"
 #include "device/predicted.hpp"

@@ -24,18 +24,18 @@ bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reac
     const FitSums sums =
         kernels.sum_fit(dots, plane, displacement, scaled.scale(), max_off * max_off);
     if (sums.points < tuned::kMinNear) return false;
-    // Residual = shift + turn * place, as complex numbers: least squares in closed form.
-    const auto points = static_cast<float>(sums.points);
-    const float share = 1 / points;
     const auto& [x, y, xu, yv, yu, xv, au, av, aq] = sums.residuals;
-    const float u = sums.places[1] * share;  // the mean place
-    const float v = sums.places[2] * share;
-    const float spread = sums.places[3] + sums.places[5] - points * (u * u + v * v);
-    if (!(spread > 0)) return false;
-    const float scale = (xu + yv - x * u - y * v) / spread;
-    const float turn = (yu - xv - y * u + x * v) / spread;
-    plane = scaled.changed(
-        {x * share - scale * u + turn * v, y * share - scale * v - turn * u, scale, turn});
+    DotOffsets offsets;
+    offsets.points = sums.points;
+    offsets.u = sums.places[1];
+    offsets.v = sums.places[2];
+    offsets.squares = sums.places[3] + sums.places[5];
+    offsets.off_u = x;
+    offsets.off_v = y;
+    offsets.along = xu + yv;
+    offsets.across = yu - xv;
+    const Similarity motion = similarity_of(offsets);
+    plane = scaled.changed({motion.shift_px.x, motion.shift_px.y, motion.scale, motion.turn_rad});
     return true;
 }
 

@@ -95,7 +95,7 @@ inline constexpr float kSmallCentroidRadius_px = 4;
 /// include the edge of the dot at 8 to 13 px per spacing.
 inline constexpr float kPredictedCentroidRadius_px = 3.65F;
 
-/// Sums over dots for the fit of nine parameters; see PlaneNormalFloat. Places (u, v) are those of
+/// Sums over dots for the fit of nine parameters; see PlaneNormal. Places (u, v) are those of
 /// the dots in the plane, relative to its `at`, in units of its scale. Residuals (x, y) are in
 /// spacings.
 struct FitSums {

@@ -1,8 +1,9 @@
 #include "core/lattice/refine_grid.hpp"
 
+#include <algorithm>
 #include <array>
 
-#include "core/fit/plane_fit_int64.hpp"
+#include "core/fit/solve_plane.hpp"
 #include "core/lattice/axes.hpp"
 #include "core/lattice/regularity.hpp"
 #include "core/lattice/tuning.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 namespace tuned = tuning::refine_grid;
 
-/// Distance of the farthest cell that is used: see PlaneFitInt64.
+/// Distance of the farthest cell that is used.
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
@@ -53,47 +54,57 @@ Judged judge(std::span<const DetectedDot> dots, int reach_cells, const LatticeOp
     return found;
 }
 
-/// Place in the grid that a dot is assigned to, in spacings.
+/// Place in the grid that a dot is assigned to.
 struct Target {
     bool is_used = false;
-    std::int16_t cell_x = 0;
-    std::int16_t cell_y = 0;
-    std::int16_t x_q16 = 0;  ///< from the intersection
-    std::int16_t y_q16 = 0;
-
-    Target() = default;
-    Target(FixedVec cell, FixedVec from_intersection_q16)
-        : is_used(true),
-          cell_x(static_cast<std::int16_t>(cell.x)),
-          cell_y(static_cast<std::int16_t>(cell.y)),
-          x_q16(static_cast<std::int16_t>(from_intersection_q16.x)),
-          y_q16(static_cast<std::int16_t>(from_intersection_q16.y)) {}
-    FixedVec place_q16() const { return {cell_x * 65536 + x_q16, cell_y * 65536 + y_q16}; }
+    FixedVec place_q16;
 };
 
-/// Fits the plane to dots and their targets. `target_of(g)` returns the target of a dot with the
-/// GridPoint g.
+/// Largest distance of a dot from the image centre, per axis, in px.
+int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
+    std::int32_t reach = 1;
+    for (const DetectedDot& dot : dots)
+        reach = std::max(reach, larger_component(dot.centre_q8 - centre_q8) / 256 + 1);
+    return reach;
+}
+
+/// Fits the plane to dots and their targets by one Gauss-Newton step. `target_of(g)` returns the
+/// target of a dot with the GridPoint g.
 template <typename TargetOf>
-void fit_to_targets(std::span<const DetectedDot> dots, Terms max_terms, PlaneFromImage& plane,
-                    TargetOf target_of) {
-    // The fit visits the dots several times. Targets are computed once for the dots of most images;
-    // larger images recompute those of further dots.
-    std::array<Target, 2048> targets;
-    const std::size_t known = std::min(dots.size(), targets.size());
-    const PlaneFromImage before = plane;
-    const auto target = [&](const DetectedDot& dot) {
-        return target_of(grid_point(before, dot.centre_q8));
-    };
-    for (std::size_t i = 0; i < known; ++i)
-        targets[i] = target(dots[i]);
-    const auto visit = [&](auto use) {
-        for (std::size_t i = 0; i < dots.size(); ++i) {
-            const Target own = i < known ? targets[i] : target(dots[i]);
-            if (own.is_used) use(dots[i].centre_q8, own.place_q16());
+void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, TargetOf target_of) {
+    // Relative to its value at the centre, which may have more digits than a float.
+    PlaneFromImage from_centre = plane;
+    from_centre.at_centre_q16 = {};
+    const int reach = reach_px(dots, plane.centre_q8);
+    const ScaledPlane scaled(float_plane(from_centre), static_cast<float>(reach));
+    PlaneSums sums;
+    for (std::size_t i = 0; i < dots.size(); i += 4) {
+        Four u{};
+        Four v{};
+        Residuals residuals{};
+        for (std::size_t k = 0; k < std::min<std::size_t>(dots.size() - i, 4); ++k) {
+            const FixedVec at_q8 = dots[i + k].centre_q8;
+            const Target target = target_of(grid_point(plane, at_q8));
+            if (!target.is_used) continue;
+            const FixedVec from_centre_q8 = at_q8 - plane.centre_q8;
+            const FixedVec offset_q16 = target.place_q16 - plane_point_q16(plane, at_q8);
+            u[k] = static_cast<float>(from_centre_q8.x) / 256;
+            v[k] = static_cast<float>(from_centre_q8.y) / 256;
+            residuals.offset.x[k] = static_cast<float>(offset_q16.x) / 65536;
+            residuals.offset.y[k] = static_cast<float>(offset_q16.y) / 65536;
+            residuals.weight[k] = 1;
         }
-    };
-    FittedPlane fitted;
-    if (fit_significant_plane(before, max_terms, visit, fitted)) plane = fitted.plane;
+        sums.add(scaled.project(u, v), residuals);
+    }
+    PoseFit fit;
+    fit.reach_px = reach;
+    fit.normal = PlaneNormal(sums.all());
+    Parameters step;
+    float moved = 0;
+    if (!solve(scaled.distortions(), scaled.scale(), fit, step, moved)) return;
+    const FixedVec at_centre_q16 = plane.at_centre_q16;
+    plane = fixed_plane(scaled.changed(step), plane.centre_q8);
+    plane.at_centre_q16 = plane.at_centre_q16 + at_centre_q16;
 }
 
 /// Fits the plane to the dots within reach. differs: eq. 6 continues with median lengths between
@@ -101,12 +112,10 @@ void fit_to_targets(std::span<const DetectedDot> dots, Terms max_terms, PlaneFro
 /// reach grows from round to round.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
-    const Terms max_terms =
-        reach_cells < tuned::kLensReach_cells ? Terms::perspective : Terms::lens;
-    fit_to_targets(dots, max_terms, plane, [&](const GridPoint& g) {
+    fit_to_targets(dots, plane, [&](const GridPoint& g) {
         const bool is_near = larger_component(g.cell) <= reach_cells &&
                              larger_component(g.offset_q16) <= options.max_offset_q16;
-        return is_near ? Target(g.cell, {}) : Target();
+        return Target{is_near, {g.cell.x * 65536, g.cell.y * 65536}};
     });
 }
 
@@ -114,14 +123,14 @@ void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOption
 /// places of its cell. Dots far from all four are left out.
 void fit_places(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     constexpr std::int32_t kFar_q16 = tuned::kFar_q16;
-    fit_to_targets(dots, Terms::lens, plane, [](const GridPoint& g) {
-        if (larger_component(g.cell) > kFarthest_cells) return Target();
+    fit_to_targets(dots, plane, [](const GridPoint& g) {
+        if (larger_component(g.cell) > kFarthest_cells) return Target{};
         const bool is_across = std::abs(g.offset_q16.x) > std::abs(g.offset_q16.y);
         const std::int32_t d = is_across ? g.offset_q16.x : g.offset_q16.y;
         const std::int32_t along = d > 0 ? kDisplacement_q16 : -kDisplacement_q16;
         const FixedVec place = is_across ? FixedVec{along, 0} : FixedVec{0, along};
         const bool is_near = squared(g.offset_q16 - place) <= std::int64_t{kFar_q16} * kFar_q16;
-        return is_near ? Target(g.cell, place) : Target();
+        return Target{is_near, FixedVec{g.cell.x * 65536, g.cell.y * 65536} + place};
     });
 }
 

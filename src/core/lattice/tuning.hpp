@@ -17,9 +17,6 @@ inline constexpr int kMin_10ths = 7;
 
 /// Exact grid of the second attempt (lattice/refine_grid).
 namespace refine_grid {
-/// Minimum reach in cells at which the curvature of a lens is fitted. With fewer dots, their
-/// displacements bend the grid by chance. Half or twice as many: 1,994.
-inline constexpr int kLensReach_cells = 9;
 /// Number of dots whose median gives the origin.
 inline constexpr int kMedianSample = 256;
 /// Maximum number of rounds at one reach. A better fit assigns more dots to the correct cells. A

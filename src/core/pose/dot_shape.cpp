@@ -16,12 +16,12 @@ constexpr float kPi = 3.14159265F;
 
 void DotShape::Normal::add(const Terms& derivatives, float rest, float weight) {
     cost += weight * rest * rest;
-    for (std::size_t i = 0; i < Term::count; ++i) {
-        const float weighted = weight * derivatives[i];
-        right[i] += weighted * rest;
-        for (std::size_t k = 0; k <= i; ++k)
-            matrix[i][k] += weighted * derivatives[k];
-    }
+    NormalEquations::add(derivatives, rest, weight);
+}
+
+bool DotShape::Normal::decompose() {
+    constexpr float kDetermined = 1e-5F;
+    return NormalEquations::decompose(kDetermined, Term::count);
 }
 
 void DotShape::Normal::expect(Term term, float value, float sigma, const Terms& now) {
@@ -74,42 +74,6 @@ DotShape::Normal DotShape::equations(const StackedDots& stacks, const Terms& ter
     return normal;
 }
 
-bool DotShape::decompose(Matrix& m) {
-    constexpr float kDetermined = 1e-5F;
-    for (std::size_t i = 0; i < Term::count; ++i) {
-        for (std::size_t k = 0; k < i; ++k) {
-            for (std::size_t l = 0; l < k; ++l)
-                m[i][k] -= m[i][l] * m[k][l];
-            m[i][k] /= m[k][k];
-        }
-        float rest = m[i][i];
-        for (std::size_t l = 0; l < i; ++l)
-            rest -= m[i][l] * m[i][l];
-        if (!(rest > kDetermined * m[i][i])) return false;
-        m[i][i] = std::sqrt(rest);
-    }
-    return true;
-}
-
-DotShape::Terms DotShape::whitened(const Matrix& factor, Terms terms) {
-    for (std::size_t i = 0; i < Term::count; ++i) {
-        for (std::size_t k = 0; k < i; ++k)
-            terms[i] -= factor[i][k] * terms[k];
-        terms[i] /= factor[i][i];
-    }
-    return terms;
-}
-
-DotShape::Terms DotShape::solution(const Matrix& factor, const Terms& right) {
-    Terms terms = whitened(factor, right);
-    for (std::size_t i = Term::count; i-- > 0;) {
-        for (std::size_t k = i + 1; k < Term::count; ++k)
-            terms[i] -= factor[k][i] * terms[k];
-        terms[i] /= factor[i][i];
-    }
-    return terms;
-}
-
 DotShape::Terms DotShape::changed(const Terms& terms, const Terms& step) {
     Terms result = terms;
     for (std::size_t i = 0; i < Term::count; ++i)
@@ -131,12 +95,11 @@ bool DotShape::fit(const StackedDots& stacks) {
     float damping = tuned::kFirstDamping;
     // Levenberg 1944, Marquardt 1963.
     for (int round = 0; round < tuned::kMaxRounds && damping < tuned::kMaxDamping; ++round) {
-        factor_ = normal.matrix;
-        for (std::size_t i = 0; i < Term::count; ++i)
-            factor_[i][i] *= 1 + damping;
+        Normal damped = normal;
+        damped.scale_diagonal(1 + damping);
         damping *= tuned::kDampingGrows;
-        if (!decompose(factor_)) continue;
-        const Terms next = changed(terms_, solution(factor_, normal.right));
+        if (!damped.decompose()) continue;
+        const Terms next = changed(terms_, damped.solution());
         const Normal there = equations(stacks, next, first, noise_2);
         const float gain = normal.cost - there.cost;
         if (!(gain > 0)) continue;
@@ -145,15 +108,15 @@ bool DotShape::fit(const StackedDots& stacks) {
         damping /= tuned::kDampingGrows * tuned::kDampingGrows;
         if (gain < tuned::kSettled) break;
     }
-    factor_ = normal.matrix;
+    normal_ = normal;
     misfit_ = std::max(
         normal.squares / std::max(normal.pixels - static_cast<float>(Term::count), 1.0F), 1.0F);
-    return decompose(factor_);
+    return normal_.decompose();
 }
 
 float DotShape::variance(const Terms& derivatives) const {
     float sum = 0;
-    for (const float part : whitened(factor_, derivatives))
+    for (const float part : normal_.whitened(derivatives))
         sum += part * part;
     return misfit_ * sum;
 }

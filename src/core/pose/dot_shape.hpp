@@ -2,6 +2,7 @@
 // images.
 #pragma once
 
+#include "core/fit/normal_equations.hpp"
 #include "core/pose/stacked_dots.hpp"
 
 namespace dotpose::core {
@@ -44,17 +45,15 @@ class DotShape {
     float misfit() const { return misfit_; }
 
   private:
-    using Matrix = std::array<Terms, Term::count>;  ///< the lower triangle
-
     /// Normal equations of the terms, and their cost.
-    struct Normal {
-        Matrix matrix{};
-        Terms right{};
+    struct Normal : NormalEquations<Term::count> {
         float squares = 0;  ///< squared residuals of the images, in variances
         float pixels = 0;
         float cost = 0;
 
         void add(const Terms& derivatives, float rest, float weight);
+        /// Returns false if the equations do not determine all terms.
+        bool decompose();
         void expect(Term term, float value, float sigma, const Terms& now);
     };
 
@@ -63,13 +62,10 @@ class DotShape {
     }
     static Normal equations(const StackedDots& stacks, const Terms& terms, const Terms& first,
                             float noise_2);
-    static bool decompose(Matrix& matrix);
-    static Terms whitened(const Matrix& factor, Terms terms);
-    static Terms solution(const Matrix& factor, const Terms& right);
     static Terms changed(const Terms& terms, const Terms& step);
 
     Terms terms_{};
-    Matrix factor_{};  ///< Cholesky factor of the information matrix of the terms
+    Normal normal_;  ///< normal equations of the terms, decomposed
     float misfit_ = 1;
 };
 

@@ -36,7 +36,7 @@ bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, f
         const ScaledPlane scaled(plane, reach);
         const FitSums sums = kernels.sum_fit(dots, plane, displacement, scaled.scale(), limit);
         if (sums.points < tuned::kMinDots) return false;
-        fit.normal = PlaneNormalFloat(sums);
+        fit.normal = PlaneNormal(sums);
         Parameters step;
         float moved = 0;
         if (!solve(scaled.distortions(), scaled.scale(), fit, step, moved)) return false;

@@ -13,15 +13,6 @@ namespace tuned = tuning::fit;
 
 constexpr float kPower30 = 1073741824.0F;
 
-/// Prior standard deviations of tilt, shear and lens distortion, relative to the scale. A tilt is
-/// the change of scale from the centre to the outermost dot, about 0.01 for 2 degrees. A bend is
-/// the displacement of the outermost dot relative to its distance; it must be significant.
-constexpr std::array<DistortionPrior, 3> kTerms{{
-    {kTilt, 2, {{{0.1F, 0}, {0.8F, 0.01F}, {0.1F, 0.1F}}}},
-    {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
-    {kBend, 1, {{{0.99F, 0}, {0.005F, 0.01F}, {0.005F, 0.1F}}}},
-}};
-
 /// Dependence of the scatter of dots on the light. Print errors are the same everywhere; pixel
 /// noise grows as light decreases. A line is fitted to the squared residuals.
 class Scatter {
@@ -85,14 +76,14 @@ class Round {
     }
 
     /// Returns the normal equations of all inliers.
-    PlaneNormalFloat normal(bool know_noise) const {
+    PlaneNormal normal(bool know_noise) const {
         const Scatter scatter = know_noise ? scatter_of_dots() : Scatter();
-        PlaneSumsFloat sums;
+        PlaneSums sums;
         batches_.visit([&](const ObservationBatch& batch) {
             for (std::size_t i = 0; i < batch.count; i += 4)
                 add_four(batch, i, scatter, sums);
         });
-        return PlaneNormalFloat(sums.all());
+        return PlaneNormal(sums.all());
     }
 
     bool solve(PoseFit& fit, PlaneFromImage& pose, float& moved) const {
@@ -136,7 +127,7 @@ class Round {
     }
 
     void add_four(const ObservationBatch& batch, std::size_t i, const Scatter& scatter,
-                  PlaneSumsFloat& sums) const {
+                  PlaneSums& sums) const {
         const auto px = [](const std::int32_t* at_q8) {
             return __builtin_convertvector(four_at(at_q8), Four) / 256.0F;
         };
@@ -161,54 +152,7 @@ class Round {
     float limit_ = 0;  ///< squared residual beyond which a dot is an outlier, spacings^2
 };
 
-/// Shrinks the distortion terms of a step to their posterior means. `whole` are these terms as
-/// fitted, whitened. Sets the covariance of `fit`.
-void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
-    fit.covariance = {};
-    for (std::size_t i = 0; i < kTilt; ++i)
-        fit.covariance[i][i] = fit.variance;
-    for (const DistortionPrior& terms : kTerms) {
-        const Posterior posterior = posterior_of(terms, fit.normal, whole, fit.variance, unit);
-        for (std::size_t i = 0; i < terms.count; ++i) {
-            step[terms.first + i] += posterior.mean[i] - whole[terms.first + i];
-            for (std::size_t j = 0; j < terms.count; ++j)
-                fit.covariance[terms.first + i][terms.first + j] = posterior.covariance[i][j];
-        }
-    }
-}
-
 }  // namespace
-
-bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step,
-           float& moved) {
-    PlaneNormalFloat& normal = fit.normal;
-    if (normal.points() < 3 || !normal.decompose()) return false;
-    step = normal.whitened(normal.right());
-    float residual_squares = normal.squared_residuals();
-    for (const float part : step)
-        residual_squares -= part * part;
-    fit.dots = normal.points();
-    const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
-    constexpr float kExact = 1e-12F;
-    fit.variance = std::max(residual_squares / static_cast<float>(freedom), kExact);
-    // After whitening, the contribution of each distortion term is independent of the terms after
-    // it.
-    Parameters whole = normal.times_transposed(distortions);
-    for (std::size_t i = 0; i < kPoseParameters; ++i)
-        whole[i] += step[i];
-    const Parameters exact = step;
-    shrink(whole, unit, fit, step);
-    moved = 0;
-    fit.squares = residual_squares;
-    for (std::size_t i = 0; i < kPoseParameters; ++i) {
-        const float lost = exact[i] - step[i];
-        moved += step[i] * step[i];
-        fit.squares += lost * lost;
-    }
-    moved /= fit.variance;
-    step = normal.unwhitened(step);
-    return true;
-}
 
 bool refine_pose(const Observations& observations, PlaneFromImage& pose, PoseFit& fit) {
     const ObservationBatches batches(observations, pose.centre_q8);

@@ -4,36 +4,14 @@
 // Single precision.
 #pragma once
 
-#include "core/fit/plane_normal_float.hpp"
+#include "core/fit/solve_plane.hpp"
 #include "core/pose/observations.hpp"
-#include "core/pose/posterior.hpp"
-#include "dotpose/fix.hpp"
 #include "dotpose/geometry.hpp"
 
 namespace dotpose::core {
 
-/// Result of a fit: how well the dots determine the pose.
-struct PoseFit {
-    int reach_px = 1;         ///< unit of length in the image
-    int dots = 0;             ///< number of inliers
-    float variance = 0;       ///< variance of one coordinate of one dot, spacings^2
-    float squares = 0;        ///< squared residuals of all inliers after the last step
-    float displacement = 0;   ///< distance of a typical dot from its intersection, spacings
-    PlaneNormalFloat normal;  ///< normal equations of the parameters of `jacobian`, decomposed
-    std::array<Parameters, kPoseParameters> covariance;  ///< covariance of the whitened parameters
-    Surface surface = Surface::even;
-    /// Contribution of an uneven sheet to the covariance of x, y and theta.
-    std::array<std::array<float, 3>, 3> uneven{};
-};
-
-/// Solves the normal equations of `fit` for the step to the least-squares plane, and shrinks the
-/// distortion terms to their posterior means. `distortions` are these terms of the current plane
-/// and `unit` is its scale. Sets `moved`, the size of the step in squared deviations, and all of
-/// `fit` except the displacement. Returns false if the dots do not determine the plane.
-bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step, float& moved);
-
 /// Improves the pose. Outliers are rejected. Distortion terms, which a camera straight above flat
-/// paper does not need, are shrunk to their posterior means (pose/posterior), because each term
+/// paper does not need, are shrunk to their posterior means (fit/posterior), because each term
 /// costs accuracy. Returns false, without a change, if the dots do not determine the pose.
 bool refine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                  PoseFit& fit);

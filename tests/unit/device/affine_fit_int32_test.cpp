@@ -1,11 +1,9 @@
-// Least squares from image points to cells, compared with double precision and with
-// affine_fit_int64.hpp.
+// Least squares from image points to cells, compared with double precision.
 #include "device/affine_fit_int32.hpp"
 
 #include <gtest/gtest.h>
 
 #include "../core/geometry.hpp"
-#include "core/fit/affine_fit_int64.hpp"
 #include "core/math/plane.hpp"
 
 namespace dotpose::core_test::affine_fit_int32_test {
@@ -128,25 +126,49 @@ TEST(AffineFitInt32, PointsTakenAwayAgainLeaveNoTrace) {
     }
 }
 
-TEST(AffineFitInt32, AgreesWithTheFitInWideNumbers) {
+/// The least-squares affine map in double precision, relative to the mean of the points.
+struct RealFit {
+    Vec2 mean_px, mean_target, dx, dy;
+
+    explicit RealFit(const std::vector<Pair>& pairs) {
+        const double n = static_cast<double>(pairs.size());
+        for (const Pair& pair : pairs) {
+            mean_px = mean_px + (1 / n) * real(pair.p_q3, 3);
+            mean_target = mean_target + (1 / n) * real(pair.cell, 0);
+        }
+        double uu = 0, uv = 0, vv = 0;
+        Vec2 u_target, v_target;
+        for (const Pair& pair : pairs) {
+            const Vec2 p = real(pair.p_q3, 3) - mean_px;
+            const Vec2 target = real(pair.cell, 0) - mean_target;
+            uu += p.x * p.x;
+            uv += p.x * p.y;
+            vv += p.y * p.y;
+            u_target = u_target + p.x * target;
+            v_target = v_target + p.y * target;
+        }
+        const double determinant = uu * vv - uv * uv;
+        dx = (vv / determinant) * u_target - (uv / determinant) * v_target;
+        dy = (uu / determinant) * v_target - (uv / determinant) * u_target;
+    }
+    Vec2 at_centre() const { return mean_target - mean_px.x * dx - mean_px.y * dy; }
+};
+
+TEST(AffineFitInt32, AgreesWithTheFitInDoublePrecision) {
     Rng rng(kSeed);
     for (int i = 0; i < 100; ++i) {
         SCOPED_TRACE(testing::Message() << "fit " << i << ", seed " << kSeed);
         const auto pairs = random_pairs(rng, 94, rng.uniform(6, 16), 150);
-        AffineFitInt64 wide;
-        for (const Pair& pair : pairs)
-            wide.add(pair.p_q3, pair.cell);
-        AffineMap map;
-        ASSERT_TRUE(wide.solve(24, map));
+        const RealFit expected(pairs);
         PlaneFromImage plane;
         ASSERT_TRUE(fit_of(pairs).solve(0, plane));
-        // The slopes of `map` are per 1/8 px, those of `plane` per px.
-        EXPECT_NEAR(plane.du_q24.x, 8 * map.dx.x, 8);
-        EXPECT_NEAR(plane.dv_q24.x, 8 * map.dy.x, 8);
-        EXPECT_NEAR(plane.du_q24.y, 8 * map.dx.y, 8);
-        EXPECT_NEAR(plane.dv_q24.y, 8 * map.dy.y, 8);
-        EXPECT_NEAR(plane.at_centre_q16.x, static_cast<double>(map.offset_x) / 256, 4);
-        EXPECT_NEAR(plane.at_centre_q16.y, static_cast<double>(map.offset_y) / 256, 4);
+        constexpr double kQ24 = 1 << 24;
+        EXPECT_NEAR(plane.du_q24.x, kQ24 * expected.dx.x, 8);
+        EXPECT_NEAR(plane.dv_q24.x, kQ24 * expected.dy.x, 8);
+        EXPECT_NEAR(plane.du_q24.y, kQ24 * expected.dx.y, 8);
+        EXPECT_NEAR(plane.dv_q24.y, kQ24 * expected.dy.y, 8);
+        EXPECT_NEAR(plane.at_centre_q16.x, 65536 * expected.at_centre().x, 4);
+        EXPECT_NEAR(plane.at_centre_q16.y, 65536 * expected.at_centre().y, 4);
     }
 }
 

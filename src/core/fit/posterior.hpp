@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/fit/plane_normal_float.hpp"
+#include "core/fit/plane_normal.hpp"
 
 namespace dotpose::core {
 
@@ -30,7 +30,7 @@ struct Posterior {
 /// Returns the posterior by Bayes' rule. `whitened` are the terms as fitted, from
 /// normal.times_transposed. `variance` is the variance of each of their elements, `unit` the unit
 /// of the standard deviations of the prior.
-Posterior posterior_of(const DistortionPrior& terms, const PlaneNormalFloat& normal,
+Posterior posterior_of(const DistortionPrior& terms, const PlaneNormal& normal,
                        const Parameters& whitened, float variance, float unit);
 
 }  // namespace dotpose::core

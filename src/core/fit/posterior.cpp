@@ -1,4 +1,4 @@
-#include "core/pose/posterior.hpp"
+#include "core/fit/posterior.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ using Symmetric = Symmetric2<float>;
 
 /// Returns the covariance of the whitened terms, in units of the noise variance, for terms of
 /// variance 1.
-Symmetric spread_of(const DistortionPrior& terms, const PlaneNormalFloat& normal, float variance) {
+Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, float variance) {
     const std::size_t i = terms.first;
     const float scale = 1 / variance;
     const float a = normal.factor(i, i);
@@ -86,7 +86,7 @@ Posterior mixed(const PosteriorsByKind& kinds, float variance) {
 
 }  // namespace
 
-Posterior posterior_of(const DistortionPrior& terms, const PlaneNormalFloat& normal,
+Posterior posterior_of(const DistortionPrior& terms, const PlaneNormal& normal,
                        const Parameters& whitened, float variance, float unit) {
     const Pair seen{whitened[terms.first], terms.count > 1 ? whitened[terms.first + 1] : 0.0F};
     const Symmetric spread = spread_of(terms, normal, variance);

@@ -1,5 +1,5 @@
 // The equations of the fit against derivatives and solutions computed in double precision.
-#include "core/fit/plane_normal_float.hpp"
+#include "core/fit/plane_normal.hpp"
 
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@
 #include "../float_planes.hpp"
 #include "core/math/plane.hpp"
 
-namespace dotpose::core_test::plane_normal_float_test {
+namespace dotpose::core_test::plane_normal_test {
 namespace {
 
 using namespace core;
@@ -136,12 +136,12 @@ TEST(ScaledPlane, DistortionsAreWhatMakesItDifferFromAPlainCamera) {
 /// Places of many points, with residuals that a known step explains.
 struct Problem {
     static constexpr int kPoints = 150;
-    PlaneNormalFloat normal;
+    PlaneNormal normal;
     double squared_residuals = 0;
 
     Problem(const Parameters& step, Rng& rng, bool on_one_line = false) {
         const ScaledPlane plane = scaled(random_plane(rng));
-        PlaneSumsFloat sums;
+        PlaneSums sums;
         for (int first = 0; first < kPoints; first += 4) {
             Four x;
             Four y;
@@ -160,7 +160,7 @@ struct Problem {
             }
             sums.add(places, residuals);
         }
-        normal = PlaneNormalFloat(sums.all());
+        normal = PlaneNormal(sums.all());
     }
 
     static Vec2 explained_by(const Parameters& step, const std::array<Parameters, 2>& jacobian) {
@@ -171,7 +171,7 @@ struct Problem {
     }
 };
 
-TEST(PlaneNormalFloat, FindsTheStepThatExplainsTheResiduals) {
+TEST(PlaneNormal, FindsTheStepThatExplainsTheResiduals) {
     Rng rng(kSeed);
     for (int i = 0; i < 100; ++i) {
         Parameters step;
@@ -201,10 +201,10 @@ double product(float a, float b) {
     return static_cast<double>(a) * static_cast<double>(b);
 }
 
-TEST(PlaneNormalFloat, IsThatOfItsDefinition) {
+TEST(PlaneNormal, IsThatOfItsDefinition) {
     Rng rng(kSeed);
     const ScaledPlane plane = scaled(random_plane(rng));
-    PlaneSumsFloat sums;
+    PlaneSums sums;
     double expected[kPoseParameters][kPoseParameters] = {};
     double right[kPoseParameters] = {};
     for (int n = 0; n < 10; ++n) {
@@ -224,7 +224,7 @@ TEST(PlaneNormalFloat, IsThatOfItsDefinition) {
             }
         }
     }
-    PlaneNormalFloat normal(sums.all());
+    PlaneNormal normal(sums.all());
     EXPECT_EQ(normal.points(), 30);
     for (std::size_t i = 0; i < kPoseParameters; ++i)
         EXPECT_NEAR(normal.right()[i], right[i], 1e-4) << i;
@@ -239,11 +239,11 @@ TEST(PlaneNormalFloat, IsThatOfItsDefinition) {
     }
 }
 
-TEST(PlaneNormalFloat, CountsAPointOfWeightThreeThreeTimes) {
+TEST(PlaneNormal, CountsAPointOfWeightThreeThreeTimes) {
     Rng rng(kSeed);
     const ScaledPlane plane = scaled(random_plane(rng));
-    PlaneSumsFloat weighted;
-    PlaneSumsFloat repeated;
+    PlaneSums weighted;
+    PlaneSums repeated;
     for (int i = 0; i < 10; ++i) {
         Four x;
         Four y;
@@ -258,8 +258,8 @@ TEST(PlaneNormalFloat, CountsAPointOfWeightThreeThreeTimes) {
         for (int n = 0; n < 3; ++n)
             repeated.add(places, {{off, -off}, Four{1, 1, 1, 1}});
     }
-    PlaneNormalFloat one(weighted.all());
-    PlaneNormalFloat three(repeated.all());
+    PlaneNormal one(weighted.all());
+    PlaneNormal three(repeated.all());
     EXPECT_EQ(one.points(), 40);
     EXPECT_NEAR(one.squared_residuals(), three.squared_residuals(), 1e-3);
     for (std::size_t k = 0; k < kPoseParameters; ++k)
@@ -269,7 +269,7 @@ TEST(PlaneNormalFloat, CountsAPointOfWeightThreeThreeTimes) {
         EXPECT_NEAR(one.factor(k, k), three.factor(k, k), 1e-2);
 }
 
-TEST(PlaneNormalFloat, LeavesOutWhatThePointsDoNotDetermine) {
+TEST(PlaneNormal, LeavesOutWhatThePointsDoNotDetermine) {
     // For points on one line, terms with y cannot be told apart from others.
     Rng rng(kSeed);
     Problem problem({0.01F, -0.02F, 0.03F, 0.01F}, rng, true);
@@ -284,16 +284,16 @@ TEST(PlaneNormalFloat, LeavesOutWhatThePointsDoNotDetermine) {
     EXPECT_NEAR(found[1], -0.02, 1e-3);
 }
 
-TEST(PlaneNormalFloat, NeedsPoints) {
-    PlaneNormalFloat none{FitSums()};
+TEST(PlaneNormal, NeedsPoints) {
+    PlaneNormal none{FitSums()};
     EXPECT_FALSE(none.decompose());
-    PlaneSumsFloat sums;
+    PlaneSums sums;
     const ScaledPlane plane({0, 0, 0.06F, 0, 0, 0.06F}, 10);
     sums.add(plane.project(Four{1}, Four{1}), {{Four{}, Four{}}, Four{1}});
-    PlaneNormalFloat one(sums.all());
+    PlaneNormal one(sums.all());
     EXPECT_EQ(one.points(), 1);
     EXPECT_FALSE(one.decompose());
 }
 
 }  // namespace
-}  // namespace dotpose::core_test::plane_normal_float_test
+}  // namespace dotpose::core_test::plane_normal_test

@@ -1,5 +1,5 @@
 // The posterior of further terms compared with integrals over all their possible values.
-#include "core/pose/posterior.hpp"
+#include "core/fit/posterior.hpp"
 
 #include <cmath>
 
@@ -17,17 +17,17 @@ constexpr DistortionPrior kTwo{kTilt, 2, {{{0.3F, 0}, {0.5F, 0.02F}, {0.2F, 0.2F
 constexpr DistortionPrior kOne{kBend, 1, {{{0.6F, 0}, {0.3F, 0.02F}, {0.1F, 0.2F}}}};
 
 /// Returns equations of points that determine all parameters, some of them only in combination.
-PlaneNormalFloat random_normal(Rng& rng) {
+PlaneNormal random_normal(Rng& rng) {
     const auto random = [&] {
         Four values;
         for (int i = 0; i < 4; ++i)
             values[i] = static_cast<float>(rng.uniform(-1, 1));
         return values;
     };
-    PlaneSumsFloat sums;
+    PlaneSums sums;
     for (int i = 0; i < 8; ++i)
         sums.add({random(), random()}, {{Four{}, Four{}}, Four{1, 1, 1, 1}});
-    PlaneNormalFloat normal(sums.all());
+    PlaneNormal normal(sums.all());
     EXPECT_TRUE(normal.decompose());
     return normal;
 }
@@ -41,7 +41,7 @@ struct Integral {
     double mean[2] = {};
     double covariance[2][2] = {};
 
-    Integral(const DistortionPrior& terms, const PlaneNormalFloat& normal, const double (&seen)[2],
+    Integral(const DistortionPrior& terms, const PlaneNormal& normal, const double (&seen)[2],
              double variance, double unit) {
         const std::size_t i = terms.first;
         const double a = normal.factor(i, i);
@@ -96,7 +96,7 @@ struct Integral {
 void expect_integral(const DistortionPrior& terms, Rng& rng) {
     for (int i = 0; i < 30; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
-        const PlaneNormalFloat normal = random_normal(rng);
+        const PlaneNormal normal = random_normal(rng);
         const double variance = rng.uniform(0.01, 0.05);
         const double unit = rng.uniform(0.5, 2);
         const double reach = 5 * std::sqrt(variance) * rng.uniform();
@@ -129,7 +129,7 @@ TEST(Posterior, OfOneTermIsTheIntegralOverAllItMightBe) {
 
 TEST(Posterior, WhatIsSeenBeyondDoubtIsKept) {
     Rng rng(kSeed);
-    const PlaneNormalFloat normal = random_normal(rng);
+    const PlaneNormal normal = random_normal(rng);
     Parameters whitened{};
     whitened[kTilt] = 0.1F;
     whitened[kTilt + 1] = -0.2F;
@@ -140,7 +140,7 @@ TEST(Posterior, WhatIsSeenBeyondDoubtIsKept) {
 }
 
 TEST(Posterior, TermsThatNothingTellsAreNone) {
-    const Posterior posterior = posterior_of(kTwo, PlaneNormalFloat{}, Parameters{}, 0.01F, 1);
+    const Posterior posterior = posterior_of(kTwo, PlaneNormal{}, Parameters{}, 0.01F, 1);
     EXPECT_EQ(posterior.mean[0], 0);
     EXPECT_EQ(posterior.covariance[1][1], 0);
 }

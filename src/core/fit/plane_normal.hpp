@@ -1,0 +1,49 @@
+// Least squares of a plane with perspective, shear and lens, in single precision: the normal
+// equations.
+#pragma once
+
+#include "core/fit/normal_equations.hpp"
+#include "core/fit/projections.hpp"
+#include "core/kernels/kernels.hpp"
+
+namespace dotpose::core {
+
+/// Residuals of four points, in spacings, with their weights. Points of weight 0 are left out.
+struct Residuals {
+    FourVecs offset;
+    Four weight;
+};
+
+/// Weighted sums of the points and residuals, of which the normal equations consist.
+class PlaneSums {
+  public:
+    void add(const FourVecs& places, const Residuals& residuals);
+    FitSums all() const;
+
+  private:
+    /// Minus the number of points: a comparison of vectors gives -1 for true.
+    FourInts less_points_{};
+    std::array<Four, 4> places_{};
+    std::array<Four, 3> residuals_{};  ///< includes the squared residuals
+};
+
+/// The normal equations of the parameters of `jacobian`.
+class PlaneNormal : public NormalEquations<kPoseParameters> {
+  public:
+    PlaneNormal() = default;
+    explicit PlaneNormal(const FitSums& sums);
+
+    /// Decomposes. Returns false if the points do not determine place, scale and turn.
+    bool decompose() {
+        constexpr float kDetermined = 1e-4F;
+        return NormalEquations::decompose(kDetermined, kTilt);
+    }
+    float squared_residuals() const { return squared_residuals_; }
+    int points() const { return points_; }
+
+  private:
+    float squared_residuals_ = 0;
+    int points_ = 0;
+};
+
+}  // namespace dotpose::core

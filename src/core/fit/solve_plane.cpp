@@ -1,0 +1,68 @@
+#include "core/fit/solve_plane.hpp"
+
+#include <algorithm>
+
+#include "core/fit/posterior.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Prior standard deviations of tilt, shear and lens distortion, relative to the scale. A tilt is
+/// the change of scale from the centre to the outermost dot, about 0.01 for 2 degrees. A bend is
+/// the displacement of the outermost dot relative to its distance; it must be significant.
+constexpr std::array<DistortionPrior, 3> kTerms{{
+    {kTilt, 2, {{{0.1F, 0}, {0.8F, 0.01F}, {0.1F, 0.1F}}}},
+    {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
+    {kBend, 1, {{{0.99F, 0}, {0.005F, 0.01F}, {0.005F, 0.1F}}}},
+}};
+
+/// Shrinks the distortion terms of a step to their posterior means. `whole` are these terms as
+/// fitted, whitened. Sets the covariance of `fit`.
+void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
+    fit.covariance = {};
+    for (std::size_t i = 0; i < kTilt; ++i)
+        fit.covariance[i][i] = fit.variance;
+    for (const DistortionPrior& terms : kTerms) {
+        const Posterior posterior = posterior_of(terms, fit.normal, whole, fit.variance, unit);
+        for (std::size_t i = 0; i < terms.count; ++i) {
+            step[terms.first + i] += posterior.mean[i] - whole[terms.first + i];
+            for (std::size_t j = 0; j < terms.count; ++j)
+                fit.covariance[terms.first + i][terms.first + j] = posterior.covariance[i][j];
+        }
+    }
+}
+
+}  // namespace
+
+bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step,
+           float& moved) {
+    PlaneNormal& normal = fit.normal;
+    if (normal.points() < 3 || !normal.decompose()) return false;
+    step = normal.whitened(normal.right());
+    float residual_squares = normal.squared_residuals();
+    for (const float part : step)
+        residual_squares -= part * part;
+    fit.dots = normal.points();
+    const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
+    constexpr float kExact = 1e-12F;
+    fit.variance = std::max(residual_squares / static_cast<float>(freedom), kExact);
+    // After whitening, the contribution of each distortion term is independent of the terms after
+    // it.
+    Parameters whole = normal.times_transposed(distortions);
+    for (std::size_t i = 0; i < kPoseParameters; ++i)
+        whole[i] += step[i];
+    const Parameters exact = step;
+    shrink(whole, unit, fit, step);
+    moved = 0;
+    fit.squares = residual_squares;
+    for (std::size_t i = 0; i < kPoseParameters; ++i) {
+        const float lost = exact[i] - step[i];
+        moved += step[i] * step[i];
+        fit.squares += lost * lost;
+    }
+    moved /= fit.variance;
+    step = normal.unwhitened(step);
+    return true;
+}
+
+}  // namespace dotpose::core
