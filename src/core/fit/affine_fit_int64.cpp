@@ -64,8 +64,8 @@ bool AffineFitInt64::solve(int fraction_bits, AffineMap& map) const {
     const Symmetric2<std::int64_t> spread{shifted(m.xx, source_shift), shifted(m.xy, source_shift),
                                           shifted(m.yy, source_shift)};
     const std::int64_t determinant = spread.determinant();
-    // Points are on one line if their spread across is at most a thousandth of their spread along
-    // it.
+    // The points count as collinear if their spread across the line is at most a thousandth of
+    // their spread along the line.
     if (determinant < std::int64_t{1} << 40) return false;
 
     const auto solve_one = [&](std::int64_t sx_t, std::int64_t sy_t, std::int32_t& dx,

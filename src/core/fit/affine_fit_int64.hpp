@@ -22,8 +22,8 @@ class AffineFitInt64 {
   public:
     void add(FixedVec source, FixedVec target);
     int count() const { return static_cast<int>(n_); }
-    /// Sets the map to the least-squares solution. Returns false if the points are on one line. The
-    /// entries of dx and dy must fit 31 bits.
+    /// Sets the map to the least-squares solution. Returns false if the points are collinear. The
+    /// entries of dx and dy must fit in 31 bits.
     bool solve(int fraction_bits, AffineMap& map) const;
 
     /// Second moments of the sources about their mean: n times their covariance matrix.

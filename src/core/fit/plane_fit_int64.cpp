@@ -3,11 +3,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Fraction bits of the reduced maps: targets in 2^-16 spacings over points in 2^-8 px, times 2^16,
+/// Fraction bits of the reduced maps. Targets in 2^-16 spacings over points in 2^-8 px, times 2^16,
 /// give slopes in 2^-24 spacings per px.
 constexpr int kBits = 16;
 
-/// Solves a symmetric system of two or three equations by Cramer's rule. Solutions are times 2^30.
+/// Solves a symmetric system of two or three equations by Cramer's rule. Solutions are scaled by
+/// 2^30.
 class SmallSystem {
   public:
     using Matrix = std::array<std::array<std::int64_t, 3>, 3>;
@@ -17,7 +18,7 @@ class SmallSystem {
         std::int64_t largest = 1;
         for (std::size_t i = 0; i < size; ++i)
             largest = std::max(largest, matrix[i][i]);
-        // With entries of 19 bits, the determinant of three rows fits 60 bits.
+        // With entries of 19 bits, the determinant of three rows fits in 60 bits.
         int shift = 0;
         while (largest >> shift >= std::int64_t{1} << 19)
             ++shift;
@@ -40,7 +41,7 @@ class SmallSystem {
             for (std::size_t i = 0; i < 3; ++i)
                 replaced[i][k] = right_[i];
             const std::int64_t part = determinant(replaced);
-            // A term over 1/2 would put the horizon into the image.
+            // A term larger than 1/2 would place the horizon within the image.
             if (part > whole / 2 || part < -whole / 2) return false;
             solution_q30[k] =
                 part < 0 ? -scaled_quotient(-part, whole, 30) : scaled_quotient(part, whole, 30);
@@ -74,7 +75,8 @@ std::array<FixedVec, 4> PlaneFitInt64::regressors(FixedVec p, FixedVec target_q1
         return FixedVec{shift_rounded(factor * target.x, bits),
                         shift_rounded(factor * target.y, bits)};
     };
-    // x / 2^scale has 8 + scale fraction bits. The shift gives r^2 / 2^(2 scale) the same number.
+    // x / 2^scale has 8 + scale fraction bits. The shift gives r^2 / 2^(2 scale) the same number of
+    // fraction bits.
     const int bits = 8 + scale_;
     return {target, times(p.x, bits), times(p.y, bits), times(squared(p) >> bits, bits)};
 }
@@ -114,8 +116,8 @@ void PlaneFitInt64::add_residual(FixedVec image_point_q8, FixedVec target_q16) {
 }
 
 bool PlaneFitInt64::solve(PlaneFromImage& plane) const {
-    // The equation is target * (1 + sum of terms) = affine. The terms subtract the part that the
-    // regressors share with the target beyond an affine map.
+    // The equation is target * (1 + sum of terms) = affine map. The affine map is therefore that of
+    // the target minus the affine map of each regressor, multiplied by its term.
     std::array<std::int32_t, kExtra> terms_q30{};
     if (extra() > 0 && !SmallSystem(normal_, right_, extra()).solve(terms_q30)) return false;
     std::array<std::int64_t, 6> sum{maps_[0].offset_x, maps_[0].offset_y, maps_[0].dx.x,
@@ -125,7 +127,8 @@ bool PlaneFitInt64::solve(PlaneFromImage& plane) const {
         const std::array<std::int64_t, 6> part{m.offset_x, m.offset_y, m.dx.x,
                                                m.dx.y,     m.dy.x,     m.dy.y};
         for (std::size_t i = 0; i < sum.size(); ++i) {
-            // Offsets have up to 41 bits and need less resolution than slopes, which have up to 31.
+            // Offsets have up to 41 bits and need less resolution than slopes, which have up to 31
+            // bits.
             const int coarser = i < 2 ? 11 : 0;
             sum[i] -= (part[i] >> coarser) * terms_q30[k] >> (30 - coarser);
         }
@@ -134,7 +137,7 @@ bool PlaneFitInt64::solve(PlaneFromImage& plane) const {
     plane.perspective_q30 = {-(terms_q30[0] >> scale_), -(terms_q30[1] >> scale_)};
     plane.lens_q40 = static_cast<std::int32_t>(-(std::int64_t{terms_q30[2]} << 10) >> (2 * scale_));
     // (at + du x + dv y) / divisor equals at + (du - at * perspective.x) x + ..., except for the
-    // lens term of the remaining `at`, which the next fit reduces further.
+    // lens term of the remaining `at`. The next fit reduces this error.
     const FixedVec at{shift_rounded(sum[0], kBits), shift_rounded(sum[1], kBits)};
     plane.at_centre_q16 = at_centre_q16_ + at;
     const auto slope = [&](std::int64_t own, std::int32_t at_q16, std::int32_t perspective_q30) {

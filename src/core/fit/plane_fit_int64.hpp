@@ -1,4 +1,4 @@
-// Least squares of a PlaneFromImage, with perspective and lens, in integers of 64 bits.
+// Least squares of a PlaneFromImage, with perspective and lens, in 64-bit integers.
 #pragma once
 
 #include <array>
@@ -25,12 +25,12 @@ constexpr std::size_t parameters(Terms terms) {
 /// Two passes over the points: `add` each, then `reduce`, then `add_residual` each, then `solve`.
 class PlaneFitInt64 {
   public:
-    /// `estimate` gives the centre and its approximate place in the plane. Image points must be
+    /// `estimate` contains the centre and its approximate place in the plane. Image points must be
     /// within `reach_px` of the centre.
     PlaneFitInt64(const PlaneFromImage& estimate, int reach_px, Terms terms);
 
-    /// Adds a point. `target_q16` is its place in the plane, within 256 spacings of that of the
-    /// centre.
+    /// Adds a point. `target_q16` is its place in the plane, within 256 spacings of the place of
+    /// the centre.
     void add(FixedVec image_point_q8, FixedVec target_q16);
     int count() const { return fits_[0].count(); }
     /// Subtracts the affine part from all regressors. Returns false if the points do not determine
@@ -51,7 +51,7 @@ class PlaneFitInt64 {
 
     FixedVec centre_q8_;
     FixedVec at_centre_q16_;
-    int scale_ = 0;  ///< the reach is at most 2^scale_ px
+    int scale_ = 0;  ///< log2 of an upper bound of the reach, in px
     Terms terms_;
     std::array<AffineFitInt64, kExtra + 1> fits_;
     std::array<AffineMap, kExtra + 1> maps_;
@@ -69,12 +69,13 @@ struct FittedPlane {
     PlaneFromImage plane;
     Terms terms = Terms::affine;
     int points = 0;
-    std::int64_t squared_residuals = 0;  ///< sum over points and axes, 2^-32 spacing^2
+    std::int64_t squared_residuals = 0;  ///< sum over points and axes, in 2^-32 spacing^2
 };
 
 /// Fits a plane to points. `visit(use)` calls use(image_point_q8, target_q16) for each point, and
-/// is called several times. A term is added if it explains more than chance does; the lens term
-/// needs six times as much. Returns false if the points do not determine an affine map.
+/// is called several times. A term is included if it explains more of the residuals than chance
+/// does; the lens term must explain six times as much as chance. Returns false if the points do not
+/// determine an affine map.
 template <typename Visit>
 bool fit_significant_plane(const PlaneFromImage& estimate, Terms max_terms, Visit visit,
                            FittedPlane& best) {
@@ -96,8 +97,8 @@ bool fit_significant_plane(const PlaneFromImage& estimate, Terms max_terms, Visi
             fitted.squared_residuals += squared(plane_point_q16(fitted.plane, point_q8) - target);
         });
         if (found) {
-            // By chance, each parameter explains one mean square of the residuals. The fraction of
-            // a term beyond chance is kept (James and Stein 1961).
+            // By chance, each parameter explains one mean square of the residuals. Keeps the
+            // fraction of a term that exceeds chance (James and Stein 1961).
             const int more = static_cast<int>(parameters(terms) - parameters(best.terms));
             const int freedom =
                 std::max(2 * fitted.points - static_cast<int>(parameters(terms)), 1);

@@ -69,15 +69,16 @@ void PlaneNormalFloat::leave_out(std::size_t parameter) {
 }
 
 bool PlaneNormalFloat::decompose() {
-    // Minimum fraction of a diagonal element that is left after elimination of the parameters
-    // before it. Below it, the parameter is not determined.
+    // Minimum fraction of a diagonal element that remains after the elimination of the preceding
+    // parameters. If less remains, the points do not determine the parameter.
     constexpr float kDetermined = 1e-4F;
     Parameters minima;
     for (std::size_t i = 0; i < kPoseParameters; ++i)
         minima[i] = kDetermined * m_[i].at(i);
     for (std::size_t i = 0; i < kPoseParameters; ++i) {
         Column& column = m_[i];
-        // Parameters that the caller did not add have the element 0 and are left out as well.
+        // Parameters that the caller did not add have a diagonal element of 0 and are left out as
+        // well.
         if (!(column.at(i) > minima[i])) {
             if (i < 4) return false;
             leave_out(i);
@@ -104,7 +105,8 @@ Parameters PlaneNormalFloat::whitened(const Parameters& of) const {
 }
 
 Parameters PlaneNormalFloat::unwhitened(const Parameters& column) const {
-    // Each element depends on the one before it, which is therefore subtracted last.
+    // Each element depends on the element computed just before it, which is therefore subtracted
+    // last.
     Parameters result{};
     for (std::size_t i = kPoseParameters; i-- > 0;) {
         float rest = column[i];

@@ -15,14 +15,15 @@ struct Residuals {
     Four weight;
 };
 
-/// Weighted sums of the points and residuals, of which the normal equations consist.
+/// Weighted sums over the points and their residuals. They are the elements of the normal
+/// equations.
 class PlaneSumsFloat {
   public:
     void add(const FourVecs& places, const Residuals& residuals);
     FitSums all() const;
 
   private:
-    /// Minus the number of points: a comparison of vectors gives -1 for true.
+    /// Negated number of points, because a vector comparison yields -1 for true.
     FourInts less_points_{};
     std::array<Four, 4> places_{};
     std::array<Four, 3> residuals_{};  ///< includes the squared residuals
@@ -35,7 +36,7 @@ class PlaneNormalFloat {
     explicit PlaneNormalFloat(const FitSums& sums);
 
     /// Replaces M by L. Leaves out parameters that the points do not determine. Returns false if
-    /// these include one of the first four.
+    /// one of the first four parameters is not determined.
     bool decompose();
 
     /// Returns L^-1 column. The inner product of two such columns a and b is a . M^-1 . b.
@@ -51,11 +52,11 @@ class PlaneNormalFloat {
     const Parameters& right() const { return right_; }
     float squared_residuals() const { return squared_residuals_; }
     int points() const { return points_; }
-    /// Returns whether the points determine the parameter. Requires `decompose`.
+    /// Returns true if the points determine the parameter. Requires `decompose`.
     bool determines(std::size_t parameter) const { return m_[parameter].at(parameter) > 0; }
 
   private:
-    /// A column of M or L, in whole vectors. Columns of L are 0 above the diagonal.
+    /// A column of M or L, stored in whole vectors. Columns of L are 0 above the diagonal.
     class Column {
       public:
         Column() = default;
@@ -91,7 +92,7 @@ class PlaneNormalFloat {
     void set_rows(const std::array<Parameters, kPoseParameters>& lower);
 
     std::array<Column, kPoseParameters>
-        m_{};  ///< columns of M on and below the diagonal; of L after `decompose`
+        m_{};  ///< columns of M on and below the diagonal; columns of L after `decompose`
     Parameters right_{};
     float squared_residuals_ = 0;
     int points_ = 0;
