@@ -7,9 +7,9 @@
 
 namespace dotpose::core {
 
-/// Sets u and v of the lattice but not its origin. The lattice is right-handed: v is u turned from
-/// +x to +y. `memory` has two values for each edge. Errors: no_grid, if the edges do not have two
-/// directions at about a right angle and with about the same length.
+/// Sets u and v of the lattice, but not its origin. The lattice is right-handed: v is u turned from
+/// +x to +y. `memory` must contain two elements per edge. Errors: no_grid, if the edges do not have
+/// two directions with about equal lengths and about a right angle between them.
 Status estimate_axes(std::span<const SeedEdge> edges, std::span<std::int32_t> memory,
                      Lattice& lattice);
 

@@ -12,12 +12,12 @@ namespace {
 
 namespace tuned = tuning::refine_grid;
 
-/// Distance of the farthest cell that is used: see PlaneFitInt64.
+/// Maximum distance of a cell that is used, in cells. PlaneFitInt64 states the limit.
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Corrects the origin by eq. 6: its error is the median offset of the dots near it. The offset is
-/// relative to the estimate, so the paper's o - median becomes a sum.
+/// Corrects the origin by eq. 6: the error of the origin is the median offset of the dots near it.
+/// The offset is relative to the estimate, so the difference o - median of the paper becomes a sum.
 void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
@@ -53,12 +53,12 @@ Judged judge(std::span<const DetectedDot> dots, int reach_cells, const LatticeOp
     return found;
 }
 
-/// Place in the grid that a dot is assigned to, in spacings.
+/// Place in the grid to which a dot is assigned, in spacings.
 struct Target {
     bool is_used = false;
     std::int16_t cell_x = 0;
     std::int16_t cell_y = 0;
-    std::int16_t x_q16 = 0;  ///< from the intersection
+    std::int16_t x_q16 = 0;  ///< relative to the intersection
     std::int16_t y_q16 = 0;
 
     Target() = default;
@@ -71,13 +71,13 @@ struct Target {
     FixedVec place_q16() const { return {cell_x * 65536 + x_q16, cell_y * 65536 + y_q16}; }
 };
 
-/// Fits the plane to dots and their targets. `target_of(g)` returns the target of a dot with the
-/// GridPoint g.
+/// Fits the plane to dots and their targets. `target_of(g)` returns the target of a dot whose
+/// GridPoint is g.
 template <typename TargetOf>
 void fit_to_targets(std::span<const DetectedDot> dots, Terms max_terms, PlaneFromImage& plane,
                     TargetOf target_of) {
-    // The fit visits the dots several times. Targets are computed once for the dots of most images;
-    // larger images recompute those of further dots.
+    // The fit visits the dots several times. For the dots of most images, the targets are computed
+    // once. In larger images, the targets of further dots are computed again.
     std::array<Target, 2048> targets;
     const std::size_t known = std::min(dots.size(), targets.size());
     const PlaneFromImage before = plane;
@@ -97,8 +97,8 @@ void fit_to_targets(std::span<const DetectedDot> dots, Terms max_terms, PlaneFro
 }
 
 /// Fits the plane to the dots within reach. differs: eq. 6 continues with median lengths between
-/// neighbours. Here a least-squares fit, with displacements as noise, gives all terms, and the
-/// reach grows from round to round.
+/// neighbours. Here a least-squares fit, in which displacements are noise, determines all terms,
+/// and the reach grows from round to round.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
     const Terms max_terms =
@@ -111,7 +111,7 @@ void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOption
 }
 
 /// Fits the plane to the places of displaced dots. Each dot is assigned to the nearest of the four
-/// places of its cell. Dots far from all four are left out.
+/// places of its cell. Leaves out dots that are far from all four places.
 void fit_places(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     constexpr std::int32_t kFar_q16 = tuned::kFar_q16;
     fit_to_targets(dots, Terms::lens, plane, [](const GridPoint& g) {
