@@ -1,7 +1,7 @@
-// Refine: the pose from all dots. Once the position is known, the printed place of every dot is
+// Refine: fits the pose to all dots. Once the position is known, the printed place of every dot is
 // known, including its displacement. The pose is the least-squares map from the centres of the dots
-// to these places. differs: the paper stops at eq. 12, whose grid has the displacements as noise.
-// Single precision.
+// to these places. differs: the paper stops at eq. 12, in whose grid the displacements are noise.
+// Uses single precision.
 #pragma once
 
 #include "core/fit/plane_normal_float.hpp"
@@ -12,13 +12,13 @@
 
 namespace dotpose::core {
 
-/// Result of a fit: how well the dots determine the pose.
+/// Result of a fit: the number of dots, their residuals, and the uncertainty of the parameters.
 struct PoseFit {
-    int reach_px = 1;         ///< unit of length in the image
+    int reach_px = 1;         ///< unit of length in the image, in px
     int dots = 0;             ///< number of inliers
-    float variance = 0;       ///< variance of one coordinate of one dot, spacings^2
+    float variance = 0;       ///< variance of one coordinate of one dot, in spacings^2
     float squares = 0;        ///< squared residuals of all inliers after the last step
-    float displacement = 0;   ///< distance of a typical dot from its intersection, spacings
+    float displacement = 0;   ///< distance of a typical dot from its intersection, in spacings
     PlaneNormalFloat normal;  ///< normal equations of the parameters of `jacobian`, decomposed
     std::array<Parameters, kPoseParameters> covariance;  ///< covariance of the whitened parameters
     Surface surface = Surface::even;
@@ -27,14 +27,15 @@ struct PoseFit {
 };
 
 /// Solves the normal equations of `fit` for the step to the least-squares plane, and shrinks the
-/// distortion terms to their posterior means. `distortions` are these terms of the current plane
-/// and `unit` is its scale. Sets `moved`, the size of the step in squared deviations, and all of
-/// `fit` except the displacement. Returns false if the dots do not determine the plane.
+/// distortion terms to their posterior means. `distortions` contains these terms of the current
+/// plane, and `unit` is the scale of this plane. Sets `moved` to the squared length of the step in
+/// units of the standard deviation of the pose, and all members of `fit` except the displacement.
+/// Returns false if the dots do not determine the plane.
 bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step, float& moved);
 
-/// Improves the pose. Outliers are rejected. Distortion terms, which a camera straight above flat
-/// paper does not need, are shrunk to their posterior means (pose/posterior), because each term
-/// costs accuracy. Returns false, without a change, if the dots do not determine the pose.
+/// Improves the pose. Rejects outliers. Distortion terms, which a camera straight above flat paper
+/// does not need, are shrunk to their posterior means (pose/posterior), because each term costs
+/// accuracy. Returns false, without a change, if the dots do not determine the pose.
 bool refine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                  PoseFit& fit);
 
