@@ -24,7 +24,7 @@ enum class Attempt : std::uint8_t {
 /// Returns the identifier, such as "tracked".
 const char* name(Attempt attempt) noexcept;
 
-/// Flatness of the paper in view, as far as the dots show it.
+/// Flatness of the paper in view, as determined from the dots.
 enum class Surface : std::uint8_t {
     even,     ///< one plane explains all dots
     divided,  ///< a part of the paper is displaced; the pose is that of the part that contains the

@@ -56,8 +56,8 @@ class DeviceMemoryFor : public AnyDeviceMemory {
     alignas(8) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory of a Locator for images up to 188 px wide, like those of the paper's sensor: about 290
-/// KB.
+/// Memory of a Locator for images up to 188 px wide, such as images of the paper's sensor: about
+/// 290 KB.
 class SmallMemory {
   public:
     SmallMemory();

@@ -95,7 +95,7 @@ struct TrackOptions {
 
     /// Maximum probability, as log2, that an accepted sighting is wrong, given the prior.
     int max_p_wrong_log2 = -30;
-    /// Maximum `p_wrong_log2` of an accepted weak sighting, whatever the prior. At most -1.
+    /// Maximum `p_wrong_log2` of an accepted weak sighting, regardless of the prior. At most -1.
     int max_weak_p_wrong_log2 = -10;
     /// Spacing of the pattern, for counting the places within the gate.
     float spacing_mm = 0.508F;

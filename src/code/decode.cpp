@@ -15,13 +15,15 @@ constexpr int kMinWindow = code::kMainOrder;
 using Rolls = std::array<std::uint8_t, kMaxWindow>;
 using Deltas = std::array<std::uint8_t, kMaxWindow - 1>;
 
-/// Places of one secondary sequence at which its digits match those of all differences of a window.
+/// Places of one secondary sequence at which its digits match the digits of all differences of a
+/// window.
 struct Places {
     std::uint32_t first = 0;
     int count = 0;
 };
 
-/// Returns true if the digits of the sequence, starting at `place`, match those of all differences.
+/// Returns true if the digits of the sequence, starting at `place`, match the digits of all
+/// differences.
 bool matches_at(const code::Secondary& a, std::size_t digit, std::span<const std::uint8_t> deltas,
                 std::uint32_t place) {
     for (const std::uint8_t d : deltas) {

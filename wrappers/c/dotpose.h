@@ -217,7 +217,7 @@ typedef struct dotpose_fix {
     int32_t dots_used; /* 48 */
     /* The attempt that made the fix: DOTPOSE_ATTEMPT_. */
     int32_t attempt; /* 52 */
-    /* Flatness of the paper in view, as far as the dots show it: DOTPOSE_SURFACE_. */
+    /* Flatness of the paper in view, as determined from the dots: DOTPOSE_SURFACE_. */
     int32_t surface; /* 56 */
     /* Number of bits that contradict the position; each cell read has two bits. */
     int32_t bit_errors; /* 60 */

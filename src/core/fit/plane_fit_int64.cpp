@@ -116,8 +116,9 @@ void PlaneFitInt64::add_residual(FixedVec image_point_q8, FixedVec target_q16) {
 }
 
 bool PlaneFitInt64::solve(PlaneFromImage& plane) const {
-    // The equation is target * (1 + sum of terms) = affine map. The affine map is therefore that of
-    // the target minus the affine map of each regressor, multiplied by its term.
+    // The equation is target * (1 + sum of terms) = affine map. This affine map is the affine map
+    // of the target minus the sum of the affine maps of the regressors, each multiplied by its
+    // term.
     std::array<std::int32_t, kExtra> terms_q30{};
     if (extra() > 0 && !SmallSystem(normal_, right_, extra()).solve(terms_q30)) return false;
     std::array<std::int64_t, 6> sum{maps_[0].offset_x, maps_[0].offset_y, maps_[0].dx.x,

@@ -158,7 +158,7 @@ class Buckets {
     std::array<Opposite, code::kA4Restored.size()> places_;
 };
 
-/// Sums up the odds of the alternatives that share at least `shared` anchors.
+/// Adds up the odds of the alternatives that share at least `shared` anchors.
 class Finder {
   public:
     Finder(const RankedLines& lines, int anchors, int shared)
@@ -170,8 +170,8 @@ class Finder {
     float sum() const {
         float sum = 0;
         groups_.visit_pairs([&](int one, int other) {
-            // For each pair of sequences, one of the two is sorted into buckets. The shortest
-            // sequence, a3, never is.
+            // For each pair of sequences, the places of one sequence are sorted into buckets. The
+            // shortest sequence, a3, is never the one.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });

@@ -12,7 +12,7 @@ inline constexpr int kMaxSteps = 18;
 /// Number of parts into which the loss limit is divided.
 inline constexpr unsigned kLimitParts = 15;
 
-/// Steps at which an alternative is excused: it loses nothing there, whatever its digit is.
+/// Steps at which an alternative is excused: it loses nothing there, regardless of its digit.
 enum class Excused : std::uint8_t { none, any_one };
 
 /// Minimum loss of an alternative in each step in which its digit differs from that of the reading.

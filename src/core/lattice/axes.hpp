@@ -13,8 +13,7 @@ namespace dotpose::core {
 Status estimate_axes(std::span<const SeedEdge> edges, std::span<std::int32_t> memory,
                      Lattice& lattice);
 
-/// Returns true if two directions may be those of a square grid at a tilt of up to about 35
-/// degrees.
+/// Returns true if the vectors may be those of a square grid at a tilt of up to about 35 degrees.
 bool is_nearly_square(FixedVec u, FixedVec v);
 /// Returns true if the grid at the centre of a plane may be a square grid with a spacing of at
 /// least 4 px.

@@ -59,7 +59,7 @@ export interface FixFields {
     dots_used: number;
     /** The attempt that made the fix. */
     attempt: Attempt;
-    /** Flatness of the paper in view, as far as the dots show it. */
+    /** Flatness of the paper in view, as determined from the dots. */
     surface: Surface;
     /** Number of bits that contradict the position; each cell read has two bits. */
     bit_errors: number;
