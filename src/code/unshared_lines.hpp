@@ -81,7 +81,7 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
     0x7322, 0x7522, 0x74DA, 0x7D1B, 0x551B, 0x5CDB, 0x54DB, 0x2C93, 0x2C4A,
 };
 
-/// Maximum number of unshared lines for which the table has a number of positions.
+/// Maximum number of unshared lines for which kMaxPositionsWith contains bounds.
 inline constexpr std::size_t kMaxCounted = 7;
 
 /// Upper bounds of the number of positions with exactly n unshared lines, indexed by row, sequence

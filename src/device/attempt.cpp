@@ -26,7 +26,8 @@ FixedVec start_q8(const Workspace& w) {
     for (const DetectedDot& dot : w.found_dots())
         sum_q4 = sum_q4 + FixedVec{dot.centre_q8.x >> 4, dot.centre_q8.y >> 4};
     const FixedVec mean_q8{sum_q4.x / w.dot_count * 16, sum_q4.y / w.dot_count * 16};
-    // If the pattern fills the view, the distance is within a few hundredths of half a side.
+    // If the pattern fills the view, the centroid is within a few hundredths of half a side of the
+    // image centre.
     constexpr int kFar = 4;
     const bool is_far = magnitude(mean_q8.x - centre_q8.x) * kFar > centre_q8.x ||
                         magnitude(mean_q8.y - centre_q8.y) * kFar > centre_q8.y;
@@ -49,7 +50,8 @@ Status find_grid(const Options& options, Workspace& w) {
 
 /// Finds the position in the code from the bits.
 Status read_position(const Options& options, Workspace& w) {
-    // The decoder does not use the window of the paper. It is computed for display only.
+    // The decoder does not need the 8 x 8 window of the paper's method. It is computed for display
+    // only.
     if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
     choose_region(w);
     const Status status =

@@ -89,8 +89,8 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
     }
     const std::int32_t paper = paper_around(tracking, at);
     const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
-    // A dot darkens its own four pixels by about 6 depths, and those of the places beside it by
-    // about 2 depths.
+    // A dot darkens the sum of its own four pixels by about 6 times `depth`, and the sums of the
+    // places beside it by about 2 times `depth`.
     const bool is_clear =
         paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
     return is_clear ? ReadSymbol(darkest & 3, paper - depth) : ReadSymbol::unclear();

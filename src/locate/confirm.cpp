@@ -196,8 +196,8 @@ void write_fix(const ImageView& image, const Options& options, const Hypothesis&
     w.fix.status = Status::ok;
 }
 
-/// Returns true if the fitted plane is so far from the places where dots were measured, within
-/// reach, that the small centroid windows missed part of the distance.
+/// Returns true if, within reach, the fitted plane is so far from the places where dots were
+/// measured that the small centroid windows missed part of the distance.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
@@ -220,8 +220,8 @@ FloatVec reference_px(const Options& options, const Hypothesis& hypothesis) {
 /// Distance from the centre, in px, within which dots are read. It grows from round to round.
 struct Reach {
     float full;  ///< distance that includes the whole image
-    /// Distance within which the bits must make the position certain; bits beyond it are not used
-    /// for this.
+    /// Distance within which the bits must make the position certain. Bits at larger distances do
+    /// not count.
     float deciding;
     float now;  ///< distance of the current round
 

@@ -121,9 +121,9 @@ inline constexpr int kMaxFetched_bytes = 1 << 20;
 inline constexpr int kMinFound = 8;
 /// Maximum distance of a predicted dot from its place, in px.
 inline constexpr float kMaxOff_px = 1;
-/// Maximum sum of the scatter of the dots, relative to their displacement, and the fraction of
-/// contradicting bits. A position with a larger sum explains the frame badly. docs/integrity.md has
-/// the numbers.
+/// Maximum of the sum of two terms: the scatter of the dots relative to their displacement, and the
+/// fraction of contradicting bits. A position with a larger sum explains the frame badly.
+/// docs/integrity.md has the numbers.
 inline constexpr float kMaxImplausible = 0.57F;
 /// Minimum residual at which a second attempt may be better: in px for noise, in spacings for badly
 /// printed dots.

@@ -60,7 +60,7 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
 
 /// Sets, for each string of bits, the sum of a group of weights. A weight is negated if its bit is
 /// 0.
-// Not inlined because the code is long. It is unrolled to take half of the time.
+// Not inlined, because the unrolled code is long. Unrolling halves the time.
 [[gnu::noinline]] void sum_signed(const std::int32_t* weights, Sums& sums) {
     static_assert(kGroup == 5);
     sums[0] = -(weights[0] + weights[1] + weights[2] + weights[3] + weights[4]);

@@ -10,8 +10,8 @@ namespace dotpose::core {
 /// is in units of 1/127, in [-127, 127].
 std::int8_t quasi_probability(std::int32_t projection_q16);
 
-/// Clears the grid and sets its extent to the cells from `min` to `max`. If these exceed its
-/// capacity, the extent is the middle cells.
+/// Clears the grid and sets its extent to the cells from `min` to `max`. If there are more cells
+/// than its capacity, the extent is limited to the middle cells.
 void lay_out(FixedVec min, FixedVec max, Grid& grid);
 
 /// Fills the matrices P of Fig. 8 from all dots. A larger grid is cropped to the middle `grid.side`

@@ -97,7 +97,7 @@ std::int32_t best_agreement(const Voters& voters) {
 
 Orientation rank_turns(const Grid& grid, const GridRegion& region) {
     // differs: the paper counts the lines that occur exactly in the main sequence. The sum of the
-    // best scores is the same vote, but includes lines with a misread bit.
+    // best scores gives the same vote, but includes lines with a misread bit.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
     const BothWays of_columns = agreement(x_columns);

@@ -54,7 +54,7 @@ inline constexpr int kMaxLight_q8 = 1024;
 /// Minimum darkness of the second darkest place of a cell with two dots: kSecondDot_3rds / 3 of a
 /// typical dot and kSecondDot_4ths / 4 of the darkest place of the cell. The image contains two
 /// patterns if more than kMaxCrowded_8ths / 8 of the cells have two dots. In hard frames, at most a
-/// quarter of the cells had.
+/// quarter of the cells had two dots.
 inline constexpr int kSecondDot_3rds = 2;
 inline constexpr int kSecondDot_4ths = 3;
 inline constexpr int kMaxCrowded_8ths = 3;

@@ -24,7 +24,7 @@ std::span<Tile> tiles_of(const AdaptiveThreshold& threshold, int band) {
     return threshold.tiles.subspan(static_cast<std::size_t>(band & (kBandsKept - 1)) * n, n);
 }
 
-/// Copies whole blocks of kBlock bytes as long as they end before `end`, and advances both
+/// Copies whole blocks of kBlock bytes until fewer bytes remain before `end`. Advances both
 /// pointers.
 template <std::size_t kBlock>
 void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_t*& to) {

@@ -156,8 +156,8 @@ void end_row(Run& after_last) {
     after_last.begin = after_last.end = UINT16_MAX;
 }
 
-/// Adds each run of row `v` to the blob of the runs above that the run touches, at corners too, or
-/// opens a new blob for the run.
+/// Adds each run of row `v` to the blob of the runs above that it touches, including at corners.
+/// Opens a new blob for a run that touches none.
 void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
     bool some_united = false;
     for (Run& run : below) {

@@ -45,8 +45,8 @@ inline constexpr int kMin_px = 48;
 /// this darkness. Tiles with less are blank.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
-/// Minimum darkness of a minimum, in 1/256 of the darkness of a typical dot. Lighter minima are
-/// noise.
+/// Minimum darkness of a dot, which is a minimum of the smoothed patch, in 1/256 of the darkness of
+/// a typical dot. Lighter minima are noise.
 inline constexpr int kThreshold_q8 = 150;
 /// Distances in px, along the axes and diagonally, at which the surroundings of a minimum are
 /// tested. kMaxDark of the eight directions may be dark, as beside another dot.

@@ -69,8 +69,8 @@ void PlaneNormalFloat::leave_out(std::size_t parameter) {
 }
 
 bool PlaneNormalFloat::decompose() {
-    // Minimum fraction of a diagonal element that remains after the elimination of the preceding
-    // parameters. If less remains, the points do not determine the parameter.
+    // Minimum fraction of a diagonal element that must remain after the elimination of the
+    // preceding parameters. If less remains, the points do not determine the parameter.
     constexpr float kDetermined = 1e-4F;
     Parameters minima;
     for (std::size_t i = 0; i < kPoseParameters; ++i)

@@ -13,8 +13,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of adjacent lines that two distinct positions share. If they shared one more
-/// line, five digits would be equal.
+/// Maximum number of adjacent lines that two distinct positions share. With one more shared line,
+/// five digits would be equal, which determine the position.
 constexpr int kMaxSharedInARow = code::kOrder;
 /// Expected odds above which counting more alternatives one by one cannot make the fix certain.
 constexpr float kBeyondHelp = 1e-4F;

@@ -52,8 +52,8 @@ constexpr FarAlternatives kFarAlternatives = [] {
     return sets;
 }();
 
-/// Returns the expected odds of the far alternatives. This is the sum of quick_alternatives.cpp,
-/// computed in floating point and for all sets in parallel.
+/// Returns the expected odds of the far alternatives: the same sum as in quick_alternatives.cpp,
+/// but in floating point and for all sets in parallel.
 float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
     std::array<float, kMaxLines> odds;
     const auto count = static_cast<std::size_t>(ratios.count());

@@ -10,7 +10,7 @@ namespace {
 constexpr float kMaxOddsHere = 1e-12F;
 constexpr float kMaxOddsElsewhere = 1e-10F;
 
-/// Returns true if the rolls of the lines from a position on differ between two codes.
+/// Returns true if two codes have different rolls in the lines that begin at a position.
 bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     std::array<std::uint8_t, BitBlock::kSide> own;
     std::array<std::uint8_t, BitBlock::kSide> theirs;

@@ -170,8 +170,8 @@ class Finder {
     float sum() const {
         float sum = 0;
         groups_.visit_pairs([&](int one, int other) {
-            // For each pair of sequences, the places of one sequence are sorted into buckets. The
-            // shortest sequence, a3, is never the one.
+            // For each pair of sequences, the places of one of them are sorted into buckets. The
+            // places of the shortest sequence, a3, never are.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });

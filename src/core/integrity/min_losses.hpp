@@ -16,8 +16,8 @@ MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last);
 int min_loss_with_border(const LikelihoodRatios& ratios);
 
 /// Returns true if every such alternative loses `loss_limit` in a single line. This is the case if
-/// each of more adjacent lines than can be shared on both sides of a border has at least this loss.
-/// Returns false if in doubt.
+/// a run of adjacent lines, each with at least this loss, is longer than the lines that can be
+/// shared on both sides of a border. Returns false if in doubt.
 bool must_lose_with_border(const LikelihoodRatios& ratios, int loss_limit);
 
 }  // namespace dotpose::core

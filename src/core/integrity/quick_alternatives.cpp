@@ -66,7 +66,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
     // All sums are divided by the probability that all lines so far are shared. The sum of the
     // alternatives that share exactly the newest n lines then stays constant.
     std::array<int, kMaxShared + kMaxLines> sharing;
-    // Each element of `sharing` plus the element before it, which halves the number of terms.
+    // Sums of each element of `sharing` and the element before it. Adding pairs halves the number
+    // of terms.
     std::array<int, kMaxShared + kMaxLines> pairs;
     std::fill_n(sharing.begin(), kMaxShared, kNever_q8);
     std::fill_n(pairs.begin(), kMaxShared, kNever_q8);
@@ -174,8 +175,8 @@ class ByShift {
     std::size_t count_ = 0;               ///< number of lines with a loss
     std::array<Loss, kMaxLines> losses_;  ///< in decreasing order
     std::uint32_t in_all_ = 0;            ///< sum of all losses
-    /// Number and sum of the first losses whose sum stays below the limit even if the largest loss,
-    /// which may be kept, is left out.
+    /// Number and sum of the first losses. Their sum stays below the limit even without the largest
+    /// loss, which may be kept.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
     /// Sum of the losses that are kept at each shift, plus `none_`. Smaller values are left over
@@ -219,7 +220,7 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // If less than this sum is kept, the lines so far lose enough.
+    // If at most this sum is kept, the lines visited so far lose the limit.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);

@@ -24,7 +24,7 @@ struct Steps {
     int count;
     int first_line;
     std::array<std::uint8_t, kMaxSteps> losses;
-    bool can_exclude = false;  ///< true if it is possible that a place loses the limit
+    bool can_exclude = false;  ///< true if any place can lose the limit
 };
 
 /// The places, at the first step, that may lose less than the limit.

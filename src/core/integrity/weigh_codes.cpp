@@ -146,8 +146,8 @@ class OtherPlaces {
         return offsets;
     }
 
-    /// Returns an upper bound of the odds of all places at shifts that share no line. Each of them
-    /// counts like the best of them.
+    /// Returns an upper bound of the odds of all places at shifts that share no line. Each of these
+    /// places is counted with the best odds that any of them can have.
     float sharing_none() const {
         return static_cast<float>(theirs_.length * (kSections - 1)) * ratios_.odds(losses_.at_best);
     }

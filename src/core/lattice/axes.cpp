@@ -115,7 +115,7 @@ class Clusters {
         const FixedVec e{edge_q8.x >> 2, edge_q8.y >> 2};
         const std::int32_t along_0 = e.x * means_q6_[0].x + e.y * means_q6_[0].y;
         const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
-        // Compares |edge -+ mean|^2 / 2 without |edge|^2, which all of them contain.
+        // Compares |edge -+ mean|^2 / 2 without |edge|^2, which is common to all four distances.
         if (magnitude(along_1) - magnitude(along_0) > farther_)
             return along_1 < 0 ? Side::opposite_second : Side::second;
         return along_0 < 0 ? Side::opposite_first : Side::first;

@@ -99,16 +99,17 @@ float inner(const std::array<float, 3>& a, const std::array<float, 3>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Solves the least squares of i (1 + g x + h y) = a x + b y + c, and of the same equation for j
-/// with d, e, f. Eliminates a, b, c and d, e, f, which leaves two equations for g and h. Without
-/// perspective, g = h = 0. Returns false if the dots do not determine the plane.
+/// Solves the least-squares problem of i (1 + g x + h y) = a x + b y + c, and of the same equation
+/// for j with d, e, f. Eliminates a, b, c and d, e, f, which leaves two equations for g and h.
+/// Without perspective, g = h = 0. Returns false if the dots do not determine the plane.
 bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane) {
     const Inverse inverse(sums.one);
     if (!inverse.is_regular) return false;
     const auto right_of = [](const std::array<float, 6>& s) {
         return std::array{s[1], s[2], s[0]};
     };
-    // Sums of (x, y, 1) times x, and of (x, y, 1) times y. Each term is multiplied by the cell.
+    // Sums of (x, y, 1) times x, and of (x, y, 1) times y. Each term is multiplied by the column or
+    // row of the cell.
     const auto with_x = [](const std::array<float, 6>& s) { return std::array{s[3], s[4], s[1]}; };
     const auto with_y = [](const std::array<float, 6>& s) { return std::array{s[4], s[5], s[2]}; };
     std::array<float, 3> i = inverse(right_of(sums.i));

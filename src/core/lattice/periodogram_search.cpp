@@ -122,7 +122,7 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     Lattice lattice;
     lattice.u_q16 = {entry(b.y), entry(-b.x)};
     lattice.v_q16 = {entry(-a.y), entry(a.x)};
-    // The phases of both waves at a dot are whole turns, apart from the phase of the sum over all
+    // At the dots, the phases of both waves are whole turns plus the phases of their sums over all
     // dots.
     const std::int64_t i_q16 = angle_bam(periodogram.sum(first)) >> 16;
     const std::int64_t j_q16 = angle_bam(periodogram.sum(second)) >> 16;

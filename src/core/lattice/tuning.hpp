@@ -39,8 +39,8 @@ inline constexpr int kPlaceRounds = 2;
 /// First grid of the second attempt, from the periodogram (lattice/periodogram_search).
 namespace periodogram_search {
 /// Half the side, in spacings, of the square of dots that are summed: in the first search, and in
-/// later searches. Fewer cells give a broader peak, which the raster hits. More cells give a more
-/// exact maximum. With kNear_cells = 3: 1,964; with 10: 1,993.
+/// later searches. Fewer cells give a broader peak, which the coarse raster cannot miss. More cells
+/// give a more exact maximum. With kNear_cells = 3: 1,964; with 10: 1,993.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
 /// Search raster around the first estimate: degrees per step, spacing step as a part (1/n) of the

@@ -83,7 +83,7 @@ std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, i
 }
 
 std::int64_t log2_q16(std::uint32_t n) {
-    // Computes the logarithm bit by bit: squaring doubles it.
+    // Computes the logarithm bit by bit. Squaring a number doubles its logarithm.
     int whole = 0;
     while (n >> whole > 1)
         ++whole;

@@ -49,8 +49,8 @@ struct Window {
                                           tuned::kMinSigma_q8)) {}
 
     /// Returns the part of the window around a pixel in which every pixel has all its neighbours in
-    /// the image, or nullopt if the pixel itself has not. Windows at the border are cropped and not
-    /// rejected, because dots at the border determine angle and tilt best.
+    /// the image, or nullopt if the pixel itself lacks a neighbour. Windows at the border are
+    /// cropped and not rejected, because dots at the border determine angle and tilt best.
     std::optional<Box> box_around(const ImageView& image, int u, int v) const {
         const int last_u = image.width_px - 2;
         const int last_v = image.height_px - 2;
@@ -96,9 +96,9 @@ struct BorderBackground {
     float slope_v = 0;
 };
 
-/// Fits the paper level to the sides of the window that are in the image. At least two sides are,
-/// because no image is smaller than a window. If one of two opposite sides is missing, the slope in
-/// that direction is 0.
+/// Fits the paper level to the sides of the window that are in the image. At least two sides are in
+/// the image, because no image is smaller than a window. If one of two opposite sides is missing,
+/// the slope in that direction is 0.
 BorderBackground border_background(const Patch& patch, FixedVec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};
