@@ -62,7 +62,7 @@ struct PosePacket {
 PosePacket make_packet(const Fix& fix, CodeVariant code, std::uint16_t sequence,
                        std::uint32_t time_us);
 
-/// The bytes of a packet with its end mark, its only zero byte.
+/// The bytes of a packet, including the end mark, which is the only zero byte.
 using PacketBytes = std::array<std::uint8_t, 32>;
 
 /// Returns the bytes of a packet for sending.

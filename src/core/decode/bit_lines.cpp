@@ -57,7 +57,8 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
 }
 
 /// Returns the score of a line read backwards minus its score read forwards. A line of six bits is
-/// always exact in one direction by chance; each additional bit halves this probability.
+/// almost always exact in the wrong direction too, by chance. Each additional bit halves this
+/// probability.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);

@@ -192,7 +192,8 @@ int CellSampler::light_q8(const CellView& view) const {
     return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
-/// Returns the medians, over a sample of the cells, of the darkest place of each cell.
+/// Returns the median darkness and the median shade, over a sample of the cells, of the darkest
+/// place of each cell.
 PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
     std::array<std::int32_t, tuned::kMedianSample> darkness;
     std::array<std::int32_t, tuned::kMedianSample> shade;

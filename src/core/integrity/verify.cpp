@@ -191,7 +191,7 @@ TrackedAxis tracked_axis(CodeVariant code, std::span<const ComparedLine> columns
     }
     result.confidence.add(127, false, seen - wrong);
     result.confidence.add(127, true, wrong);
-    // The reading is that of the first line in view, at the first cell of the tracked corner.
+    // The reading is that of the first line in view, at the first cell of that line.
     const auto ahead = static_cast<std::int32_t>(begin);
     result.reading = axis == Axis::x ? reading_of(code, moved(code, corner, ahead, 0), axis)
                                      : reading_of(code, moved(code, corner, 0, ahead), axis);
