@@ -59,10 +59,11 @@ enum class Symbol : std::uint8_t { up = 0, left = 1, right = 2, down = 3 };
 constexpr Symbol make_symbol(int x_bit, int y_bit) {
     return static_cast<Symbol>(x_bit | (y_bit << 1));
 }
-/// Return the x bit (of the column) and the y bit (of the row): 0 or 1.
+/// Returns the x bit, which is the bit of the column: 0 or 1.
 constexpr int x_bit(Symbol symbol) {
     return static_cast<int>(symbol) & 1;
 }
+/// Returns the y bit, which is the bit of the row: 0 or 1.
 constexpr int y_bit(Symbol symbol) {
     return static_cast<int>(symbol) >> 1 & 1;
 }
@@ -79,12 +80,13 @@ constexpr char letter(Symbol symbol) {
     return "ulrd"[static_cast<int>(symbol) & 3];
 }
 
-/// Returns the difference of the rolls of columns p + 1 and p, in [5, 58]; p in [0,
+/// Returns the roll of column p + 1 minus the roll of column p, in [5, 58]. p must be in [0,
 /// kPositionsPerAxis).
 int delta(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns the offset of the main sequence in column (or row) p of section 0, in [0, 63), in O(1).
-/// `p` may exceed kPositionsPerAxis, where the pattern continues with other rolls than at 0.
+/// `p` may exceed kPositionsPerAxis. The pattern continues there with rolls that differ from those
+/// at 0.
 int roll(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns one bit of the cyclic main sequence, for any index >= 0.

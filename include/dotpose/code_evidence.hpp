@@ -1,7 +1,7 @@
-/// Code evidence: the probability of each code variant of a sheet, given its frames. Code variants
-/// agree on most of the plane. A frame can therefore often be read in several code variants,
-/// usually at the same place, sometimes at distant places. If one frame is ambiguous, other frames
-/// of the sheet decide:
+/// Code evidence: the probability that a sheet is printed with each code variant, given frames of
+/// the sheet. The code variants agree on most of the plane. A frame can therefore often be read in
+/// several code variants, usually at the same place, sometimes at distant places. If one frame is
+/// ambiguous, further frames of the sheet decide:
 ///
 ///     CodeEvidence evidence;
 ///     for (;;) {
@@ -24,19 +24,20 @@
 
 namespace dotpose {
 
-/// The likelihood of each code variant for one sheet, given all frames so far. Frames of the same
-/// dots count as one, with their mean, because they share the defects of these dots.
+/// The likelihood of each code variant for one sheet, given all frames so far. All frames of one
+/// place count as a single frame with their mean likelihood, because they share the defects of the
+/// same dots.
 class CodeEvidence {
   public:
-    /// log2 of the likelihood or odds of each code variant, in 2^-8.
+    /// log2 of the likelihood or the odds of each code variant, in units of 2^-8.
     using LogOdds = std::array<std::int32_t, kCodeVariantCount>;
 
-    /// Maximum change of a code variant's odds against the likeliest code variant, as log2, by one
-    /// frame or by all frames together. With the limit, frames of another sheet can still show that
-    /// the sheet has changed.
+    /// Maximum change, as log2, of the odds of a code variant relative to the likeliest one, by one
+    /// frame or by all frames together. The limit lets later frames show that the sheet was
+    /// changed.
     static constexpr std::int32_t kMost_log2 = 40;
-    /// Maximum change of these odds by the frames of one place, as log2, because defects of the
-    /// same dots are not independent.
+    /// Maximum change, as log2, of these odds by all frames of one place. The defects of the same
+    /// dots are not independent.
     static constexpr std::int32_t kMostOfPlace_log2 = 32;
 
     /// Starts with all code variants equally likely.
@@ -44,57 +45,58 @@ class CodeEvidence {
 
     /// Returns the code variant with the highest odds.
     CodeVariant likeliest() const;
-    /// Returns the log odds of a code variant against the likeliest, in 2^-8 of log2; at most 0.
+    /// Returns log2 of the odds of a code variant relative to the likeliest one, in units of 2^-8;
+    /// at most 0.
     std::int32_t log2_q8(CodeVariant code) const;
-    /// Returns the probability, at most 1, that the sheet does not have this code variant.
+    /// Returns the probability that the sheet does not have this code variant, in [0, 1].
     float p_wrong(CodeVariant code) const;
 
-    /// Adds a frame located at `cell`, with log2 of the likelihood of its bits in each code
-    /// variant, in 2^-8.
+    /// Adds the evidence of a frame located at `cell`: log2 of the likelihood of its bits in each
+    /// code variant, in units of 2^-8.
     void add(Cell cell, const LogOdds& log2_q8);
 
   private:
     LogOdds sum() const;
 
-    LogOdds before_log2_q8_{};  ///< sum over the places before the newest
-    /// Sum over the frames of the newest place of the factors by which they make each code variant
-    /// less likely.
+    LogOdds before_log2_q8_{};  ///< sum over all places except the newest
+    /// Sum, over the frames of the newest place, of the factors by which each frame makes a code
+    /// variant less likely.
     std::array<float, kCodeVariantCount> factors_here_{};
     Cell here_;
     std::uint32_t frames_here_ = 0;
 };
 
-/// The result of locating one frame without a given code variant.
+/// The result of locating one frame whose code variant is not given.
 struct CodeReading {
-    /// With the status ambiguous_code, pose and counts are those of one of the two places.
+    /// If the status is ambiguous_code, pose and counts are those of one of the two places.
     Fix fix;
     CodeVariant code = CodeVariant::anoto;  ///< code variant of `fix`
     CodeEvidence evidence;                  ///< evidence with this frame added
-    /// Whether a place in another code variant explains the frame as well. If the fix is ok, the
-    /// odds of that place against the fix are part of `p_wrong_log2`.
+    /// True if a place in another code variant explains the frame as well. If the fix is ok,
+    /// `p_wrong_log2` includes the odds of that place relative to the fix.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
-    Cell other_cell{};  ///< as Fix::cell; fractions and angle are those of `fix`
+    Cell other_cell{};  ///< as Fix::cell; fractions and angle are equal to those of `fix`
     Section other_section{};
 };
 
 class Locator;
 
-/// Locates the frames of one sheet, in a given code variant or in the detected one.
+/// Locates the frames of one sheet, in a given code variant or in the detected code variant.
 class CodeReader {
   public:
-    /// Uses the given code variant, or without one the likeliest code variant by all frames.
+    /// Uses the given code variant or, without one, the likeliest code variant given all frames.
     explicit CodeReader(std::optional<CodeVariant> given = std::nullopt) : given_(given) {}
 
-    /// Locates an image, and sets the code variant in the locator's options to the code variant of
-    /// the fix. Errors are in the status, as in Locator::locate.
+    /// Locates an image, and sets the code variant in the options of `locator` to that of the fix.
+    /// The status of the fix reports errors, as in Locator::locate.
     Fix locate(const ImageView& image, Locator& locator);
 
-    /// Whether the code variant was given.
+    /// Returns true if the code variant was given.
     bool is_given() const { return given_.has_value(); }
-    /// Returns the given code variant, otherwise the likeliest code variant so far.
+    /// Returns the given code variant or, without one, the likeliest code variant so far.
     CodeVariant code() const { return given_.value_or(evidence_.likeliest()); }
-    /// Returns the evidence of the frames so far; it is used only without a given code variant.
+    /// Returns the evidence of the frames so far. It is used only if no code variant was given.
     const CodeEvidence& evidence() const { return evidence_; }
 
   private:

@@ -1,4 +1,4 @@
-/// All of the core: everything that finds a pose in an image.
+/// Includes all headers of the core, which is everything that is needed to find a pose in an image.
 #pragma once
 
 #include "dotpose/code.hpp"

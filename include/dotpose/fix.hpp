@@ -1,4 +1,4 @@
-/// Fix: the pose that one frame shows, with its evidence.
+/// Fix: the pose that was computed from one frame, with its evidence.
 #pragma once
 
 #include <cmath>
@@ -24,13 +24,13 @@ enum class Attempt : std::uint8_t {
 /// Returns the identifier, such as "tracked".
 const char* name(Attempt attempt) noexcept;
 
-/// Whether the paper in view is one plane, as far as the dots show it.
+/// Flatness of the paper in view, as determined from the dots.
 enum class Surface : std::uint8_t {
     even,     ///< one plane explains all dots
-    divided,  ///< a part of the paper is displaced; the pose is that of the part with the reference
-              ///< point
-    uneven,   ///< neighbouring dots are displaced alike, as on wrinkled paper; the covariance is
-              ///< widened
+    divided,  ///< a part of the paper is displaced; the pose is that of the part that contains the
+              ///< reference point
+    uneven,   ///< neighbouring dots have similar residuals, as on wrinkled paper; the covariance is
+              ///< larger
 };
 /// Returns the identifier, such as "divided".
 const char* name(Surface surface) noexcept;
@@ -54,16 +54,18 @@ struct Fix {
     std::int32_t spacing_px_q16 = 0;    ///< grid spacing in the image, in 2^-16 px
     std::int32_t spacing_nm = 508'000;  ///< spacing of the printed grid, from Options; 0 if unknown
 
-    int dots_seen = 0;  ///< blobs that have the size of a dot
-    int dots_used = 0;  ///< dots that the pose was fitted to
+    int dots_seen = 0;  ///< blobs of the size of a dot
+    int dots_used = 0;  ///< dots to which the pose was fitted
     /// Number of bits that contradict the position. Each cell read has two bits.
     int bit_errors = 0;
-    int p_wrong_log2 = 0;  ///< the position is wrong with probability at most 2^p_wrong_log2
+    /// log2 of the upper bound of the probability that the position is wrong.
+    int p_wrong_log2 = 0;
     /// Root mean square distance of the dots from their fitted places, per axis.
     float residual_px = 0;
 
-    /// The map from the image to the pattern, counted in spacings from `place`. The pose is its
-    /// value and direction at the reference point; the next frame's Prediction is made from it.
+    /// The map from the image to the pattern, in spacings relative to `place`. The pose is the
+    /// value and the direction of this map at the reference point. The Prediction for the next
+    /// frame is made from this map.
     PlaneFromImage pattern_from_image;
     Place place;
     std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
@@ -71,22 +73,21 @@ struct Fix {
 
     /// Covariance of (x, y, theta), in squares and products of (spacing, spacing, radian).
     float covariance[3][3] = {};
-    /// Returns true if the covariance is known. A DeviceLocator provides neither covariance nor
+    /// Returns true if the covariance is known. A DeviceLocator computes neither covariance nor
     /// residual.
     bool has_covariance() const { return covariance[0][0] > 0; }
 
-    /// Returns true if there is a pose.
+    /// Returns true if the frame was located.
     explicit operator bool() const { return status == Status::ok; }
 
     // Double precision is used only in these functions, which are not part of the core's object
     // code.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }
     double y_grid() const { return cell.y + fraction_y_q16 / 65536.0; }
-    /// Position in the pattern frame in mm; not a number if the spacing of the printed grid is not
-    /// known.
+    /// Position in the pattern frame, in mm; NaN if the spacing of the printed grid is not known.
     double x_mm() const { return x_grid() * spacing_mm(); }
     double y_mm() const { return y_grid() * spacing_mm(); }
-    /// Spacing of the printed grid in mm; not a number if it is not known.
+    /// Spacing of the printed grid, in mm; NaN if it is not known.
     double spacing_mm() const {
         return spacing_nm > 0 ? spacing_nm / 1e6 : std::numeric_limits<double>::quiet_NaN();
     }

@@ -35,12 +35,12 @@ struct PacerOptions {
     std::int32_t moved_q16 = 6554;
     /// Minimum turn that counts as movement; 2^31 is half a turn. Default: one degree.
     std::int32_t turned_bam = 11'930'465;
-    /// Whether a stationary device counts as moved, for example lifted, if it no longer sees the
-    /// pattern. Default: true. Set it to false if frames also fail at rest.
+    /// True if a stationary device that no longer sees the pattern counts as moved, for example
+    /// because it was lifted. Default: true. Set it to false if frames also fail at rest.
     bool lost_is_moved = true;
 };
 
-/// The state of the device, given the frames so far.
+/// State of motion of the device, as determined from the frames so far.
 enum class Motion : std::uint8_t { moving, stationary };
 
 /// Determines the times of frames.

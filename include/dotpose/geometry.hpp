@@ -25,12 +25,12 @@ struct FixedVec {
 ///
 /// which is exact for a tilted camera, for the lens of eq. 2, and for both together.
 struct PlaneFromImage {
-    FixedVec centre_q8;         ///< image point of (x, y) = (0, 0), px
-    FixedVec at_centre_q16;     ///< plane point at `centre`, spacings
-    FixedVec du_q24;            ///< spacings per px to the right
-    FixedVec dv_q24;            ///< spacings per px down
-    FixedVec perspective_q30;   ///< per px
-    std::int32_t lens_q40 = 0;  ///< per px^2
+    FixedVec centre_q8;         ///< image point of (x, y) = (0, 0), in 2^-8 px
+    FixedVec at_centre_q16;     ///< plane point at `centre`, in 2^-16 spacings
+    FixedVec du_q24;            ///< spacings per px to the right, times 2^24
+    FixedVec dv_q24;            ///< spacings per px down, times 2^24
+    FixedVec perspective_q30;   ///< per px, times 2^30
+    std::int32_t lens_q40 = 0;  ///< per px^2, times 2^40
 };
 
 }  // namespace dotpose

@@ -14,7 +14,8 @@ namespace dotpose {
 inline constexpr int kMinFrameSide_px = 64;
 inline constexpr int kMaxFrameSide_px = 4096;
 
-/// Row `v` starts at `pixels + v * stride_bytes`; dark dots on light paper, 0 is black.
+/// A grey image with dark dots on light paper; 0 is black. Row `v` starts at `pixels + v *
+/// stride_bytes`.
 struct ImageView {
     const std::uint8_t* pixels = nullptr;
     int width_px = 0;

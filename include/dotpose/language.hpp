@@ -1,5 +1,5 @@
-/// Checks that the compiler is set to the language that all headers need, before anything fails
-/// without it.
+/// Checks that the compiler uses the C++ version that all headers need. A clear error then precedes
+/// all errors that an older version would cause.
 #pragma once
 
 #if __cplusplus < 202002L

@@ -1,6 +1,6 @@
 /// LocatorOptions: options of a Locator in millimetres, pixels and ratios. The defaults suit any
-/// camera. Ranges are in [brackets]; a value outside gives every frame Status::bad_argument, and
-/// `bad_option` names it.
+/// camera. Ranges are in [brackets]. If a value is outside its range, every frame gets
+/// Status::bad_argument, and `bad_option` names the option.
 #pragma once
 
 #include <cmath>
@@ -14,52 +14,55 @@
 
 namespace dotpose {
 
-/// Options of a Locator. Each acts on every attempt, and on rows that are pushed.
+/// Options of a Locator. All options affect every attempt, also on images that are pushed row by
+/// row.
 struct LocatorOptions {
-    /// Table of the code that the sheet is printed with. Default: detected, from all frames so far.
-    /// A frame that two tables explain about equally well gets the status ambiguous_code.
+    /// Code variant of the sheet. Default: detected from all frames so far. A frame that two code
+    /// variants explain about equally well gets the status ambiguous_code.
     std::optional<CodeVariant> code;
-    /// Spacing of the printed grid, by which a fix is converted to millimetres. Default: that of
+    /// Spacing of the printed grid, which converts a fix to millimetres. Default: 0.508 mm, as in
     /// the paper. 0: not known. [0 to 1000 mm]
     double spacing_mm = 0.508;
 
     /// Radial distortion k in p_u = m + r_d / (1 + k |r_d|^2) (paper eq. 1-2), per px^2. Negative
     /// for barrel distortion. [above -2^-9, below 2^-9]
     double lens_k_per_px2 = 0;
-    /// Distortion centre m, from the image centre. [-1024 to 1024 px]
+    /// Distortion centre m, relative to the image centre. [-1024 to 1024 px]
     double lens_centre_dx_px = 0;
     double lens_centre_dy_px = 0;
-    /// Point whose pose is wanted, from the image centre. [-16384 to 16384 px]
+    /// Reference point, whose pose is reported, relative to the image centre. [-16384 to 16384 px]
     double reference_dx_px = 0;
     double reference_dy_px = 0;
 
-    /// Upper bound of the probability of being wrong. A position that exceeds it is refused as
-    /// not_certain. Rounded down to a power of two. [1e-300 to 1]
+    /// Maximum probability, as an upper bound, that a fix is wrong. A position that exceeds it is
+    /// refused as not_certain. Rounded down to a power of two. [1e-300 to 1]
     double max_p_wrong = 1e-9;
-    /// Largest ratio of the bits read on either axis that may contradict the position. More
-    /// contradictions mean that the frame shows two patterns. [0 to 1]
+    /// Maximum fraction of the bits read on either axis that may contradict the position. A larger
+    /// fraction indicates that the frame contains two patterns. [0 to 1]
     double max_bit_errors = 0.18;
-    /// Contrast between paper and dots, in grey levels, below which a frame gets the status
-    /// no_contrast. Default 0: dots as pale as can be read. Raise it for noisy cameras. [0 to 255]
+    /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast gets the
+    /// status no_contrast. Default 0: any contrast that can be read. Raise it for noisy cameras. [0
+    /// to 255]
     int min_contrast = 0;
-    /// Minimum number of dots from which a grid is searched. 6 x 6 is the least that can carry a
-    /// position. [0 to 2^20]
+    /// Minimum number of dots that is needed to search a grid. A position needs at least 6 x 6
+    /// dots. [0 to 2^20]
     int min_dots = 40;
 
     Effort effort = Effort::twice;
     Decoder decoder = Decoder::all;
-    /// Whether every attempt leaves dots, grid and bits in the trace, for drawing and calibration.
-    /// A frame takes longer with it.
+    /// True if every attempt stores dots, grid and bits in the trace, for drawing and calibration.
+    /// A frame then takes longer.
     bool show_stages = false;
 
-    /// Returns the same options in fixed point; if one is outside of its range, so is one of these.
+    /// Returns the same options in fixed point. If any option is outside its range, one of the
+    /// returned options is outside its range too.
     operator Options() const;
 };
 
 /// Returns the name of the first option outside of its range; null if all are in range.
 inline const char* bad_option(const LocatorOptions& options) {
     const auto is_in = [](double value, double low, double high) {
-        return value >= low && value <= high;  // not if it is not a number
+        return value >= low && value <= high;  // false if `value` is NaN
     };
     constexpr double kMaxLens_per_px2 = 0x1p-9 - 0x1p-40;
     constexpr double kMaxLensCentre_px = 1024;

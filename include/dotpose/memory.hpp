@@ -1,4 +1,4 @@
-/// Memory of a Locator: it has a fixed size, belongs to the caller and serves any number of frames,
+/// Memory of a Locator. It has a fixed size, belongs to the caller and serves any number of frames,
 /// one at a time. It may be static, on the heap or, if it fits, on the stack. Its content is
 /// private to the core.
 #pragma once
@@ -27,7 +27,7 @@ class AnyDeviceMemory {
     AnyDeviceMemory() = default;
     ~AnyDeviceMemory() = default;
 
-    /// Returns the size of a workspace; 0 if frames of this size are not supported.
+    /// Returns the size of a workspace in bytes; 0 if frames of this size are not supported.
     static constexpr std::size_t bytes_for(int width_px, int height_px) {
         const bool has_32_bits = sizeof(void*) == 4;
         if (width_px == 160 && height_px == 120) return has_32_bits ? 10'640 : 11'808;
@@ -42,9 +42,9 @@ class AnyDeviceMemory {
     friend class DeviceLocator;
 };
 
-/// Memory of a DeviceLocator on a small microcontroller, with a sensor of Width x Height px; the
-/// sizes are those at the end of this header. Frames may be smaller; frames with a width of up to
-/// 188 px may also be higher.
+/// Memory of a DeviceLocator on a small microcontroller, with a sensor of Width x Height px. The
+/// end of this header lists the supported sizes. Frames may be smaller. Frames with a width of up
+/// to 188 px may also be higher.
 template <int Width, int Height>
 class DeviceMemoryFor : public AnyDeviceMemory {
   public:
@@ -56,8 +56,8 @@ class DeviceMemoryFor : public AnyDeviceMemory {
     alignas(8) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory of a Locator for images up to 188 px wide, like those of the paper's sensor: about 290
-/// KB.
+/// Memory of a Locator for images up to 188 px wide, such as images of the paper's sensor: about
+/// 290 KB.
 class SmallMemory {
   public:
     SmallMemory();

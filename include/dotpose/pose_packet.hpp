@@ -41,7 +41,8 @@ struct PosePacket {
     std::uint16_t fraction_y_q16 = 0;
     std::int16_t theta_bam16 = 0;  ///< 2^15 is half a turn: steps of 0.0055 degrees
     Section section;
-    /// The position is wrong with probability at most 2^-certainty; 255 means 255 or more.
+    /// -log2 of the upper bound of the probability that the position is wrong; 255 means 255 or
+    /// more.
     std::uint8_t certainty = 0;
     /// The larger standard deviation of x and y in 2^-12 spacing, rounded up; 255 means 255 or
     /// more.
@@ -57,11 +58,11 @@ struct PosePacket {
     friend constexpr bool operator==(const PosePacket&, const PosePacket&) = default;
 };
 
-/// Returns the packet of a fix. `sequence` counts frames; `time_us` is the time of the frame.
+/// Returns the packet of a fix. `sequence` is the number of the frame, `time_us` its time.
 PosePacket make_packet(const Fix& fix, CodeVariant code, std::uint16_t sequence,
                        std::uint32_t time_us);
 
-/// The bytes of a packet with its end mark, its only zero byte.
+/// The bytes of a packet, including the end mark, which is the only zero byte.
 using PacketBytes = std::array<std::uint8_t, 32>;
 
 /// Returns the bytes of a packet for sending.
@@ -70,7 +71,7 @@ PacketBytes encode(const PosePacket& packet);
 /// Finds packets in any stream of bytes.
 class PacketReader {
   public:
-    /// Takes the next byte and returns whether it completed a packet.
+    /// Takes the next byte. Returns true if the byte completes a packet.
     bool push(std::uint8_t byte);
 
     /// Returns the newest packet; not valid before the first packet.

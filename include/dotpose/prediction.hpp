@@ -27,10 +27,12 @@ struct Prediction {
     std::int32_t displacement_q16 = 65536 / 6;
     /// Standard deviations of the predicted pose. The search covers three standard deviations, but
     /// at most 0.6 spacing and 4 degrees.
-    std::int32_t sigma_q16 = 65536 / 5;      ///< of x and y, in 2^-16 spacing
-    std::int32_t sigma_theta_bam = 1 << 24;  ///< 1.4 degrees; 2^31 is half a turn
+    std::int32_t sigma_q16 = 65536 / 5;  ///< standard deviation of x and y, in 2^-16 spacing
+    /// Standard deviation of the angle, 1.4 degrees; 2^31 is half a turn.
+    std::int32_t sigma_theta_bam = 1 << 24;
 
-    /// Returns the prediction that the next frame equals the frame of `fix`, which must be ok.
+    /// Returns the prediction that the camera does not move after the frame of `fix`, which must be
+    /// ok.
     static Prediction like(const Fix& fix);
 };
 

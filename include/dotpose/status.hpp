@@ -1,4 +1,5 @@
-/// Status: why a call gave a result or why it did not. A frame without a fix is a normal result.
+/// Status: the result of a call, or the reason for its failure. A frame without a fix is a normal
+/// result.
 #pragma once
 
 #include <cstdint>
@@ -9,31 +10,31 @@
 
 namespace dotpose {
 
-/// The result of a call. The comment of each value is its `message`. Values keep their numbers,
-/// which pose packets carry. scripts/generate-fields writes names and messages from here to C, the
-/// other languages and the documents.
+/// The result of a call. The comment of each value is its `message`. The number of a value never
+/// changes, because pose packets contain it. scripts/generate-fields copies names and messages to
+/// C, the other languages and the documents.
 enum class [[nodiscard]] Status : std::uint8_t{
     ok,  ///< located
     // Faults of the arguments.
     bad_argument,     ///< an option is out of its range, or the image view has no pixels
     image_too_small,  ///< the image is too small to show 8 x 8 dots
-    image_too_large,  ///< the image is larger than the memory is for
+    image_too_large,  ///< the image is larger than the memory supports
     // Found in src/core/detect.
-    no_contrast,   ///< the image has no dark marks on a lighter ground
+    no_contrast,   ///< the image has no dark marks on a lighter background
     too_few_dots,  ///< too few dots
     // Found in src/core/lattice.
-    no_grid,          ///< the dots do not lie on a regular grid
-    no_displacement,  ///< the dots lie on the grid intersections and carry no symbols
+    no_grid,          ///< the dots do not form a regular grid
+    no_displacement,  ///< the dots are on the grid intersections and carry no symbols
     // Found in src/core/decode.
     grid_too_small,  ///< fewer than 8 x 8 dots of one grid are in view
     // State before a frame is located.
-    not_run,  ///< no frame has been looked at
+    not_run,  ///< no frame has been located yet
     // Found in src/core/decode.
     mirrored,  ///< the pattern is mirrored
     // Found in src/code.
-    bad_window,   ///< a window has 6 to 32 columns and rows
-    not_in_code,  ///< the symbols stand nowhere in the position code
-    ambiguous,    ///< the symbols stand at several places of the position code
+    bad_window,   ///< a window must have 6 to 32 columns and rows
+    not_in_code,  ///< the position code does not contain the symbols
+    ambiguous,    ///< the position code contains the symbols at several places
     // Found in src/core/integrity.
     not_certain,  ///< a position was found, but it may be wrong with more than the allowed
                   ///< probability
@@ -48,8 +49,8 @@ enum class [[nodiscard]] Status : std::uint8_t{
 /// Number of values of Status, without `other`.
 inline constexpr int kStatusCount = static_cast<int>(Status::ambiguous_code) + 1;
 
-/// Returns the identifier of a status as written in output lines, for example "too_few_dots";
-/// "other" for every number that is not a Status of this version.
+/// Returns the identifier of a status as written in output lines, for example "too_few_dots".
+/// Returns "other" for every number that is not a Status of this version.
 const char* name(Status status) noexcept;
 
 /// Returns one plain sentence for the user, without a full stop, that holds for every frame of this

@@ -6,7 +6,7 @@
 ///     options.show_stages = true;  // otherwise the first and the tracked attempt store little
 ///     Locator locator(memory, options);
 ///     const Fix fix = locator.locate(image);
-///     for (const Dot& dot : locator.trace().dots) ...
+///     for (const DetectedDot& dot : locator.trace().dots) ...
 ///
 /// Fixed point: a suffix _qN marks a value in units of 2^-N.
 #pragma once
@@ -35,7 +35,7 @@ struct DetectedDot {
     std::uint16_t area_px = 0;
 };
 
-/// A connection between two seeds, each of which is among the four nearest seeds of the other.
+/// A connection between two seeds. Each of the seeds is among the four nearest seeds of the other.
 struct SeedEdge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;
@@ -52,8 +52,8 @@ struct Lattice {
 /// One cell of the matrices P of the paper's Fig. 8.
 struct GridCell {
     static constexpr std::uint16_t kNoDot = 65535;
-    /// Graphics cover some of the cell's four places; the low bits are a mask of the places, by
-    /// Symbol.
+    /// Marks a cell with some of its four places covered by graphics. The low bits are a mask of
+    /// the hidden places, indexed by Symbol.
     static constexpr std::uint16_t kHidden = 65504;
     bool has_dot() const { return dot < kHidden; }
     bool is_hidden() const { return dot >= kHidden && dot != kNoDot; }
@@ -101,7 +101,7 @@ struct Decoding {
     std::int32_t agreement = 0;
     QuarterTurn pattern_from_grid;
     Place place;  ///< place of grid cell (0, 0) in the code, which may be out of view
-    /// Whether the scores of the region's lines for this turn are stored.
+    /// True if the scores of the lines of the region are stored for this turn.
     bool lines_are_scored = false;
     int bits = 0;  ///< number of bits compared with the code at `place`, two per dot
     /// log2 of the probability that the position is wrong along x and along y, times 256.
@@ -117,7 +117,7 @@ struct GridView {
     const GridCell& at(int i, int j) const {
         return cells[static_cast<std::size_t>((j - region.j0) * region.columns + (i - region.i0))];
     }
-    /// Whether the region contains the cell in column i and row j of the grid.
+    /// Returns true if the region contains the cell in column i and row j of the grid.
     bool contains(int i, int j) const {
         return i >= region.i0 && j >= region.j0 && i < region.i0 + region.columns &&
                j < region.j0 + region.rows;
@@ -130,12 +130,13 @@ struct Trace {
     Options options;  ///< options of the Locator, with the code variant of the fix
     std::span<const DetectedDot> dots;
     std::span<const std::uint16_t> seeds;  ///< indices of the dots from which the lattice was found
-    std::span<const SeedEdge> edges;       ///< between seeds
+    std::span<const SeedEdge> edges;       ///< edges between seeds
     Lattice lattice;
     PlaneFromImage grid_from_image;
     GridView grid;
     Decoding decoding;
-    PlaneFromImage pattern_from_image;  ///< in spacings from `decoding.place`
+    /// Map from the image to the pattern, in spacings relative to `decoding.place`.
+    PlaneFromImage pattern_from_image;
     Fix fix;
 };
 

@@ -50,7 +50,7 @@ struct Sighting {
     /// TrackOptions::max_p_wrong_log2 the sighting is *weak*.
     int p_wrong_log2 = 0;
     std::int32_t spacing_nm = 508'000;  ///< spacing of the pattern in view
-    /// Whether the y axis of the plane points up on the paper; angles are then opposite to those in
+    /// True if the y axis of the plane points up on the paper. Angles are then opposite to those in
     /// the pattern.
     bool is_y_up = false;
 };
@@ -61,14 +61,14 @@ Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
 /// Limits of the robot's motion, and criteria for accepting sightings.
 struct TrackOptions {
-    /// Standard deviation of the robot's acceleration while it manoeuvres; at other times the
+    /// Standard deviation of the acceleration of the robot while it manoeuvres. At other times the
     /// filter estimates a lower value. Larger values follow sudden changes faster. Default: a
     /// table-top robot.
     float acceleration_mm_s2 = 600;
     float angular_acceleration_rad_s2 = 6;
 
-    /// Maximum physically possible acceleration. A sighting farther from the prediction than this
-    /// explains must be confirmed before it is accepted.
+    /// Maximum physically possible acceleration. A sighting that it cannot explain must be
+    /// confirmed before it is accepted.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
     /// Maximum speed, which limits the distance that the robot can have moved without sightings.
@@ -76,8 +76,8 @@ struct TrackOptions {
     float max_turn_rad_s = 20;
     /// Number of standard deviations of the prediction by which a sighting may exceed these limits.
     float gate_sigmas = 5;
-    /// Number of consecutive consistent sightings that are needed to accept a jump. More are
-    /// slower; fewer let a single wrong fix through.
+    /// Number of consecutive consistent sightings that are needed to accept a jump. Larger numbers
+    /// accept a jump later; smaller numbers may accept a single wrong fix.
     int confirmations = 3;
 
     /// Time without an accepted sighting after which the robot is lost.
@@ -88,14 +88,14 @@ struct TrackOptions {
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
 
-    /// Standard deviations added to those of a sighting, for printing errors, which are the same in
-    /// every frame of a place.
+    /// Standard deviations that are added to those of a sighting. They account for printing errors,
+    /// which are the same in every frame of a place.
     float least_sigma_mm = 0.0002F;
     float least_sigma_rad = 0.00002F;
 
     /// Maximum probability, as log2, that an accepted sighting is wrong, given the prior.
     int max_p_wrong_log2 = -30;
-    /// Maximum `p_wrong_log2` of an accepted weak sighting, whatever the prior. At most -1.
+    /// Maximum `p_wrong_log2` of an accepted weak sighting, regardless of the prior. At most -1.
     int max_weak_p_wrong_log2 = -10;
     /// Spacing of the pattern, for counting the places within the gate.
     float spacing_mm = 0.508F;
@@ -124,7 +124,7 @@ struct TrackedPose {
 /// The tracker's verdict on the sighting of a frame.
 enum class Verdict : std::uint8_t {
     none,        ///< there was no sighting
-    accepted,    ///< certain enough alone, and physically possible
+    accepted,    ///< certain enough without the prior, and physically possible
     with_prior,  ///< accepted although weak: certain enough together with the prior
     gated,       ///< physically impossible, and not confirmed yet
     too_weak,    ///< weak, and the prior does not help
@@ -184,7 +184,7 @@ struct MotionEstimate {
 /// Follows one robot through its sightings.
 class Tracker {
   public:
-    /// Starts in the state lost.
+    /// Constructs a tracker that has not seen the robot: `is_lost` is true.
     explicit Tracker(const TrackOptions& options = {}) : options_(options) {}
 
     /// Updates the state with a frame: its time and its sighting (null without a fix). Ignores
@@ -202,12 +202,12 @@ class Tracker {
     Prediction predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
                        const Options& options) const;
 
-    /// Whether a weak sighting of the next frame could be accepted. If so, locating with a relaxed
-    /// IntegrityOptions::max_p_wrong_log2 is worthwhile.
+    /// Returns true if a weak sighting of the next frame could be accepted. If so, it is worthwhile
+    /// to locate with a larger IntegrityOptions::max_p_wrong_log2.
     bool has_prior() const { return !track_.is_lost; }
 
   private:
-    /// Returns the motion with the newest sighting `seen`; null if there is none.
+    /// Returns the motion estimate whose newest sighting is `seen`; null if there is none.
     const track::MotionEstimate* following(const Sighting& seen) const;
     Verdict judge(const track::MotionEstimate& prediction, const Sighting& sighting);
     bool is_confirmed(const Sighting& sighting);

@@ -13,12 +13,12 @@ consteval std::uint32_t inverse(std::uint32_t a, std::uint32_t m) {
 
 }  // namespace
 
-// Chinese remainder theorem in Garner's mixed-radix form. All intermediate values fit 32 bits.
+// Chinese remainder theorem in Garner's mixed-radix form. All intermediate values fit in 32 bits.
 std::uint32_t position_at(const Basis& basis, const std::array<std::uint32_t, 4>& places) {
     constexpr std::uint32_t kM1 = 236, kM2 = 233, kM3 = 31, kM4 = 241;
     static_assert(kM1 * kM2 * kM3 * kM4 == kPositionsPerAxis);
-    // Returns the next mixed-radix digit: the remainder minus the value of the digits so far,
-    // divided by the product of the lengths so far, modulo the next length.
+    // Returns the next mixed-radix digit: (remainder - value of the digits so far) / (product of
+    // the lengths so far), modulo the next length.
     const auto digit = [&](std::size_t n, std::uint32_t so_far, std::uint32_t inverse) {
         const Secondary& a = basis[n];
         return a.place_of((places[n] + a.length - a.place_of(so_far)) * inverse);

@@ -21,8 +21,8 @@ constexpr const Basis& basis(CodeVariant code) {
     return kBasis<kA4Restored>;
 }
 
-/// Returns the position with these places in the four sequences. The places are the remainders of
-/// the position modulo 236, 233, 31 and 241.
+/// Returns the position with the given places in the four sequences. The places are the remainders
+/// of the position modulo 236, 233, 31 and 241.
 std::uint32_t position_at(const Basis& basis, const std::array<std::uint32_t, 4>& places);
 
 }  // namespace dotpose::code

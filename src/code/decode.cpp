@@ -15,13 +15,15 @@ constexpr int kMinWindow = code::kMainOrder;
 using Rolls = std::array<std::uint8_t, kMaxWindow>;
 using Deltas = std::array<std::uint8_t, kMaxWindow - 1>;
 
-/// Places of one secondary sequence at which its digits equal those of all differences.
+/// Places of one secondary sequence at which its digits match the digits of all differences of a
+/// window.
 struct Places {
     std::uint32_t first = 0;
     int count = 0;
 };
 
-/// Returns true if the digits of the sequence from `place` on equal those of all differences.
+/// Returns true if the digits of the sequence, starting at `place`, match the digits of all
+/// differences.
 bool matches_at(const code::Secondary& a, std::size_t digit, std::span<const std::uint8_t> deltas,
                 std::uint32_t place) {
     for (const std::uint8_t d : deltas) {
@@ -51,8 +53,8 @@ Places find(const code::Secondary& a, std::size_t digit, std::span<const std::ui
     return places;
 }
 
-/// Returns the place in the main sequence of all bits of a column or row, or kAbsent if the main
-/// sequence does not contain them.
+/// Returns the place in the main sequence that matches all bits of a column or row, or kAbsent if
+/// the main sequence does not contain these bits.
 std::uint8_t place_in_main(const SymbolWindow& window, bool columns, int line) {
     const int length = columns ? window.rows : window.columns;
     const auto bit = [&](int i) -> unsigned {
@@ -74,7 +76,7 @@ std::uint8_t place_in_main(const SymbolWindow& window, bool columns, int line) {
 }
 
 /// Reads the rolls of all columns (or rows) of a window. Sets the first roll and the position of
-/// the first line. Errors: not_in_code, ambiguous.
+/// the first column (or row). Errors: not_in_code, ambiguous.
 Status read_axis(CodeVariant code, const SymbolWindow& window, bool columns,
                  std::uint8_t& first_roll, std::uint32_t& position) {
     Rolls rolls{};

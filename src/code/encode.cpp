@@ -13,10 +13,10 @@ int delta(CodeVariant code, std::uint32_t p) noexcept {
 }
 
 int roll(CodeVariant code, std::uint32_t p) noexcept {
-    // The sum of p differences is p times the constant 5 plus, for each sequence, the sum over its
-    // whole turns and over the digits of its last, incomplete turn. The number of whole turns is
-    // their number of lines divided by the length. Modulo 63, this division is a multiplication by
-    // the inverse.
+    // The sum of p differences is 5 p plus a part of each sequence. The part is the sum over the
+    // whole turns of the sequence and over the digits of its last, incomplete turn. The number of
+    // whole turns is the number of lines in them divided by the length of the sequence. Modulo 63,
+    // this division is a multiplication by the inverse.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
     std::uint32_t sum = code::kMinDelta * lines;
     for (const code::Secondary& a : code::basis(code)) {
@@ -53,7 +53,7 @@ struct AxisPlace {
     std::uint8_t cross;
 };
 
-// Not inlined: it is called twice, and the second half is rarely needed.
+// Not inlined, because it is called twice and its second half is rarely executed.
 [[gnu::noinline]] AxisPlace moved(CodeVariant code, AxisPlace place, std::int32_t distance) {
     const std::int64_t target = std::int64_t{place.position} + distance;
     const bool is_before = target < 0;
@@ -61,8 +61,8 @@ struct AxisPlace {
         place.position = static_cast<std::uint32_t>(target);
         return place;
     }
-    // A whole turn around x adds the rolls of one turn to the columns. The rows are read at an x
-    // that is larger by one turn.
+    // A whole turn along x adds the roll of one turn to the columns. The bits of the rows are then
+    // read at an x that is larger by one turn.
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);
         return static_cast<std::uint8_t>(sum % kSections);

@@ -1,5 +1,5 @@
-// Rolls of lines, singly and for runs of consecutive lines. A run is computed together, which is
-// faster than line by line.
+// Rolls of single lines and of runs of consecutive lines. Computing a run in one call is faster
+// than computing it line by line.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,18 @@
 
 namespace dotpose::code {
 
-/// Returns the roll, in [0, 63), of column (row) `position` of a section, if row (column) `cross`
-/// is the first of its bits.
+/// Returns the roll, in [0, 63), of column (row) `position` of a section, if the first bit of the
+/// column (row) is at row (column) `cross`.
 int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross);
 
-/// Returns the roll of a position in the code variant `other` minus its roll in `read`, in [0, 63).
-/// `place` is the place of the position in a4, the only sequence that differs between the variants.
+/// Returns the roll of a position in the code variant `other` minus its roll in the variant `read`,
+/// in [0, 63). `place` is the place of the position in a4, the only sequence that differs between
+/// the variants.
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place);
 
-/// Sets rolls[i] to the roll of line `position` + i, given the roll of line `position`. The lines
-/// may go beyond the end of the code, because the rolls are sums of differences.
+/// Sets rolls[i] to the roll of line `position` + i. `first_roll` is the roll of line `position`.
+/// The lines may extend beyond the end of the code, because the rolls are computed as sums of
+/// differences.
 void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls);
 

@@ -25,27 +25,27 @@ constexpr std::array<Text, kStatusCount + 1> kTexts{{
     {Status::image_too_small, "image_too_small",
      "the image is too small to show 8 x 8 dots"},
     {Status::image_too_large, "image_too_large",
-     "the image is larger than the memory is for"},
+     "the image is larger than the memory supports"},
     {Status::no_contrast, "no_contrast",
-     "the image has no dark marks on a lighter ground"},
+     "the image has no dark marks on a lighter background"},
     {Status::too_few_dots, "too_few_dots",
      "too few dots"},
     {Status::no_grid, "no_grid",
-     "the dots do not lie on a regular grid"},
+     "the dots do not form a regular grid"},
     {Status::no_displacement, "no_displacement",
-     "the dots lie on the grid intersections and carry no symbols"},
+     "the dots are on the grid intersections and carry no symbols"},
     {Status::grid_too_small, "grid_too_small",
      "fewer than 8 x 8 dots of one grid are in view"},
     {Status::not_run, "not_run",
-     "no frame has been looked at"},
+     "no frame has been located yet"},
     {Status::mirrored, "mirrored",
      "the pattern is mirrored"},
     {Status::bad_window, "bad_window",
-     "a window has 6 to 32 columns and rows"},
+     "a window must have 6 to 32 columns and rows"},
     {Status::not_in_code, "not_in_code",
-     "the symbols stand nowhere in the position code"},
+     "the position code does not contain the symbols"},
     {Status::ambiguous, "ambiguous",
-     "the symbols stand at several places of the position code"},
+     "the position code contains the symbols at several places"},
     {Status::not_certain, "not_certain",
      "a position was found, but it may be wrong with more than the allowed probability"},
     {Status::not_tracked, "not_tracked",
@@ -63,19 +63,21 @@ constexpr bool in_order() {
     }
     return kTexts.back().status == Status::other;
 }
-static_assert(in_order(), "one row for each Status, in its order");
+static_assert(in_order(), "kTexts has one row per Status, in the order of the values");
 
-/// Returns the row of a status. `other` and values that are not a Status have the last row.
+/// Returns the row of a status. The last row is for `other` and for values that are not a Status.
 constexpr std::size_t row_of(Status status) {
     return std::min<std::size_t>(static_cast<std::size_t>(status), kStatusCount);
 }
 
-/// Names without messages: a device that prints no message does not store the messages.
+/// Names, stored separately from the messages. A program for a device that prints no messages then
+/// does not contain them.
 constexpr auto kNames = [] {
     std::array<std::array<char, 16>, kTexts.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::string_view name = kTexts[i].name;
-        std::copy_n(name.data(), name.size() + 1, names[i].begin());  // with the terminating zero
+        // Including the terminating zero.
+        std::copy_n(name.data(), name.size() + 1, names[i].begin());
     }
     return names;
 }();

@@ -1,5 +1,5 @@
-// Lookup tables, computed from the sequences at compile time: rolls for encoding in O(1), places of
-// strings for decoding.
+// Lookup tables, computed from the sequences at compile time: rolls for encoding in O(1), and
+// places of digit strings for decoding.
 #pragma once
 
 #include <array>
@@ -11,17 +11,18 @@
 
 namespace dotpose::code {
 
-/// Marks a string that does not occur in the sequence.
+/// Marks a string of digits that does not occur in the sequence.
 inline constexpr std::uint8_t kAbsent = 255;
-/// Number of differences, with one digit each, that determine a place.
+/// Number of consecutive differences that determine a place in a secondary sequence. Each
+/// difference provides one digit.
 inline constexpr int kOrder = 5;
 
-/// Number of entries by which the tables of a sequence continue beyond its end: lines after the
-/// first, and lanes of a vector that begins at the last line.
+/// Numbers of entries by which the tables of a sequence extend beyond its end: for lines after the
+/// first line, and for the lanes of a vector that begins at the last line.
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
-/// Returns n modulo 63 for n < 4095, without a division: 64 modulo 63 is 1.
+/// Returns n modulo 63 for n < 4095 without a division, because 64 modulo 63 is 1.
 constexpr std::uint32_t short_modulo_sections(std::uint32_t n) {
     n = (n & 63) + (n >> 6);
     return n < kSections ? n : n - kSections;
@@ -37,21 +38,22 @@ constexpr std::uint32_t modulo_sections(std::uint32_t n) {
 /// A secondary number sequence with its tables, in one type for all lengths and bases.
 struct Secondary {
     const std::uint8_t* digits;  ///< `length` digits
-    /// Sum of the weighted digits before each place, modulo 63: their part of the roll. The table
-    /// continues beyond the end of the sequence by `kLinesAhead` lines and a vector.
+    /// Sums of the weighted digits before each place, modulo 63. They are the contribution of the
+    /// sequence to the roll. The table extends beyond the end of the sequence by kLinesAhead +
+    /// kVectorAhead entries.
     const std::uint8_t* rolls;
-    const std::uint8_t*
-        first_place_of;  ///< first place of each string of 5 digits, indexed by its key, or kAbsent
-    /// Bit set of the places of each digit, from the lowest bit on. The table continues beyond the
-    /// end of the sequence, with 256 bits from each of `kLinesAhead` places.
+    /// First place of each string of 5 digits, indexed by its key; kAbsent if none.
+    const std::uint8_t* first_place_of;
+    /// Bit set of the places of each digit, from the lowest bit on. The bit sets are cyclic and
+    /// have 256 + kLinesAhead bits.
     const std::uint32_t* const* places_of;
     std::uint32_t reciprocal;     ///< 2^20 / length
     std::uint16_t rest_of_65536;  ///< 65536 modulo length
     std::uint8_t length;
-    std::uint8_t turn_roll;  ///< roll per line over whole turns: see `roll`
+    std::uint8_t turn_roll;  ///< roll of one turn divided by `length`, modulo 63; see `roll`
     std::uint8_t base;
     std::uint8_t weight;  ///< weight in the basis equation of section II-A
-    bool has_twins;       ///< true if some string of 5 digits occurs twice
+    bool has_twins;       ///< true if any string of 5 digits occurs twice
 
     /// Returns the position modulo `length`, without a division.
     constexpr std::uint32_t place_of(std::uint32_t position) const {
@@ -62,8 +64,9 @@ struct Secondary {
             rest -= length;
         return rest;
     }
-    /// Returns the places of the `count` digits that begin at `place`, `place` included, as a bit
-    /// set of the 32 places from 32 * word on. Bits beyond the end of the sequence are 0.
+    /// Returns the places at which the same `count` digits begin as at `place`, including `place`.
+    /// The result is a bit set of the 32 places from 32 * word on. Bits beyond the end of the
+    /// sequence are 0.
     constexpr std::uint32_t equal_places(std::uint32_t place, int count, std::uint32_t word) const {
         const std::uint32_t rest = length - 32 * word;
         std::uint32_t places = rest < 32 ? ~(~std::uint32_t{0} << rest) : ~std::uint32_t{0};
@@ -98,7 +101,8 @@ consteval auto places_of(const Digits<Length>& sequence, int digit) {
     return words;
 }
 
-/// Returns the roll that a whole turn of a sequence adds, divided by its length modulo 63.
+/// Returns the roll of a whole turn of a sequence, divided by the length of the sequence, modulo
+/// 63.
 consteval std::uint8_t turn_roll(std::size_t length, unsigned roll_of_turn) {
     std::size_t inverse = 1;
     while (length * inverse % kSections != 1)
@@ -106,7 +110,8 @@ consteval std::uint8_t turn_roll(std::size_t length, unsigned roll_of_turn) {
     return static_cast<std::uint8_t>(roll_of_turn * inverse % kSections);
 }
 
-/// Returns the first place of each string of `Order` digits, indexed by its key.
+/// Returns the first place of each string of `Order` digits in base `Base`, indexed by the key of
+/// the string.
 template <unsigned Base, int Order, std::size_t Length>
 constexpr auto first_places(const Digits<Length>& sequence) {
     constexpr std::size_t kKeys = [] {
@@ -158,7 +163,7 @@ inline constexpr Basis kBasis{Tables<3, kA1, 1>::kSecondary, Tables<3, kA2, 3>::
 inline constexpr int kMinDelta = 5;
 inline constexpr int kMaxDelta = 58;
 
-/// The digits a1..a4 of each difference from 5 to 58, two bits each, from the lowest bits on.
+/// The digits a1 to a4 of each difference from 5 to 58, two bits per digit, a1 in the lowest bits.
 inline constexpr auto kDigitsOfDelta = [] {
     std::array<std::uint8_t, kMaxDelta - kMinDelta + 1> result{};
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -168,12 +173,12 @@ inline constexpr auto kDigitsOfDelta = [] {
     return result;
 }();
 
-/// Returns the digit a1..a4 of a difference, for n = 0..3.
+/// Returns digit a(n + 1) of a difference, for n = 0 to 3.
 constexpr unsigned digit_of_delta(std::size_t delta, std::size_t n) {
     return kDigitsOfDelta[delta - kMinDelta] >> 2 * n & 3U;
 }
 
-/// The main sequence, repeated to have 256 bits after any index.
+/// The main sequence, repeated to provide 256 bits after any index.
 inline constexpr auto kMainRepeated = [] {
     std::array<std::uint8_t, kSections + 256> bits{};
     for (std::size_t i = 0; i < bits.size(); ++i)
@@ -181,7 +186,7 @@ inline constexpr auto kMainRepeated = [] {
     return bits;
 }();
 
-/// The 32 bits of the main sequence from any index on, the first in the lowest bit.
+/// 32 bits of the main sequence from each index on. The first bit is the lowest bit.
 inline constexpr auto kMainWords = [] {
     std::array<std::uint32_t, kSections> words{};
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -191,7 +196,7 @@ inline constexpr auto kMainWords = [] {
     return words;
 }();
 
-/// Number of bits of the main sequence that determine the place in it.
+/// Number of consecutive bits that determine a place in the main sequence.
 inline constexpr int kMainOrder = 6;
 inline constexpr auto kPlaceInMain = first_places<2, kMainOrder>(kMain);
 

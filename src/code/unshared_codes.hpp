@@ -12,10 +12,10 @@
 
 namespace dotpose::code {
 
-/// Minimum numbers of unshared lines, by the code variant read, the other variant, and the number
-/// of lines as in `kUnsharedOf`: one digit for each place in a4 of the first line. The minimum is
-/// over all places and shifts of the other variant, except the same place if both variants have it
-/// with the same rolls.
+/// Minimum numbers of unshared lines, indexed by the code variant read, the other variant, and the
+/// number of lines (`kUnsharedOf`). Each string contains one digit per place of the first line in
+/// a4. The minimum is over all places and shifts of the other variant, except the same place if
+/// both variants have it with the same rolls.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kCodeVariantCount>,
                             kCodeVariantCount>
     kUnsharedInOther{{

@@ -8,14 +8,14 @@
 
 namespace dotpose::code {
 
-/// Numbers of consecutive lines for which the table has values.
+/// Numbers of consecutive lines for which the table contains values.
 inline constexpr std::array<int, 3> kUnsharedOf{10, 13, 16};
 
-/// Index of the first entry of each sequence in the table: a1, a2, a3 and the restored a4.
+/// Index of the first entry of each sequence in the table, in the order a1, a2, a3, restored a4.
 inline constexpr std::array<std::size_t, 4> kUnsharedFrom{0, 236, 469, 500};
 
-/// Minimum numbers of unshared lines by sequence and place of the first line, packed as
-/// `unshared_at_one_shift` and `unshared_on_two_sides` unpack them.
+/// Minimum numbers of unshared lines, indexed by sequence and place of the first line.
+/// `unshared_at_one_shift` and `unshared_on_two_sides` unpack the entries.
 inline constexpr std::array<std::uint16_t, 741> kUnshared{
     0x2A48, 0x2A48, 0x2A49, 0x2889, 0x4A91, 0x4892, 0x5292, 0x2A92, 0x2A51, 0x2892, 0x2A52, 0x324A,
     0x328A, 0x288A, 0x2A92, 0x2A52, 0x3249, 0x328A, 0x0849, 0x2A92, 0x4A92, 0x42D2, 0x2ADA, 0x08DA,
@@ -81,13 +81,13 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
     0x7322, 0x7522, 0x74DA, 0x7D1B, 0x551B, 0x5CDB, 0x54DB, 0x2C93, 0x2C4A,
 };
 
-/// Largest number of unshared lines for which positions are counted.
+/// Maximum number of unshared lines for which kMaxPositionsWith contains bounds.
 inline constexpr std::size_t kMaxCounted = 7;
 
-/// Upper bounds of the number of positions with exactly n unshared lines, by row, sequence and n
-/// from 1 on. The positions differ from the one read in this sequence only, and count once for each
-/// shift at which they share a line. The bounds hold at all places and for the a4 of every code
-/// variant.
+/// Upper bounds of the number of positions with exactly n unshared lines, indexed by row, sequence
+/// and n - 1. Only positions that differ from the position read in this sequence alone are counted,
+/// once for each shift at which they share a line. The bounds hold at all places and for the a4 of
+/// every code variant.
 inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>, 3>
     kMaxPositionsWith{{
         {{{1, 4, 15, 34, 64, 120, 227},
@@ -105,14 +105,15 @@ inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>
     }};
 
 /// Returns the minimum number of unshared lines, among `kUnsharedOf[row]` lines, over all positions
-/// that differ in this sequence only. It is at least row + 1; three bits of the entry store the
-/// excess.
+/// that differ in this sequence only. The minimum is at least row + 1; three bits of the entry
+/// store the excess.
 constexpr std::size_t unshared_at_one_shift(std::size_t entry, std::size_t row) {
     return row + 1 + (kUnshared[entry] >> 3 * row & 7U);
 }
 
-/// Returns the same minimum if one part of a view is read at one shift of such a position and the
-/// rest at another. It is at least row; two bits of the entry store the excess.
+/// Returns the minimum number of unshared lines if one part of a view is read at one shift of such
+/// a position, and the rest of the view at another shift. The minimum is at least row; two bits of
+/// the entry store the excess.
 constexpr std::size_t unshared_on_two_sides(std::size_t entry, std::size_t row) {
     return row + (kUnshared[entry] >> (9 + 2 * row) & 3U);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Marks functions that processors with few registers do not inline, because the caller would run
-/// out of registers. Other processors gain from inlining.
+/// Marks functions that are not inlined on processors with few registers, because the caller would
+/// run out of registers. On other processors, inlining is faster.
 #if defined(__thumb__) && !defined(__thumb2__)
 #define DOTPOSE_NOINLINE [[gnu::noinline]]
 #else

@@ -1,5 +1,5 @@
-// The ranges of the options, within which no stage can overflow. Not listed, because no value does
-// harm: the lens's k (see bend_q48), most_dots (clamped), show_stages.
+// Ranges of the options. Within these ranges, no stage can overflow. Options that are safe with any
+// value are not listed: k of the lens (see bend_q48), most_dots (clamped), show_stages.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,13 @@
 
 namespace dotpose::core {
 
-/// Calls `is_good(name, value, low, high)` for each option until it returns false. Returns whether
-/// it never did.
+/// Calls `is_good(name, value, low, high)` for each option until it returns false. Returns true if
+/// it never returned false.
 template <typename IsGood>
 constexpr bool all_options(const Options& options, IsGood is_good) {
     constexpr std::int32_t kFarthestReference_q8 = 16384 * 256;
     constexpr std::int32_t kFarthestLens_q8 = 1024 * 256;
-    constexpr std::int32_t kMost = 1 << 20;  // 256 times this still fits into 32 bits, with a
-                                             // factor of two to spare
+    constexpr std::int32_t kMost = 1 << 20;  // 256 times this value fits in 32 bits
     const auto is_far_at_most = [&](const char* name, std::int32_t offset, std::int32_t most) {
         return is_good(name, offset, -most, most);
     };

@@ -1,5 +1,5 @@
-// Other codes: agreement of the bits of a frame with code variants other than the one read. The
-// attempts fill it in, and `Locator` evaluates it.
+// Other codes: agreement of the bits of a frame with code variants other than the variant read. The
+// attempts compute it, and `Locator` evaluates it.
 #pragma once
 
 #include <array>
@@ -9,14 +9,15 @@
 
 namespace dotpose::core {
 
-/// Likelihood ratios of another code variant along one axis, relative to the place read. 1 is
-/// equally likely.
+/// Likelihood ratios of another code variant along one axis, relative to the place read. A ratio of
+/// 1 means equally likely.
 struct OtherAxis {
-    float here = 1;              ///< likelihood ratio of the same place in the other variant
-    float elsewhere = 0;         ///< upper bound of the sum over all its other places
-    float best = 0;              ///< largest ratio of another place, among those examined
+    float here = 1;  ///< likelihood ratio of the same place in the other variant
+    /// Upper bound of the sum of the likelihood ratios of all other places in that variant.
+    float elsewhere = 0;
+    float best = 0;  ///< largest likelihood ratio of another place, among the places examined
     std::uint32_t position = 0;  ///< position of the first line at the place of `best`
-    std::uint8_t roll = 0;       ///< roll of the first line there minus the roll read
+    std::uint8_t roll = 0;       ///< roll of the first line at that place minus the roll read
 };
 
 /// Likelihood ratios of one other code variant along both axes.
@@ -24,7 +25,7 @@ struct OtherCode {
     OtherAxis x;
     OtherAxis y;
 
-    /// Returns the likelihood ratio of the same place by both axes.
+    /// Returns the likelihood ratio of the same place, from both axes.
     float here() const { return x.here * y.here; }
     /// Returns the sum of the likelihood ratios of all other places.
     float elsewhere() const { return x.here * y.elsewhere + x.elsewhere * (y.here + y.elsewhere); }
@@ -37,7 +38,7 @@ struct OtherCodes {
     static constexpr int kNoneInQuestion = -1;
     /// log2 of the number of possible code variants, each weighted by its odds, in 2^-8.
     int log2_in_question_q8 = 0;
-    /// Positions, in the code variant read, of the first column and row that were compared.
+    /// First column and row that were compared, as positions in the code variant that was read.
     Cell first;
     std::array<OtherCode, kCodeVariantCount>
         of;  ///< by code variant; the entry of the variant read is not used

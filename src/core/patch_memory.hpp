@@ -7,11 +7,11 @@
 
 namespace dotpose::core {
 
-/// Dots in a patch, in image px from its middle.
+/// Dots in a patch, in image px relative to the middle of the patch.
 struct PatchDots {
     static constexpr int kMax = 2048;
     int count = 0;
-    // Capacities are rounded up to whole vectors. Unused elements are far away.
+    // Capacities are rounded up to whole vectors. Unused elements are far outside the patch.
     alignas(64) std::array<float, kMax + 16> x;
     alignas(64) std::array<float, kMax + 16> y;
 };
@@ -30,7 +30,7 @@ struct Patch {
     static constexpr int kTiles = kTilesPerRow * kMaxHeight_px / kTileHeight_px;
     static constexpr int kStrips = kMaxWidth_px / 32;
 
-    int left_px = 0;  ///< px of the image
+    int left_px = 0;  ///< in px of the image
     int top_px = 0;
     int scale = 1;  ///< side of a patch pixel, in px of the image
     int width_px = 0;
@@ -50,21 +50,22 @@ struct Patch {
     }
 };
 
-/// Dots by the cells of the pattern they belong to, in whole vectors. Unused elements are far away.
+/// Measured dots with the cells of the pattern to which they belong, in whole vectors. Unused
+/// elements are far outside the image.
 struct MeasuredDots {
     int count = 0;
-    std::span<float> column;  ///< column of the pattern, in the coordinates of the current plane
+    std::span<float> column;  ///< column of the cell, in the coordinates of the current plane
     std::span<float> row;
     std::span<std::int32_t>
         bits;  ///< bits of the code in the cell: the x bit plus 2 times the y bit
-    std::span<std::int32_t> window_u;  ///< middle of the window, px
+    std::span<std::int32_t> window_u;  ///< middle of the centroid window, in px
     std::span<std::int32_t> window_v;
     std::span<std::int32_t> mass;   ///< sum of darkness over the window
     std::span<std::int32_t> sum_u;  ///< sum of darkness times px from the left of the window
     std::span<std::int32_t> sum_v;  ///< sum of darkness times px from the top of the window
     std::span<std::int32_t> paper;  ///< grey level of the paper around the dot
-    /// Measured centre in px from the plane's centre, undistorted, or kNoDot_px if there is no dot.
-    /// Before the measurement, the predicted place in the image.
+    /// Measured centre, undistorted, in px relative to the centre of the plane. kNoDot_px if there
+    /// is no dot. Before the measurement, the predicted place in the image.
     std::span<float> x;
     std::span<float> y;
 

@@ -17,15 +17,15 @@ std::span<T> first(std::span<T, Extent> all, int count) {
 
 FixedVec image_centre_q8(const AdaptiveThreshold& threshold);
 
-/// Returns the image point whose pose is reported, given the image centre.
+/// Returns the image point whose pose is reported. `centre_q8` is the image centre.
 FixedVec reference_q8(FixedVec centre_q8, const Options& options);
 
-/// Returns ok if a frame can be started, or an image located. Otherwise returns the reason.
+/// Returns ok if a frame can be started, or an image can be located. Otherwise returns the reason.
 Status check(int width_px, int height_px, const Options& options, const Workspace& w);
 Status check(const ImageView& image, const Options& options, const Workspace& w);
 
-/// Sets and returns the fix of a frame that is refused before any stage. Clears the results of the
-/// previous frame.
+/// Refuses a frame before any stage: clears the results of the previous frame, and sets and returns
+/// the fix with the status `reason`.
 const Fix& refuse(Status reason, Workspace& w);
 
 /// Clears the results of the previous frame.
@@ -47,13 +47,14 @@ inline void detect_row(const std::uint8_t* pixels, const Options& options, Works
 /// Detects the blobs of a whole image.
 void detect_image(const ImageView& image, const Options& options, Workspace& w);
 
-/// Selects the dots among the blobs, and undistorts them. Errors: no_contrast, too_few_dots.
+/// Selects the dots among the blobs and undistorts them. Errors: no_contrast, too_few_dots.
 Status find_dots(const Options& options, Workspace& w);
 
-/// Finds the directions and spacings of the grid from connections between the dots nearest a point.
+/// Finds the directions and spacings of the grid from connections between the dots nearest to a
+/// point.
 Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w);
 
-/// Chooses the region of the grid that is decoded. It is limited by the memory for lines.
+/// Chooses the region of the grid that is decoded. The memory for lines limits its size.
 void choose_region(Workspace& w);
 
 /// Returns `mirrored` if the bits are those of a mirrored pattern. Otherwise returns `reason`.

@@ -1,6 +1,6 @@
-// Workspace: the memory of a locator and, after a frame, the output of every stage. Capacities are
-// fixed. The workspace is in the DeviceMemory, SmallMemory or LargeMemory of the caller and is
-// reused for each frame.
+// Workspace: the memory of a locator, which contains the results of every stage after a frame.
+// Capacities are fixed. The workspace is in the DeviceMemory, SmallMemory or LargeMemory of the
+// caller and is reused for each frame.
 #pragma once
 
 #include <array>
@@ -23,31 +23,34 @@ namespace dotpose::core {
 struct Workspace {
     std::int16_t max_width_px = 0;
     std::int16_t max_height_px = kMaxFrameSide_px;
-    bool keeps_every_stage = false;  ///< true if each stage has its own memory, so that the output
-                                     ///< of every stage remains
+    /// True if each stage has its own memory, which keeps the results of every stage.
+    bool keeps_every_stage = false;
     // detect
     AdaptiveThreshold threshold;
     OpenBlobs open;
     std::span<DetectedDot> dots;  ///< size is the capacity
     int dot_count = 0;
-    int dots_kept_within_px =
-        0;  ///< distance from the image centre, per axis; decreases when `dots` is full
+    /// Distance from the image centre, per axis, within which dots are kept; decreases when `dots`
+    /// is full.
+    int dots_kept_within_px = 0;
     // lattice
     std::span<std::uint16_t> seeds;  ///< indices of dots
     int seed_count = 0;
-    std::span<BucketedSeed> buckets;                    ///< one more than there are seeds
-    std::span<std::array<std::int16_t, 4>> neighbours;  ///< the four nearest of each seed
-    std::span<SeedEdge> edges;                          ///< two for each seed
+    std::span<BucketedSeed> buckets;  ///< size: number of seeds plus 1
+    /// Indices of the four nearest seeds of each seed.
+    std::span<std::array<std::int16_t, 4>> neighbours;
+    std::span<SeedEdge> edges;  ///< size: two per seed
     int edge_count = 0;
-    std::span<std::int32_t> edge_values;  ///< two for each edge
+    std::span<std::int32_t> edge_values;  ///< size: two per edge
     Lattice lattice;
     PlaneFromImage grid_from_image;
     // decode
     Grid grid;
-    std::span<ScoredLine> line_scores;  ///< the columns, then in the second half the rows
+    /// The columns in the first half, the rows in the second half.
+    std::span<ScoredLine> line_scores;
     Decoding decoding;
     // pose
-    PlaneFromImage pattern_from_image;  ///< in spacings from `Decoding::place`
+    PlaneFromImage pattern_from_image;  ///< in spacings relative to `Decoding::place`
     Fix fix;
 
     std::span<const DetectedDot> found_dots() const {
@@ -55,11 +58,11 @@ struct Workspace {
     }
 };
 
-/// Makes the workspace in the bytes of a Memory.
+/// Constructs the workspace in the bytes of a Memory.
 template <typename Space, std::size_t Bytes>
 Space* make_workspace(std::array<std::byte, Bytes>& bytes) {
     static_assert(sizeof(Space) <= Bytes, "Memory::kBytes is too small");
-    static_assert(std::is_trivially_destructible_v<Space>, "nothing destroys it");
+    static_assert(std::is_trivially_destructible_v<Space>, "the destructor is never called");
     return ::new (static_cast<void*>(bytes.data())) Space;
 }
 

@@ -7,7 +7,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the number of bits by which a value >= 0 must be shifted right to fit `bits` bits.
+/// Returns the number of bits by which a value >= 0 must be shifted right to fit in `bits` bits.
 int excess_bits(std::int64_t value, int bits) {
     return std::max(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value))) - bits, 0);
 }
@@ -46,7 +46,8 @@ bool AffineFitInt32::solve(int bits, PlaneFromImage& plane) {
                                           myy >> shift};
     const std::int64_t determinant = spread.determinant();
     const std::int64_t trace = spread.xx + spread.yy;
-    // Dots are on one line if their spread across is less than a 16th of their spread along it.
+    // The dots count as collinear if their spread across the line is less than a 16th of their
+    // spread along the line.
     if (determinant <= 0 || determinant >> 8 < trace * trace >> 18) return false;
 
     const auto solve_one = [&](std::int32_t sum, std::int64_t of_x, std::int64_t of_y,

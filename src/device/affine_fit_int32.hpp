@@ -29,13 +29,13 @@ class AffineFitInt32 {
     };
 
     AffineFitInt32() = default;
-    /// Starts from the given sums over `count` points.
+    /// Starts from the given sums, which are over `count` points.
     AffineFitInt32(std::int32_t count, const FixedVec& p, const FixedVec& target,
                    const Products<std::int32_t>& sums)
         : changes_(count), p_(p), target_(target), recent_(sums) {}
 
-    /// Adds an image point p, in 1/8 px from the plane's centre, within 2048 px, and its target in
-    /// 2^-bits cells (see `solve`), within 2^15.
+    /// Adds an image point p, in 1/8 px relative to the plane's centre, within 2048 px, and its
+    /// target in 2^-bits cells (see `solve`), within 2^15.
     [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& target) {
         change(p, p, target);
     }
@@ -47,13 +47,13 @@ class AffineFitInt32 {
     }
     int count() const { return changes_ - unused_; }
     /// Sets `at_centre`, du and dv of the plane, and no other members. Targets are in 2^-bits
-    /// cells. Returns false if the points are on one line.
+    /// cells. Returns false if the points are collinear.
     bool solve(int bits, PlaneFromImage& plane);
 
   private:
-    /// Coordinates of near points are from -kNear to kNear - 1. The products of kMaxRecent near
-    /// points and of one far point fit 32 bits, in which small processors add three times as fast
-    /// as in 64.
+    /// Near points have coordinates from -kNear to kNear - 1. Sums of products of kMaxRecent near
+    /// points and one far point fit in 32 bits. Small processors add 32-bit numbers three times as
+    /// fast as 64-bit numbers.
     static constexpr std::uint32_t kNear = 1024;
     static constexpr int kMaxRecent = 32;
     static std::uint32_t offset(std::int32_t a) { return static_cast<std::uint32_t>(a) + kNear; }
@@ -69,8 +69,8 @@ class AffineFitInt32 {
     }
     /// Adds the recent 32-bit sums to the 64-bit sums.
     void carry_over();
-    /// Returns n^2 times the covariance of two coordinates, from the sum of their products and
-    /// their sums a and b.
+    /// Returns n^2 times the covariance of two coordinates. `products` is the sum of their
+    /// products; a and b are the sums of the coordinates.
     std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const;
 
     std::int32_t changes_ = 0;

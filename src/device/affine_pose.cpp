@@ -8,10 +8,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of dots, evenly spread, from which the displacement and the scatter are measured.
+/// Number of dots, evenly distributed, from which the displacement and the scatter are measured.
 constexpr int kSample = 64;
 
-/// Returns vectors of a length in the direction of each symbol.
+/// Returns, for each symbol, a vector of the given length in the direction of the symbol.
 std::array<FixedVec, 4> displacements(std::int32_t length) {
     std::array<FixedVec, 4> all;
     for (std::size_t s = 0; s < all.size(); ++s) {
@@ -31,7 +31,8 @@ std::int32_t squared_q16(FixedVec a_q16) {
     return (a_q16.x >> 8) * (a_q16.x >> 8) + (a_q16.y >> 8) * (a_q16.y >> 8);
 }
 
-/// Adds one point. Not inlined: small processors would have to free registers.
+/// Adds one point. Not inlined, because small processors have too few registers for the inlined
+/// code.
 [[gnu::noinline]] void add(AffineFitInt32& fit, FixedVec p, FixedVec target) {
     fit.add(p, target);
 }
@@ -67,14 +68,14 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
     const auto squared_residual_q16 = [&](FixedVec offset, Symbol symbol) {
         return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
-    // Squared distances of a plane Gaussian have their median at 1.39 sigma^2. The limit of 12
-    // medians is therefore at 4 sigma, which excludes 1 dot in 3,000 by chance.
+    // The squared distances of a Gaussian in the plane have a median of 1.39 sigma^2. The limit of
+    // 12 medians is therefore at 4 sigma. By chance, 1 dot in 3,000 exceeds it.
     const std::int32_t limit_q16 = 12 * sampled_median([&](const Offset& offset) {
                                        return squared_residual_q16(offset.q16, offset.symbol);
                                    }) +
                                    1;
 
-    // Targets are the printed places of the dots in 1/64 cells, which are within 2^15.
+    // Targets are the printed places of the dots, in 1/64 cells, which are within 2^15.
     constexpr int kTargetBits = 6;
     const auto targets = displacements(shift_rounded(displacement_q16, 16 - kTargetBits));
     AffineFitInt32 fit;

@@ -1,5 +1,5 @@
-// Affine pose: the pose from all dots, in integers, for a camera that looks straight at the paper
-// through a lens without distortion, or with corrected distortion.
+// Affine pose: fits the pose to all dots, in integers, for a camera that looks straight at the
+// paper. The lens must have no distortion, or its distortion must be corrected.
 #pragma once
 
 #include "core/pose/observations.hpp"
@@ -8,9 +8,9 @@
 namespace dotpose::core {
 
 /// Fits the map from the centres of the dots to their printed places. Leaves out dots with large
-/// residuals. Returns the number of dots used, or 0 if they do not determine the map, which is then
-/// unchanged. Sets `displacement_q16` to the distance of a typical dot from its intersection, in
-/// spacings.
+/// residuals. Sets `displacement_q16` to the distance of a typical dot from its intersection, in
+/// 2^-16 spacing. Returns the number of dots used. Returns 0, with an unchanged map, if the dots do
+/// not determine the map.
 int fit_affine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                     std::int32_t& displacement_q16);
 

@@ -14,18 +14,20 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of dots from which the grid is searched. It determines the time (docs/firmware.md).
+/// Maximum number of dots from which the grid is searched. It determines the time
+/// (docs/firmware.md).
 constexpr int kSeeds = 64;
 
-/// Returns the start of the grid search: the image centre, or the centroid of the dots if it is far
-/// from the centre, as at the edge of a sheet.
+/// Returns the point at which the grid search starts: the image centre or, if the centroid of the
+/// dots is far from the centre, as at the edge of a sheet, this centroid.
 FixedVec start_q8(const Workspace& w) {
     const FixedVec centre_q8 = image_centre_q8(w.threshold);
     FixedVec sum_q4;
     for (const DetectedDot& dot : w.found_dots())
         sum_q4 = sum_q4 + FixedVec{dot.centre_q8.x >> 4, dot.centre_q8.y >> 4};
     const FixedVec mean_q8{sum_q4.x / w.dot_count * 16, sum_q4.y / w.dot_count * 16};
-    // If the pattern fills the view, the centroid is within a few hundredths of half a side.
+    // If the pattern fills the view, the centroid is within a few hundredths of half a side of the
+    // image centre.
     constexpr int kFar = 4;
     const bool is_far = magnitude(mean_q8.x - centre_q8.x) * kFar > centre_q8.x ||
                         magnitude(mean_q8.y - centre_q8.y) * kFar > centre_q8.y;
@@ -41,14 +43,15 @@ Status find_grid(const Options& options, Workspace& w) {
     find_origin(w.found_dots(), first(w.seeds, w.seed_count), start, w.lattice);
     const Status grown = grow_grid(w.found_dots(), options.lattice, start, w.lattice,
                                    w.grid_from_image);  // II-B.3
-    // Maps of the attempts are relative to the image centre.
+    // All maps of attempts are relative to the image centre.
     w.grid_from_image = affine_tangent(w.grid_from_image, image_centre_q8(w.threshold));
     return grown;
 }
 
 /// Finds the position in the code from the bits.
 Status read_position(const Options& options, Workspace& w) {
-    // The decoder does not use the window of the paper. It is computed for display only.
+    // The decoder does not need the 8 x 8 window of the paper's method. It is computed for display
+    // only.
     if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
     choose_region(w);
     const Status status =

@@ -1,4 +1,4 @@
-// The attempt of devices: takes one row at a time, in integers, and in bounded time.
+// The attempt of devices: processes one row at a time, in integers and in bounded time.
 #pragma once
 
 #include "core/workspace.hpp"

@@ -11,7 +11,7 @@
 namespace dotpose::core {
 namespace {
 
-/// A set of vectors whose components are both between `low` and `low` + `extent`, modulo 2^32.
+/// A set of vectors. Both components of each vector are in [low, low + extent], modulo 2^32.
 struct Square {
     std::uint32_t low;
     std::uint32_t extent;
@@ -24,14 +24,14 @@ struct Square {
     }
 };
 
-/// Returns the points, in spacings, that truncation assigns to cells up to `limit` from the middle
-/// one.
+/// Returns the points, in 2^-16 spacing, that truncation assigns to cells up to `limit` cells from
+/// the middle cell.
 Square cells_within(int limit) {
     return {static_cast<std::uint32_t>(-limit * 65536),
             static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};
 }
 
-/// Returns the points, as fractions times 2^16, whose rounded offset is at most `limit` on both
+/// Returns the points, as fractions times 2^16, whose rounded offset is at most `limit_q16` on both
 /// axes.
 Square offsets_within(std::int32_t limit_q16) {
     return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
@@ -42,7 +42,7 @@ bool is_near(FixedVec rounding_q16, const Square& offsets) {
                          static_cast<std::uint32_t>(rounding_q16.y) << 16);
 }
 
-/// Distance of the farthest cell whose dot may belong to the grid.
+/// Maximum distance of a cell whose dot may belong to the grid.
 constexpr int kFarthest_cells = 500;
 
 /// Calls `use(dot, c, is_within_reach)` for each dot. Truncating its place c in the plane gives the
@@ -53,7 +53,7 @@ Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
-    // The fast test: most dots are within reach, and no farther than the dots before them.
+    // Fast test. Most dots are within reach, and no farther away than the dots before them.
     Square common = cells_within(0);
     for (const DetectedDot& dot : dots) {
         const FixedVec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));
@@ -87,7 +87,7 @@ FixedVec cell_of(Used used) {
     return {static_cast<std::int16_t>(both >> 16), static_cast<std::int16_t>(both & 0xFFFF)};
 }
 
-/// Returns the mean square of the offsets of dots, from the sum of `squared_offset_q14`.
+/// Returns the mean square of the offsets of dots, from the sum of their `squared_offset_q14`.
 std::int64_t mean_square_q20(std::int32_t squared_offsets_q14, int dots) {
     return squared_offsets_q14 / std::max(dots, 1) * 64;
 }
@@ -97,7 +97,7 @@ std::int32_t squared_offset_q14(FixedVec rounding_q16) {
     return (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
 }
 
-/// Successive fits of the grid. Most dots have the same cell in each fit, so only changes are
+/// Successive fits of the grid. Most dots have the same cell in each fit, so only the changes are
 /// added.
 class Fits {
   public:
@@ -106,7 +106,8 @@ class Fits {
         if (remembers()) std::fill_n(before_.begin(), dots.size(), Used::no);
     }
 
-    /// Fits the plane to the dots within reach. Returns false if they do not determine it.
+    /// Fits the plane to the dots within reach. Returns false if the dots do not determine the
+    /// plane.
     bool operator()(int reach_cells, Regularity& found, PlaneFromImage& plane) {
         const Cells cells(plane);
         found = remembers() ? sum_up_changes(reach_cells, cells) : sum_up(reach_cells, cells);

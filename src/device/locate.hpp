@@ -1,4 +1,4 @@
-// The body of DeviceLocator: locates a frame with given memory and options.
+// Implementation of DeviceLocator: locates a frame with given memory and options.
 #pragma once
 
 #include "device/workspace.hpp"

@@ -1,6 +1,6 @@
-// Near dot: measures the dot of an intersection at a known place in the image. It does not use the
-// code, so its result can confirm or contradict the code. Most of it is inline: calls would take a
-// third of the time per dot on small processors.
+// Near dot: measures the dot near an intersection at a known place in the image. The measurement
+// does not use the code, so it can confirm or contradict the code. Most functions are inline,
+// because calls would take a third of the time per dot on small processors.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 namespace dotpose::core {
 
 /// Half the side of the square around an intersection that contains its dot, and of the square
-/// around the dot's centre that contains the dot, for spacings of 7 to 13 px.
+/// around the centre of a dot that contains the dot, in px. Valid for spacings of 7 to 13 px.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kDotHalf_px = 2;
 
@@ -32,7 +32,7 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
                static_cast<unsigned>(tracking.rows_taken - tracking.first_kept - 2 * half);
 }
 
-/// Returns the paper level around a pixel, from the corners of its square, where no dot reaches.
+/// Returns the paper level around a pixel, from the corners of its square, which no dot reaches.
 [[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
                                                         const std::uint8_t* at) {
     constexpr int kSide_px = 2 * kHalf_px;
@@ -41,15 +41,15 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
     return (top[0] + top[kSide_px] + bottom[0] + bottom[kSide_px]) >> 2;
 }
 
-/// Sets the pixels that `read_symbol` reads. Returns false if they are outside the squares.
+/// Sets the pixels that `read_symbol` reads. Returns false if any of them is outside its square.
 bool lay_dot_pixels(Tracking& tracking);
 
-/// The reading of a dot, packed into one register.
+/// Reading of a dot, packed into one register.
 class ReadSymbol {
   public:
     static constexpr ReadSymbol unclear() { return ReadSymbol(-1); }
-    /// A clear reading: the symbol, and the level from 0 to 255 below which pixels belong to the
-    /// dot.
+    /// Constructs a clear reading: the symbol, and the level from 0 to 255 below which pixels
+    /// belong to the dot.
     constexpr ReadSymbol(int symbol, std::int32_t level) : bits_(level * 4 + symbol) {}
 
     /// Returns true if one of the four places was clearly the darkest.
@@ -62,8 +62,8 @@ class ReadSymbol {
     std::int32_t bits_;
 };
 
-/// Reads the four places around an intersection. Its square and a border of one pixel must be
-/// stored. A separate function: small processors then have enough registers.
+/// Reads the four places around an intersection. Requires that the square around the intersection
+/// and a border of one pixel are stored. Not inlined, so small processors have enough registers.
 DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
                                                const FixedVec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;
@@ -71,7 +71,7 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
         kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);
     const int quarter = (intersection_q16.x >> 15 & 1) + (intersection_q16.y >> 14 & 2);
     const std::int16_t* offset = tracking.dot_pixels[static_cast<std::size_t>(quarter)].data();
-    // Each value is a sum of four pixels, times 4, plus the symbol.
+    // Each value is four times a sum of four pixels, plus the symbol.
     std::int32_t darkest = INT32_MAX;
     std::int32_t second = INT32_MAX;
 #pragma GCC unroll 4
@@ -89,7 +89,8 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
     }
     const std::int32_t paper = paper_around(tracking, at);
     const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
-    // A dot darkens its four pixels by about 6 depths, and the places beside it by 2.
+    // A dot darkens the sum of its own four pixels by about 6 times `depth`, and the sums of the
+    // places beside it by about 2 times `depth`.
     const bool is_clear =
         paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
     return is_clear ? ReadSymbol(darkest & 3, paper - depth) : ReadSymbol::unclear();
@@ -97,12 +98,12 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
 
 /// The measurement of one dot.
 struct NearDot {
-    FixedVec offset_q8;  ///< offset of the centroid from the predicted place, px
+    FixedVec offset_q8;  ///< offset of the centroid from the predicted place, in 2^-8 px
     std::int32_t mass = 0;
 };
 
-/// Measures the centroid of pixels darker than `level` in the square of 2 Half + 1 px around a
-/// place. Returns false if its mass is not that of a dot, or if the square is not stored
+/// Measures the centroid of the pixels darker than `level` in a square around a place, with a side
+/// of 2 Half + 1 px. Returns false if the mass is not that of a dot, or if the square is not stored
 /// completely.
 template <int Half>
 [[gnu::always_inline]] inline bool measure_square(const Tracking& tracking, FixedVec place_q16,
@@ -120,7 +121,7 @@ template <int Half>
 }
 
 /// Measures the dot in the whole square around an intersection, with the threshold of the tracking.
-/// Returns false like `measure_square`.
+/// Returns false in the same cases as `measure_square`.
 bool measure_around(const Tracking& tracking, FixedVec intersection_q16, NearDot& dot);
 
 }  // namespace dotpose::core

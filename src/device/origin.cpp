@@ -5,11 +5,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum distance of cells whose dots are used. Farther away, the error of the first grid may be
-/// a third of a cell.
+/// Maximum distance of cells whose dots are used. At larger distances, the error of the first grid
+/// may be a third of a cell.
 constexpr int kReach_cells = 4;
 
-/// The mean offset of dots from their intersections along one axis, as a sum of complex numbers.
+/// The mean offset of dots from their intersections along one axis, computed as a sum of complex
+/// numbers.
 struct Phase {
     FixedVec sum;
 

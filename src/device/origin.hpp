@@ -1,6 +1,6 @@
-// Origin: the place of the intersections of the first grid. Paper section II-B.2. differs: the
-// paper takes a dot that is connected to all its eight neighbours. Displaced and missing dots leave
-// few of these, so here the origin is the phase of all dots near the centre, as in a Fourier
+// Origin: finds the place of the intersections of the first grid. Paper section II-B.2. differs:
+// the paper takes a dot that is connected to all its eight neighbours. Displaced and missing dots
+// leave few such dots. Here the origin is the phase of all dots near the centre, as in a Fourier
 // transform.
 #pragma once
 
@@ -8,7 +8,8 @@
 
 namespace dotpose::core {
 
-/// Sets the origin of the lattice, near a point, from the dots within a few cells of it.
+/// Sets the origin of the lattice near the point `near_q8`, from the dots within a few cells of
+/// this point.
 void find_origin(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                  FixedVec near_q8, Lattice& lattice);
 

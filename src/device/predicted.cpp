@@ -8,11 +8,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Range of spacings in the image that can be tracked, for which dots fit the squares that are
-/// read.
+/// Range of spacings in the image that can be tracked. In this range, dots fit into the squares
+/// that are read.
 constexpr int kFinest_px = 7;
 constexpr int kCoarsest_px = 13;
-/// Range of displacements: a twelfth to a third of the spacing.
+/// Range of displacements that can be tracked: a twelfth to a third of the spacing.
 constexpr std::int32_t kMinDisplacement_q16 = 65536 / 12;
 constexpr std::int32_t kMaxDisplacement_q16 = 65536 / 3;
 
@@ -33,8 +33,8 @@ bool is_sane(const Prediction& prediction) {
            prediction.displacement_q16 <= kMaxDisplacement_q16;
 }
 
-/// Sets the cells of a plane whose centre is at cell (0, 0) + at_q16. Returns false if their
-/// spacing cannot be tracked, or they are not nearly square and upright.
+/// Sets the cells of a plane whose centre is at cell (0, 0) + at_q16. Returns false if the spacing
+/// of the cells cannot be tracked, or if the cells are not nearly square.
 bool invert(const PlaneFromImage& plane, FixedVec at_q16, CellMap& cells) {
     const FixedVec du = plane.du_q24;
     const FixedVec dv = plane.dv_q24;
@@ -61,8 +61,8 @@ bool invert(const PlaneFromImage& plane, FixedVec at_q16, CellMap& cells) {
     return true;
 }
 
-/// Leaves out the edges of a frame with more cells than the capacity. Returns the maximum distance
-/// of a cell in the rest from its middle.
+/// Leaves out the edges of a frame that contains more cells than the capacity. Returns the maximum
+/// distance of a cell in the remaining part from its middle.
 int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
     int width_px = tracking.width_px;
     int height_px = tracking.height_px;
@@ -71,8 +71,8 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
             static_cast<std::uint32_t>(width_px * width_px + height_px * height_px);
         const int cells = static_cast<int>(square_root(squared_px)) * 128 / spacing_q8 + 3;
         if (cells <= kMaxComparedLines / 2) {
-            // Crops the same number of pixels from opposite sides, so the image centre stays the
-            // same.
+            // Crops the same number of pixels from opposite sides, so the image centre does not
+            // change.
             tracking.left_out_px = static_cast<std::int16_t>((tracking.width_px - width_px) >> 1);
             tracking.rows_above = static_cast<std::int16_t>((tracking.height_px - height_px) >> 1);
             tracking.height_px = height_px;
@@ -99,7 +99,7 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 
-/// Returns the maximum error of the prediction in the middle of the image.
+/// Returns the maximum error of the prediction in the middle of the image, in px.
 int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
     const auto shift_q16 =
@@ -138,7 +138,7 @@ Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Track
     if (!is_sane(prediction)) return Status::not_tracked;
     const FixedVec centre_q8{(tracking.width_px - 1) * 128, (tracking.height_px - 1) * 128};
     const PlaneFromImage plane = tangent(prediction.pattern_from_image, centre_q8);
-    // Cells are numbered from the middle of the image.
+    // Cells are numbered relative to the middle of the image.
     const FixedVec at = plane.at_centre_q16;
     const FixedVec first{(at.x >> 16) - kMaxComparedLines / 2,
                          (at.y >> 16) - kMaxComparedLines / 2};

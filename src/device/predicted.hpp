@@ -13,11 +13,11 @@ namespace dotpose::core {
 inline constexpr int kRowsAtOnce = 12;
 
 /// Sets the corner, the cells and the members that depend on the spacing. The memory and the size
-/// of the image, at most 4096 px per side, must be set in `tracking`. Accepts any prediction.
-/// Errors: not_tracked, if its view of the pattern cannot be tracked.
+/// of the image, at most 4096 px per side, must already be set in `tracking`. Accepts any
+/// prediction. Errors: not_tracked, if the predicted view of the pattern cannot be tracked.
 Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Tracking& tracking);
 
-/// The cell, along both axes, near the middle of the image.
+/// Index of the cell near the middle of the image, along both axes.
 inline constexpr int kMiddleCell = kMaxComparedLines / 2;
 
 /// Returns the place of the intersection of a cell, in 2^-16 px.
@@ -29,7 +29,7 @@ inline FixedVec place_q16(const CellMap& cells, int i, int j) {
 /// Returns the cell in the middle of the first rows.
 FixedVec middle_cell(const Tracking& tracking);
 
-/// Sets the displacement of dots, in 2^-12 spacing, and the places of dots that follow from it.
+/// Sets the displacement of dots, in 2^-12 spacing, and the places of dots that depend on it.
 void set_displacement(std::int32_t displacement_q12, Tracking& tracking);
 
 }  // namespace dotpose::core

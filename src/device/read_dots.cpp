@@ -11,21 +11,22 @@
 namespace dotpose::core {
 namespace {
 
-/// The direction along a row of cells in which v in the image increases.
-struct Way {
+/// The direction along a row of cells in which v increases in the image.
+struct RowDirection {
     FixedVec step_q16;
     int i_step;
 };
-Way way_of(const Tracking& tracking) {
+RowDirection row_direction(const Tracking& tracking) {
     const FixedVec along = tracking.cells.along_x_q16;
-    return along.y < 0 ? Way{-along, -1} : Way{along, 1};
+    return along.y < 0 ? RowDirection{-along, -1} : RowDirection{along, 1};
 }
 
 TrackedView view_of(const Tracking& tracking) {
     std::int32_t displaced_q16 = 0;
     for (const FixedVec displaced : tracking.displaced_q16)
         displaced_q16 = std::max(displaced_q16, larger_component(displaced));
-    // A dot is rounded to a pixel, which needs kDotHalf_px further pixels on each side.
+    // The place of a dot is rounded to a pixel, which needs kDotHalf_px further pixels on each
+    // side.
     const std::int32_t of_dot_q16 = kDotHalf_px * 65536 - 32768 + displaced_q16;
     // The square around the pixel of an intersection must also be in the image.
     const std::int32_t min_q16 = std::max<std::int32_t>(kHalf_px * 65536, of_dot_q16);
@@ -39,12 +40,12 @@ TrackedView view_of(const Tracking& tracking) {
             extent_q16(tracking.height_px)};
 }
 
-/// Finds the first cell in view of each row of cells, from `j` on in steps of `j_step`, up to the
-/// first row without one. The cells in view of a row are adjacent, and near those of the previous
-/// row.
+/// Finds the first cell in view of each row of cells, beginning at row `j`, in steps of `j_step`,
+/// up to the first row without a cell in view. The cells in view of a row are adjacent, and near
+/// those of the previous row.
 void lay_rows(Tracking& tracking, int j, int j_step) {
     const TrackedView view = tracking.view;
-    const Way way = way_of(tracking);
+    const RowDirection direction = row_direction(tracking);
     const FixedVec along = tracking.cells.along_y_q16;
     const FixedVec to_next_q16 = j_step > 0 ? along : -along;
     const int max_first = (tracking.last_cell - tracking.first_cell) / 2;
@@ -54,24 +55,24 @@ void lay_rows(Tracking& tracking, int j, int j_step) {
         const FixedVec before_q16 = at_q16;
         const int before = first;
         for (; first < max_first && !view.has(at_q16); ++first)
-            at_q16 = at_q16 + way.step_q16;
+            at_q16 = at_q16 + direction.step_q16;
         if (first == max_first) {
             first = before;
             at_q16 = before_q16;
         }
         for (; first > -max_first && !view.has(at_q16); --first)
-            at_q16 = at_q16 - way.step_q16;
+            at_q16 = at_q16 - direction.step_q16;
         if (first == -max_first) return;
-        for (; first > -max_first && view.has(at_q16 - way.step_q16); --first)
-            at_q16 = at_q16 - way.step_q16;
+        for (; first > -max_first && view.has(at_q16 - direction.step_q16); --first)
+            at_q16 = at_q16 - direction.step_q16;
         TrackedRow& row = tracking.grid_rows[static_cast<std::size_t>(j)];
         row.next_q16 = at_q16;
-        row.i = kMiddleCell + way.i_step * first;
+        row.i = kMiddleCell + direction.i_step * first;
         at_q16 = at_q16 + to_next_q16;
     }
 }
 
-/// Records the symbol that was read in a cell. Returns true if it is that of the code.
+/// Stores the symbol that was read in a cell. Returns true if it is the symbol of the code.
 DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     ComparedLine& column = column_of(tracking, i);
     ComparedLine& row = row_of(tracking, j);
@@ -88,8 +89,8 @@ DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
 }
 
 /// Adds the dot at the next intersection of a row, if it agrees with the code and is near its
-/// predicted place. Bounds: masses are below 2^12 and offsets at max_first 2 px in the squares, so
-/// the sums over a row of 32 dots are below 2^30.
+/// predicted place. Masses are below 2^12, and offsets are at most 2 px in the squares, so the sums
+/// over a row of 32 dots are below 2^30.
 DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
     const auto symbol = static_cast<std::size_t>(read.symbol());
     const FixedVec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];
@@ -105,7 +106,7 @@ DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& r
     };
     const FixedVec offset_q8{sums.x * 256 - mass * in_pixel_q8(place_q16.x),
                              sums.y * 256 - mass * in_pixel_q8(place_q16.y)};
-    // Printers and lenses rarely move a dot by more than an eighth of the spacing. Dirt does.
+    // Printers and lenses rarely move a dot by more than an eighth of the spacing, but dirt does.
     if (!is_within(offset_q8, mass * (tracking.spacing_q8 >> 3))) return;
     ++tracking.dots_measured;
     FixedVec& of_symbol = tracking.offset_q8[symbol];
@@ -130,7 +131,7 @@ bool begin_reading(Tracking& tracking) {
 }
 
 void read_ready_dots(Tracking& tracking) {
-    const Way way = way_of(tracking);
+    const RowDirection direction = row_direction(tracking);
     // A dot may extend one row beyond its square, except in the last row of the image.
     const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
     const std::int32_t ready_q16 = (tracking.rows_taken - ahead - kHalf_px) * 65536 + 32767;
@@ -140,10 +141,10 @@ void read_ready_dots(Tracking& tracking) {
             const ReadSymbol read = read_symbol(tracking, row->next_q16);
             if (read.is_clear() && note(tracking, row->i, j, read.symbol()))
                 add_dot(tracking, read, *row);
-            const FixedVec next_q16 = row->next_q16 + way.step_q16;
+            const FixedVec next_q16 = row->next_q16 + direction.step_q16;
             row->next_q16.x = next_q16.x;
             row->next_q16.y = tracking.view.has(next_q16) ? next_q16.y : TrackedRow::kNever_q16;
-            row->i += way.i_step;
+            row->i += direction.i_step;
         }
     }
 }

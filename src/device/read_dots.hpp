@@ -1,15 +1,15 @@
-// Read dots: the bits of a tracked frame, read while its rows arrive.
+// Read dots: reads the bits of a tracked frame while its rows arrive.
 #pragma once
 
 #include "device/tracking.hpp"
 
 namespace dotpose::core {
 
-/// Starts reading, after the cells are fitted. Returns false if dots are too far from their
+/// Starts reading. The cells must already be fitted. Returns false if dots are too far from their
 /// intersections.
 bool begin_reading(Tracking& tracking);
 
-/// Reads all dots in the rows taken so far. Measures the dots that agree with the code and
+/// Reads all dots in the rows taken so far. Measures the dots that agree with the code, and
 /// accumulates their offsets from the predicted centres.
 void read_ready_dots(Tracking& tracking);
 

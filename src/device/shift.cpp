@@ -11,10 +11,11 @@
 namespace dotpose::core {
 
 Shifts::Shifts(const Tracking& tracking) {
-    // Uses the columns within two spacings of the middle one, where a turn hardly blurs the sums.
+    // Uses the columns within two spacings of the middle column, where a turn hardly blurs the
+    // sums.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
-    // A turn of 4 degrees, 18/256, about the image centre moves the rows above it sideways.
+    // A turn of 4 degrees (18/256 rad) about the image centre moves the first rows sideways.
     const int sideways_px = 18 * ((tracking.height_px - rows_) / 2) >> 8;
     const auto steps = [](int reach_px) {
         return std::min((reach_px + kStep_px - 1) / kStep_px, kMaxSteps);
@@ -29,7 +30,7 @@ Shifts::Shifts(const Tracking& tracking) {
     divide_by_dots();
 }
 
-/// Sets the paper level: the mean of the pixels that are lighter than the mean.
+/// Sets the paper level, which is the mean of the pixels that are lighter than the mean.
 void Shifts::measure_paper(const Tracking& tracking) {
     int threshold = 0;
     for (int round = 0; round < 2; ++round) {
@@ -51,8 +52,8 @@ void Shifts::measure_paper(const Tracking& tracking) {
 
 void Shifts::add_dots(const Tracking& tracking) {
     const int reach = kStep_px * steps_.y;
-    // This number of cells around the middle one includes all dots within two spacings of its
-    // column, and the dots that may be shifted into the rows, at any turn of the grid.
+    // This number of cells around the middle cell includes all dots within two spacings of the
+    // middle column, and the dots that may be shifted into the rows, at any turn of the grid.
     constexpr int kAround = 5;
     const FixedVec middle = middle_cell(tracking);
     const auto around = [&](int cell) {
@@ -84,14 +85,14 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
         std::uint16_t* sum = row_of(y);
         for (const std::uint16_t* end = sum + 2 * steps_.x + 1; sum != end;
              ++sum, pixel += kStep_px) {
-            const int lack = cut_ - *pixel;
-            if (lack >= 0) *sum = static_cast<std::uint16_t>(*sum + lack);
+            const int darkness = cut_ - *pixel;
+            if (darkness >= 0) *sum = static_cast<std::uint16_t>(*sum + darkness);
         }
     }
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum divisor: means of fewer dots are unreliable and are reduced.
+    // Minimum divisor. Means of fewer dots are unreliable and are therefore reduced.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);
@@ -102,7 +103,7 @@ void Shifts::divide_by_dots() {
     }
 }
 
-/// Clears the shifts around a returned one.
+/// Clears the shifts around the shift that was returned.
 void Shifts::forget_around(FixedVec at) {
     constexpr int kFar = 2;
     for (int y = std::max<std::int32_t>(at.y - kFar, 0);
@@ -119,7 +120,7 @@ bool Shifts::next(FixedVec& shift_q8) {
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const std::uint16_t* here = row_of(y);
         for (int x = 0; x <= 2 * steps_.x; ++x, ++here) {
-            // Adding the neighbours reduces noise.
+            // The weighted sum with the neighbours reduces noise.
             const int around = 4 * here[0] + here[-1] + here[1] + here[-kPerRow] + here[kPerRow];
             if (around <= best) continue;
             best = around;
@@ -128,7 +129,7 @@ bool Shifts::next(FixedVec& shift_q8) {
     }
     if (best == 0) return false;
     constexpr int kStep_q8 = kStep_px * 256;
-    // Interpolates the maximum between steps from its neighbours.
+    // Interpolates the maximum between the steps, from the two neighbours.
     const auto between = [](int before, int here, int after) {
         return (after - before) * kStep_q8 / std::max(before + here + after, 1);
     };

@@ -8,24 +8,26 @@
 namespace dotpose::core {
 
 /// Mean darkness at each possible shift, over the places of the dots of the code near the middle
-/// column of the image. The displacements of the dots make the correct shift the darkest. With few
-/// dots in view, shifts by one spacing may be nearly as dark.
+/// column of the image. The displacements of the dots make the correct shift the darkest. If few
+/// dots are in view, shifts by one spacing may be nearly as dark.
 class Shifts {
   public:
     /// Searches the rows stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Returns the darkest shift that was not returned yet. Returns false if there is none.
+    /// Sets `shift_q8` to the darkest shift that was not returned yet. Returns false if there is
+    /// none.
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }
-    /// Returns the darkness of the pixel in the middle of a dot, at the last shift.
+    /// Returns the darkness of the pixel in the middle of a dot, at the last shift that was
+    /// returned.
     int depth() const { return depth_; }
 
   private:
     /// Step between sampled pixels, in px: less than half a dot.
     static constexpr int kStep_px = 2;
-    /// Maximum number of steps from the middle of the search.
+    /// Maximum number of steps from the middle of the search range.
     static constexpr int kMaxSteps = 8;
     static constexpr int kMaxPerSide = 2 * kMaxSteps + 1;
     static constexpr int kPerRow = kMaxPerSide + 2;
@@ -41,12 +43,13 @@ class Shifts {
     int left_ = 0;
     int right_ = 0;
     int rows_ = 0;
-    FixedVec steps_;  ///< number of steps on each side
+    FixedVec steps_;  ///< number of steps to each side
     int paper_ = 0;
     int cut_ = 0;
     int depth_ = 0;
-    std::array<std::uint8_t, kMaxPerSide> dots_{};         ///< number of dots summed in each row
-    std::array<std::uint16_t, kPerRow * kPerRow> sums_{};  ///< sums of darkness, later means
+    std::array<std::uint8_t, kMaxPerSide> dots_{};  ///< number of dots summed in each row
+    /// Sums of darkness; means after `divide_by_dots`.
+    std::array<std::uint16_t, kPerRow * kPerRow> sums_{};
 };
 
 }  // namespace dotpose::core

@@ -15,7 +15,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of shifts that are tried. The correct one is almost always the first or second.
+/// Maximum number of shifts that are tried. The correct shift is almost always the first or the
+/// second.
 constexpr int kMaxShifts = 4;
 
 /// Moves the cells to the dots in the first rows. Errors: not_tracked.
@@ -29,7 +30,7 @@ Status settle(Tracking& tracking) {
         if (!shifts.next(shift_q8) || shifts.depth() < tracking.min_contrast)
             return Status::not_tracked;
         tracking.cells.origin_q16 = predicted_q16 + FixedVec{shift_q8.x * 256, shift_q8.y * 256};
-        // Until the size of dots is measured, the threshold is half way between paper and ink.
+        // Until the mass of dots is measured, the threshold is half way between paper and ink.
         tracking.cut_q8 = 128 * shifts.depth() / paper;
         tracking.min_mass = paper / 8 + 16;
         tracking.max_mass = INT16_MAX;
@@ -54,7 +55,8 @@ Status read_rows(DeviceWorkspace& w) {
     return Status::ok;
 }
 
-/// Decides from bits and dots if the place is certain, and fits the pose. Errors: not_tracked.
+/// Decides from the bits of the dots whether the place is certain, and fits the pose. Errors:
+/// not_tracked.
 Status confirm(const Options& options, DeviceWorkspace& w) {
     Tracking& t = w.tracking;
     if (t.status != Status::ok) return t.status;
@@ -87,8 +89,8 @@ Status begin_device_tracked(int width_px, int height_px, const Options& options,
     // Frames with lens distortion are not tracked, but located without the prediction.
     t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.code, t)
                                        : Status::not_tracked;
-    // Locators with memory for every stage have time for a fresh fix of the whole frame, which is
-    // more exact than its middle.
+    // Locators with memory for every stage have time to locate the whole frame without the
+    // prediction. This is more exact than tracking only its middle.
     if (w.keeps_every_stage && t.left_out_px > 0) t.status = Status::not_tracked;
     t.rows_taken = -t.rows_above;
     if (t.status == Status::ok) lay_tracked_lines(options.code, t);
@@ -100,7 +102,7 @@ Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w) {
     const bool is_tracked =
         static_cast<unsigned>(t.rows_taken) < static_cast<unsigned>(t.height_px);
     if (t.status != Status::ok || !is_tracked) {
-        // A row above or below the tracked part.
+        // The row is above or below the tracked part.
         if (t.rows_taken < 0) ++t.rows_taken;
         return t.status;
     }

@@ -12,11 +12,11 @@ namespace dotpose::core {
 Status begin_device_tracked(int width_px, int height_px, const Options& options,
                             const Prediction& prediction, DeviceWorkspace& w);
 
-/// Takes the next row. Errors: not_tracked. Further rows are then ignored.
+/// Takes the next row. Errors: not_tracked. After an error, further rows are ignored.
 Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w);
 
-/// Ends the frame. Sets and returns the fix of the workspace, with the status not_tracked if a row
-/// returned it.
+/// Ends the frame. Sets and returns the fix of the workspace. Its status is not_tracked if any row
+/// returned this status.
 const Fix& finish_device_tracked(const Options& options, DeviceWorkspace& w);
 
 }  // namespace dotpose::core

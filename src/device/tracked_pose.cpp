@@ -10,8 +10,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the right shift of masses and of the sums weighted with them. After the shift, the sum
-/// of all masses is below 2^16 and all sums are below 2^31, because offsets are at most 416/256 px.
+/// Returns the right shift of masses and of mass-weighted sums. After the shift, the sum of all
+/// masses is below 2^16 and all sums are below 2^31, because offsets are at most 416/256 px.
 int excess_bits(const Tracking& tracking) {
     std::uint32_t mass = 0;
     for (const TrackedRow& row : tracking.grid_rows)
@@ -19,7 +19,7 @@ int excess_bits(const Tracking& tracking) {
     return std::max(static_cast<int>(std::bit_width(mass)) - 16, 0);
 }
 
-/// Returns the fit of the offsets of the dots from the cells, as a plane over the cells. Points are
+/// Returns the fit of the offsets of the dots from the cells, as a plane over the cells. Dots are
 /// weighted with their masses.
 AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     std::int32_t mass = 0;
@@ -47,9 +47,9 @@ AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     return {mass, cells, offset_q8, sums};
 }
 
-/// Returns the cells plus the fitted offsets.
+/// Returns the cells, corrected by the fitted offsets.
 CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
-    // The fit expects points in 1/8 px. Here they are whole cells, so slopes are divided by 8.
+    // The fit expects points in 1/8 px, but the points are whole cells, so slopes are divided by 8.
     constexpr int kShift = 24 + 3 - 16;
     const FixedVec du_q16{offsets.du_q24.x >> kShift, offsets.du_q24.y >> kShift};
     const FixedVec dv_q16{offsets.dv_q24.x >> kShift, offsets.dv_q24.y >> kShift};
@@ -64,7 +64,7 @@ bool invert(const CellMap& cells, FixedVec centre_q8, PlaneFromImage& plane) {
     const FixedVec x = cells.along_x_q16;
     const FixedVec y = cells.along_y_q16;
     const std::int64_t det_q24 = cross(x, y) >> 8;
-    // A fit to a few dots may have any result. With cells of at least 1 px^2, no slope overflows.
+    // A fit to a few dots may have any result. If cells have at least 1 px^2, no slope overflows.
     if (det_q24 < 1 << 24) return false;
     const auto slope_q24 = [&](std::int32_t a_q16) {
         return short_quotient(std::int64_t{a_q16} << 32, det_q24);
@@ -85,7 +85,8 @@ bool invert(const CellMap& cells, FixedVec centre_q8, PlaneFromImage& plane) {
     return true;
 }
 
-/// Returns the relative excess of the mean displacement over that of the cells, in 2^-12.
+/// Returns the excess of the mean measured displacement over the displacement of the tracking,
+/// relative to the latter, in 2^-12.
 std::int32_t relative_excess_q12(const Tracking& tracking, int excess, std::int32_t mass) {
     std::int64_t along = 0;
     for (std::size_t s = 0; s < tracking.offset_q8.size(); ++s) {

@@ -13,30 +13,30 @@
 namespace dotpose::core {
 
 /// Map from the cells of a grid to the image: cell (i, j) is at origin + i along_x + j along_y.
-/// Unlike a Lattice, it is upright on the pattern.
+/// Unlike a Lattice, the map is upright on the pattern.
 struct CellMap {
-    FixedVec origin_q16;  ///< px
+    FixedVec origin_q16;  ///< in 2^-16 px
     FixedVec along_x_q16;
     FixedVec along_y_q16;
 };
 
-/// A row of cells of a tracked frame: its next cell in the order of the image rows, and sums over
-/// the dots measured so far, weighted with their masses.
+/// State of one row of cells in a tracked frame: the next cell to be read, in image-row order, and
+/// mass-weighted sums over the dots measured so far.
 struct TrackedRow {
     static constexpr std::int32_t kNever_q16 = INT32_MAX;
 
-    FixedVec next_q16{
-        0, kNever_q16};  ///< place of that cell in the image, px; y is kNever_q16 if there is none
-    std::int32_t i = 0;  ///< column of that cell
+    /// Place of the next cell in the image, in 2^-16 px; y is kNever_q16 if there is no next cell.
+    FixedVec next_q16{0, kNever_q16};
+    std::int32_t i = 0;  ///< column of the next cell
     // Columns in the following sums are relative to the middle column.
     std::int32_t mass = 0;
     std::int32_t mass_i = 0;
     std::int32_t mass_ii = 0;
-    FixedVec offset_q8;  ///< sum of the offsets of dots from their predicted places, px
+    FixedVec offset_q8;  ///< sum of the offsets of dots from their predicted places, in 2^-8 px
     FixedVec offset_i_q8;
 };
 
-/// The range of intersections around which all examined pixels are in the image.
+/// Range of the intersections for which all examined pixels are in the image.
 struct TrackedView {
     FixedVec min_q16;
     std::uint32_t width_q16 = 0;
@@ -48,30 +48,31 @@ struct TrackedView {
     }
 };
 
-/// A frame whose dots are measured at predicted places while its rows arrive. If a frame shows too
-/// many cells, only its middle is tracked and counts as the image.
+/// A frame whose dots are measured at predicted places while its rows arrive. If the frame contains
+/// too many cells, only its middle is tracked, and counts as the image.
 struct Tracking {
     Status status = Status::not_tracked;
     std::uint8_t min_contrast = 0;  ///< see Options
-    // Small processors access the first members fastest. The members used for every dot are
-    // therefore first.
+    // Small processors access the first members fastest, so the members that are used for every dot
+    // come first.
     int width_px = 0;
     int height_px = 0;
     int rows_taken = 0;  ///< negative before the first row of the tracked part
-    int first_kept = 0;  ///< row of the image that is the first in memory
+    int first_kept = 0;  ///< row of the image that is stored first in memory
     int stride_px = 0;
     std::span<std::uint8_t> rows;  ///< the newest rows of the image
-    int cut_q8 = 0;                ///< contrast of a dark pixel, in 1/256 of the paper level
+    int cut_q8 = 0;  ///< minimum contrast of a dark pixel, in 1/256 of the paper level
     std::int32_t min_mass = 0;
     std::int32_t max_mass = 0;
     int dots_measured = 0;
-    std::int32_t spacing_q8 = 0;    ///< px
-    std::span<ComparedLine> lines;  ///< the columns, then in the second half the rows
+    std::int32_t spacing_q8 = 0;    ///< in 2^-8 px
+    std::span<ComparedLine> lines;  ///< the columns in the first half, the rows in the second half
     std::array<FixedVec, 4>
-        displaced_q16{};                  ///< by Symbol: offset of a dot from its intersection, px
+        displaced_q16{};  ///< by Symbol: offset of a dot from its intersection, in 2^-16 px
     std::array<FixedVec, 4> offset_q8{};  ///< by Symbol: sum of `offset_q8` over all rows
-    /// Offset of the first of the four pixels around a dot, in bytes from the pixel of the
-    /// intersection. By the quarter of that pixel that contains the intersection, and by Symbol.
+    /// Offset of the first of the four pixels around a dot, in bytes, relative to the pixel of the
+    /// intersection. Indexed by the quarter of that pixel that contains the intersection, and by
+    /// Symbol.
     std::array<std::array<std::int16_t, 4>, 4> dot_pixels{};
     std::int16_t left_out_px = 0;  ///< columns to the left of the tracked part
     std::int16_t rows_above = 0;   ///< rows above the tracked part
@@ -85,7 +86,7 @@ struct Tracking {
                            ///< less than half of rows_kept
     int first_rows = 0;    ///< number of rows that determine the error of the prediction
     int next_reading = 0;  ///< value of rows_taken at which dots are read next
-    int reach_px = 0;      ///< maximum error of the prediction at the image centre, px
+    int reach_px = 0;      ///< maximum error of the prediction at the image centre, in px
     Place corner;          ///< place of cell (0, 0) in the code
     int first_cell = 0;    ///< first cell, per axis, that may be in view
     int last_cell = 0;

@@ -10,7 +10,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of rings of cells around the middle one.
+/// Number of rings of cells around the middle cell.
 constexpr int kRounds = 4;
 /// Minimum number of dots that agree with the code, and minimum fraction of the measured dots, in
 /// 1/8, that agree.
@@ -23,7 +23,7 @@ constexpr int kMinMeasured = 8;
 /// is a quarter turn.
 class SimilarityFit {
   public:
-    /// Adds a dot with its place in px from the middle and its offset in 2^-8 px.
+    /// Adds a dot: its place in px relative to the middle, and its offset in 2^-8 px.
     void add(FixedVec p, FixedVec offset_q8) {
         ++count_;
         p_ = p_ + p;
@@ -37,7 +37,7 @@ class SimilarityFit {
     struct Similarity {
         std::int32_t stretch_q20 = 0;
         std::int32_t turn_q20 = 0;
-        FixedVec shift_q8;  ///< at the middle
+        FixedVec shift_q8;  ///< shift at the middle
     };
     Similarity solve() const {
         const std::int64_t spread = std::int64_t{count_} * squares_ - squared(p_);
@@ -61,7 +61,7 @@ class SimilarityFit {
     std::int32_t across_ = 0;
 };
 
-/// Returns v stretched and turned, minus v. Not inlined: 64-bit products take much code.
+/// Returns v stretched and turned, minus v. Not inlined, because 64-bit products need much code.
 [[gnu::noinline]] FixedVec change(const SimilarityFit::Similarity& s, FixedVec v) {
     const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
     return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),
@@ -75,18 +75,18 @@ CellMap changed(const CellMap& cells, FixedVec middle_q16, const SimilarityFit::
             cells.along_y_q16 + change(s, cells.along_y_q16)};
 }
 
-/// The measured dots, and the fit to those that agree with the code.
+/// The measured dots, and the fit to the dots that agree with the code.
 class Rounds {
   public:
     Rounds(Tracking& tracking, FixedVec middle_q16)
         : tracking_(tracking), before_(tracking.cells), middle_q16_(middle_q16) {}
 
-    /// Shifts the cells by the mean offset of the dots nearest the middle, also of those that
+    /// Shifts the cells by the mean offset of the dots nearest to the middle, including dots that
     /// contradict the code.
     void recentre(FixedVec middle);
     /// Measures the dot of a cell and, if it agrees with the code, adds it to the fit.
     void measure(int i, int j);
-    /// Moves the cells by the fit.
+    /// Moves the cells according to the fit.
     void lay_cells() {
         similarity_ = fit_.solve();
         tracking_.cells = changed(before_, middle_q16_, similarity_);
@@ -149,7 +149,7 @@ void Rounds::measure(int i, int j) {
     projections_q12_ += magnitude(p.x_q12) + magnitude(p.y_q12);
 }
 
-/// Calls `use` for the cells in the ring `round` around the middle one.
+/// Calls `use` for the cells of ring `round` around the middle cell.
 template <typename Use>
 void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) {
     const auto is_in = [&](int cell) {
@@ -164,7 +164,7 @@ void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) 
     }
 }
 
-/// Applies a small turn and stretch of the cells to the slopes of the plane. In each coordinate,
+/// Applies a small turn and stretch of the cells to the slopes of the plane. For each coordinate,
 /// the pair (dv, du) is stretched and turned like a vector.
 void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
     FixedVec& du = tracking.du_q20;
@@ -188,8 +188,8 @@ bool find_turn(Tracking& tracking) {
         visit_round(tracking, middle, round, [&](int i, int j) { rounds.measure(i, j); });
         agree = rounds.seen() < kMinMeasured ||
                 8 * rounds.agreeing() >= kMinFraction_q3 * rounds.seen();
-        // The cells move only after some rounds: the middle dot adds nothing to `recentre`, and the
-        // third round little to the second.
+        // The cells move only after some rounds, because the middle dot adds nothing to `recentre`,
+        // and the third round adds little to the second.
         const bool moves_cells = round % 2 == 0 ? round > 0 : round == 1;
         if (moves_cells && rounds.agreeing() > before) rounds.lay_cells();
     }

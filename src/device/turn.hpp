@@ -5,8 +5,9 @@
 
 namespace dotpose::core {
 
-/// Measures dots of the first rows from the middle outwards, and moves the cells after some rounds.
-/// Sets the displacement and mass of dots. Returns false if the dots contradict the code.
+/// Measures dots of the first rows from the middle outwards, and moves the cells after some of the
+/// rounds. Sets the displacement and the mass of dots. Returns false if the dots contradict the
+/// code.
 bool find_turn(Tracking& tracking);
 
 }  // namespace dotpose::core

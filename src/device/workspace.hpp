@@ -12,24 +12,25 @@
 
 namespace dotpose::core {
 
-/// The shared stages, and a frame that is tracked.
+/// Memory and results of the stages that desktops and devices share, and of a tracked frame.
 struct DeviceWorkspace : Workspace {
     bool is_tracking = false;  ///< true if the rows of the current frame are tracked
     Tracking tracking;
 };
 
-/// Capacities of the workspace of a device: frames, dots and the data of the stages.
+/// Capacities of the workspace of a device: size of frames, dots and data of the stages.
 struct DeviceCapacity {
     int width_px = 0;
     int height_px =
         kMaxFrameSide_px;  ///< less for frames that are wider than kMaxSideWithLowTiles_px
     int dots = 0;
     int grid_side = 0;
-    // Runs and blobs of one row: many more than dots. Further ones are noise or graphics.
+    // Runs and blobs of one row. The capacities exceed the number of dots by far, so further runs
+    // and blobs are noise or graphics.
     int runs = 0;
     int blobs = 0;
-    // Runs of a whole frame, limited to bound the time. Dots have 500 in 188 x 120 px; noisy frames
-    // that were located had up to 1,900.
+    // Maximum number of runs of a whole frame, which bounds the time. Dots have 500 runs in 188 x
+    // 120 px; noisy frames that were located had up to 1,900.
     int max_runs = 0;
 };
 
@@ -53,15 +54,15 @@ inline constexpr DeviceCapacity kDeviceCapacity<320, 240>{.width_px = 320,
                                                           .max_runs = 6800};
 
 /// Workspace of a DeviceLocator on a small microcontroller, for frames of one size: about 12 KB for
-/// 188 x 120 px. Stages share memory, so only the output of the last stage remains. The class only
+/// 188 x 120 px. Stages share memory, so only the results of the last stage remain. The class only
 /// sets spans into its memory; the stages are compiled once for all sizes.
 template <DeviceCapacity kCapacity>
 class DeviceWorkspaceOf : public DeviceWorkspace {
   public:
-    static_assert(kCapacity.width_px >= 64, "a size needs its capacities, kDeviceCapacity");
+    static_assert(kCapacity.width_px >= 64, "kDeviceCapacity must have an entry for each size");
     static_assert(kCapacity.width_px <= kMaxSideWithLowTiles_px ||
                       kCapacity.height_px <= kMaxSideWithLowTiles_px,
-                  "there is room for low tiles only");
+                  "the workspace has memory for low tiles only");
 
     // The braces clear all members by one call. Code that stores each member would be 800 bytes
     // longer.

@@ -8,9 +8,9 @@
 namespace dotpose {
 namespace {
 
-/// Distance within which two frames may show some of the same dots.
+/// Distance, in cells, within which two frames may contain some of the same dots.
 constexpr std::uint32_t kSamePlace_cells = 64;
-/// Maximum number of frames counted at one place: floats add up this many exactly.
+/// Maximum number of frames counted at one place. A float counts up to this number exactly.
 constexpr std::uint32_t kMaxFrames = 1U << 23;
 
 bool is_near(std::uint32_t a, std::uint32_t b) {
@@ -18,8 +18,8 @@ bool is_near(std::uint32_t a, std::uint32_t b) {
     return std::min(apart, kPositionsPerAxis - apart) < kSamePlace_cells;
 }
 
-/// Returns each log odds relative to the likeliest one, limited to at least -max_log2; log2 in
-/// 2^-8.
+/// Returns all log odds relative to the likeliest code, clamped to at least -max_log2. Log odds are
+/// log2 in 2^-8.
 CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int32_t max_log2) {
     const std::int32_t likeliest = *std::max_element(log2_q8.begin(), log2_q8.end());
     for (std::int32_t& log2 : log2_q8)
@@ -32,8 +32,8 @@ CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int3
 CodeEvidence::LogOdds CodeEvidence::sum() const {
     LogOdds sum = before_log2_q8_;
     if (frames_here_ == 0) return sum;
-    // Whatever the dependence between frames, the mean of their factors is m or more against the
-    // true code in at most one case of m (Markov).
+    // Regardless of the dependence between frames, the mean of their factors against the true code
+    // is m or more in at most one case in m (Markov).
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const float mean = factors_here_[i] / static_cast<float>(frames_here_);
         sum[i] +=

@@ -45,7 +45,7 @@ bool is_clean(const BitsRead& bits) {
                std::max(tuned::kMaxWrong, bits.read / tuned::kDotsPerWrong);
 }
 
-/// Returns the confidence of one axis with `bits` bits, `wrong` of them wrong.
+/// Returns the confidence of one axis from the number of its bits and the number of wrong bits.
 Confidence confidence_in(int bits, int wrong) {
     constexpr int kWeight = 127;
     Confidence confidence;
@@ -58,7 +58,7 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
     return {confidence_in(bits.read, bits.wrong_x), confidence_in(bits.read, bits.wrong_y)};
 }
 
-/// Judges the place from the bits of all dots near the centre: ok or uncertain.
+/// Judges the place by the bits of all dots near the centre. Returns ok or uncertain.
 Confirmation confirm_place(const Kernels& kernels, const Options& options,
                            const Hypothesis& hypothesis, const CellsInView& view,
                            const BitBlock& block, const BitsRead& bits, DesktopWorkspace& w) {
@@ -132,7 +132,7 @@ void show(const Hypothesis& hypothesis, DesktopWorkspace& w) {
     w.grid_from_image = w.pattern_from_image;
 }
 
-/// Fits the plane and the displacement.
+/// Fits the plane and the displacement to the measured dots.
 bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRead& bits,
                  const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
     if (bits.right == 0) return false;
@@ -144,7 +144,7 @@ bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRea
 }
 
 /// Fits the plane and the displacement again after correcting pixel bias and neighbour bias.
-/// Returns the variance of the pixel bias that remains along u and v, px^2.
+/// Returns the remaining variance of the pixel bias along u and v, in px^2.
 FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const CellsInView& view,
                           const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
     FloatVec remaining_px2;
@@ -152,7 +152,7 @@ FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const
     if (!reader.correct_neighbour_bias(hypothesis, fit) && !has_pixel_bias) return {};
     FloatPlane better = hypothesis.pattern_from_image;
     PoseFit better_fit;
-    // Without the dots at the border, too few may remain.
+    // Without the dots at the border, too few dots may remain.
     if (!fit_plane(kernels, reader.dots(), static_cast<int>(half_side_px(image)) + 1,
                    tuning::fit::kOutlier * fit.variance, fit.displacement, better, better_fit)) {
         return {};
@@ -163,7 +163,7 @@ FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const
     return remaining_px2;
 }
 
-/// Adds a variance of the place in the image, along u and v, to the covariance.
+/// Adds a variance of the place in the image, along u and v, to the covariance of the pose.
 void add_variance(FloatVec px2, const FloatPlane& plane, PoseFit& fit) {
     const std::array<float, 2> by_u{plane.du_x, plane.du_y};
     const std::array<float, 2> by_v{plane.dv_x, plane.dv_y};
@@ -196,7 +196,7 @@ void write_fix(const ImageView& image, const Options& options, const Hypothesis&
     w.fix.status = Status::ok;
 }
 
-/// Returns true if the fitted plane is so far, within reach, from the places where dots were
+/// Returns true if, within reach, the fitted plane is so far from the places where dots were
 /// measured that the small centroid windows missed part of the distance.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
@@ -211,7 +211,7 @@ bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageVie
     return false;
 }
 
-/// Returns the reference point, in px from `from_centre` of the hypothesis.
+/// Returns the reference point, in px relative to `from_centre` of the hypothesis.
 FloatVec reference_px(const Options& options, const Hypothesis& hypothesis) {
     return {static_cast<float>(options.reference_dx_q8) / 256 - hypothesis.from_centre.x,
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
@@ -219,10 +219,11 @@ FloatVec reference_px(const Options& options, const Hypothesis& hypothesis) {
 
 /// Distance from the centre, in px, within which dots are read. It grows from round to round.
 struct Reach {
-    float full;      ///< covers the whole image
-    float deciding;  ///< distance within which bits must make the position certain; farther bits
-                     ///< add nothing
-    float now;       ///< distance of the current round
+    float full;  ///< distance that includes the whole image
+    /// Distance within which the bits must make the position certain. Bits at larger distances do
+    /// not count.
+    float deciding;
+    float now;  ///< distance of the current round
 
     Reach(const ImageView& image, const Hypothesis& hypothesis, float spacing_px)
         : full(half_side_px(image) +
@@ -231,8 +232,8 @@ struct Reach {
           deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
           now(deciding) {
         if (!hypothesis.is_partial_view) return;
-        // The first round is smaller than usual, because the pattern may end anywhere. The deciding
-        // distance is larger, because one island may not make the position certain.
+        // The pattern may end anywhere, so the first round is smaller than usual. One island of
+        // dots may not make the position certain, so the deciding distance is larger.
         deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
         now = std::min(full, tuned::kDenseOfPart * spacing_px);
     }
@@ -270,8 +271,9 @@ Confirmation finish(const Kernels& kernels, const ImageView& image, const Option
     return Confirmation::ok;
 }
 
-/// Measures and compares the dots of the hypothesis and fits the pose. An exact hypothesis is
-/// implausible if its bits are not clean, or if kMaxLooks rounds do not bring it to its dots.
+/// Measures the dots of the hypothesis, compares their bits with the code, and fits the pose. An
+/// exact hypothesis is implausible if its bits are not clean, or if it is still far from its dots
+/// after kMaxLooks rounds.
 Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
                                  const Options& options, Hypothesis hypothesis,
                                  DesktopWorkspace& w) {
@@ -299,7 +301,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
             return Confirmation::implausible;
         if (!is_clean(bits)) {
             if (hypothesis.is_exact) return Confirmation::implausible;
-            // Fewer bits are misread through a plane that is fitted to all dots.
+            // A plane that is fitted to all dots reduces the number of misread bits.
             if (decides && !fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
                 return Confirmation::implausible;
             if (decides) bits = reader.read_again(hypothesis, block);

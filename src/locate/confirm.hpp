@@ -1,5 +1,5 @@
-// Confirm: the common part of the first and the tracked attempt. Given a hypothesis, measures its
-// dots, compares their bits with the code, and fits the pose.
+// Confirm: the common part of the first and the tracked attempt. Measures the dots of a hypothesis,
+// compares their bits with the code, and fits the pose.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -11,23 +11,22 @@
 
 namespace dotpose::core {
 
-/// Returns true if a grid in an image may have this plane. The following steps rely on it.
+/// Returns true if a grid in an image may have this plane. The following steps depend on it.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
 /// Result of `confirm`.
 enum class Confirmation : std::uint8_t {
     ok,
     implausible,  ///< the dots are not at their expected places
-    uncertain,    ///< the dots are there, but their bits leave doubts
+    uncertain,    ///< the dots are at their places, but their bits leave doubts
 };
 
-/// Measures, compares and fits. If the hypothesis is predicted, each dot is sampled directly first,
-/// where that is possible. Sets the fix of the workspace and, if requested, its trace.
+/// Measures, compares and fits. If the hypothesis is predicted and its dots are suitable, samples
+/// them directly first. Sets the fix of the workspace and, if requested, its trace.
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
                      Hypothesis hypothesis, DesktopWorkspace& w);
 
-/// Returns true if the dots of a fix are so far from their fitted places that a second attempt may
-/// be better.
+/// Returns true if the residuals of a fix are so large that a second attempt may be better.
 bool is_rough(const Fix& fix);
 
 }  // namespace dotpose::core

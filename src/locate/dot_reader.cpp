@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::confirm;
 
-/// Prefetches the pixels in view: a new camera image is in no cache, and the order in which dots
-/// are read defeats hardware prefetching.
+/// Prefetches the pixels in view. A new camera image is not in the cache, and the order in which
+/// dots are read defeats hardware prefetching.
 void fetch_pixels(const ImageView& image, const CellsInView& view) {
     constexpr std::ptrdiff_t kLine_bytes = 64;
     const auto range = [&](float centre, int size_px) {
@@ -34,8 +34,8 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
     }
 }
 
-/// Drops windows that are much darker than paper: they show the table beyond the sheet, where noise
-/// is as dark as dots. `paper` is the mean level around dots and is set by the first call.
+/// Drops windows that are much darker than paper. Such windows are on the table beyond the sheet,
+/// where noise is as dark as dots. `paper` is the mean level around dots; the first call sets it.
 void drop_table(MeasuredDots& dots, float& paper) {
     float sum = 0;
     float count = 0;
@@ -65,8 +65,8 @@ float window_radius_px(const Hypothesis& hypothesis) {
                       is_fine ? kSmallCentroidRadius_px : kMaxCentroidRadius_px);
 }
 
-/// Returns true if all dots have the same sub-pixel phase: a step of the grid, along u and along v,
-/// differs from a whole number of pixels by less than `max_off_px`.
+/// Returns true if all dots have the same sub-pixel phase. This is the case if a step of the grid,
+/// along u and along v, differs from a whole number of pixels by less than `max_off_px`.
 bool has_common_phase(const FloatPlane& p, float max_off_px) {
     const float by = 1 / (p.du_x * p.dv_y - p.dv_x * p.du_y);
     const auto is_whole = [&](float px) {
@@ -102,8 +102,8 @@ BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlo
     if (hypothesis.is_exact)
         return kernels_.read_levels(image_, view, hypothesis.depth_q8, dots_, columns, rows);
     WindowOptions window = window_options(hypothesis);
-    // Away from the centre most windows may be empty, so the typical mass is that of the first
-    // call.
+    // Away from the centre, most windows may be empty. The typical mass is therefore that of the
+    // first call.
     if (hypothesis.is_partial_view) window.typical_mass = typical_mass_;
     typical_mass_ = hypothesis.typical_mass = kernels_.measure_windows(image_, view, window, dots_);
     if (hypothesis.is_partial_view) drop_table(dots_, paper_);
@@ -126,7 +126,7 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
         FloatPlane& plane = hypothesis.pattern_from_image;
         const auto points = static_cast<float>(found.points);
         bits.right = found.points;
-        // The offsets through the plane, which converts px to spacings, change the displacement.
+        // The plane converts the offsets from px to spacings. The offsets change the displacement.
         bits.projected = points * hypothesis.displacement + plane.du_x * found.of_x[0] +
                          plane.dv_x * found.of_x[1] + plane.du_y * found.of_y[0] +
                          plane.dv_y * found.of_y[1];
@@ -141,7 +141,7 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
 
 bool DotReader::correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                                    const PoseFit& fit, FloatVec& remaining_px2) const {
-    // With lens distortion or after direct sampling, the dots have many phases.
+    // If the lens has distortion, or after direct sampling, the dots have many phases.
     if (hypothesis.is_exact || view.lens.k != 0) return false;
     const float variance_px2 =
         fit.variance * spacing_px_ * spacing_px_ / static_cast<float>(fit.dots);

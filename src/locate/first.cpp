@@ -20,7 +20,7 @@ namespace tuned = tuning::first;
 constexpr int kPatchWidth_px = tuned::kPatchWidth_px;
 constexpr int kPatchHeight_px = tuned::kPatchHeight_px;
 
-/// Moves dots to their places in a camera without distortion.
+/// Moves the dots to their places in a camera without distortion.
 void undistort(const FixedLens& lens, FloatVec middle, PatchDots& dots) {
     const FloatLens l = float_lens(lens);
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
@@ -32,14 +32,14 @@ void undistort(const FixedLens& lens, FloatVec middle, PatchDots& dots) {
     }
 }
 
-/// Returns the middle of a patch, in px from the image centre.
+/// Returns the middle of a patch, in px relative to the image centre.
 FloatVec middle_of(const Patch& patch, const ImageView& image) {
     return {middle_u_px(patch) - static_cast<float>(image.width_px - 1) / 2,
             middle_v_px(patch) - static_cast<float>(image.height_px - 1) / 2};
 }
 
-/// Finds the dots of the patch. Returns false if it has no contrast. Sets the status of a frame
-/// whose patches have no grid.
+/// Finds the dots of the patch. Returns false if the patch has no contrast. Sets the status of a
+/// frame whose patches contain no grid.
 bool find_patch_dots(const Kernels& kernels, const ImageView& image, const Options& options,
                      DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -54,8 +54,8 @@ bool find_patch_dots(const Kernels& kernels, const ImageView& image, const Optio
     return true;
 }
 
-/// Finds a place in the code from the dots of a patch, relative to `from_centre`. Returns false if
-/// there is none.
+/// Finds a place in the code from the dots of a patch. The dots and the hypothesis are relative to
+/// `from_centre`. Returns false if no place is found.
 bool read_hypothesis(const Kernels& kernels, const Options& options, const PatchView& view,
                      FloatVec from_centre, DesktopWorkspace& w, Hypothesis& hypothesis) {
     Patch& patch = *w.patch;
@@ -77,8 +77,8 @@ bool read_hypothesis(const Kernels& kernels, const Options& options, const Patch
     return true;
 }
 
-/// Searches for the mirrored code in the dots of a patch around the image centre. It counts only if
-/// adjacent lines have no wrong bit. The dots remain mirrored.
+/// Searches for the mirrored code in the dots of a patch around the image centre. The code counts
+/// as mirrored only if adjacent lines have no wrong bits. The dots remain mirrored.
 void find_mirror_image(const Kernels& kernels, const Options& options, DesktopWorkspace& w) {
     if (w.is_mirrored) return;
     Patch& patch = *w.patch;
@@ -94,15 +94,15 @@ void find_mirror_image(const Kernels& kernels, const Options& options, DesktopWo
         find_place_exactly(options.code, turned(likeliest_turn(kernels, block), block), place);
 }
 
-/// Returns true if the grid of the patch predicts all dots of the image to a fraction of a pixel,
-/// because it was fitted to them: the patch is the whole image.
+/// Returns true if the grid of the patch predicts all dots of the image to a fraction of a pixel.
+/// This is the case if the patch is the whole image, because the grid was then fitted to all dots.
 bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px &&
            spacing_px(plane) >= tuned::kMinSpacingForPrediction_px;
 }
 
-/// Finds a hypothesis in the patch at the image centre. Returns false if it has no place in the
-/// code.
+/// Finds a hypothesis in the patch at the image centre. Returns false if the dots of the patch have
+/// no place in the code.
 bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Options& options,
                      DesktopWorkspace& w, Hypothesis& hypothesis) {
     Patch& patch = *w.patch;
@@ -118,8 +118,8 @@ bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Optio
 }
 
 /// Finds a hypothesis in a patch around a point of the image, in px. Its origin is the point where
-/// the dots are densest, which is returned in `densest_px`. Returns false if the patch has no place
-/// in the code.
+/// the dots are densest, which is returned in `densest_px`. Returns false if the dots of the patch
+/// have no place in the code.
 bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, const Options& options,
                             FixedVec around_px, int scale, DesktopWorkspace& w,
                             FixedVec& densest_px, Hypothesis& hypothesis) {
@@ -148,9 +148,10 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, cons
     return false;
 }
 
-/// Searches a patch around a point of the image, and then, if it is elsewhere, the patch around the
-/// point where its dots are densest. Every hypothesis whose bits contradict it is one more chance
-/// of a wrong fix; `tries_left` is the number of tries that remain.
+/// Searches a patch around a point of the image. If the dots of the patch are densest elsewhere,
+/// then searches a patch around that point. Each hypothesis that its bits contradict increases the
+/// probability of a wrong fix. `tries_left` is the number of such hypotheses that are still
+/// allowed.
 Confirmation locate_around(const Kernels& kernels, const ImageView& image, const Options& options,
                            FixedVec around_px, int scale, int& tries_left, DesktopWorkspace& w) {
     for (int round = 0; round < 2 && tries_left > 0; ++round) {
@@ -171,7 +172,7 @@ Confirmation locate_around(const Kernels& kernels, const ImageView& image, const
     return Confirmation::implausible;
 }
 
-/// Searches the whole image in patches, which grow from round to round.
+/// Searches the whole image in patches, whose size increases from round to round.
 Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
                               const Options& options, DesktopWorkspace& w) {
     int tries_left = tuned::kMaxTries;
@@ -189,7 +190,7 @@ Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
     return tries_left < tuned::kMaxTries ? Confirmation::uncertain : Confirmation::implausible;
 }
 
-/// Searches patches around the image centre, which grow, and then the whole image.
+/// Searches patches of increasing size around the image centre, and then the whole image.
 Confirmation locate_outwards(const Kernels& kernels, const ImageView& image, const Options& options,
                              DesktopWorkspace& w) {
     for (const int scale : {1, 2, 4}) {

@@ -1,4 +1,5 @@
-// First: the first attempt. Locates an image without a prediction, outwards from a patch.
+// First: the first attempt. Locates an image without a prediction, beginning with a patch of the
+// image.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -9,7 +10,7 @@
 namespace dotpose::core {
 
 /// Finds the grid in a part of the image, then measures the dots of the whole image. Returns true
-/// if there is a fix, which is in the workspace. Otherwise the status in the workspace is
+/// if a fix was found, which is in the workspace. Otherwise the status in the workspace is
 /// no_contrast, too_few_dots, no_grid or, if the bits leave doubts, not_certain.
 bool locate_first(const Kernels& kernels, const ImageView& image, const Options& options,
                   DesktopWorkspace& w);

@@ -8,18 +8,19 @@
 
 namespace dotpose::core {
 
-/// Returns true if the position explains the frame badly: large residuals and contradicting bits.
-/// Two patterns that overlap nearly in line can pass for a third one, with the columns of the first
-/// and the rows of the second. A quarter of its cells then have no dot at the expected place, half
-/// of the dots are beside theirs, and the typical displacement is too small. docs/integrity.md has
-/// the numbers.
+/// Returns true if the position explains the frame badly: the residuals are large, and bits
+/// contradict the position. Two overlapping patterns that are nearly aligned can look like a third
+/// pattern, with the columns of the first and the rows of the second. A quarter of its cells then
+/// have no dot at the expected place, half of the dots are beside their places, and the typical
+/// displacement is too small. docs/integrity.md has the numbers.
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
 /// Measures the dots of the position and fits the map from the image to the pattern. Returns false
 /// if the dots do not determine the map.
 bool fit_pattern(const Options& options, const ImageView& image, DesktopWorkspace& w, PoseFit& fit);
 
-/// Fits the map as `fit_pattern` does, and writes the pose. Errors: no_grid, not_certain.
+/// Fits the map as `fit_pattern` does, and writes the pose into the fix. Errors: no_grid,
+/// not_certain.
 Status measure_pose(const Options& options, const ImageView& image, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

@@ -13,7 +13,8 @@ struct Extent {
     int count = 0;
 };
 
-/// Returns the integers from `min` to `max`, or the `room` of them around 0.
+/// Returns the integers from `min` to `max`. If there are more than `room` integers, returns `room`
+/// integers around 0.
 Extent extent(float min, float max, int room) {
     const int half = room / 2;
     const int first = std::max(static_cast<int>(std::floor(std::max(min, -4096.0F))) - 1, -half);
@@ -22,8 +23,8 @@ Extent extent(float min, float max, int room) {
     return {first, std::max(last - first + 1, 0)};
 }
 
-/// Fills the rolls in the workspace with those of the code along the lines of a view, and links the
-/// view to them.
+/// Writes the rolls of the code along the lines of a view into the workspace, and links the view to
+/// them.
 void follow_code(CodeVariant code, const Place& place, CellsInView& view, DesktopWorkspace& w) {
     const Place corner = moved(code, place, view.first_column, view.first_row);
     const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,
@@ -65,7 +66,7 @@ CellsInView cells_in_view(const ImageView& image, const Options& options,
     view.height_px = static_cast<float>(image.height_px);
     view.reach_px = reach_px;
     view.displacement = hypothesis.displacement;
-    // A dot that touches the border of the image is not complete.
+    // A dot that touches the border of the image is incomplete.
     view.margin_px = std::max(1.7F, 0.15F * spacing_px(hypothesis.pattern_from_image));
     const float half_width = std::min(centre.x + std::abs(hypothesis.from_centre.x) + 1, reach_px);
     const float half_height = std::min(centre.y + std::abs(hypothesis.from_centre.y) + 1, reach_px);
@@ -103,7 +104,7 @@ void count_from_centre(CodeVariant code, Hypothesis& hypothesis) {
 }
 
 Similarity similarity_of(const DotOffsets& found) {
-    // Offset = shift + turn * place, as complex numbers: least squares in closed form.
+    // Least squares in closed form of offset = shift + turn * place, in complex numbers.
     const float fraction = 1 / static_cast<float>(found.points);
     const float u = found.u * fraction;  // mean place
     const float v = found.v * fraction;

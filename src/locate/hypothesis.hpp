@@ -1,4 +1,4 @@
-// Hypothesis: a plane and a place in the code that an attempt tries, and the cells that it has in
+// Hypothesis: a plane and a place in the code that an attempt tries, and the cells that are then in
 // view.
 #pragma once
 
@@ -13,49 +13,50 @@ namespace dotpose::core {
 /// A plane and a place that an attempt tries before the bits confirm them.
 struct Hypothesis {
     FloatPlane pattern_from_image;  ///< upright pattern; px relative to `from_centre`
-    FloatVec from_centre;           ///< origin of the plane, px from the image centre
-    Place place;                    ///< place of the plane's cell (0, 0)
-    float displacement = 0;         ///< distance of a typical dot from its intersection, spacings
-    bool is_certain = false;        ///< true if the place needs no confirmation
+    FloatVec from_centre;           ///< origin of the plane, in px relative to the image centre
+    Place place;                    ///< place of cell (0, 0) of the plane
+    float displacement = 0;     ///< distance of a typical dot from its intersection, in spacings
+    bool is_certain = false;    ///< true if the place needs no confirmation
     bool is_predicted = false;  ///< true if the plane predicts each dot to a fraction of a pixel
-    /// True if each dot is closer to its predicted place than to another place of its cell, so that
-    /// it is sampled directly.
+    /// True if each dot is closer to its predicted place than to any other place of its cell. The
+    /// dots are then sampled directly.
     bool is_exact = false;
     bool is_partial_view =
         false;  ///< true if the pattern may cover only a part of the image, around `from_centre`
     int depth_q8 =
         0;  ///< contrast of a typical dot in the smoothed patch, in 1/256 of the paper level
-    float typical_mass = 0;  ///< sum of the darkness of a dot below the threshold, relative to the
-                             ///< paper level; 0 if not known yet
+    /// Sum of the darkness of a dot below the threshold, relative to the paper level; 0 if not yet
+    /// known.
+    float typical_mass = 0;
 };
 
-/// Threshold of windows, in 1/256 of the contrast of a typical dot: pixels that are darker than the
-/// paper by more belong to the dot.
+/// Threshold of windows, in 1/256 of the contrast of a typical dot. A pixel belongs to a dot if its
+/// contrast to the paper exceeds the threshold.
 inline constexpr int kCutOfDepth_q8 = 160;
 
-/// Returns the centre of an image, px from its first pixel.
+/// Returns the centre of an image, in px relative to its first pixel.
 FloatVec centre_px(const ImageView& image);
 
 FloatLens float_lens(const FixedLens& lens);
 
 /// Returns the input of `list_cells`: the cells in view within `reach_px` of `from_centre`,
-/// subsampled to about `max_cells`. Fills the rolls in the workspace.
+/// subsampled to about `max_cells`. Writes the rolls into the workspace.
 CellsInView cells_in_view(const ImageView& image, const Options& options,
                           const Hypothesis& hypothesis, float reach_px, int max_cells,
                           DesktopWorkspace& w);
 
-/// Moves the origin of the cells to the one nearest `from_centre`.
+/// Moves the origin of the cells to the intersection nearest to `from_centre`.
 void count_from_centre(CodeVariant code, Hypothesis& hypothesis);
 
-/// Least-squares shift, scale and turn from the predicted dots to the measured ones.
+/// Least-squares shift, scale and turn from the predicted dots to the measured dots.
 struct Similarity {
     FloatVec shift_px;
     float scale = 0;  ///< scale minus 1
     float turn_rad = 0;
-    float squares_px2 = 0;  ///< sum of the squared offsets that remain
+    float squares_px2 = 0;  ///< sum of the squared offsets that remain after the fit
 };
 
-/// Fits a similarity to the offsets of two dots or more.
+/// Fits a similarity to the offsets of at least two dots.
 Similarity similarity_of(const DotOffsets& found);
 
 /// Moves, scales and turns a plane by a similarity.

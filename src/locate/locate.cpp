@@ -33,11 +33,12 @@ namespace {
 
 namespace tuned = tuning::cascade;
 
-/// Attempts. `resampled` is the second attempt that also samples doubtful bits again, which takes
-/// three times as long.
+/// The steps of the cascade. `resampled` is the second attempt with a second sampling of doubtful
+/// bits, which takes three times as long.
 enum class Step : std::uint8_t { tracked, first, second, resampled, device };
 
-/// Returns true if the dots are on a grid that this code cannot read. Another code may read it.
+/// Returns true if the dots are on a grid that could not be read in this code. Another code may be
+/// able to read it.
 bool leaves_code_open(Status status) {
     return status == Status::not_in_code || status == Status::ambiguous ||
            status == Status::not_certain;
@@ -55,7 +56,7 @@ class Cascade {
           w_(w),
           second_(image, w) {}
 
-    /// Returns the fix. The workspace matches it.
+    /// Returns the fix. The results in the workspace are those of this fix.
     CodeReading locate(const Prediction* prediction) {
         if (options_.effort == Effort::device) return make({Step::device});
         prediction_ = prediction;
@@ -80,7 +81,7 @@ class Cascade {
         return make({Step::first, Step::second, Step::resampled});
     }
 
-    /// Makes the steps in order until a code gives a certain fix. Otherwise returns the first
+    /// Makes the steps in order until a code gives a certain fix. If none does, returns the first
     /// doubtful fix, or the failure in the likeliest code.
     CodeReading make(std::initializer_list<Step> steps) {
         std::optional<CodeReading> doubtful;
@@ -111,8 +112,8 @@ class Cascade {
         return codes_.in_order();
     }
 
-    /// Makes one step in one code. Returns true if there is a fix; the workspace has it and the
-    /// odds of other codes.
+    /// Makes one step in one code. Returns true if there is a fix. The workspace then contains the
+    /// fix and the odds of the other codes.
     bool attempt(Step step, CodeVariant code) {
         options_.code = code;
         OtherCodes& others = w_.other_codes;
@@ -154,8 +155,8 @@ class Cascade {
         return codes_.judge(read, w_.other_codes, w_.fix, options_.integrity.max_p_wrong_log2);
     }
 
-    /// Returns the certain fix, or a better one: in a code that explains the same place better, or
-    /// by the second attempt.
+    /// Returns the certain fix or, if there is one, a better fix: in a code that explains the same
+    /// place better, or by the second attempt.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempt(other_step, other)) return false;
@@ -191,7 +192,8 @@ class Cascade {
     }
 
     /// Adds evidence from a frame of another sheet. The evidence for one code can be so strong that
-    /// no frame of another code is certain; such a frame must still be able to overturn it.
+    /// no frame of another code is certain, but such a frame must still be able to overturn the
+    /// evidence.
     void add_evidence_of_another_sheet(CodeReading& reading) {
         if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
         const PossibleCodes before = codes_;
@@ -226,7 +228,7 @@ CodeReading locate_checked(const ImageView& image, const Options& options,
                            const CodeEvidence& evidence, DesktopWorkspace& w) {
     w.is_mirrored = false;
     CodeReading reading = Cascade(image, options, codes, evidence, w).locate(prediction);
-    // An attempt may have found the mirrored code; later attempts then failed for other reasons.
+    // An attempt may have found the mirrored code before later attempts failed for other reasons.
     if (reading.fix.status != Status::ok && w.is_mirrored)
         reading.fix.status = w.fix.status = Status::mirrored;
     if (reading.fix.status == Status::ok && is_pale(image, options, reading.code, reading.fix)) {
@@ -291,7 +293,7 @@ CodeReading locate_in_code(const ImageView& image, const Options& options, Deskt
         name_code_that_explains(w.other_codes, reading);
     } else if (leaves_code_open(reading.fix.status)) {
         note_other_reading(locate_in_any_code(image, options, nullptr, {}, w), reading);
-        locate(image, options, nullptr, w);  // The workspace must match the fix that is returned.
+        locate(image, options, nullptr, w);  // The workspace must match the returned fix.
     }
     return reading;
 }

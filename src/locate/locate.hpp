@@ -1,4 +1,4 @@
-// Locate: locates a frame with given memory and options; the implementation of `Locator`.
+// Locate: locates a frame with given memory and options. Implements `Locator`.
 #pragma once
 
 #include "dotpose/code_evidence.hpp"

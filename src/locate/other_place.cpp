@@ -8,7 +8,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the number of steps from one position to another, along the shorter way.
+/// Returns the number of steps from one position to another, in the shorter direction.
 std::int32_t steps(std::uint32_t from, std::uint32_t to) {
     constexpr auto kAll = static_cast<std::int32_t>(kPositionsPerAxis);
     const std::int32_t step = static_cast<std::int32_t>(to) - static_cast<std::int32_t>(from);
@@ -37,7 +37,8 @@ std::uint8_t section(CodeVariant code, const Line& line, const Line& crossing) {
     return static_cast<std::uint8_t>(section_of(code, roll, line.position, crossing.position));
 }
 
-/// Returns the likelihood ratio of the likeliest other place, which differs along one axis or both.
+/// Returns the likelihood ratio of the likeliest other place, which differs along one axis or along
+/// both axes.
 float best_odds(const OtherCode& there) {
     return std::max(
         {there.x.best * there.y.here, there.x.here * there.y.best, there.x.best * there.y.best});
@@ -46,7 +47,7 @@ float best_odds(const OtherCode& there) {
 }  // namespace
 
 void name_code_that_explains(const OtherCodes& others, CodeReading& reading) {
-    float most = 0;
+    float max_odds = 0;
     for (std::size_t i = 0; i < others.of.size(); ++i) {
         const auto other = static_cast<CodeVariant>(i);
         if (other == reading.code) continue;
@@ -54,9 +55,9 @@ void name_code_that_explains(const OtherCodes& others, CodeReading& reading) {
         const float here = others.of[i].here();
         const bool is_here = here > tuning::cascade::kNamedHere && here > elsewhere;
         if ((!is_here && elsewhere < tuning::cascade::kNamedElsewhere) ||
-            std::max(here, elsewhere) <= most)
+            std::max(here, elsewhere) <= max_odds)
             continue;
-        most = std::max(here, elsewhere);
+        max_odds = std::max(here, elsewhere);
         if (!is_here) {
             name_other_place(reading.code, other, others, reading);
             continue;

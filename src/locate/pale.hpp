@@ -1,4 +1,4 @@
-// Pale: whether the dots of a fix have less contrast than the options demand.
+// Pale: tests whether the dots of a fix have less contrast than the options require.
 #pragma once
 
 #include "dotpose/fix.hpp"

@@ -22,9 +22,9 @@ namespace {
 
 namespace tuned = tuning::second;
 
-/// Returns the options with the thresholds of a filtered image.
+/// Returns the options with the thresholds for a filtered image.
 Options for_filtered(Options options) {
-    options.min_contrast = 0;  // The limit is for the original image: `is_pale` applies it.
+    options.min_contrast = 0;  // this limit is for the original image; `is_pale` applies it
     ThresholdOptions& threshold = options.threshold;
     threshold.min_contrast = threshold.min_contrast / 2 + 1;
     threshold.low_q8 = (tuned::kLow_3rds * threshold.low_q8 + 2) / 3;
@@ -40,7 +40,7 @@ void detect_filtered(const ImageView& image, const Options& filtered, DesktopWor
         detect_row(next_smooth_row(image, w.smoothing), filtered, w);
 }
 
-/// Finds the grid of the dots, also with tilt and lens distortion. Slower than `find_grid`.
+/// Finds the grid of the dots, including tilt and lens distortion. Slower than `find_grid`.
 Status find_grid_thoroughly(const Options& options, DesktopWorkspace& w) {
     const FixedVec centre_q8 = image_centre_q8(w.threshold);
     Status status = find_axes(centre_q8, kMaxSeeds, w);
@@ -63,7 +63,7 @@ bool shows_one_pattern(const ImageView& image, const Options& options, DesktopWo
     return sample_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
 }
 
-/// Decodes with the decoder of the options.
+/// Decodes with the decoder that the options name.
 Status decode(const Options& options, DesktopWorkspace& w) {
     if (options.decoder == Decoder::window) {
         return decode_window(w.grid, options.code, w.line_scores, w.decoding);
@@ -90,11 +90,11 @@ Status resample(const ImageView& image, const Options& options, DesktopWorkspace
     if (!fit_pattern(options, image, w, fit)) return Status::not_certain;
     w.grid_from_image = w.pattern_from_image;
     w.decoding.pattern_from_grid = {};
-    w.decoding.p_wrong_log2_q8 = {};  // they refer to the previous bits
+    w.decoding.p_wrong_log2_q8 = {};  // the previous values are for the previous bits
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }
 
-/// If the dots have the same sub-pixel phase, measures them again as the first attempt does, which
+/// If all dots have the same sub-pixel phase, measures them again as the first attempt does, which
 /// corrects the pixel bias.
 void measure_again_if_biased(const ImageView& image, const Options& options, DesktopWorkspace& w) {
     if (options.decoder == Decoder::window) return;
@@ -118,7 +118,8 @@ Status read_filtered_with(const Options& filtered, const ImageView& image, Deskt
     return shows_one_pattern(image, filtered, w) ? Status::ok : Status::not_certain;
 }
 
-/// Finds dots and grid and reads the bits. For pale dots, does so again with a lower threshold.
+/// Finds dots and grid and reads the bits. If the dots may be pale, tries again with a lower
+/// threshold.
 Status read_filtered(const ImageView& image, const Options& options, DesktopWorkspace& w) {
     Options filtered = for_filtered(options);
     const Status status = read_filtered_with(filtered, image, w);
@@ -129,7 +130,7 @@ Status read_filtered(const ImageView& image, const Options& options, DesktopWork
     const Fix seen = w.fix;
     filtered.threshold.min_contrast = pale;
     if (read_filtered_with(filtered, image, w) == Status::ok) return Status::ok;
-    // The lower threshold found no pattern: its dots were noise, so the first result is kept.
+    // The lower threshold found no pattern, so its dots are noise and the first result is kept.
     w.fix = seen;
     w.dot_count = 0;
     return status;

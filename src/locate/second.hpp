@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Second attempts at one image in several codes. The filtered image, its dots and its grid do not
-/// depend on the code and are computed once.
+/// Runs second attempts on one image in several codes. The filtered image, its dots and its grid do
+/// not depend on the code and are computed once.
 class SecondAttempt {
   public:
     enum class Resampling : std::uint8_t { never, if_doubtful };
@@ -17,15 +17,15 @@ class SecondAttempt {
     SecondAttempt(const ImageView& image, DesktopWorkspace& w) : image_(image), w_(w) {}
 
     /// Locates the image in the code of the options. Returns true if there is a fix; the workspace
-    /// has the fix or the status. With `Resampling::if_doubtful`, a position that is not certain is
-    /// read again through a grid that is fitted to its dots.
+    /// then contains the fix, and otherwise the status. With `Resampling::if_doubtful`, a position
+    /// that is not certain is read again through a grid that is fitted to its dots.
     bool read(const Options& options, Resampling resampling);
 
   private:
     const ImageView& image_;
     DesktopWorkspace& w_;
-    bool is_seen_ = false;  ///< true if the workspace has dots and cells of the filtered image
-    Fix seen_;              ///< the fix at that time, without a position
+    bool is_seen_ = false;  ///< true if the workspace contains dots and cells of the filtered image
+    Fix seen_;              ///< fix after the bits were read, without a position
 };
 
 }  // namespace dotpose::core

@@ -17,7 +17,7 @@ namespace {
 namespace tuned = tuning::tracked;
 
 /// Fits position, scale and turn by least squares. Perspective and shear remain as predicted.
-/// Returns false if the dots do not determine them.
+/// Returns false if the dots do not determine position, scale and turn.
 bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reach_px,
                     float displacement, float max_off, FloatPlane& plane) {
     const ScaledPlane scaled(plane, reach_px);
@@ -39,15 +39,15 @@ bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reac
     return true;
 }
 
-/// Returns the maximum error of the prediction to search for, in px.
+/// Returns the maximum error of the prediction that the search covers, in px.
 int max_shift_px(const Prediction& prediction, float spacing_px) {
     const float off = std::clamp(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, 0.1F,
                                  tuned::kMaxOff);
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
-/// Corrects the plane by the centroids of the listed dots, whose offsets are about a pixel or less.
-/// Returns false if that is not true for most of them.
+/// Corrects the plane by the centroids of the listed dots. Most dots must have offsets of about a
+/// pixel or less; otherwise returns false.
 bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsInView view,
                           FloatPlane& plane, MeasuredDots& dots) {
     const float far_px = std::max(view.width_px, view.height_px) / 2;
@@ -61,7 +61,8 @@ bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsI
         if (found.points < tuned::kMinNear || 4 * found.points < 3 * dots.count) return false;
         const Similarity motion = similarity_of(found);
         plane = moved(plane, motion);
-        // Centroid windows measure only a part of a large offset, such as one due to a turn.
+        // Centroid windows measure only a part of a large offset, for example of an offset due to a
+        // turn.
         const float moved_far_px =
             far_px * std::max(std::abs(motion.scale), std::abs(motion.turn_rad));
         if (moved_far_px < tuned::kTurned_px) break;
@@ -69,7 +70,8 @@ bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsI
     return true;
 }
 
-/// Corrects the hypothesis by the dots near its `from_centre`. Returns false if they are not there.
+/// Corrects the hypothesis by the dots near its `from_centre`. Returns false if the dots are not
+/// found.
 bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Options& options,
                      int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
     FloatPlane& plane = hypothesis.pattern_from_image;
@@ -79,10 +81,10 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
     CellsInView view = cells_in_view(image, options, hypothesis, reach, dots.capacity(), w);
     view.windows = Windows::on_dots;
     const bool by_centroids = can_sample_directly(hypothesis);
-    // The image must contain the centroid windows, wherever the search finds the dots.
+    // The image must contain the centroid windows at any shift that the search may find.
     if (by_centroids) view.margin_px = kPredictedCentroidRadius_px + static_cast<float>(max_px + 1);
     kernels.list_cells(view, dots);
-    // The search covers thirteen shifts along each axis.
+    // The search tries thirteen shifts along each axis.
     const int step_px = std::max((max_px + 3) / 6, 1);
     FixedVec shift;
     if (!kernels.find_shift(image, dots, max_px, step_px, shift, hypothesis.depth_q8)) return false;
@@ -100,7 +102,7 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
             return true;
         }
     }
-    // Windows around intersections measure larger offsets than centroid windows.
+    // Windows around intersections can measure larger offsets than centroid windows.
     kernels.list_cells(view, dots);
     kernels.measure_windows(image, view, {spacing, 0.3F, hypothesis.depth_q8 * kCutOfDepth_q8 >> 8},
                             dots);
@@ -108,8 +110,8 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
            fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kSecondOff, plane);
 }
 
-/// Corrects the hypothesis by the dots near `from`, in px from the image centre. Returns false if
-/// they are not there.
+/// Corrects the hypothesis by the dots near `from`, in px relative to the image centre. Returns
+/// false if the dots are not found.
 bool correct(const Kernels& kernels, const ImageView& image, const Options& options, FloatVec from,
              int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
     hypothesis.from_centre = from;
@@ -152,13 +154,13 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Im
     return hypothesis;
 }
 
-/// Corrects the hypothesis by the dots near one point of the image after another, until one
-/// correction is confirmed.
+/// Corrects the hypothesis by the dots near several points of the image in turn, until the bits
+/// confirm a corrected hypothesis.
 bool confirm_corrected(const Kernels& kernels, const ImageView& image, const Options& options,
                        const Hypothesis& hypothesis, int max_px, DesktopWorkspace& w) {
-    for (const FloatVec share : tuned::kPoints) {
-        const FloatVec from{share.x * static_cast<float>(image.width_px),
-                            share.y * static_cast<float>(image.height_px)};
+    for (const FloatVec fraction : tuned::kPoints) {
+        const FloatVec from{fraction.x * static_cast<float>(image.width_px),
+                            fraction.y * static_cast<float>(image.height_px)};
         Hypothesis there = hypothesis;
         if (!correct(kernels, image, options, from, max_px, there, w)) continue;
         if (confirm(kernels, image, options, there, w) == Confirmation::ok) return true;

@@ -1,6 +1,6 @@
 // Tuning: empirical constants of the attempts, with their purpose and, where known, the measurement
-// of their effect. Those of the second attempt were found on the hard frames that decode/tuning.hpp
-// names.
+// of their effect. The constants of the second attempt were determined on the hard frames that
+// decode/tuning.hpp names.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -13,15 +13,15 @@ namespace first {
 /// at 11 px per spacing.
 inline constexpr int kPatchWidth_px = 224;
 inline constexpr int kPatchHeight_px = 160;
-/// Minimum spacing for which a patch predicts dots exactly enough for direct sampling. Dots of
-/// finer grids are measured more accurately in centroid windows of their own size.
+/// Minimum spacing at which a patch predicts dots exactly enough for direct sampling. Dots of finer
+/// grids are measured more accurately in centroid windows.
 inline constexpr float kMinSpacingForPrediction_px = 9.5F;
-/// Maximum number of hypotheses elsewhere whose bits contradict them. Each hypothesis is one more
-/// chance of a wrong fix.
+/// Maximum number of hypotheses away from the image centre that their bits contradict. Each of them
+/// increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
-/// For patches elsewhere: numbers of dots near the middle in which waves are searched, and factors
-/// of the spacing. If large displacements weaken the waves, only some of these subsets show the
-/// grid.
+/// For patches away from the image centre: numbers of dots near the middle that are used to search
+/// waves, and factors of the spacing. If large displacements weaken the waves, only some of these
+/// combinations find the grid.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
 }  // namespace first
@@ -29,14 +29,14 @@ inline constexpr float kSpacings[] = {1, 0.965F};
 /// Constants of the tracked attempt (locate/tracked).
 namespace tracked {
 /// Maximum distance, in spacings, from a point to the dots that determine the error of the
-/// prediction there. Small enough that an angular error does not match a dot to the wrong
+/// prediction at this point. Small enough that an angular error does not match a dot to the wrong
 /// intersection.
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots that determine a correction of the prediction.
 inline constexpr int kMinNear = 10;
-/// Maximum error of a prediction, in spacings. Beyond half a spacing the next dot is closer.
+/// Maximum error of a prediction, in spacings. Beyond half a spacing, the next dot is closer.
 inline constexpr float kMaxOff = 0.6F;
-/// Range of the spacings that can be tracked.
+/// Range of spacings that can be tracked.
 inline constexpr float kFinest_px = 5;
 inline constexpr float kCoarsest_px = 80;
 /// Range of the displacements that are plausible in a prediction, in spacings.
@@ -49,81 +49,83 @@ inline constexpr float kSecondOff = 0.15F;
 inline constexpr float kMaxOffset_px = 1.5F;
 /// Offset that corresponds to a moment-to-weight ratio of 1 for a typical dot, within 20 %.
 inline constexpr float kWeight_px = 0.84F;
-/// Shift of the image border by a correction above which the dots are measured again.
+/// Shift at the image border, due to scale and turn of a correction, above which the dots are
+/// measured again.
 inline constexpr float kTurned_px = 2;
 /// Maximum number of measurements of the dots.
 inline constexpr int kMaxLooks = 3;
 /// Points around which dots are searched, relative to the image centre, in fractions of the sides
-/// of the image. If one point is covered, another may be visible.
+/// of the image. If one point is covered, another point may be visible.
 inline constexpr FloatVec kPoints[] = {
     {0, 0}, {-0.25F, -0.22F}, {0.25F, 0.22F}, {0.25F, -0.22F}, {-0.25F, 0.22F}};
 }  // namespace tracked
 
 /// Constants of the measurement of dots at known places (locate/confirm, locate/dot_reader).
 namespace confirm {
-/// Distance from the image centre, in spacings, within which all dots are measured and must make
-/// the position certain.
+/// Radius around the image centre, in spacings, within which all dots are measured. The bits of
+/// these dots must make the position certain.
 inline constexpr float kDense = 10;
-/// Half the side of an image, in spacings, up to which it is measured completely in one round.
+/// Maximum half side of an image, in spacings, that is measured completely in one round.
 inline constexpr float kDenseAtMost = 17;
-/// Reach of the first round, in spacings, in a partial view, where the pattern may end anywhere.
+/// Reach of the first round, in spacings, in a partial view, in which the pattern may end anywhere.
 inline constexpr float kDenseOfPart = 6;
 /// Reach, in spacings, within which the bits of a partial view must make the position certain.
 inline constexpr float kDecidingOfPart = 32;
-/// Factor by which a plane is extrapolated beyond the dots it was fitted to.
+/// Factor by which a plane is extrapolated beyond the dots to which it was fitted.
 inline constexpr float kFarther = 3.5F;
-/// Limits of clean bits, which need no second reading: minimum percentage of clear dots, and
-/// maximum number of wrong bits: those of one dot, or one per kDotsPerWrong dots.
+/// Limits of clean bits, which need no second reading: the minimum percentage of clear dots, and
+/// the maximum number of wrong bits, which is kMaxWrong (one dot) or one per kDotsPerWrong dots,
+/// whichever is larger.
 inline constexpr int kClear_percent = 97;
 inline constexpr int kMaxWrong = 2;
 inline constexpr int kDotsPerWrong = 200;
-/// Limit of outliers: squared residual over the mean of the squares. Four standard deviations.
+/// Outlier limit: squared residual divided by the mean squared residual. It is four standard
+/// deviations.
 inline constexpr float kOutlier = 8.3F;
-/// Distance, in spacings, between the planes before and after a fit, in a corner of the part
-/// measured, above which small centroid windows miss a part of the offsets and the dots are
+/// Distance, in spacings, between the planes before and after a fit, in a corner of the measured
+/// part. Above this distance, small centroid windows miss a part of the offsets, and the dots are
 /// measured again.
 inline constexpr float kFar = 0.055F;
 /// Maximum number of measurements of the dots. docs/accuracy.md, "Dots that fall on the pixels
 /// alike", lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
-/// Windows darker than this fraction of the paper level show the table beyond the sheet, where
-/// noise is as dark as dots.
+/// Fraction of the paper level below which windows are dropped, because they are on the table
+/// beyond the sheet, where noise is as dark as dots.
 inline constexpr float kTable = 0.4F;
-/// Range of spacings for direct sampling. Below kMaxSpacingForSmallWindow_px dots are so small that
-/// small centroid windows contain them, however blurred they are. Below
-/// kMinSpacingForDirectSampling_px the four places of a cell are too close to be separated by one
-/// sample each.
+/// Range of spacings for direct sampling. Below kMaxSpacingForSmallWindow_px, dots are so small
+/// that small centroid windows contain them at any blur. Below kMinSpacingForDirectSampling_px, the
+/// four places of a cell are too close to be separated by one sample each.
 inline constexpr float kMaxSpacingForSmallWindow_px = 13;
 inline constexpr float kMinSpacingForDirectSampling_px = 8;
 /// Radius of a centroid window, in dot radii. The window includes the edge of the dot, and is large
-/// enough that the result does not depend on the sub-pixel phase (`dotpose_tables alike`).
+/// enough to make the result independent of the sub-pixel phase (`dotpose_tables alike`).
 inline constexpr float kWindowRadii = 2.4F;
 /// Minimum radius of a centroid window.
 inline constexpr float kMinWindowRadius_px = 3.3F;
-/// Fraction of the distance between facing dots that a centroid window must reach for them to bias
-/// each other.
+/// Minimum radius of a centroid window, as a fraction of the distance between facing dots, at which
+/// the dots bias each other.
 inline constexpr float kFacing = 0.55F;
-/// Maximum deviation of a grid step from whole pixels for which all dots have about the same
-/// sub-pixel phase. With more, the dots of a view have all phases.
+/// Maximum deviation of a grid step from whole pixels at which all dots have about the same
+/// sub-pixel phase. At a larger deviation, the dots of a view have all phases.
 inline constexpr float kDrift_px = 0.05F;
-/// Drift of the sub-pixel phase across the view up to which the pixel bias is corrected, which
-/// takes several times as long as the rest of the frame.
+/// Maximum drift of the sub-pixel phase across the view at which the pixel bias is corrected. The
+/// correction takes several times as long as the rest of the frame.
 inline constexpr float kDriftInView_px = 0.35F;
-/// Maximum variance, along an axis, of the mean place of all dots for which biases matter.
+/// Maximum variance, along an axis, of the mean place of all dots at which biases matter.
 inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
-/// Range of the size of the image parts that are prefetched. Smaller ones are in the cache already;
-/// larger ones would evict their own first rows.
+/// Range of sizes of image parts that are prefetched. Smaller parts are already in the cache;
+/// larger parts would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// Minimum number of predicted dots that must be found.
 inline constexpr int kMinFound = 8;
 /// Maximum distance of a predicted dot from its place, in px.
 inline constexpr float kMaxOff_px = 1;
-/// Maximum sum of the scatter of the dots, relative to their displacement, and the fraction of
-/// contradicting bits. Beyond it the position explains the frame badly. docs/integrity.md has the
-/// numbers.
+/// Maximum of the sum of two terms: the scatter of the dots relative to their displacement, and the
+/// fraction of contradicting bits. A position with a larger sum explains the frame badly.
+/// docs/integrity.md has the numbers.
 inline constexpr float kMaxImplausible = 0.57F;
-/// Residual from which a second attempt may be better: in px for noise, in spacings for badly
+/// Minimum residual at which a second attempt may be better: in px for noise, in spacings for badly
 /// printed dots.
 inline constexpr float kRough_px = 0.30F;
 inline constexpr float kRough = 0.027F;
@@ -131,30 +133,32 @@ inline constexpr float kRough = 0.027F;
 
 /// Constants of the second attempt (locate/second).
 namespace second {
-/// Factors of the thresholds for the filtered image, in which noise is a third and dots are paler
-/// and wider. Of frames with dirt over 5 % of the area (docs/limits.md, 200 frames), 93 % were
-/// located with these factors and 80 % with the thresholds of the options.
+/// Factors of the thresholds for the filtered image, in which noise is reduced to a third, and dots
+/// are paler and wider. Of frames with dirt over 5 % of the area (docs/limits.md, 200 frames), 93 %
+/// were located with these factors and 80 % with the thresholds of the options.
 inline constexpr int kLow_3rds = 2;
 inline constexpr int kHigh_10ths = 9;
-/// Divisor of the minimum contrast for a second detection in an image with too few dots: noise is a
-/// third in a filtered image. It finds dots 6 grey levels darker than paper (`dotpose_tables alike
-/// --spacings 8 --dots 0.10 --blurs 1.5`).
+/// Divisor of the minimum contrast for a second detection in an image with too few dots, because
+/// noise is reduced to a third in a filtered image. The second detection finds dots that are 6 grey
+/// levels darker than paper (`dotpose_tables alike --spacings 8 --dots 0.10 --blurs 1.5`).
 inline constexpr int kPaleParts = 3;
-/// Maximum turns of the periodogram search from the first estimate, in degrees, one try after the
-/// other. Words can turn the first estimate by 26 degrees.
+/// Maximum turns of the periodogram search relative to the first estimate, in degrees, tried in
+/// order. Words can turn the first estimate by 26 degrees.
 inline constexpr int kMaxTurns_deg[] = {12, 45};
 }  // namespace second
 
 /// Constants of the choice of attempts and codes (locate/locate, locate/other_place).
 namespace cascade {
-/// Odds from which a frame is read again in the code that explains it better.
+/// Minimum odds of another code at which a frame is read again in that code.
 inline constexpr float kBetterOdds = 2;
-/// Minimum number of bits per contradicting bit for which a reading in another code is reported.
-/// Apart from misread bits, less than one in a hundred contradicts.
+/// Minimum number of bits per contradicting bit at which a reading in another code is reported.
+/// Apart from misread bits, less than one bit in a hundred contradicts it.
 inline constexpr int kBitsPerError = 50;
-/// Minimum odds of a different place in another code to be reported beside a certain fix.
+/// Minimum odds of a different place in another code at which the place is reported beside a
+/// certain fix.
 inline constexpr float kNamedElsewhere = 0.99F;
-/// Minimum odds of the same place in another code to be reported beside a certain fix.
+/// Minimum odds of the same place in another code at which the place is reported beside a certain
+/// fix.
 inline constexpr float kNamedHere = 1024;
 }  // namespace cascade
 

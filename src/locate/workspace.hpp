@@ -17,16 +17,16 @@
 
 namespace dotpose::core {
 
-/// Image made of rows that are pushed to a Locator.
+/// Image whose rows are pushed to a Locator.
 struct PushedImage {
     std::span<std::uint8_t> memory;
     int width_px = 0;
     int height_px = 0;
-    int rows = 0;  ///< number of rows so far
+    int rows = 0;  ///< number of rows pushed so far
     bool has_prediction = false;
     Prediction prediction;
 
-    /// Starts an image. Returns false if it is larger than the memory.
+    /// Starts an image. Returns false if the image is larger than the memory.
     bool begin(int width, int height) {
         width_px = width;
         height_px = height;
@@ -38,7 +38,7 @@ struct PushedImage {
         std::copy_n(pixels, width_px, memory.begin() + static_cast<std::ptrdiff_t>(size(rows)));
         ++rows;
     }
-    /// Returns the image; rows that are missing are white.
+    /// Returns the image. Missing rows are white.
     ImageView completed() const {
         const std::size_t begin = size(rows);
         std::fill_n(memory.begin() + static_cast<std::ptrdiff_t>(begin), size(height_px) - begin,
@@ -52,7 +52,7 @@ struct PushedImage {
     }
 };
 
-/// Memory that only `Locator` needs, in addition to that of both locators.
+/// Memory that only `Locator` needs, in addition to the memory that both locators need.
 struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;
     MeasuredDots measured;
@@ -69,14 +69,15 @@ inline OtherCodes* wanted_codes(DesktopWorkspace& w) {
     return w.other_codes.are_wanted ? &w.other_codes : nullptr;
 }
 
-/// A workspace with its memory, for images up to `MaxWidth` px wide. It keeps the `MaxDots` dots
-/// nearest the image centre and the middle `GridSide` x `GridSide` cells of the grid.
+/// A workspace with its memory, for images up to `MaxWidth` px wide. It stores the `MaxDots` dots
+/// nearest to the image centre and the middle `GridSide` x `GridSide` cells of the grid.
 template <int MaxWidth, int MaxDots, int GridSide>
 class WorkspaceOf : public DesktopWorkspace {
   public:
     static_assert(MaxWidth >= 64 && MaxWidth <= 4096, "images are 64 to 4096 px wide");
-    static_assert(GridSide >= 16 && GridSide <= kMaxGridSide, "lines of the grid have fixed room");
-    static_assert(MaxDots >= 64 && MaxDots < GridCell::kHidden, "dots are counted in 16 bits");
+    static_assert(GridSide >= 16 && GridSide <= kMaxGridSide,
+                  "the grid has 16 to kMaxGridSide cells per axis");
+    static_assert(MaxDots >= 64 && MaxDots < GridCell::kHidden, "indices of dots have 16 bits");
 
     WorkspaceOf() {
         max_width_px = MaxWidth;
@@ -124,18 +125,19 @@ class WorkspaceOf : public DesktopWorkspace {
     WorkspaceOf& operator=(const WorkspaceOf&) = delete;
 
   private:
-    // Small images have low tiles, larger ones high tiles: see `begin_threshold`.
+    // Small images have low tiles, larger images high tiles; see `begin_threshold`.
     static constexpr int kBand_px =
         MaxWidth <= kMaxSideWithLowTiles_px ? kLowTile_px : kHighTile_px;
     static constexpr int kTiles = MaxWidth / kTileWidth_px + 1;
     static constexpr int kLevels = kTiles * kTileWidth_px + kReadAhead_px;
-    // Every second pixel may begin a run, and every run a blob.
+    // A run may begin at every second pixel, and each run may begin a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
 
-    // Largest image whose rows are pushed: the sensor's, or one of 1280 x 1024 px.
+    // Size of the largest image whose rows are pushed: that of the sensor of the paper, or 1280 x
+    // 1024 px.
     static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
 
-    // Number of lines that cross an image turned by any angle.
+    // Maximum number of lines that cross an image at any angle.
     static constexpr std::size_t kRolls = 1024;
 
     Patch patch_;
@@ -144,7 +146,8 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::array<std::uint8_t, kRolls>, 2> rolls_;
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
-    // Blocks are a tenth of the shorter side, so at least 6 px: at most 11 x 683 of them.
+    // The side of a block is a tenth of the shorter side of the image, so at least 6 px. There are
+    // at most 11 x 683 blocks.
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};
@@ -169,7 +172,7 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::uint8_t, kPushed_px> pushed_;
 };
 
-/// Workspace for the paper's 188 x 120 px sensor.
+/// Workspace for the 188 x 120 px sensor of the paper.
 using SmallWorkspace = WorkspaceOf<188, 384, 32>;
 /// Workspace for images up to 4096 x 4096 px.
 using LargeWorkspace = WorkspaceOf<4096, 16384, 192>;

@@ -49,27 +49,27 @@ enum {
     DOTPOSE_BAD_ARGUMENT = 1,
     /* The image is too small to show 8 x 8 dots. */
     DOTPOSE_IMAGE_TOO_SMALL = 2,
-    /* The image is larger than the memory is for. */
+    /* The image is larger than the memory supports. */
     DOTPOSE_IMAGE_TOO_LARGE = 3,
-    /* The image has no dark marks on a lighter ground. */
+    /* The image has no dark marks on a lighter background. */
     DOTPOSE_NO_CONTRAST = 4,
     /* Too few dots. */
     DOTPOSE_TOO_FEW_DOTS = 5,
-    /* The dots do not lie on a regular grid. */
+    /* The dots do not form a regular grid. */
     DOTPOSE_NO_GRID = 6,
-    /* The dots lie on the grid intersections and carry no symbols. */
+    /* The dots are on the grid intersections and carry no symbols. */
     DOTPOSE_NO_DISPLACEMENT = 7,
     /* Fewer than 8 x 8 dots of one grid are in view. */
     DOTPOSE_GRID_TOO_SMALL = 8,
-    /* No frame has been looked at. */
+    /* No frame has been located yet. */
     DOTPOSE_NOT_RUN = 9,
     /* The pattern is mirrored. */
     DOTPOSE_MIRRORED = 10,
-    /* A window has 6 to 32 columns and rows. */
+    /* A window must have 6 to 32 columns and rows. */
     DOTPOSE_BAD_WINDOW = 11,
-    /* The symbols stand nowhere in the position code. */
+    /* The position code does not contain the symbols. */
     DOTPOSE_NOT_IN_CODE = 12,
-    /* The symbols stand at several places of the position code. */
+    /* The position code contains the symbols at several places. */
     DOTPOSE_AMBIGUOUS = 13,
     /* A position was found, but it may be wrong with more than the allowed probability. */
     DOTPOSE_NOT_CERTAIN = 14,
@@ -176,13 +176,14 @@ enum {
     DOTPOSE_ATTEMPT_DEVICE = 3
 };
 
-/* Whether the paper in view is one plane: see `surface`. */
+/* Flatness of the paper in view: see `surface`. */
 enum {
     /* One plane explains all dots. */
     DOTPOSE_SURFACE_EVEN = 0,
-    /* A part of the paper is displaced; the pose is that of the part with the reference point. */
+    /* A part of the paper is displaced; the pose is that of the part that contains the reference
+     * point. */
     DOTPOSE_SURFACE_DIVIDED = 1,
-    /* Neighbouring dots are displaced alike, as on wrinkled paper; the covariance is widened. */
+    /* Neighbouring dots have similar residuals, as on wrinkled paper; the covariance is larger. */
     DOTPOSE_SURFACE_UNEVEN = 2
 };
 
@@ -195,29 +196,30 @@ enum {
 typedef struct dotpose_fix {
     /* Size of this struct; dotpose_fix_init sets it. */
     uint32_t size; /* 0 */
-    /* Why there is a pose or why not. */
+    /* ok, or the reason why there is no pose. */
     dotpose_status status; /* 4 */
-    /* Pattern point under the reference point, to the right, in mm; not a number if the spacing of
+    /* x of the pattern point under the reference point, to the right, in mm; NaN if the spacing of
      * the sheet is not known. */
     double x_mm; /* 8 */
-    /* The same DOWN the page, in mm. */
+    /* y of the pattern point under the reference point, DOWN the page, in mm; NaN if the spacing
+     * of the sheet is not known. */
     double y_mm; /* 16 */
     /* Angle of the image x axis in the pattern, from +x towards +y: clockwise as seen on the
      * paper, in [-pi, pi). */
     double theta_rad; /* 24 */
-    /* The position is wrong with a probability of at most this. */
+    /* Upper bound of the probability that the position is wrong. */
     double p_wrong; /* 32 */
-    /* The same bound as its binary logarithm. */
+    /* Binary logarithm of the upper bound p_wrong. */
     int32_t p_wrong_log2; /* 40 */
     /* Blobs of the size of a dot. */
     int32_t dots_seen; /* 44 */
-    /* Dots that the pose was fitted to. */
+    /* Dots to which the pose was fitted. */
     int32_t dots_used; /* 48 */
     /* The attempt that made the fix: DOTPOSE_ATTEMPT_. */
     int32_t attempt; /* 52 */
-    /* Whether the paper in view is one plane: DOTPOSE_SURFACE_. */
+    /* Flatness of the paper in view, as determined from the dots: DOTPOSE_SURFACE_. */
     int32_t surface; /* 56 */
-    /* Bits, two for each cell read, that contradict the position. */
+    /* Number of bits that contradict the position; each cell read has two bits. */
     int32_t bit_errors; /* 60 */
     /* Root mean square distance of the dots from their fitted places, per axis, in px. */
     float residual_px; /* 64 */
@@ -226,15 +228,15 @@ typedef struct dotpose_fix {
     float covariance[9]; /* 68 */
     /* Section in which the position was read, along x, 0 to 62. */
     uint32_t section_u; /* 104 */
-    /* The same along y. */
+    /* Section in which the position was read, along y, 0 to 62. */
     uint32_t section_v; /* 108 */
     /* Column of the intersection to the upper left of the reference point. */
     uint32_t cell_x; /* 112 */
-    /* Row of that intersection. */
+    /* Row of the intersection to the upper left of the reference point. */
     uint32_t cell_y; /* 116 */
-    /* From there to the right, in 2^-16 spacing. */
+    /* Distance of the reference point from this intersection, to the right, in 2^-16 spacing. */
     uint32_t fraction_x_q16; /* 120 */
-    /* From there down, in 2^-16 spacing. */
+    /* Distance of the reference point from this intersection, down, in 2^-16 spacing. */
     uint32_t fraction_y_q16; /* 124 */
     /* theta_rad as a binary angle: 2^31 is half a turn. */
     int32_t theta_bam; /* 128 */
@@ -242,13 +244,13 @@ typedef struct dotpose_fix {
     int32_t spacing_px_q16; /* 132 */
     /* Spacing of the printed grid, from the options; 0: not known. */
     int32_t spacing_nm; /* 136 */
-    /* Cell from which pattern_from_image counts. */
+    /* Place that is the origin of pattern_from_image. */
     dotpose_place place; /* 140 */
-    /* Map from the image to the pattern. */
+    /* Map from the image to the pattern, in spacings relative to place. */
     dotpose_plane pattern_from_image; /* 156 */
     /* Typical distance of a dot from its intersection, in 2^-16 spacing. */
     int32_t displacement_q16; /* 200 */
-    /* The covariance in spacings and rad. */
+    /* Covariance of x, y and theta, row by row, in spacings and rad. */
     float covariance_grid[9]; /* 204 */
 } dotpose_fix;
 

@@ -30,8 +30,8 @@ BitLines in_opposite_order(const BitLines& lines) {
     return result;
 }
 
-/// Returns each line reversed with its bits flipped, as half a turn does. The lines keep their
-/// order.
+/// Returns each line reversed and with its bits flipped, as they are after half a turn. The lines
+/// keep their order.
 BitLines backwards(const BitLines& lines) {
     BitLines result;
     for (std::size_t i = 0; i < lines.bits.size(); ++i) {
@@ -42,7 +42,8 @@ BitLines backwards(const BitLines& lines) {
     return result;
 }
 
-/// Returns the range of lines with bits, or the middle `max_count` lines of a longer range.
+/// Returns the range of lines that have bits. If the range is longer than `max_count` lines,
+/// returns its middle `max_count` lines.
 LineRange lines_with_bits(const BitLines& lines, int max_count) {
     int first = 0;
     int last = BitBlock::kSide - 1;
@@ -55,8 +56,9 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
     return {std::clamp(BitBlock::kMiddle - max_count / 2, first, last + 1 - max_count), max_count};
 }
 
-/// Returns the score of a line backwards minus its score forwards. A line of six bits is exact in
-/// one direction by chance; each further bit halves the probability.
+/// Returns the score of a line read backwards minus its score read forwards. A line of six bits is
+/// almost always exact in the wrong direction too, by chance. Each additional bit halves this
+/// probability.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);
@@ -74,13 +76,14 @@ int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid
     return backwards.best.score - forwards.best.score;
 }
 
-/// Returns the sum of the scores of several middle lines backwards minus their scores forwards.
+/// Returns the sum over several middle lines of the score read backwards minus the score read
+/// forwards.
 int backwardness(const Kernels& kernels, const BitLines& lines) {
     constexpr int kVoters = tuning::turns::kVotersOfBits;
     const LineRange range = lines_with_bits(lines, BitBlock::kSide);
     int sum = 0;
     for (int voter = 0; voter < kVoters; ++voter) {
-        // Voters are in the middle half of the lines, where lines are longest.
+        // Voters are in the middle half of the lines, where the lines are longest.
         const auto i = static_cast<std::size_t>(range.first + range.count / 4 +
                                                 range.count * voter / (2 * kVoters));
         if (i >= lines.bits.size()) break;

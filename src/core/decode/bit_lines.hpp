@@ -1,6 +1,6 @@
-// Bit lines: the bits of 64 x 64 cells as words, one for each column or row. Lines are turned,
-// compared and counted by one instruction each. Paper sections II-B.4 to II-B.7, with hard bits
-// instead of probabilities.
+// Bit lines: the bits of 64 x 64 cells, stored as one word for each column or row. A line is
+// turned, compared and counted in a few instructions. Paper sections II-B.4 to II-B.7, with hard
+// bits instead of probabilities.
 #pragma once
 
 #include "core/decode/lines.hpp"
@@ -9,7 +9,7 @@
 namespace dotpose::core {
 
 /// The bits of a block of cells: x bits by column, y bits by row. Cell (0, 0) is at index kMiddle
-/// of both.
+/// of its column and of its row.
 struct BitBlock {
     static constexpr int kSide = 64;
     static constexpr int kMiddle = 32;
@@ -17,7 +17,7 @@ struct BitBlock {
     BitLines rows;
 };
 
-/// Adjacent lines of a block, by index.
+/// A range of adjacent lines of a block.
 struct LineRange {
     int first = 0;
     int count = 0;
@@ -27,10 +27,10 @@ struct BlockRanges {
     LineRange rows;
 };
 
-/// Returns the columns and rows that have bits: at most `max_count` each, from the middle.
+/// Returns the columns and rows that have bits: at most `max_count` of each, from the middle.
 BlockRanges ranges_with_bits(const BitBlock& block, int max_count);
 
-/// The lines of a block that are scored, and the cell indices of the first ones.
+/// The lines of a block that are scored, and the cell indices of the first column and row.
 struct BlockLines {
     int first_column = 0;
     int first_row = 0;
@@ -38,7 +38,7 @@ struct BlockLines {
     Lines rows;
 };
 
-/// Returns the number of quarter turns from the grid to the pattern, by vote of lines near the
+/// Returns the number of quarter turns from the grid to the pattern, by a vote of lines near the
 /// middle. `turned` applies it.
 int likeliest_turn(const Kernels& kernels, const BitBlock& block);
 
@@ -48,13 +48,13 @@ BitBlock turned(int quarters, const BitBlock& block);
 /// Returns the plane turned like the block. It maps image points to cells of the turned block.
 FloatPlane turned(int quarters, const FloatPlane& grid_from_image);
 
-/// Scores the lines of an upright block that have bits: at most as many columns, and as many rows,
-/// as half of the storage holds, from the middle.
+/// Scores the lines of an upright block that have bits. Half of the storage is for columns and half
+/// for rows. If it is too small for all lines, the middle lines are scored.
 BlockLines score_block(const Kernels& kernels, const BitBlock& block,
                        std::span<ScoredLine> storage);
 
-/// Returns the place of cell (0, 0) of an upright block, from the readings of the column
-/// `first_column` and the row `first_row`, by index.
+/// Returns the place of cell (0, 0) of an upright block, from the readings of the column with index
+/// `first_column` and the row with index `first_row`.
 Place place_of_middle(CodeVariant code, int first_column, int first_row, const AxisReading& column,
                       const AxisReading& row);
 

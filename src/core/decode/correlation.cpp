@@ -7,16 +7,17 @@
 namespace dotpose::core {
 namespace {
 
-/// Weights are summed in groups of kGroup, for all combinations of signs, kGroups groups at a time.
+/// Weights are summed in groups of kGroup weights, for all combinations of signs. kGroups groups
+/// are summed at a time.
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
-/// Weights of two lines, or sums of weights, packed into one number. Both values fit 16 bits, so a
-/// + 65536 b is added like a single number.
+/// Weights of two lines, or sums of weights, packed into one number. Both values fit in 16 bits, so
+/// a + 65536 b is added like a single number.
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
-/// The kGroup bits of the main sequence from each index on, the first in the lowest bit. Stored as
+/// kGroup bits of the main sequence from each index on. The first bit is the lowest bit. Stored as
 /// byte offsets in Sums, which saves small processors a multiplication.
 constexpr auto kStrings = [] {
     std::array<std::uint8_t, 2 * kSections + kAtOnce> strings{};
@@ -57,8 +58,9 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
     ((sums[sizeof...(I) + I] = sums[I] + 2 * weight), ...);
 }
 
-/// Sets the sum of a group of weights for each string of bits. A weight is negated if its bit is 0.
-// Not inlined because it is long: unrolled, it takes half of the time.
+/// Sets, for each string of bits, the sum of a group of weights. A weight is negated if its bit is
+/// 0.
+// Not inlined, because the unrolled code is long. Unrolling halves the time.
 [[gnu::noinline]] void sum_signed(const std::int32_t* weights, Sums& sums) {
     static_assert(kGroup == 5);
     sums[0] = -(weights[0] + weights[1] + weights[2] + weights[3] + weights[4]);
@@ -69,7 +71,7 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
     append_sums(sums, weights[4], std::make_index_sequence<16>{});
 }
 
-/// Adds the sums of all groups to the scores, or sets the scores to them.
+/// Adds the sums of all groups to the scores, or overwrites the scores with them.
 template <std::size_t Groups, bool Adds>
 void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineScores& scores_a,
                LineScores& scores_b) {
@@ -80,7 +82,7 @@ void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineSco
         std::int32_t sum = sum_at(sums[0], string[0]);
         for (std::size_t group = 1; group < Groups; ++group)
             sum += sum_at(sums[group], string[group * kGroup]);
-        // (sum + 0x8000) >> 16, without a constant that needs a register.
+        // Computes (sum + 0x8000) >> 16 without a constant, which would need a register.
         const std::int32_t of_b = ((sum >> 15) + 1) >> 1;
         *a = static_cast<std::int16_t>(Adds ? *a + sum : sum);
         *b = static_cast<std::int16_t>(Adds ? *b + of_b : of_b);
@@ -123,7 +125,7 @@ void correlate(std::span<const std::int8_t> weights, LineScores& scores) {
     correlate_both(weights, {}, scores, none);
 }
 
-// Not inlined because it is long when unrolled.
+// Not inlined, because the unrolled code is long.
 [[gnu::noinline]] Match next_match(const LineScores& scores, Match last) {
     std::int32_t best = INT32_MIN;
     std::size_t roll = 0;

@@ -15,8 +15,8 @@ struct Match {
 };
 
 /// Sets the score of each roll o: the sum of the weights whose signs agree with the main sequence
-/// from index o on, minus the sum of the others. Doubtful bits have small weights. At most 256
-/// weights in [-127, 127].
+/// from index o on, minus the sum of the magnitudes of all other weights. Doubtful bits have small
+/// weights. There are at most 256 weights, in [-127, 127].
 void correlate(std::span<const std::int8_t> weights, LineScores& scores);
 
 /// Correlates two lines in little more time than one line.
@@ -29,7 +29,7 @@ Match best_match(const LineScores& scores);
 /// Returns the best match after `last`: a lower score, or an equal score and a larger roll.
 Match next_match(const LineScores& scores, Match last);
 
-/// Returns the best score and its margin over the second best.
+/// Returns the best score and its margin over the second best score.
 BestScore best_score(const LineScores& scores);
 
 /// The maximum and the minimum score of a line.

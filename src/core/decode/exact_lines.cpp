@@ -10,7 +10,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Index in the main sequence of each string of six bits, the first in the lowest bit.
+/// Index in the main sequence of each string of six bits. The first bit is the lowest bit.
 constexpr auto kIndexOfBits = [] {
     std::array<std::uint8_t, 64> indices{};
     indices.fill(code::kAbsent);
@@ -23,7 +23,7 @@ int below_sections(int roll) {
     return roll < kSections ? roll : roll - kSections;
 }
 
-/// Returns the 64 bits of the main sequence from an index on.
+/// Returns 64 bits of the main sequence, beginning at `index`.
 std::uint64_t main_word(int index) {
     const auto next = static_cast<std::size_t>(below_sections(index + 32));
     return code::kMainWords[static_cast<std::size_t>(index)] | std::uint64_t{code::kMainWords[next]}
@@ -61,8 +61,8 @@ bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange&
     int wrong = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const int here = below_sections(reading.roll + rolls[i]);
-        // Counts wrong bits in a loop: most lines have none, and many processors lack a popcount
-        // instruction.
+        // Counts wrong bits in a loop, because most lines have none, and many processors lack a
+        // popcount instruction.
         std::uint64_t differ = (bits(i) ^ main_word(here)) & valid(i);
         for (; differ != 0; differ &= differ - 1)
             ++wrong;

@@ -7,13 +7,14 @@
 
 namespace dotpose::core {
 
-/// Returns the roll at cell 0 of a line of up to 64 cells whose bits all agree with the main
-/// sequence at this roll. Returns code::kAbsent if there is none, or no six adjacent bits were
-/// read.
+/// Returns the roll, at cell 0, of a line of up to 64 cells whose bits all agree with the main
+/// sequence. Returns code::kAbsent if there is no such roll, or if the line has no six adjacent
+/// bits.
 std::uint8_t exact_roll(std::uint64_t bits, std::uint64_t valid);
 
 /// Finds the place of cell (0, 0) of an upright block from exact lines. Returns false if too few
-/// adjacent lines are exact, or if the place has more bit errors than half the number of lines.
+/// adjacent lines are exact, or if the number of bit errors at the place exceeds half the number of
+/// lines.
 bool find_place_exactly(CodeVariant code, const BitBlock& block, Place& place);
 
 }  // namespace dotpose::core

@@ -10,8 +10,8 @@ struct Extent {
     int count = 0;
 };
 
-/// Returns the cells from `min` to `max`, or the `capacity` cells around the origin if there are
-/// more.
+/// Returns the range of cells from `min` to `max`. If the range has more than `capacity` cells,
+/// returns `capacity` cells around the origin.
 Extent extent(int min, int max, int capacity) {
     if (max - min < capacity) return {min, max - min + 1};
     const int first = std::clamp(-capacity / 2, min, max - capacity + 1);
@@ -31,7 +31,7 @@ void lay_out(FixedVec min, FixedVec max, Grid& grid) {
 }
 
 std::int8_t quasi_probability(std::int32_t projection_q16) {
-    // The nominal offset r0 is the displacement, a sixth of the spacing.
+    // The nominal offset r0 is the displacement, which is a sixth of the spacing.
     const int r_q8 = (projection_q16 * 6 + 128) >> 8;  // r / r0
     const int square_q16 = r_q8 * r_q8;
     if (square_q16 >= 3 * 65536) return 0;
@@ -57,7 +57,7 @@ Status assign(std::span<const DetectedDot> dots, PointOf point_of, Grid& grid) {
     }
     lay_out(min, max, grid);
 
-    // A local copy: small processors would reload the members of the grid for each dot.
+    // A local copy, because small processors would reload the members of the grid for each dot.
     const Grid here = grid;
     const auto columns = static_cast<unsigned>(here.columns);
     const auto rows = static_cast<unsigned>(here.rows);

@@ -6,15 +6,15 @@
 
 namespace dotpose::core {
 
-/// Returns the quasi-probability f(r) of eq. 9 for a projected offset in 2^-16 spacings, in 1/127,
-/// in [-127, 127].
+/// Returns the quasi-probability f(r) of eq. 9 for a projected offset in 2^-16 spacings. The result
+/// is in units of 1/127, in [-127, 127].
 std::int8_t quasi_probability(std::int32_t projection_q16);
 
-/// Clears the grid and sets its extent to the cells from `min` to `max`, or to the middle cells if
-/// there are more than its capacity.
+/// Clears the grid and sets its extent to the cells from `min` to `max`. If there are more cells
+/// than its capacity, the extent is limited to the middle cells.
 void lay_out(FixedVec min, FixedVec max, Grid& grid);
 
-/// Fills the matrices P of Fig. 8 from all dots. A larger grid is cut to the middle `grid.side`
+/// Fills the matrices P of Fig. 8 from all dots. A larger grid is cropped to the middle `grid.side`
 /// cells per axis. Errors: grid_too_small.
 Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid);
@@ -23,8 +23,8 @@ Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImag
 Status assign_affine_likelihoods(std::span<const DetectedDot> dots,
                                  const PlaneFromImage& grid_from_image, Grid& grid);
 
-/// Returns the quality |P^(x) P^(y)| of a cell, which is large if its dot shows a symbol clearly:
-/// at most 127 * 127.
+/// Returns the quality |P^(x) P^(y)| of a cell, at most 127 * 127. The quality is large if the dot
+/// of the cell shows a symbol clearly.
 inline int quality(const GridCell& cell) {
     const int product = cell.x * cell.y;
     return product < 0 ? -product : product;

@@ -1,4 +1,4 @@
-// Lines: all columns (or rows) of an upright region, each correlated with the main sequence.
+// Lines: correlates all columns (or rows) of an upright region with the main sequence.
 #pragma once
 
 #include <array>
@@ -24,24 +24,25 @@ struct Lines {
     const BestScore& best(int line) const { return all[static_cast<std::size_t>(line)].best; }
 };
 
-/// Returns the half of the storage that belongs to an axis.
+/// Returns the half of the storage that is used for an axis.
 inline std::span<ScoredLine> scores_of(Axis axis, std::span<ScoredLine> storage) {
     const std::size_t half = storage.size() / 2;
     return axis == Axis::x ? storage.first(half) : storage.last(half);
 }
 
-/// Scores all lines of the region, at most as many as `storage` holds.
+/// Scores all lines of the region. `storage` must have room for them.
 Lines score_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
-/// Returns the lines that the last call of `score_lines` stored.
+/// Returns the lines that the last call of `score_lines` scored.
 Lines scored_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
 /// The position of the lines of one axis, with its score.
 struct AxisReading {
     std::uint32_t position = 0;  ///< position of the first line
-    std::uint8_t roll = 0;   ///< roll of the first line, at the first cell of the crossing lines
-    std::int32_t score = 0;  ///< sum of the scores of all lines
-    std::int32_t max_possible = 0;  ///< sum of the best scores of all lines, whatever their rolls
+    std::uint8_t roll = 0;       ///< roll of the first line, at the first cell of that line
+    std::int32_t score = 0;      ///< sum of the scores of all lines
+    /// Sum of the best scores of all lines, regardless of their rolls.
+    std::int32_t max_possible = 0;
 
     /// Returns true if the score is so near the maximum that no other reading can have a similar
     /// score.

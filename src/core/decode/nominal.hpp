@@ -14,7 +14,8 @@ class Nominal {
   public:
     Nominal(const Grid& grid, CodeVariant code, const Decoding& decoding);
 
-    /// Returns the position of a grid cell on the pattern, in spacings from `Decoding::place`.
+    /// Returns the position of a grid cell on the pattern, in spacings relative to
+    /// `Decoding::place`.
     FixedVec pattern_step(FixedVec grid_cell) const { return turn_(grid_cell); }
     /// Returns the symbol at a position on the pattern, which must be in the grid.
     Symbol symbol(FixedVec pattern_step) const;
@@ -22,7 +23,8 @@ class Nominal {
   private:
     QuarterTurn turn_;
     FixedVec first_;  ///< minimum pattern step of the cells of the grid
-    /// Index in the main sequence of the first cell of each column and row.
+    /// Index in the main sequence of the first cell of each column; `rows_` contains that of each
+    /// row.
     std::array<std::uint8_t, kMaxGridSide> columns_;
     std::array<std::uint8_t, kMaxGridSide> rows_;
 };

@@ -7,11 +7,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of lines per axis that vote on the turn. They are in the middle half, where lines are
-/// longest.
+/// Number of lines per axis that vote on the turn. The voting lines are in the middle half, where
+/// the lines are longest.
 constexpr int kVoters = tuning::turns::kVoters;
 
-/// The voting columns or rows of a region, with the bit of their cells that is read.
+/// The voting columns or rows of a region, and the bit that is read from their cells.
 class Voters {
   public:
     Voters(const Grid& grid, const GridRegion& region, bool are_columns, std::int8_t GridCell::*bit)
@@ -43,7 +43,7 @@ class Voters {
     std::int8_t GridCell::*bit_;
 };
 
-/// Sums of the best scores of the voters, with their bits as read and with all bits flipped.
+/// Sums of the best scores of the voting lines, with their bits as read and with all bits flipped.
 struct Agreement {
     std::int32_t as_is = 0;
     std::int32_t flipped = 0;
@@ -65,7 +65,7 @@ Agreement agreement_by_pairs(const Voters& voters, bool reversed) {
     return sum;
 }
 
-/// Agreement of lines read forwards and backwards.
+/// Agreement of the voting lines, read forwards and backwards.
 struct BothWays {
     Agreement forwards;
     Agreement backwards;
@@ -75,7 +75,7 @@ BothWays agreement(const Voters& voters) {
     return {agreement_by_pairs(voters, false), agreement_by_pairs(voters, true)};
 }
 
-/// Returns the maximum possible agreement of the voters with any sequence.
+/// Returns the maximum agreement that the voting lines can have with any sequence.
 std::int32_t max_possible(const Voters& voters) {
     std::int32_t sum = 0;
     Line storage;
@@ -86,7 +86,7 @@ std::int32_t max_possible(const Voters& voters) {
     return sum;
 }
 
-/// Returns the agreement of the best of the four ways to read the voters.
+/// Returns the agreement of the best of the four ways to read the voting lines.
 std::int32_t best_agreement(const Voters& voters) {
     const auto [forwards, backwards] = agreement(voters);
     return std::max(std::max(forwards.as_is, forwards.flipped),
@@ -96,8 +96,8 @@ std::int32_t best_agreement(const Voters& voters) {
 }  // namespace
 
 Orientation rank_turns(const Grid& grid, const GridRegion& region) {
-    // differs: the paper counts the lines that occur in the main sequence exactly. The sum of the
-    // best scores is the same vote, but includes lines with a misread bit.
+    // differs: the paper counts the lines that occur exactly in the main sequence. The sum of the
+    // best scores gives the same vote, but includes lines with a misread bit.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
     const BothWays of_columns = agreement(x_columns);
@@ -113,8 +113,8 @@ Orientation rank_turns(const Grid& grid, const GridRegion& region) {
     std::array<QuarterTurn, 4> turns{QuarterTurn{0}, QuarterTurn{1}, QuarterTurn{2},
                                      QuarterTurn{3}};
     const auto score = [&](QuarterTurn t) { return scores[static_cast<std::size_t>(t.quarters)]; };
-    // Sorts the turns by score and keeps the order of ties. A library sort would be long for four
-    // elements.
+    // Sorts the turns by score and keeps the order of ties. A library function would need much more
+    // code for four elements.
     for (std::size_t n = 1; n < turns.size(); ++n) {
         for (std::size_t i = n; i > 0 && score(turns[i]) > score(turns[i - 1]); --i)
             std::swap(turns[i], turns[i - 1]);

@@ -14,13 +14,13 @@ struct Orientation {
                              ///< likely turn
 };
 
-/// Ranks the four turns by a vote of columns and rows: each agrees better with the main sequence
-/// either as read, or flipped and reversed.
+/// Ranks the four turns by a vote of the columns and rows. On each axis, the lines are compared
+/// with the main sequence as read, and flipped and reversed.
 Orientation rank_turns(const Grid& grid, const GridRegion& region);
 
 /// Returns true if the region agrees much better with the mirrored pattern, whose columns contain
-/// the bits of rows, than with the pattern. `agreement` is the agreement with the pattern, from
-/// `rank_turns`.
+/// the bits of rows, than with the pattern. `agreement` is the agreement with the pattern, as
+/// `rank_turns` returned it.
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t agreement);
 
 }  // namespace dotpose::core

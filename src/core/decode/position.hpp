@@ -1,4 +1,4 @@
-// Position: the turn and the place in the code. Paper sections II-B.6 and II-B.7.
+// Position: determines the turn and the place in the code. Paper sections II-B.6 and II-B.7.
 #pragma once
 
 #include "core/decode/grid.hpp"
@@ -13,14 +13,14 @@ namespace dotpose::core {
 Status decode_window(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                      Decoding& decoding);
 
-/// Decodes from all dots: weighted correlation of all lines, and the position with the largest sum
-/// of scores. Tries the two most likely turns and takes the one with the larger sum. Errors:
+/// Decodes all dots: correlates all lines with weights, and finds the position with the largest sum
+/// of scores. Tries the two most likely turns and takes the turn with the larger sum. Errors:
 /// grid_too_small, not_in_code.
 Status decode_all(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                   Decoding& decoding);
 
-/// Decodes from all dots in bounded time, for first attempts. A position that takes longer to find
-/// is rarely certain.
+/// Decodes all dots in bounded time, for first attempts. A position that takes longer to find is
+/// rarely certain.
 Status decode_briefly(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                       Decoding& decoding);
 

@@ -31,10 +31,10 @@ struct PlaceView {
 /// Measurements of one cell.
 struct CellView {
     FixedVec centre_q8;
-    FixedVec u_q8;  ///< one spacing along each axis of the grid, in image px
+    FixedVec u_q8;  ///< one spacing along the rows of the grid, in 2^-8 px of the image
     FixedVec v_q8;
-    int half_px = 0;                  ///< half the side of a square of 2/5 spacing
-    std::array<PlaceView, 4> places;  ///< by Symbol
+    int half_px = 0;                  ///< half the side of a square of 2/5 spacing, in px
+    std::array<PlaceView, 4> places;  ///< indexed by Symbol
 
     CellView(const ImageView& image, FixedVec centre, FixedVec right, FixedVec below)
         : centre_q8(centre), u_q8(right - centre), v_q8(below - centre) {
@@ -60,16 +60,17 @@ class CellSampler {
                 const PlaneFromImage& plane)
         : image_(image), paper_(paper), lens_(lens), plane_(plane) {}
 
-    /// Calls `use(cell, view)` for each cell with a place in the image, before the view is sampled.
+    /// Calls `use(cell, view)` for each cell with a place in the image. The view is not yet
+    /// sampled.
     template <typename Use>
     void visit(const Grid& grid, Use use) const;
     /// Sets the darkness and shade of the places in the image.
     void sample(CellView& view) const;
-    /// Returns the paper level at the middle of the cell relative to that at the middle of the
-    /// image.
+    /// Returns the paper level at the middle of the cell relative to the paper level at the middle
+    /// of the image.
     int light_q8(const CellView& view) const;
-    /// Returns, for each place in the image, the shade of the darkest square 2/15 spacing away from
-    /// it.
+    /// Returns, for each place in the image, the shade of the darkest square at a distance of 2/15
+    /// spacing from the place.
     std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
@@ -77,7 +78,7 @@ class CellSampler {
     FixedVec image_of(int i, int j) const {
         return distorted_point_q8(lens_, plane_, {i * 65536, j * 65536});
     }
-    /// Returns the mean darkness of a square.
+    /// Returns the mean darkness of a square, from a sample of its pixels.
     int shade_q8(FixedVec centre_q8, int half_px) const;
     /// Returns the mean darkness of a square, from the sum over its pixels.
     int darkness_q8(FixedVec centre_q8, int sum, int pixels) const;
@@ -90,7 +91,7 @@ class CellSampler {
     const PlaneFromImage& plane_;
 };
 
-/// Returns the distance between sampled pixels, which is larger than 1 for large squares.
+/// Returns the distance between sampled pixels, in px. It is larger than 1 for large squares.
 int step_px(int half_px) {
     return std::max(half_px / 3, 1);
 }
@@ -118,7 +119,7 @@ int CellSampler::shade_q8(FixedVec centre_q8, int half_px) const {
 
 template <typename Use>
 void CellSampler::visit(const Grid& grid, Use use) const {
-    // An intersection is a corner of four cells, so each row of intersections is used twice.
+    // Rows of intersections are computed once, because adjacent rows of cells share them.
     std::array<FixedVec, kMaxGridSide + 1> here;
     std::array<FixedVec, kMaxGridSide + 1> below;
     const auto find_row = [&](int j, std::array<FixedVec, kMaxGridSide + 1>& row) {
@@ -191,7 +192,8 @@ int CellSampler::light_q8(const CellView& view) const {
     return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
-/// Returns the typical darkest place of a cell: the medians over the cells.
+/// Returns the median darkness and the median shade, over a sample of the cells, of the darkest
+/// place of each cell.
 PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
     std::array<std::int32_t, tuned::kMedianSample> darkness;
     std::array<std::int32_t, tuned::kMedianSample> shade;
@@ -212,24 +214,25 @@ PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
             std::max<std::int32_t>(median(std::span(shade).first(count)), 1)};
 }
 
-/// Darkness of dots and graphics in an image, and the weights of the bits that follow from it.
+/// Darkness of dots and graphics in an image. Provides the weights of the bits.
 class Ink {
   public:
     Ink(const CellSampler& sampler, const Grid& grid) : sampler_(sampler) {
         const PlaceView typical = typical_place(sampler, grid);
         contrast_q8_ = typical.darkness_q8;
-        // Graphics are darker than the geometric mean of the shade of a dot and that of solid ink.
+        // Graphics are darker than the geometric mean of the shade of a dot and the shade of solid
+        // ink.
         graphics_q8_ = static_cast<int>(
             square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
 
-    /// Darkness at the places of a cell, and its reliability.
+    /// Darkness at the places of a cell, and the reliability of its bits.
     struct Sample {
-        std::array<int, 4> darkness_q8;  ///< by Symbol
+        std::array<int, 4> darkness_q8;  ///< indexed by Symbol
         int reliability_q4 = 16;
         int light_q8 = 256;
     };
-    /// Returns the sample of a cell, and marks the places that graphics cover in the cell.
+    /// Returns the sample of a cell, and marks the places of the cell that graphics cover.
     Sample sample(const CellView& view, GridCell& cell) const {
         Sample sample;
         unsigned hidden = 0;
@@ -238,7 +241,8 @@ class Ink {
         const std::array<int, 4> darkest_around_q8 = sampler_.darkest_around_q8(view);
         for (std::size_t i = 0; i < view.places.size(); ++i) {
             const PlaceView& place = view.places[i];
-            // A place outside the image has half the darkness of a dot, which favours neither bit.
+            // A place outside the image counts as half as dark as a dot, which favours neither
+            // value of a bit.
             sample.darkness_q8[i] = contrast_q8_ / 2;
             if (!place.is_seen) continue;
             const int around_q8 = darkest_around_q8[i];
@@ -266,7 +270,7 @@ class Ink {
         return sample;
     }
 
-    /// Returns true if two of the places look like dots.
+    /// Returns true if two of the places of the cell look like dots.
     bool is_crowded(const Sample& sample) const {
         std::array<int, 4> sorted = sample.darkness_q8;
         std::sort(sorted.begin(), sorted.end());
@@ -274,13 +278,14 @@ class Ink {
                4 * sorted[2] > tuned::kSecondDot_4ths * sorted[3];
     }
 
-    /// Returns the weight of a bit, from the darkness at the places for 1 and for 0.
+    /// Returns the weight of a bit. `one_q8` and `zero_q8` are the darkness at the places where the
+    /// bit is 1 and 0.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
-        // Noise is that of the sensor. The weight is the difference in grey levels relative to the
-        // contrast; both are proportional to the light.
+        // The weight is the difference relative to the noise of the sensor. The difference in grey
+        // levels and the contrast are both proportional to the light.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
-        // The weight is limited: above some contrast, errors are not due to noise.
+        // The weight is limited, because above some contrast, errors are not caused by noise.
         const int weight = static_cast<int>(
             std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
         return static_cast<std::int8_t>(weight * sample.reliability_q4 / 16);
@@ -292,7 +297,7 @@ class Ink {
     int graphics_q8_ = 0;
 };
 
-/// Sets the extent of the grid to the cells that the border of the image encloses.
+/// Sets the extent of the grid to the range of the cells in the image.
 void cover_image(const ImageView& image, const FixedLens& lens, const PlaneFromImage& plane,
                  Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};

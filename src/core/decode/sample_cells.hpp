@@ -1,4 +1,4 @@
-// Sample cells: the bits of every cell, sampled from the image at the four places of the cell. Dots
+// Sample cells: samples the bits of every cell from the image, at the four places of the cell. Dots
 // contribute even if they were not found as blobs. Replaces the projections of eq. 7-8 in the
 // second attempt. differs: docs/differs-from-paper.md.
 #pragma once
@@ -12,9 +12,9 @@ namespace dotpose::core {
 
 /// Extends the grid over the whole image and sets the weights of the bits of all its cells, or of
 /// the middle `grid.side` cells per axis. Places outside the image and under graphics favour
-/// neither bit, and cells under graphics are marked as hidden. Cells near graphics or the border
-/// have smaller weights. Returns false if many cells contain two dots, which means that the image
-/// shows two patterns.
+/// neither value of a bit, and cells under graphics are marked as hidden. Cells near graphics or
+/// the border have smaller weights. Returns false if many cells contain two dots, which means that
+/// the image contains two patterns.
 bool sample_cells(const ImageView& image, const PaperMap& paper, const FixedLens& lens,
                   const PlaneFromImage& grid_from_image, Grid& grid);
 

@@ -15,7 +15,7 @@ namespace tuned = tuning::search;
 constexpr int kChoices = tuned::kChoices;
 constexpr int kMaxRunLength = 8;
 
-/// Returns the smallest roll with a score. The score occurs in `scores`.
+/// Returns the smallest roll with the given score. `scores` must contain the score.
 std::uint8_t roll_of(int score, const LineScores& scores) {
     const std::int16_t* found = scores.data();
     while (*found != score)
@@ -23,8 +23,8 @@ std::uint8_t roll_of(int score, const LineScores& scores) {
     return static_cast<std::uint8_t>(found - scores.data());
 }
 
-/// The rolls of one line, the best score first and ties by the smallest roll. They are computed on
-/// demand, because rolls after the first are rarely needed.
+/// The rolls of one line, ordered by decreasing score. Ties are broken by the smaller roll. The
+/// rolls are computed on demand, because rolls after the first are rarely needed.
 class Choices {
   public:
     Choices() = default;
@@ -53,7 +53,8 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Returns the reading, with its sum over all lines, if line `line` is at `position` with `roll`.
+/// Returns the reading for which line `line` is at `position` with `roll`. Its score is the sum
+/// over all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     std::array<std::uint8_t, kMaxLines> storage;
@@ -69,8 +70,8 @@ AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32
 
 using Run = std::array<Choices, kMaxRunLength>;
 
-/// Returns the number of choices of each line of a run that are combined. Adds the choice with the
-/// smallest loss while there are at most `max_readings` combinations.
+/// Returns the number of choices of each line of a run that are combined. Repeatedly adds the
+/// choice with the smallest loss, until there would be more than `max_readings` combinations.
 std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     std::array<int, kMaxRunLength> widths;
     widths.fill(1);
@@ -94,8 +95,8 @@ std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     }
 }
 
-/// Reads the lines from `first` on at these rolls, and replaces `best` if the reading has a higher
-/// score over all lines. Returns true if the new reading is clear.
+/// Reads the lines from `first` on with the given rolls, and replaces `best` if the reading has a
+/// higher score over all lines. Returns true if the new reading is clear.
 bool improve(CodeVariant code, const Lines& lines, int first, std::span<const std::uint8_t> rolls,
              AxisReading& best) {
     std::uint32_t position = 0;
@@ -107,7 +108,7 @@ bool improve(CodeVariant code, const Lines& lines, int first, std::span<const st
     return best.is_clear();
 }
 
-/// Reads one run in all combinations of the choices of its lines, until a reading is clear.
+/// Reads one run with all combinations of the choices of its lines, until a reading is clear.
 void try_run(CodeVariant code, const Lines& lines, int first, int length, int max_readings,
              AxisReading& best) {
     Run run;
@@ -121,7 +122,7 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
     const auto widths = widen(run, length, max_readings);
     std::array<int, kMaxRunLength> choice{};
     while (true) {
-        // Counts up the choices, those of the last line fastest.
+        // Counts up the choices. The choice of the last line changes fastest.
         std::size_t n = rolls.size();
         while (n > 0 && choice[n - 1] + 1 == widths[n - 1]) {
             choice[--n] = 0;
@@ -133,7 +134,8 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
     }
 }
 
-/// Returns the start of the run with the largest sum of margins that is not taken yet, or -1.
+/// Returns the first line of the run with the largest sum of margins among the runs that are not
+/// taken yet, or -1 if all runs are taken.
 int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int largest = INT32_MIN;
@@ -151,13 +153,13 @@ int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLine
     return clearest;
 }
 
-/// Maximum number of runs of lines that are read, and of readings of each run.
+/// Maximum number of runs of lines that are read, and of readings per run.
 struct Limits {
     int runs;
     int readings;  ///< per run
 };
 
-/// Reads runs of lines, the clearest first, until a reading is clear.
+/// Reads runs of lines, starting with the clearest run, until a reading is clear.
 void search_by_runs(CodeVariant code, const Lines& lines, const Limits& limits, AxisReading& best) {
     const int length = run_length(code);
     std::int32_t max_possible = 0;

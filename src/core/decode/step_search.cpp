@@ -14,7 +14,8 @@ constexpr std::size_t kSequences = 4;
 constexpr std::size_t kDigits = 3;
 constexpr std::size_t kStepSizes = code::kMaxDelta - code::kMinDelta + 1;
 
-/// Loss of score, by sequence and digit, if the step between two lines has that digit.
+/// Loss of score, by sequence and digit, if the step between two lines has this digit in this
+/// sequence.
 using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
 
 /// Returns the maximum sum of the scores of two lines whose rolls differ by `step`.
@@ -44,8 +45,8 @@ StepLosses losses_of(const LineScores& line, const LineScores& next) {
     return losses;
 }
 
-/// Number of places of the first line that are kept in each secondary sequence, the most likely
-/// first.
+/// Number of places of the first line that are kept in each secondary sequence. The most likely
+/// places are kept.
 constexpr std::size_t kChoices = tuning::step_search::kChoices;
 using Choices = std::array<std::uint32_t, kChoices>;
 
@@ -73,8 +74,8 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
     return places;
 }
 
-/// Returns the reading, with its sum over all lines, if the first line is at `position`, with the
-/// best roll.
+/// Returns the reading for which the first line is at `position`, with the best roll. Its score is
+/// the sum over all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;
     code::follow_rolls(code, position, 0, std::span(rolls).first(lines.all.size()));

@@ -1,4 +1,4 @@
-// Step search: the position of an axis from the steps between neighbouring lines, at any lines.
+// Step search: finds the position of an axis from the steps between all neighbouring lines.
 // differs: the paper decodes each line separately; docs/differs-from-paper.md.
 #pragma once
 
@@ -6,10 +6,10 @@
 
 namespace dotpose::core {
 
-/// Finds the possible digits of every step between two lines, the places in each secondary sequence
-/// that agree best with all steps, and the best position that combines such places. Replaces `best`
-/// if the position is better. Also finds positions that the search by runs of lines misses, for
-/// example if graphics hide every sixth line or if no line has a clear roll.
+/// Finds the loss of each digit of every step between two lines, then the places in each secondary
+/// sequence that agree best with all steps, and then the best position that combines such places.
+/// Replaces `best` if the position is better. Also finds positions that the search by runs of lines
+/// misses, for example if graphics hide every sixth line or if no line has a clear roll.
 void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

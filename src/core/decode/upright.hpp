@@ -1,5 +1,5 @@
-// Upright: the matrices P turned upright on the pattern, independent of the turn of the grid. Paper
-// section II-B.6 (last paragraph: symbols and matrices are rotated accordingly).
+// Upright: the matrices P turned upright on the pattern, which makes them independent of the turn
+// of the grid. Paper section II-B.6 (last paragraph: symbols and matrices are rotated accordingly).
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 
 namespace dotpose::core {
 
-/// A line of signed weights: positive for bit 1.
+/// Signed weights of the bits of a line; positive for bit 1.
 using Line = std::array<std::int8_t, kMaxGridSide>;
 
-/// Weights of the two bits of a symbol: positive for 1.
+/// Weights of the two bits of a symbol; positive for bit 1.
 struct Bits {
     std::int8_t x = 0;
     std::int8_t y = 0;
@@ -53,7 +53,7 @@ class Upright {
         };
         to_right_ = stride({1, 0});
         downwards_ = stride({0, 1});
-        // Same as `turned`, for all cells of a line.
+        // The same as in `turned`, for all cells of a line.
         x_bit_ = is_sideways() ? &GridCell::y : &GridCell::x;
         y_bit_ = is_sideways() ? &GridCell::x : &GridCell::y;
         x_sign_ = q == 0 || q == 1 ? 1 : -1;

@@ -1,16 +1,17 @@
-// Window: the square of cells with the largest quality. Paper section II-B.5, with 8 x 8 cells.
+// Window: finds the square of cells with the largest quality. Paper section II-B.5, with 8 x 8
+// cells.
 #pragma once
 
 #include "core/decode/grid.hpp"
 
 namespace dotpose::core {
 
-/// Returns the square of `side` x `side` cells with the largest sum of qualities. It is smaller if
-/// the grid is narrower or lower.
+/// Returns the square of `side` x `side` cells with the largest sum of qualities. The result is
+/// smaller if the grid is smaller.
 GridRegion choose_window(const Grid& grid, int side);
 
-/// Returns the mean quality of the cells of a region, in 1/256. It is 256 if every dot is exactly
-/// at the place of a symbol.
+/// Returns the mean quality of the cells of a region, in 1/256. The mean is 256 if every dot is
+/// exactly at the place of a symbol.
 int mean_quality_q8(const Grid& grid, const GridRegion& region);
 
 }  // namespace dotpose::core

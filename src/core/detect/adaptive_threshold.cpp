@@ -12,8 +12,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Half of a low threshold for which every pixel is dark. It ends the search for dark pixels after
-/// the last pixel of a row.
+/// Half of a low threshold for which every pixel is dark. Used as a sentinel after the last pixel
+/// of a row, it ends the search for dark pixels.
 constexpr std::uint8_t kAlwaysDark = 128;
 
 constexpr int kBandsKept = 4;  // three are needed; a power of two is faster
@@ -24,14 +24,15 @@ std::span<Tile> tiles_of(const AdaptiveThreshold& threshold, int band) {
     return threshold.tiles.subspan(static_cast<std::size_t>(band & (kBandsKept - 1)) * n, n);
 }
 
-/// Copies blocks while they fit, and advances both pointers.
+/// Copies whole blocks of kBlock bytes until fewer bytes remain before `end`. Advances both
+/// pointers.
 template <std::size_t kBlock>
 void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_t*& to) {
     for (; end - from >= static_cast<std::ptrdiff_t>(kBlock); from += kBlock, to += kBlock)
         std::memcpy(__builtin_assume_aligned(to, 4), __builtin_assume_aligned(from, 4), kBlock);
 }
 
-/// Stores a row and fills its last tile with the last pixel.
+/// Stores a row and repeats its last pixel up to the end of the last tile.
 void keep_row(const std::uint8_t* pixels, const AdaptiveThreshold& threshold, std::uint8_t* row) {
     const std::uint8_t* const end = pixels + threshold.width_px;
     std::uint8_t* const whole = row + whole_width(threshold);
@@ -51,8 +52,8 @@ void keep_row(const std::uint8_t* pixels, const AdaptiveThreshold& threshold, st
         std::memcpy(__builtin_assume_aligned(row, sizeof words), &words, sizeof words);
 }
 
-/// The tiles of a band and of the bands above and below. At the border of the image, the band
-/// replaces a missing one.
+/// The tiles of a band and of the bands above and below it. At the border of the image, the band
+/// itself replaces the missing band.
 struct ThreeBands {
     const Tile* above;
     const Tile* here;
@@ -65,8 +66,8 @@ ThreeBands three_bands(const AdaptiveThreshold& threshold, int band) {
             band + 1 < band_count(threshold) ? tiles_of(threshold, band + 1).data() : here};
 }
 
-/// Computes the brightest mean and the largest darkness of each tile and the tiles above and below
-/// it.
+/// Computes, for each tile, the brightest mean and the largest darkness of this tile and the tiles
+/// above and below it.
 void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
                 std::uint8_t* darknesses) {
     for (std::size_t t = 0; t < count; ++t) {
@@ -77,7 +78,7 @@ void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
     }
 }
 
-/// Replaces each number by the maximum of it and its two neighbours.
+/// Replaces each number by the maximum of this number and its two neighbours.
 void join_neighbours(std::uint8_t* number, std::size_t count) {
     std::uint8_t* const last = number + count - 1;
     int here = *number;
@@ -99,11 +100,11 @@ inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     return column + kTileWidth_px;
 }
 
-/// Number of tiles by their contrast relative to their paper level, in steps of 1/kContrastBins.
+/// Number of tiles for each contrast relative to the paper level, in steps of 1/kContrastBins.
 using Histogram = std::array<std::uint16_t, kContrastBins>;
 
-/// Adds each tile with contrast to the histogram, and sets the mean of the others to 0. Returns the
-/// number of tiles with contrast.
+/// Adds each tile with contrast to the histogram, and sets the mean of all other tiles to 0.
+/// Returns the number of tiles with contrast.
 int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                    int min_contrast, int& max_contrast, Histogram& histogram) {
     int blank = 0;
@@ -128,8 +129,8 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
 
 /// Returns the contrast of dots relative to paper in a band, in 1/256, or 0 if no tile has
 /// contrast. Ink reflects the same fraction of the light everywhere, so all tiles have the same
-/// relative contrast. Strokes of graphics increase the contrast of the tiles around them; the lower
-/// tercile over a band is that of dots even if strokes cross the band.
+/// relative contrast. Strokes of graphics increase the contrast of the tiles around them. The 30 %
+/// quantile over a band is the contrast of dots even if strokes cross the band.
 unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                              int min_contrast, int& max_contrast) {
     Histogram histogram{};
@@ -144,14 +145,14 @@ unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses
     return (2 * bin + 1) * (256 / (2 * kContrastBins));
 }
 
-/// Sets the levels of all columns from contrasts relative to paper, in 2^-16.
+/// Sets the thresholds of all columns from their contrasts relative to paper, in 2^-16.
 void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q16,
                 unsigned to_high_q16, AdaptiveThreshold& threshold) {
     std::uint8_t* half_low_levels = threshold.half_low_levels.data();
     std::uint8_t* high_levels = threshold.high_levels.data();
     for (const std::uint8_t* const end = papers + tiles; papers != end; ++papers) {
         const unsigned paper = *papers;
-        // The low threshold is even, because runs compare seven bits.
+        // The low threshold is even, because the search for runs compares seven bits of each level.
         const unsigned half_low = (paper - (paper * to_low_q16 >> 16)) >> 1;
         const unsigned high = std::min(paper - (paper * to_high_q16 >> 16), 2 * half_low);
         half_low_levels = fill(half_low_levels, half_low);
@@ -195,14 +196,14 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold) {
 
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold) {
     const auto tiles = static_cast<std::size_t>(threshold.tiles_per_band);
-    // Until the levels of all columns are set, their memory contains values per tile. The paper
-    // levels are at its end, which is overwritten last.
+    // Before the levels of the columns are set, their memory stores one value per tile. The paper
+    // levels are at the end of the memory, which is overwritten last.
     std::uint8_t* const papers = threshold.half_low_levels.data() + whole_width(threshold) - tiles;
     std::uint8_t* const darknesses = threshold.high_levels.data();
     join_bands(three_bands(threshold, band), tiles, papers, darknesses);
-    // The darkest pixel is taken from the tiles on both sides as well, because dots may be farther
-    // apart than the width of a tile. Each tile contains paper, and the brightest of several would
-    // be too bright.
+    // The darkness includes the tiles on both sides, because dots may be farther apart than the
+    // width of a tile. The paper level does not: each tile contains paper, and the brightest of
+    // several tiles would be too bright.
     join_neighbours(darknesses, tiles);
     // A tile with less than half of its columns in the image consists mostly of the repeated last
     // pixel.

@@ -14,19 +14,20 @@ namespace dotpose::core {
 
 /// Width and height of the tiles of the adaptive threshold. The height is kLowTile_px for images
 /// whose shorter side is at most `kMaxSideWithLowTiles_px`, and kHighTile_px for larger images.
-/// Three tiles must contain a dot: an image with 8 dots along its shorter side has a spacing of at
-/// most 1/8 of that side, and dots of at most a third of the spacing.
+/// Three adjacent tiles must contain a dot. An image with 8 dots along its shorter side has a
+/// spacing of at most 1/8 of that side, and dots of at most a third of the spacing.
 inline constexpr int kTileWidth_px = 16;
 inline constexpr int kLowTile_px = 8;
 inline constexpr int kHighTile_px = 16;
 inline constexpr int kMaxSideWithLowTiles_px = 240;
-/// Bytes after the last row and the last level that may be read. Their values have no effect.
+/// Number of bytes after the last row and after the last level that may be read. Their values have
+/// no effect.
 inline constexpr int kReadAhead_px = 8;
 
 /// Grey levels of one tile.
 struct Tile {
     std::uint8_t mean = 0;
-    std::uint8_t darkness = 0;  ///< 255 minus the level of its darkest pair of pixels
+    std::uint8_t darkness = 0;  ///< 255 minus the level of the darkest pair of pixels of the tile
 };
 
 /// The newest rows of the image with their tiles, and the thresholds of one band. A *band* is a row
@@ -44,8 +45,8 @@ struct AdaptiveThreshold {
     /// Pixels of the two newest bands. Rows are filled up to whole tiles.
     std::span<std::uint8_t> rows;
     std::span<Tile> tiles;  ///< tiles of the four newest bands
-    /// Low threshold in each column of the current band, halved: pixels darker than twice this
-    /// level belong to a blob. 0 if no pixel does.
+    /// Low threshold in each column of the current band, divided by two. Pixels darker than twice
+    /// this level belong to a blob. 0 if no pixel belongs to a blob.
     std::span<std::uint8_t> half_low_levels;
     std::span<std::uint8_t>
         high_levels;  ///< high threshold: a blob must have a pixel darker than this level
@@ -58,8 +59,9 @@ void begin_threshold(int width_px, int height_px, AdaptiveThreshold& threshold);
 /// with this row: 0 or 1, and up to 2 with the last row of the image.
 int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold);
 
-/// Sets `threshold.half_low_levels` and `threshold.high_levels` for one band from its tiles and
-/// those of the neighbouring bands. Bands come in order, each when `take_row` reports it ready.
+/// Sets `threshold.half_low_levels` and `threshold.high_levels` for one band from its tiles and the
+/// tiles of the neighbouring bands. Must be called for the bands in order, for each band when
+/// `take_row` reports it as ready.
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold);
 
 /// Returns the contrast, in grey levels, below which tiles of the next band are blank. It increases
@@ -70,7 +72,7 @@ int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& 
 inline int band_count(const AdaptiveThreshold& threshold) {
     return (threshold.height_px + threshold.band_px - 1) >> threshold.band_shift;
 }
-/// Return the first row of a band, and one past its last.
+/// Returns the first row of a band. `band_end` returns one past its last row.
 inline int band_begin(const AdaptiveThreshold& threshold, int band) {
     return band * threshold.band_px;
 }

@@ -18,7 +18,7 @@ constexpr std::uint32_t kMaxMass = 65535;
 /// Marks a merged blob, in place of its last row.
 constexpr std::uint16_t kNoRow = UINT16_MAX;
 
-/// Returns a distance from the image centre that contains all dots of an image.
+/// Returns an upper bound of the distance of a dot from the image centre, per axis.
 int all_within_px(const AdaptiveThreshold& threshold) {
     return std::max(threshold.width_px, threshold.height_px);
 }
@@ -49,9 +49,9 @@ void keep_dots(DotList list, Predicate is_to_keep) {
     list.count = static_cast<int>(kept - list.dots.data());
 }
 
-/// Reduces the distance at which dots are kept and removes the dots beyond it, which makes room for
-/// inner ones. Returns false if the distance is 0. Not inlined: small devices need their registers
-/// for the frequent case.
+/// Reduces the distance at which dots are kept, and removes the dots beyond it to make room for
+/// inner dots. Returns false if the distance is 0. Not inlined, because small devices need their
+/// registers for the frequent case.
 [[gnu::noinline]] bool make_room(const AdaptiveThreshold& threshold, DotList list) {
     if (list.kept_within_px == 0) return false;
     list.kept_within_px -= list.kept_within_px / 8 + 1;
@@ -82,7 +82,7 @@ void close_blob(const OpenBlob& blob, const AdaptiveThreshold& threshold, DotLis
          blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
         static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
         static_cast<std::uint16_t>(blob.area_px)};
-    // Distances are not compared until the list has been full.
+    // Distances are compared only after the list was full for the first time.
     while (list.kept_within_px == all_within_px(threshold) || IsKept(threshold, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
             list.dots[static_cast<std::size_t>(list.count++)] = dot;
@@ -102,7 +102,7 @@ OpenBlob* unused_blob(OpenBlobs& open) {
     return open.blobs_begun < open.blobs.size() ? &open.blobs[open.blobs_begun++] : nullptr;
 }
 
-/// Returns a new blob that begins with a run of row `v`, or null if all are in use.
+/// Returns a new blob that begins with a run of row `v`, or null if all blobs are in use.
 OpenBlob* open_blob(const Run& run, int v, OpenBlobs& open) {
     OpenBlob* const blob = unused_blob(open);
     if (blob == nullptr) return nullptr;
@@ -156,8 +156,8 @@ void end_row(Run& after_last) {
     after_last.begin = after_last.end = UINT16_MAX;
 }
 
-/// Adds each run of row `v` to the blob of the runs above that it touches, also at corners, or
-/// opens a new blob for it.
+/// Adds each run of row `v` to the blob of the runs above that it touches, including at corners.
+/// Opens a new blob for a run that touches none.
 void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
     bool some_united = false;
     for (Run& run : below) {
@@ -189,14 +189,14 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
         run.blob = whole(run.blob);
 }
 
-/// Closes the blobs of the row above that row `v` does not continue.
+/// Closes the blobs of the row above that do not continue in row `v`.
 void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& threshold,
                  OpenBlobs& open, DotList list) {
     for (const Run& run : above) {
         OpenBlob* const blob = run.blob;
         if (blob == nullptr || blob->last_v == v) continue;
         if (blob->part_of == nullptr) close_blob(*blob, threshold, list);
-        blob->last_v = static_cast<std::uint16_t>(v);  // other runs of the blob then skip it
+        blob->last_v = static_cast<std::uint16_t>(v);  // makes the other runs of the blob skip it
         blob->part_of = open.first_unused;
         open.first_unused = blob;
     }

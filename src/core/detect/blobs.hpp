@@ -24,18 +24,19 @@ struct OpenBlob {
     std::uint16_t right = 0;  ///< exclusive
     std::uint16_t first_v = 0;
     std::uint16_t last_v = 0;
-    /// Blob that this one was merged into. For an unused blob, the next unused blob.
+    /// The blob into which this blob was merged. For an unused blob, the next unused blob.
     OpenBlob* part_of = nullptr;
     bool passes_high = false;  ///< true if a pixel is darker than the high threshold
 };
 
-/// Blobs with pixels in the newest thresholded row.
+/// Blobs that have pixels in the newest thresholded row.
 struct OpenBlobs {
-    /// Runs of the newest row and of the row above, in one half each. A sentinel run ends each row.
+    /// Runs of the newest row and of the row above, one row in each half. A sentinel run ends each
+    /// row.
     std::span<Run> runs;
     int run_count = 0;
     bool newest_in_second_half = false;
-    int max_runs = INT32_MAX;  ///< limit per image; further runs are ignored
+    int max_runs = INT32_MAX;  ///< maximum number of runs per image; further runs are ignored
     int runs_left = 0;
     std::span<OpenBlob> blobs;
     std::size_t blobs_begun = 0;       ///< number of blobs used in this image so far
@@ -52,13 +53,13 @@ struct DotList {
 /// Starts the blobs of a frame, with no dots.
 void begin_blobs(const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
-/// Thresholds row `v` with `threshold.half_low_levels` and `threshold.high_levels`, continues the
-/// blobs of the row above, and adds the blobs that ended there to the list.
+/// Finds the runs of row `v` with `threshold.half_low_levels` and `threshold.high_levels`,
+/// continues the blobs of the row above, and adds the blobs that ended there to the list.
 void grow_blobs(int v, const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
 /// Removes dots that are much lighter or larger than the upper quartile, and dots with too few
 /// pixels. Paper section II-B.1 ("only blobs with sufficient pixels are retained"). The limits are
-/// relative to the other dots and suit any spacing.
+/// relative to the other dots and therefore suit any spacing.
 void sift_dots(const BlobOptions& options, DotList list);
 
 }  // namespace dotpose::core

@@ -12,7 +12,7 @@ constexpr std::uint32_t inverse_q22(std::uint32_t n) {
     return (1U << 22) / (n + 1);
 }
 
-/// Divides by a mass from 16 to 2^16, with an error of at most 1 %.
+/// Divides by a mass from 16 to 2^16. The error is at most 1 %.
 class Inverse {
   public:
     explicit Inverse(std::int32_t mass) {
@@ -23,9 +23,9 @@ class Inverse {
         inverse_q22_ = static_cast<std::int32_t>(
             tabled<inverse_q22, 256>(static_cast<std::uint32_t>(mass - 1)));
     }
-    /// Returns sum / mass in 2^-8. The sum is at most 8 times the mass.
+    /// Returns sum / mass in 2^-8. The sum must be at most 8 times the mass.
     std::int32_t quotient_q8(std::int32_t sum) const {
-        // The sum has at most 12 bits: 9 of the mass and 3 more.
+        // The shifted sum has at most 12 bits: 9 bits of the mass and 3 bits of the quotient.
         const std::int32_t n = shift_ > 0 ? sum >> shift_ : sum * (1 << -shift_);
         return (n * inverse_q22_) >> 14;
     }

@@ -13,7 +13,7 @@ namespace {
 constexpr int kTaps = 4;
 
 /// Returns the weights of the binomial (1 2 1) shifted by a fraction of a pixel, in 1/1024. A wider
-/// window would collect more of a blurred dot, but also more of its neighbours and surroundings.
+/// window would collect more of a blurred dot, but also more of its surroundings.
 std::array<int, kTaps> taps(std::int32_t position_q8) {
     constexpr std::array<int, kTaps + 1> kBinomial{0, 1, 2, 1, 0};
     const int fraction = position_q8 & 255;

@@ -11,14 +11,15 @@
 
 namespace dotpose::core {
 
-/// A rectangle of pixels of the image, ends inclusive.
+/// A rectangle of pixels of the image. All four bounds are inclusive.
 struct PixelBox {
     int left;
     int right;
     int top;
     int bottom;
 
-    /// Makes the box around a point, clipped to the image.
+    /// Constructs the box that extends `half_px` in all directions from the nearest pixel of a
+    /// point, clipped to the image.
     PixelBox(const ImageView& image, FixedVec point_q8, int half_px) {
         const int u = (point_q8.x + 128) >> 8;
         const int v = (point_q8.y + 128) >> 8;
@@ -32,7 +33,8 @@ struct PixelBox {
     int pixels() const { return columns() * rows(); }
 };
 
-/// A summed-area table (Crow 1984): gives the sum of the grey levels of any box within `all`.
+/// A summed-area table (Crow 1984), which provides the sum of the grey levels of any box within
+/// `all`.
 class LevelSums {
   public:
     static constexpr int kMaxSide_px = 48;

@@ -15,12 +15,13 @@ struct PaperMap {
     int block_px = 0;
     int columns = 0;
     int rows = 0;
-    std::span<std::uint8_t> levels;     ///< row by row
-    std::span<std::uint8_t> brightest;  ///< brightest level of each block and the eight around it
+    std::span<std::uint8_t> levels;  ///< row by row
+    /// Brightest level of each block and the eight blocks around it.
+    std::span<std::uint8_t> brightest;
 };
 
-/// Measures the paper level of blocks with a tenth of the shorter side of the image: the level that
-/// a third of their pixels exceed.
+/// Measures the paper level of square blocks: the level that a third of the pixels of the block
+/// exceed. The side of a block is a tenth of the shorter side of the image.
 void measure_paper(const ImageView& image, PaperMap& map);
 
 /// Returns the index of the block of a pixel. Pixels outside the image belong to the nearest block.
@@ -30,13 +31,13 @@ inline std::size_t block_at(const PaperMap& map, int u, int v) {
     return static_cast<std::size_t>(row * map.columns + column);
 }
 
-/// Returns the brightest paper level of a pixel's block and the eight blocks around it.
+/// Returns the brightest paper level of the block of a pixel and the eight blocks around it.
 inline int brightest_paper_near(const PaperMap& map, int u, int v) {
     return map.brightest[block_at(map, u, v)];
 }
 
-/// Returns the paper level at a pixel: that of its block or, if graphics cover most of the block,
-/// the brightest around it.
+/// Returns the paper level at a pixel: the level of its block or, if graphics cover most of the
+/// block, the brightest level around it.
 inline int paper_at(const PaperMap& map, int u, int v) {
     return map.levels[block_at(map, u, v)];
 }

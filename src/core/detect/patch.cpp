@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::patch;
 
-/// Returns 2^24 / (n + 1), rounded up. A table, because the divisions of all tiles would take a
-/// microsecond.
+/// Returns 2^24 / (n + 1), rounded up. The values are tabled, because the divisions for all tiles
+/// would take a microsecond.
 constexpr std::uint32_t reciprocal_q24(std::uint32_t n) {
     return ((1U << 24) + n) / (n + 1);
 }
@@ -27,7 +27,7 @@ std::size_t relative_darkness(int darkness, int paper) {
         24);
 }
 
-/// Returns the begin of a stretch of `length` px around `centre`, shifted into [0, size).
+/// Returns the beginning of an interval of `length` px around `centre`, shifted into [0, size).
 int begin_of(int centre, int length, int size) {
     return std::clamp(centre - length / 2, 0, size - length);
 }
@@ -70,13 +70,14 @@ bool measure_contrast(Patch& patch) {
     patch.dot_contrast_q8 = 4 * static_cast<int>(median) + 2;
     const int contrast_q16 = patch.dot_contrast_q8 * tuned::kThreshold_q8;
     for (int row = 0; row < rows; ++row) {
-        // The whole row is one vector, including its unused tiles.
+        // The thresholds of the whole row are computed as one vector, including those of its unused
+        // tiles.
         const auto paper = std::span(patch.brightest).subspan(tile(0, row), Patch::kTilesPerRow);
         std::array<std::uint8_t, Patch::kTilesPerRow> thresholds;
         for (std::size_t i = 0; i < thresholds.size(); ++i)
             thresholds[i] = static_cast<std::uint8_t>(paper[i] - (paper[i] * contrast_q16 >> 16));
-        // Strips have two tiles. If the last strip has one, the threshold of the missing tile
-        // accepts no pixel.
+        // A strip consists of two tiles. If the last strip has only one tile, the threshold of the
+        // missing tile accepts no pixel.
         if (columns % 2 != 0) thresholds[static_cast<std::size_t>(columns)] = 0;
         std::copy(thresholds.begin(), thresholds.end(),
                   patch.thresholds.begin() + static_cast<std::ptrdiff_t>(tile(0, row)));

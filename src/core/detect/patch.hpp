@@ -7,9 +7,9 @@
 
 namespace dotpose::core {
 
-/// Places a patch of the given size in px around a point of the image, clipped to the image and to
-/// the memory of the patch, and reduced by `scale`: 1, 2 or 4. Returns false if the clipped patch
-/// is too small to contain a grid.
+/// Places a patch of the given size, in px, around a point of the image. Clips the patch to the
+/// image and to its memory, and reduces it by `scale`: 1, 2 or 4. Returns false if the clipped
+/// patch is too small to contain a grid.
 bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int width_px,
                  int height_px, int scale, Patch& patch);
 
@@ -17,12 +17,12 @@ bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int w
 /// typical darkness of dots. Returns false if too few tiles have contrast.
 bool measure_contrast(Patch& patch);
 
-/// Removes minima that are noise: minima on plateaus, in tiles without contrast, and with dark
-/// surroundings in more than two of eight directions, as on a dark table beyond the edge of a
-/// sheet.
+/// Removes minima that are noise: minima on plateaus, minima in tiles without contrast, and minima
+/// with dark surroundings in more than two of eight directions, as on a dark table beyond the edge
+/// of a sheet.
 void keep_isolated(Patch& patch);
 
-/// Return the middle of the patch, in px of the image.
+/// Coordinates of the middle of the patch, in px of the image.
 float middle_u_px(const Patch& patch);
 float middle_v_px(const Patch& patch);
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kWord_px = sizeof(Word);
 
-/// Sets the top bit of each pixel that is light. The other bits are undefined.
+/// Sets the top bit of each light pixel. The other bits are undefined.
 Word light_tops(Word pixels, Word half_low) {
     return (pixels >> 1 | kTops) - half_low;
 }
@@ -25,7 +25,8 @@ bool is_group_light(const std::uint8_t* pixels, const std::uint8_t* half_low_lev
     return tops == kTops;
 }
 
-/// Returns the first dark pixel of a row from `begin` on. The row has one after its last pixel.
+/// Returns the first dark pixel of a row, starting at `begin`. The dark pixel after the end of the
+/// row ends the search.
 const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row,
                               const std::uint8_t* half_low_levels) {
     const auto before = static_cast<std::size_t>(begin - row) % kWord_px;
@@ -57,8 +58,9 @@ const std::uint8_t* write_run(const std::uint8_t* pixel, const std::uint8_t* row
     run.begin = static_cast<std::uint16_t>(pixel - row);
     bool passes_high = false;
     std::uint32_t mass = 0;
-    std::uint32_t moment =
-        0;  // sum of weight times (last - u): each weight is added again for every pixel after it
+    // Sum of depth * (last column - column), because each depth is added again for every following
+    // pixel.
+    std::uint32_t moment = 0;
     const std::uint8_t* tile_end = nullptr;
     do {
         const auto column = static_cast<std::size_t>(pixel - row);

@@ -18,14 +18,14 @@ struct Run {
     std::uint32_t mass = 0;    ///< sum of weights: darkness below the low threshold, in grey levels
     std::uint32_t sum_x = 0;   ///< sum of weight times u, modulo 2^32
     bool passes_high = false;  ///< true if a pixel is darker than the high threshold
-    OpenBlob* blob = nullptr;  ///< blob of the run; null if there were too many
+    OpenBlob* blob = nullptr;  ///< blob of the run; null if there were too many blobs
 };
 
-/// Number of pixels that are compared together. All have the same thresholds.
+/// Number of pixels that are compared together. All pixels of a group have the same thresholds.
 inline constexpr std::size_t kGroup_px = 8;
 static_assert(kTileWidth_px % kGroup_px == 0);
 
-/// Finds the runs of row `v` from left to right while `runs` has room, and returns their number. A
+/// Finds the runs of row `v` from left to right, at most runs.size(), and returns their number. A
 /// run at the right border of the image may end beyond it.
 int find_runs(int v, const AdaptiveThreshold& threshold, std::span<Run> runs);
 

@@ -69,15 +69,15 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
     }
 }
 
-/// Returns half the side of the surroundings. They include two spacings if 8 dots are in view. Near
-/// the border they are smaller but still symmetric around the pixel, so that a gradient of the
-/// light cancels.
+/// Returns half the side of the surroundings, which include two spacings if 8 dots are in view.
+/// Near the border the surroundings are smaller but still symmetric around the pixel, which cancels
+/// a gradient of the light.
 int half_side(int at, int length, int max_half) {
     return std::max(std::min({max_half, at, length - 1 - at}), tuned::kMinHalf_px);
 }
 
 /// Adds a row to the sums of the columns, or subtracts it. A pixel much darker than the paper
-/// around it counts as paper: a stroke of graphics is not shadow.
+/// around it counts as paper, because a stroke of graphics is not shadow.
 void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     const std::uint8_t* row = image.row(v);
     std::uint32_t* sums = smoothing.column_sums.data();
@@ -96,7 +96,7 @@ void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     }
 }
 
-/// Moves the window of rows that the column sums contain.
+/// Moves the window of rows that the column sums contain to [begin, end).
 void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing) {
     while (smoothing.sums_end < end)
         add_row(image, smoothing.sums_end++, true, smoothing);
@@ -104,7 +104,7 @@ void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing)
         add_row(image, smoothing.sums_begin++, false, smoothing);
 }
 
-/// Minimum level of the normalised image; darker pixels are set to it.
+/// Minimum level of the normalised image. Darker pixels are raised to this level.
 constexpr std::uint32_t kMinLevel = kNormalLevel * tuned::kMinLevel_5ths / 5;
 
 /// Computes quotients, rounded down, by multiplication. They are exact for n / d < 256 and d <

@@ -18,7 +18,8 @@ struct Smoothing {
     int lines_ready = 0;
     int rows_given = 0;
     PaperMap paper;
-    std::span<std::uint32_t> column_sums;  ///< column sums over the rows [sums_begin, sums_end)
+    /// Sums over the rows [sums_begin, sums_end), one per column.
+    std::span<std::uint32_t> column_sums;
     int sums_begin = 0;
     int sums_end = 0;
 };
@@ -30,7 +31,7 @@ inline constexpr int kNormalLevel = 192;
 void begin_smoothing(const ImageView& image, Smoothing& smoothing);
 
 /// Returns the next row, from the top, of the filtered image. Each pixel is clamped to the range of
-/// its eight neighbours, weighted with the 5 x 5 binomial (sigma 1 px), and divided by the mean of
+/// its eight neighbours, smoothed with the 5 x 5 binomial (sigma 1 px), and divided by the mean of
 /// a rectangle around it. The row is valid until the next call.
 const std::uint8_t* next_smooth_row(const ImageView& image, Smoothing& smoothing);
 

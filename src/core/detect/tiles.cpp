@@ -8,10 +8,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Row step: every n-th row is measured. Some dots always span one of these rows.
+/// Row step: every kRowsEvery-th row is measured. Some dots of a tile always extend over a measured
+/// row.
 constexpr int kRowsEvery = 4;
 
-/// The rows of a band that are measured.
+/// The measured rows of a band.
 struct Rows {
     const std::uint8_t* begin;
     std::ptrdiff_t stride;
@@ -42,7 +43,7 @@ class Means {
     std::uint32_t inverse_q20_;
 };
 
-/// Returns the darkness of the pair of pixels with the minimum sum.
+/// Returns the darkness of a pair of pixels from the sum of its levels.
 constexpr std::uint8_t darkness_of_pair(std::uint32_t min) {
     return static_cast<std::uint8_t>(255 - min / 2);
 }
@@ -51,14 +52,14 @@ constexpr std::uint8_t darkness_of_pair(std::uint32_t min) {
 constexpr Word kPairs = static_cast<Word>(0x00FF00FF00FF00FF);
 constexpr Word kPairTops = static_cast<Word>(0x8000800080008000);
 
-/// Returns max(a - b, 0) in each pair. Requires set top bits of `a` and clear top bits of `b`.
+/// Returns max(a - b, 0) in each pair. The top bits must be set in `a` and clear in `b`.
 constexpr Word excess_of_pairs(Word a, Word b) {
     const Word difference = a - b;
     const Word is_positive = difference & kPairTops;
     return difference & (is_positive - (is_positive >> 15));
 }
 
-/// Returns the minimum of all pairs. Requires set top bits.
+/// Returns the minimum of all pairs. The top bits of the pairs must be set.
 constexpr std::uint32_t min_of_pairs(Word pairs) {
     for (std::size_t shift = 4 * sizeof pairs; shift >= 16; shift /= 2)
         pairs -= excess_of_pairs(pairs, pairs >> shift & ~kPairTops);

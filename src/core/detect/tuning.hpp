@@ -1,36 +1,39 @@
-// Tuning: empirical constants of dot detection. Those of the second attempt were determined on the
-// hard frames that decode/tuning.hpp names. Comments give the frames located by `dotpose evaluate
-// --preset hard --frames 2000 --seed 404` with other values; with these values it locates 1,994.
+// Tuning: empirical constants of dot detection. The constants of the second attempt were determined
+// on the hard frames that decode/tuning.hpp names. Comments state the number of frames that
+// `dotpose evaluate --preset hard --frames 2000 --seed 404` locates with other values. With the
+// values in this file, it locates 1,994.
 #pragma once
 
 namespace dotpose::core::tuning {
 
 /// Paper level by blocks (detect/paper).
 namespace paper {
-/// Side of a block, as a part (1/n) of the shorter side of the image: several spacings even if few
-/// dots are in view, but small against the shading of lamps and lenses.
+/// Side of a block, as a part (1/n) of the shorter side of the image. A block includes several
+/// spacings even if few dots are in view, but is small compared with the shading of lamps and
+/// lenses.
 inline constexpr int kBlockPart = 10;
 /// Number of pixels sampled along each side of a block.
 inline constexpr int kSamplesPerSide = 12;
-/// Fraction of the pixels of a block, in thirds, that are darker than its paper level. Dots cover
-/// less, and noise is on both sides of the level.
+/// Fraction of the pixels of a block, in thirds, that are darker than its paper level. Dots cover a
+/// smaller fraction, and noise is on both sides of the level.
 inline constexpr int kDarker_3rds = 2;
-/// Minimum level of a block, in fourths of the brightest block around it. Graphics cover darker
-/// blocks, which get the brightest level instead: the light changes less from block to block.
+/// Minimum level of a block, in fourths of the brightest block around it. Darker blocks are covered
+/// by graphics and get the brightest level instead, because the light changes less from block to
+/// block.
 inline constexpr int kCovered_4ths = 3;
 }  // namespace paper
 
 /// Normalisation of the light in the second attempt (detect/smooth).
 namespace smooth {
-/// Minimum of half the side of the surroundings, at the border of the image, in px: half the width
-/// of a dot.
+/// Minimum of half the side of the surroundings, which applies at the border of the image, in px:
+/// half the width of a dot.
 inline constexpr int kMinHalf_px = 4;
-/// Darkness limit of paper, in tenths of the brightest paper level nearby. Darker pixels count as
+/// Maximum level of a stroke, in tenths of the brightest paper level nearby. Darker pixels count as
 /// paper in the mean of the surroundings, because strokes of graphics are not shadow. With 4:
 /// 1,995; with 9: 1,995.
 inline constexpr int kStroke_10ths = 7;
-/// Minimum level of the normalised image, in fifths of the paper level. It makes graphics no darker
-/// than a weak dot, so they do not hide the contrast of dots near them. With 2: 1,937.
+/// Minimum level of the normalised image, in fifths of the paper level. The limit makes graphics no
+/// darker than a weak dot, which keeps the contrast of nearby dots visible. With 2: 1,937.
 inline constexpr int kMinLevel_5ths = 4;
 }  // namespace smooth
 
@@ -39,14 +42,14 @@ namespace patch {
 /// Minimum side of a patch, in px: 8 dots at a spacing of 6 px.
 inline constexpr int kMin_px = 48;
 /// Minimum darkness of a smoothed dot, in grey levels, and minimum number of tiles with at least
-/// this darkness. Lighter tiles are blank.
+/// this darkness. Tiles with less are blank.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
-/// Minimum darkness of a minimum, in 1/256 of the darkness of a typical dot. Lighter minima are
-/// noise.
+/// Minimum darkness of a dot, which is a minimum of the smoothed patch, in 1/256 of the darkness of
+/// a typical dot. Lighter minima are noise.
 inline constexpr int kThreshold_q8 = 150;
 /// Distances in px, along the axes and diagonally, at which the surroundings of a minimum are
-/// tested, and the maximum number of the eight directions that may be dark, as beside another dot.
+/// tested. kMaxDark of the eight directions may be dark, as beside another dot.
 inline constexpr int kAway_px = 4;
 inline constexpr int kDiagonally_px = 3;
 inline constexpr int kMaxDark = 2;

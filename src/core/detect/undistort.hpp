@@ -1,5 +1,4 @@
-// Undistort: conversion of image points to those of a lens without distortion, and back. Paper eq.
-// 1-2.
+// Undistort: converts image points to those of a lens without distortion, and back. Paper eq. 1-2.
 #pragma once
 
 #include "dotpose/options.hpp"
@@ -7,14 +6,14 @@
 
 namespace dotpose::core {
 
-/// Returns the image point that a lens without distortion would give, by eq. 1-2.
+/// Returns the image point of a lens without distortion, by eq. 1-2.
 FixedVec undistorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8);
 
 /// Replaces the centres of dots by their undistorted points.
 void undistort(const FixedLens& lens, FixedVec image_centre_q8, std::span<DetectedDot> dots);
 
-/// Returns the distorted image point of an undistorted one, by the inverse of eq. 2: r_d = 2 r_u /
-/// (1 + sqrt(1 - 4 k r_u^2)).
+/// Returns the distorted image point of an undistorted image point, by the inverse of eq. 2: r_d =
+/// 2 r_u / (1 + sqrt(1 - 4 k r_u^2)).
 FixedVec distorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8);
 
 /// Returns the distorted image point of a plane point, in 2^-8 px. The centre of the plane is the

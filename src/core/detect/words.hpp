@@ -1,4 +1,5 @@
-// Words: the pixels that fit a register, processed together. The first pixel is in the lowest byte.
+// Words: pixels that fit in one register and are processed together. The first pixel is in the
+// lowest byte.
 #pragma once
 
 #include <bit>

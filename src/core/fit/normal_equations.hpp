@@ -40,7 +40,7 @@ class NormalEquations {
 
     /// Replaces M by L. Leaves out parameters of which the equations determine less than a fraction
     /// `min_determined` of the diagonal element after elimination of the parameters before them.
-    /// Returns false if these include one of the first `required`.
+    /// Returns false if one of the first `required` parameters is left out.
     bool decompose(float min_determined, std::size_t required) {
         Vector minima;
         for (std::size_t i = 0; i < N; ++i)
@@ -65,7 +65,7 @@ class NormalEquations {
 
     // The following functions require `decompose`.
 
-    /// Returns whether the equations determine the parameter.
+    /// Returns true if the equations determine the parameter.
     bool determines(std::size_t parameter) const { return columns_[parameter].at(parameter) > 0; }
     /// Returns an element of L.
     float factor(std::size_t row, std::size_t column) const { return columns_[column].at(row); }
@@ -104,7 +104,7 @@ class NormalEquations {
     Vector solution() const { return unwhitened(whitened(right_)); }
 
   private:
-    /// A column of M or L, in whole vectors. Columns of L are 0 above the diagonal.
+    /// A column of M or L, stored in whole vectors. Columns of L are 0 above the diagonal.
     class Column {
       public:
         Column() = default;

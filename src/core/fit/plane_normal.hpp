@@ -14,14 +14,15 @@ struct Residuals {
     Four weight;
 };
 
-/// Weighted sums of the points and residuals, of which the normal equations consist.
+/// Weighted sums over the points and their residuals. They are the elements of the normal
+/// equations.
 class PlaneSums {
   public:
     void add(const FourVecs& places, const Residuals& residuals);
     FitSums all() const;
 
   private:
-    /// Minus the number of points: a comparison of vectors gives -1 for true.
+    /// Negated number of points, because a vector comparison yields -1 for true.
     FourInts less_points_{};
     std::array<Four, 4> places_{};
     std::array<Four, 3> residuals_{};  ///< includes the squared residuals

@@ -27,11 +27,11 @@ Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, flo
 
 /// Posterior of the terms under one component of the prior.
 struct PosteriorOfKind {
-    Symmetric
-        precision;  ///< precision of noise and terms together, in units of the noise precision
+    /// Precision of noise and terms together, in units of the precision of the noise.
+    Symmetric precision;
     Pair mean;
     float distance;     ///< squared distance of the fitted terms from 0, in deviations
-    float probability;  ///< probability of the component: prior, after `weigh` posterior
+    float probability;  ///< prior probability of the component; posterior probability after `weigh`
 
     PosteriorOfKind() = default;
     PosteriorOfKind(const DistortionPrior::Kind& kind, const Symmetric& spread, const Pair& seen,
@@ -47,7 +47,7 @@ struct PosteriorOfKind {
 using PosteriorsByKind =
     std::array<PosteriorOfKind, std::tuple_size_v<decltype(DistortionPrior::kinds)>>;
 
-/// Sets the posterior probability of each component from its fit to the terms.
+/// Sets the posterior probability of each component, given its agreement with the fitted terms.
 void weigh(PosteriorsByKind& kinds) {
     float nearest = kinds[0].distance;
     for (const PosteriorOfKind& kind : kinds)

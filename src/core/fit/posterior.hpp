@@ -1,6 +1,7 @@
-// Posterior: shrinkage of the distortion terms, which a camera straight above flat paper does not
-// need. Fitting a tilt that is not there costs accuracy, and so does omitting one that is. The
-// shrinkage depends on their probabilities. differs: the paper has no such terms.
+// Posterior: shrinks the distortion terms, which are 0 for a camera straight above flat paper.
+// Fitting a tilt that is not present costs accuracy, and so does omitting a tilt that is present.
+// The amount of shrinkage depends on the probabilities of both cases. differs: the paper has no
+// such terms.
 #pragma once
 
 #include <array>
@@ -10,7 +11,8 @@
 
 namespace dotpose::core {
 
-/// Prior of one or two distortion terms that occur together: a mixture of three Gaussians about 0.
+/// Prior of one or two distortion terms that occur together: a mixture of three Gaussians with mean
+/// 0.
 struct DistortionPrior {
     struct Kind {
         float probability;
@@ -21,15 +23,16 @@ struct DistortionPrior {
     std::array<Kind, 3> kinds;
 };
 
-/// Posterior of whitened terms, given one frame. The second term is 0 if there is only one.
+/// Posterior of the whitened terms, given one frame. The second term is 0 if there is only one
+/// term.
 struct Posterior {
     std::array<float, 2> mean;
     std::array<std::array<float, 2>, 2> covariance;
 };
 
-/// Returns the posterior by Bayes' rule. `whitened` are the terms as fitted, from
-/// normal.times_transposed. `variance` is the variance of each of their elements, `unit` the unit
-/// of the standard deviations of the prior.
+/// Returns the posterior by Bayes' rule. `whitened` contains the fitted terms, as returned by
+/// normal.times_transposed. `variance` is the variance of each of its elements, `unit` the unit of
+/// the standard deviations of the prior.
 Posterior posterior_of(const DistortionPrior& terms, const PlaneNormal& normal,
                        const Parameters& whitened, float variance, float unit);
 

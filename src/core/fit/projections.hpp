@@ -1,5 +1,5 @@
-// Projections: image points projected through a plane, four at once, with their derivatives by the
-// parameters of the plane.
+// Projections: projects four image points at once through a plane, and provides their derivatives
+// with respect to the parameters of the plane.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@
 namespace dotpose::core {
 
 /// Parameters of a plane, the most important first: at_centre (x, y), scale, turn, perspective (x,
-/// y), shear (2), lens. The unit of each is its effect, in spacings, at a place one unit from the
-/// origin. kTilt, kShear and kBend are the indices of the first parameter of perspective, shear and
-/// lens.
+/// y), shear (2), lens. The unit of each parameter is its effect, in spacings, at a place one unit
+/// from the origin. kTilt, kShear and kBend are the indices of the first parameter of perspective,
+/// shear and lens.
 constexpr std::size_t kPoseParameters = 9;
 constexpr std::size_t kTilt = 4;
 constexpr std::size_t kShear = 6;
@@ -26,20 +26,21 @@ struct FourVecs {
     Four y;
 };
 
-/// Returns the derivatives of x and of y by all parameters, at one of four places. On the pattern
-/// they are polynomials of the place: (place . (1, 0)) place, (place . (0, 1)) place for
-/// perspective, and (place . place) place for the lens.
+/// Returns the derivatives of x and of y with respect to all parameters, at one of four places. On
+/// the pattern the derivatives are polynomials of the place: (place . (1, 0)) place and (place .
+/// (0, 1)) place for perspective, and (place . place) place for the lens.
 std::array<Parameters, 2> jacobian(const FourVecs& places, std::size_t point);
 
 /// A plane whose parameters change the pattern, not the image. For scale, turn, perspective and
 /// shear this is exact at any tilt. Places on the pattern are relative to the plane's `at`, in
-/// units of its scale. This makes the derivatives by all parameters similar in size, and single
-/// precision suffices.
+/// units of its scale. With this unit, the derivatives with respect to all parameters have similar
+/// sizes, and single precision suffices.
 class ScaledPlane {
   public:
     ScaledPlane(const FloatPlane& plane, float reach_px);
 
-    /// Returns the places of four image points, which are in px from the plane's centre.
+    /// Returns the places of four image points. The points are in px relative to the plane's
+    /// centre.
     FourVecs project(Four x_px, Four y_px) const;
 
     /// Returns perspective, shear and lens relative to a camera that looks straight at the sheet.

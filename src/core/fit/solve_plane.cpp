@@ -9,15 +9,16 @@ namespace {
 
 /// Prior standard deviations of tilt, shear and lens distortion, relative to the scale. A tilt is
 /// the change of scale from the centre to the outermost dot, about 0.01 for 2 degrees. A bend is
-/// the displacement of the outermost dot relative to its distance; it must be significant.
+/// the displacement of the outermost dot relative to its distance from the centre. The prior
+/// accepts a bend only if it is significant.
 constexpr std::array<DistortionPrior, 3> kTerms{{
     {kTilt, 2, {{{0.1F, 0}, {0.8F, 0.01F}, {0.1F, 0.1F}}}},
     {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
     {kBend, 1, {{{0.99F, 0}, {0.005F, 0.01F}, {0.005F, 0.1F}}}},
 }};
 
-/// Shrinks the distortion terms of a step to their posterior means. `whole` are these terms as
-/// fitted, whitened. Sets the covariance of `fit`.
+/// Shrinks the distortion terms of a step to their posterior means. `whole` contains the fitted
+/// terms, whitened. Sets the covariance of `fit`.
 void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
     fit.covariance = {};
     for (std::size_t i = 0; i < kTilt; ++i)

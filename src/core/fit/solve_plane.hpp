@@ -9,13 +9,13 @@
 
 namespace dotpose::core {
 
-/// Result of a fit: how well the dots determine the pose.
+/// Result of a fit: the number of dots, their residuals, and the uncertainty of the parameters.
 struct PoseFit {
-    int reach_px = 1;        ///< unit of length in the image
+    int reach_px = 1;        ///< unit of length in the image, in px
     int dots = 0;            ///< number of inliers
-    float variance = 0;      ///< variance of one coordinate of one dot, spacings^2
+    float variance = 0;      ///< variance of one coordinate of one dot, in spacings^2
     float squares = 0;       ///< squared residuals of all inliers after the last step
-    float displacement = 0;  ///< distance of a typical dot from its intersection, spacings
+    float displacement = 0;  ///< distance of a typical dot from its intersection, in spacings
     PlaneNormal normal;      ///< normal equations of the parameters of `jacobian`, decomposed
     std::array<Parameters, kPoseParameters> covariance;  ///< covariance of the whitened parameters
     Surface surface = Surface::even;
@@ -24,9 +24,10 @@ struct PoseFit {
 };
 
 /// Solves the normal equations of `fit` for the step to the least-squares plane, and shrinks the
-/// distortion terms to their posterior means. `distortions` are these terms of the current plane
-/// and `unit` is its scale. Sets `moved`, the size of the step in squared deviations, and all of
-/// `fit` except the displacement. Returns false if the dots do not determine the plane.
+/// distortion terms to their posterior means. `distortions` contains these terms of the current
+/// plane, and `unit` is the scale of this plane. Sets `moved` to the squared length of the step in
+/// units of the standard deviation of the pose, and all members of `fit` except the displacement.
+/// Returns false if the dots do not determine the plane.
 bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step, float& moved);
 
 }  // namespace dotpose::core

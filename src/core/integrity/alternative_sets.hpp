@@ -10,13 +10,14 @@ namespace dotpose::core {
 /// 2^-8.
 struct AlternativeSet {
     int alternatives_q8 = 0;  ///< number of alternatives
-    int equal_q8 = 0;  ///< probability that all their digits in a step equal those of the reading
+    /// Probability that all digits of such an alternative in a step equal those of the reading.
+    int equal_q8 = 0;
 };
-/// The sets, in order: a3 and one other sequence, two others, a3 and two others, the three others,
-/// all four. Sequences of equal base are not distinguished.
+/// The sets, in order: a3 and one other sequence; two sequences other than a3; a3 and two others;
+/// the three others; all four. Sequences with the same base are interchangeable.
 inline constexpr std::array<AlternativeSet, 5> kAlternativeSets{
     {{3694, -661}, {4444, -811}, {5712, -1067}, {6057, -1217}, {7326, -1473}}};
-/// log2(1.03) in 2^-8. See kUnevenness in expected_alternatives.cpp.
+/// log2(1.03) in 2^-8, the logarithm of kUnevenness in expected_alternatives.cpp.
 inline constexpr int kUnevenness_q8 = 11;
 
 }  // namespace dotpose::core

@@ -13,8 +13,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of adjacent lines that two distinct positions share. With one more, five digits
-/// would be equal.
+/// Maximum number of adjacent lines that two distinct positions share. With one more shared line,
+/// five digits would be equal, which determine the position.
 constexpr int kMaxSharedInARow = code::kOrder;
 /// Expected odds above which counting more alternatives one by one cannot make the fix certain.
 constexpr float kBeyondHelp = 1e-4F;
@@ -29,8 +29,8 @@ float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int mi
     return expected.sum();
 }
 
-/// Returns the summed odds of the same position in the other sections: all rolls differ by the same
-/// shift.
+/// Returns the summed odds of the same position in the other sections, in which all rolls differ by
+/// the same shift.
 float sum_of_other_sections(const LikelihoodRatios& ratios) {
     float sum = 0;
     for (int shift = 1; shift < kSections; ++shift) {
@@ -53,13 +53,15 @@ int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2) {
     float sum = known + expected;
     const float limit = std::ldexp(1.0F, limit_log2);
     const float far_below_doubt = std::ldexp(1.0F, std::min(limit_log2, -30) - 10);
-    // Counting more alternatives one by one leaves fewer to the expectation.
+    // Counting more alternatives one by one reduces the number of alternatives that are only
+    // estimated.
     if (sum > far_below_doubt && expected > known && expected < kBeyondHelp) {
         sum = known + sum_of_far_alternatives(lines, kMaxSharedInARow - 1, 3);
-        // The slowest sums are skipped if the others exceed the limit already.
+        // Skips the slowest sums if the other sums already exceed the limit.
         if (sum < limit) sum += sum_of_near_alternatives(lines, kMaxSharedInARow - 1);
         if (sum < limit) {
-            // Less than the remaining margin to the limit: this part alone must not refuse a fix.
+            // At most an eighth of the remaining margin to the limit, because this part alone must
+            // not refuse a fix.
             const float negligible = std::min(std::max(sum, far_below_doubt), limit - sum) / 8;
             sum += sum_of_double_alternatives(lines, negligible, limit - sum);
         }

@@ -35,7 +35,7 @@ constexpr float power_of_two_rounded_up(int n_q8) {
     return static_cast<float>(exp2_q16(n - whole * 256)) * 1.02F * power_of_two_exactly(whole - 16);
 }
 
-/// Returns `LikelihoodRatios::odds`, without a library call.
+/// Equal to `LikelihoodRatios::odds`, but without a library call.
 float odds_of(const LikelihoodRatios& ratios, int lost) {
     const int log2_q8 = std::max(ratios.log2_odds_q8(lost), kNegligible_q8);
     const int whole = log2_q8 >> 8;
@@ -52,8 +52,8 @@ constexpr FarAlternatives kFarAlternatives = [] {
     return sets;
 }();
 
-/// Returns the expected odds of the far alternatives: the sum of quick_alternatives.cpp, in
-/// floating point and for all sets in parallel.
+/// Returns the expected odds of the far alternatives: the same sum as in quick_alternatives.cpp,
+/// but in floating point and for all sets in parallel.
 float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
     std::array<float, kMaxLines> odds;
     const auto count = static_cast<std::size_t>(ratios.count());
@@ -78,16 +78,16 @@ float sharing_none(const LikelihoodRatios& ratios) {
     return (1 + kSingles) * kShifts * odds_of(ratios, lost);
 }
 
-/// Score of a lost bit. All bits have the same weight here, so losses are whole bits.
+/// Score of a lost bit. All bits have the same weight in this file, so losses are whole bits.
 constexpr int kBit = 2 * 127;
-/// Sets the minimum loss of each line, in bits, sorted with the largest first. Losses are limited
-/// to kMaxBits. Returns the number of lines.
+/// Sets the minimum loss of each line, in bits, in decreasing order. Losses are clamped to
+/// kMaxBits. Returns the number of lines.
 std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
     constexpr int kMaxBits = 31;
     const auto count = static_cast<std::size_t>(ratios.count());
     std::array<std::uint8_t, kMaxLines> bits;
-    // Counting sort: first the number of lines that lose b bits, then the index of the first of
-    // these lines.
+    // Counting sort: `begin` first contains the number of lines that lose b bits, then the index of
+    // the first of these lines.
     std::array<std::uint8_t, kMaxBits + 1> begin{};
     for (std::size_t line = 0; line < count; ++line) {
         const int loss = ratios.min_loss(static_cast<int>(line)) / kBit;
@@ -122,9 +122,9 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Returns the odds of the single alternatives. Sequences that the tables do not bound closely
-/// enough are counted one by one, except alternatives that lose too much to matter. Returns 1 if
-/// there are too many.
+/// Returns the odds of the single alternatives. Tables bound the odds of most sequences. For the
+/// other sequences, alternatives are counted one by one, except those that lose too much to matter.
+/// Returns 1 if there are too many alternatives to count.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
@@ -178,15 +178,15 @@ float chance_of(const Confidence& bits, const Query& query) {
         chance_log2_q8(bits, query.odds_per_bit_q8, query.others->log2_in_question_q8));
 }
 
-/// Returns the number of possible codes, each weighted by its odds. Each code has equally many
-/// alternatives.
+/// Returns the number of possible codes, each weighted by its odds. All codes have the same number
+/// of alternatives.
 float codes_in_question(const Query& query) {
     return !is_code_in_question(query) ? 1
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
 /// Returns an upper bound of the probability that one axis is wrong, or 1 if the bound exceeds the
-/// limit. With hard bits alone, the bound is never smaller than with scores.
+/// limit. Hard bits never give a smaller bound than scores.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
                  const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();
@@ -229,14 +229,14 @@ bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
     return true;
 }
 
-/// Returns the odds of a bit, estimated from both axes, as log2 in 2^-8. Both axes are read from
-/// the same dots and have the same error rate. Returns 0 if there are no bits or too many are
-/// wrong. Sets `bit_errors`.
+/// Returns the odds of a bit, as log2 in 2^-8, estimated from both axes. Both axes are read from
+/// the same dots and therefore have the same error rate. Returns 0 if there are no bits or too many
+/// bits are wrong. Sets `bit_errors`.
 int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOptions& options,
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();
     for (const Confidence* bits : {&x, &y}) {
-        // This many wrong bits mean that two patterns are in view.
+        // A larger fraction of wrong bits means that two patterns are in view.
         if (256 * bits->wrong() > bits->bits() * options.max_bit_error_q8) return 0;
     }
     Confidence both = x;

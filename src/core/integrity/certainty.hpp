@@ -1,5 +1,5 @@
-// Certainty: bound of the probability that a position is wrong, from chance, alternatives and
-// seams. docs/integrity.md derives it.
+// Certainty: computes a bound of the probability that a position is wrong, from chance,
+// alternatives and seams. docs/integrity.md derives the bound.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ struct AxisBits {
 
 /// Returns true if the hard bits alone, without the scores of lines, make the position certain.
 /// This takes a tenth of the work of `is_certain` and suffices for clean frames. Returns false if
-/// in doubt. Bits that were read farther from the middle count for chance only, which keeps the
-/// result an upper bound. Sets `p_wrong_log2` of the fix. If `others` is not null, sets the odds of
+/// in doubt. Bits that were read farther from the middle are used for chance only, so the result is
+/// still an upper bound. Sets `p_wrong_log2` of the fix. If `others` is not null, sets the odds of
 /// the other codes.
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
                           CodeVariant code, const IntegrityOptions& options, Fix& fix,
@@ -47,9 +47,9 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage);
 
-/// Sets `bit_errors` and `p_wrong_log2` of the fix, the latter as an upper bound. Returns false if
-/// the position is not certain enough, or if too many bits contradict it. If `others` is not null,
-/// sets the odds of the other codes.
+/// Sets `bit_errors` and `p_wrong_log2` of the fix. `p_wrong_log2` is an upper bound. Returns false
+/// if the position is not certain enough, or if too many bits contradict it. If `others` is not
+/// null, sets the odds of the other codes.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr);
 

@@ -8,11 +8,11 @@
 namespace dotpose::core {
 namespace {
 
-/// First line and first cell of the middle, as a cell number and as an index of the block.
+/// Number of the first line and of the first cell of the middle, and their index in the block.
 constexpr int kFirst = -kMaxComparedLines / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 
-/// Returns the longest run of ones.
+/// Returns the longest run of ones in `bits`.
 std::uint32_t longest_run(std::uint32_t bits) {
     if (const std::uint32_t beyond = bits + (bits & (0 - bits)); (beyond & bits) == 0) return bits;
     std::uint32_t longest = 0;
@@ -30,8 +30,8 @@ std::uint32_t longest_run(std::uint32_t bits) {
 
 }  // namespace
 
-/// Compares the lines of one axis with the code. `rolls` are those of the lines from `first_line`
-/// on, at cell `first_cell`.
+/// Compares the lines of one axis with the code. `rolls` are the rolls of the lines from
+/// `first_line` on, at cell `first_cell`.
 CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rolls, int first_line,
                                   int count, int first_cell) {
     Half half;
@@ -49,8 +49,8 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
         const int roll = there < kSections ? there : there - kSections;
         const std::uint32_t code = code::kMainWords[static_cast<std::size_t>(roll)];
         const std::uint32_t wrong = (bits ^ code) & seen;
-        // Without wrong bits, only the longest run of bits without a gap is kept, because the
-        // tables contain only runs. The dropped bits could only make alternatives less likely.
+        // If there are no wrong bits, keeps only the longest run of bits without a gap, because the
+        // tables contain only such runs. The dropped bits could only make alternatives less likely.
         half.rolls[i] = static_cast<std::uint8_t>(roll);
         half.lines[i] = {code, wrong == 0 ? longest_run(seen) : seen, wrong};
         if (seen == 0) continue;

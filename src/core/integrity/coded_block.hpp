@@ -1,5 +1,5 @@
-// Coded block: the bits read and the bits of the code at the same cells, packed into words, so that
-// one instruction compares a line.
+// Coded block: packs the bits read and the bits of the code at the same cells into words. One
+// instruction then compares a whole line.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"
@@ -11,11 +11,12 @@ namespace dotpose::core {
 /// The middle cells of an upright block, compared with the code.
 class CodedBlock {
   public:
-    /// `place` is the place of cell (0, 0). `view` has the rolls of all lines that were read.
+    /// `place` is the place of cell (0, 0). `view` contains the rolls of all lines that were read.
     CodedBlock(CodeVariant code, const Place& place, const CellsInView& view,
                const BitBlock& block);
 
-    /// Returns the bits of one axis. `confidence` covers all bits read, also outside the middle.
+    /// Returns the bits of one axis. `confidence` is that of all bits read, including bits outside
+    /// the middle.
     AxisBits axis(Axis axis, const Confidence& confidence) const;
 
   private:
@@ -23,7 +24,7 @@ class CodedBlock {
         std::array<ComparedLine, kMaxComparedLines> lines;
         std::array<std::uint8_t, kMaxComparedLines> rolls;
         std::size_t first = 0;  ///< first line that has bits
-        std::size_t end = 0;    ///< end of the lines that have bits
+        std::size_t end = 0;    ///< one past the last line that has bits
         AxisReading reading;    ///< reading of line `first`
     };
     static Half half(const BitLines& lines, const std::uint8_t* rolls, int first_line, int count,

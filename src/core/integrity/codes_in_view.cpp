@@ -5,12 +5,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds below which no more bits are needed: of the same place in another code, and of places
-/// elsewhere.
+/// Odds below which no more bits are needed: odds of the same place in another code, and odds of
+/// all places elsewhere.
 constexpr float kMaxOddsHere = 1e-12F;
 constexpr float kMaxOddsElsewhere = 1e-10F;
 
-/// Returns true if two codes differ in the rolls of the lines from a position on.
+/// Returns true if two codes have different rolls in the lines that begin at a position.
 bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     std::array<std::uint8_t, BitBlock::kSide> own;
     std::array<std::uint8_t, BitBlock::kSide> theirs;
@@ -19,8 +19,8 @@ bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     return own != theirs;
 }
 
-/// Returns true if more lines may change the odds: another code has other symbols in view, or a
-/// place elsewhere in it is not ruled out yet.
+/// Returns true if more lines may change the odds: either another code has other symbols in view,
+/// or a place elsewhere in another code is not ruled out yet.
 bool may_change_odds(CodeVariant read, const Place& place, bool has_more_lines,
                      const OtherCodes& others) {
     const auto have_other_rolls = [&](CodeVariant other) {

@@ -1,4 +1,4 @@
-// Compared lines: bits of one column or row beside the bits of the code.
+// Compared lines: the bits read in a column or row, beside the bits of the code.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace dotpose::core {
 /// Maximum number of columns, and of rows, that are compared bit by bit.
 inline constexpr int kMaxComparedLines = 32;
 
-/// A column (or row), with one bit for each cell.
+/// A column (or row), with one bit per cell.
 struct ComparedLine {
     std::uint32_t code = 0;   ///< bits of the code
     std::uint32_t seen = 0;   ///< 1 if a dot was read

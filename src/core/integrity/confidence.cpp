@@ -20,7 +20,7 @@ int log2_of_one_and_q16(int n_q8) {
 }
 
 int log_odds_q8(int odds_per_bit_q8, int level) {
-    // 129 / 2^14 is 1 / 127.
+    // 129 / 2^14 is about 1 / 127.
     return (odds_per_bit_q8 * Confidence::weight_of(level) * 129) >> 14;
 }
 
@@ -64,7 +64,7 @@ int odds_per_bit_q8(const Confidence& confidence) {
     }
     const std::uint64_t allowed_q16 = std::uint64_t{allowed} << 16;
     int odds_q8 = 0;
-    // Bisection: the larger the odds, the smaller the expected weight of wrong bits.
+    // Bisection. The expected weight of wrong bits decreases as the odds increase.
     for (int step_q8 = 8 * 256; step_q8 >= 8; step_q8 /= 2) {
         std::uint64_t expected_q16 = 0;
         for (std::size_t i = 0; i < count && expected_q16 <= allowed_q16; ++i) {

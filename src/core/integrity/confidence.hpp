@@ -1,5 +1,5 @@
-// Confidence: how reliable the bits are, and the probability that random bits agree with the code
-// as well. docs/integrity.md derives both.
+// Confidence: the reliability of the bits, and the probability that random bits agree with the code
+// equally well. docs/integrity.md derives both.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ class Confidence {
     /// Returns the weight that represents a level.
     static constexpr int weight_of(int level) { return 8 * level + 4; }
 
-    /// Adds `bits` bits of the same weight, -127 to 127.
+    /// Adds `bits` bits of the same weight, in [-127, 127].
     void add(int weight, bool is_wrong, int bits = 1) {
         const int level = (weight < 0 ? -weight : weight) >> 3;
         counts_[static_cast<std::size_t>(2 * level + (is_wrong ? 1 : 0))] += bits;
@@ -46,23 +46,24 @@ class Confidence {
     }
 
   private:
-    std::array<std::int32_t, 2 * kLevels> counts_{};  ///< right and wrong bits, by level
+    /// Numbers of right and of wrong bits, alternating, by level.
+    std::array<std::int32_t, 2 * kLevels> counts_{};
 };
 
-/// Returns the odds that a bit of weight 127 is right, as log2 in 2^-8, from 0 to 16 * 256. The log
+/// Returns the odds that a bit of weight 127 is right, as log2 in 2^-8, in [0, 16 * 256]. The log
 /// odds of a weaker bit are proportional to its weight. The estimate is the value at which the
 /// expected weight of wrong bits equals the observed weight plus two full bits (logistic
 /// regression, maximum likelihood). Returns 0 if the bits carry no information.
 int odds_per_bit_q8(const Confidence& confidence);
 
 /// Returns log2 of an upper bound of the probability that random bits of these weights agree as
-/// well with any position, section and turn of one axis. There are L * 63 * 4 hypotheses; each is
-/// bounded by Chernoff, with weights scaled to log odds. The bound holds for any odds and is
-/// smallest near the true ones.
+/// well with any position, section and turn of one axis. There are L * 63 * 4 hypotheses. The
+/// probability of each is bounded by Chernoff, with weights scaled to log odds. The bound holds for
+/// any odds and is smallest near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
-/// Returns the same bound in 2^-8, for 2^(log2_times_q8 / 256) times as many hypotheses. Uses the
-/// given odds or 2^16, whichever gives the smaller bound.
+/// Returns the bound of `chance_log2` in 2^-8, for 2^(log2_times_q8 / 256) times as many
+/// hypotheses. Uses the given odds or odds of 2^16, whichever give the smaller bound.
 int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8);
 
 }  // namespace dotpose::core

@@ -12,18 +12,18 @@ namespace dotpose::core {
 namespace {
 
 /// Minimum of the sum: negligible odds for each of the 190,027 pairs of places at each shift. No
-/// result relies on a smaller expectation.
+/// result depends on a smaller expectation.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// Safety factor of expectations. At a given position the odds can be larger than the mean over all
-/// positions; on 5,630 axes of hard frames they were at most 21 times as large.
+/// Safety factor of expectations. The odds at a given position can be larger than the mean over all
+/// positions. On 5,630 axes of hard frames, they were at most 21 times as large.
 constexpr float kMargin = 32;
 
-/// Set of anchors: a bit for each, by rank.
+/// Set of anchors, one bit per anchor, by rank.
 using Anchors = std::uint32_t;
 
 /// The anchors, divided into `shared - 1` groups. An alternative that shares `shared` anchors
-/// therefore shares two anchors of the same group.
+/// therefore shares at least two anchors of the same group.
 class Groups {
   public:
     Groups(const RankedLines& lines, int anchors, int shared) : count_(shared - 1) {
@@ -48,8 +48,8 @@ class Groups {
         }
     }
 
-    /// Returns true if (`one`, `other`) is the first pair of anchors at which an alternative with
-    /// these shared anchors is found.
+    /// Returns true if the alternative with these shared anchors is found at (`one`, `other`)
+    /// before any other pair of anchors.
     bool is_first_pair(Anchors shared, int one, int other) const {
         for (const Anchors group : groups_) {
             const Anchors both = shared & group;
@@ -64,7 +64,8 @@ class Groups {
     std::array<Anchors, kMinFound - 1> groups_{};
 };
 
-/// One byte for each anchor, by rank, and for a few more lines. Compilers keep it in one register.
+/// One byte for each anchor, by rank, and for a few more lines. Compilers keep the vector in one
+/// register.
 using AnchorBytes [[gnu::vector_size(16)]] = std::uint8_t;
 static_assert(sizeof(AnchorBytes) >= kMaxAnchors && sizeof(AnchorBytes) <= kMaxLines);
 
@@ -72,7 +73,7 @@ int at(const RankedLines::Offsets& offsets, int rank) {
     return offsets.all[static_cast<std::size_t>(rank)];
 }
 
-/// Returns offsets from -62 to 62 modulo 63. Negative ones are stored modulo 256.
+/// Returns offsets from -62 to 62 modulo 63. Negative offsets are stored modulo 256.
 AnchorBytes modulo_sections(AnchorBytes offsets) {
     return offsets + (static_cast<AnchorBytes>(offsets >= kSections) & kSections);
 }
@@ -83,18 +84,18 @@ AnchorBytes anchors_of(const RankedLines::Offsets& offsets) {
     return bytes;
 }
 
-/// Returns the offsets of a place minus its offset at one anchor, modulo 63.
+/// Returns the anchor offsets of a place relative to its offset at anchor `one`, modulo 63.
 AnchorBytes since(int one, const RankedLines::Offsets& offsets) {
     return modulo_sections(anchors_of(offsets) - offsets.all[static_cast<std::size_t>(one)]);
 }
 
 /// Returns the negative of `since`, modulo 63. Two places share the anchors at which `since` of one
-/// equals `opposite` of the other.
+/// place equals `opposite` of the other place.
 AnchorBytes opposite(int one, const RankedLines::Offsets& offsets) {
     return modulo_sections(offsets.all[static_cast<std::size_t>(one)] - anchors_of(offsets));
 }
 
-/// Set of anchors, each marked by 1 in its byte.
+/// Set of anchors. The byte of each anchor in the set is 1.
 class Marks {
   public:
     explicit Marks(AnchorBytes marks) { std::memcpy(halves_.data(), &marks, sizeof marks); }
@@ -103,7 +104,7 @@ class Marks {
     Anchors anchors() const { return bits_of(halves_[0]) | bits_of(halves_[1]) << 8; }
 
   private:
-    /// Returns the lowest bits of eight bytes: the product moves each to a different bit of the
+    /// Returns the lowest bits of eight bytes. The product moves each bit to a different bit of the
     /// highest byte.
     static Anchors bits_of(std::uint64_t bytes) {
         return static_cast<Anchors>(bytes * 0x0102040810204080 >> 56);
@@ -157,7 +158,7 @@ class Buckets {
     std::array<Opposite, code::kA4Restored.size()> places_;
 };
 
-/// Sums up the odds of the alternatives that share at least `shared` anchors.
+/// Adds up the odds of the alternatives that share at least `shared` anchors.
 class Finder {
   public:
     Finder(const RankedLines& lines, int anchors, int shared)
@@ -169,7 +170,8 @@ class Finder {
     float sum() const {
         float sum = 0;
         groups_.visit_pairs([&](int one, int other) {
-            // In each pair of sequences one has the buckets. a3, the shortest, never has them.
+            // For each pair of sequences, the places of one of them are sorted into buckets. The
+            // places of the shortest sequence, a3, never are.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });
@@ -177,8 +179,8 @@ class Finder {
     }
 
   private:
-    /// Returns the odds of the alternatives that differ in this sequence and in one of `others` and
-    /// share both anchors.
+    /// Returns the odds of the alternatives that differ in this sequence and in one of `others`,
+    /// and share both anchors.
     float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others, int one,
                           int other) const {
         const Buckets buckets(lines_, sequence, one, other);
@@ -203,7 +205,7 @@ class Finder {
     /// Returns the odds of a pair of places. `shared` is the sum of their offsets in a line that
     /// the pair shares.
     float odds(const RankedLines::Offsets& a, const RankedLines::Offsets& b, int shared) const {
-        // 126 is shift 0 modulo 63, and keeps the sums of two offsets positive.
+        // 126 is shift 0 modulo 63. It keeps the sums of two offsets positive.
         const int base = 2 * kSections - shared;
         int lost = 0;
         for (int rank = 0; rank < lines_.count(); ++rank) {
@@ -216,7 +218,7 @@ class Finder {
     const RankedLines& lines_;
     int shared_;
     Groups groups_;
-    AnchorBytes anchors_{};  ///< 1 for each anchor, 0 for other lines
+    AnchorBytes anchors_{};  ///< 1 for each anchor, 0 for all other lines
 };
 
 }  // namespace
@@ -227,9 +229,9 @@ float sum_of_double_alternatives(const RankedLines& lines, float negligible, flo
     const auto expected_odds = [&](int shared) {
         return kMargin * expected[static_cast<std::size_t>(shared)];
     };
-    // The fewer anchors must be shared, the more pairs of anchors are visited: 6 of the 66 pairs
-    // for seven, 18 for four, all for two. Fewer than four are worth the time only if the fix would
-    // be refused otherwise.
+    // If fewer anchors must be shared, more pairs of anchors are visited: 6 of the 66 pairs for
+    // seven anchors, 18 for four, all for two. Fewer than four anchors are worth the time only if
+    // the fix would be refused otherwise.
     constexpr int kMinForDetail = 4;
     int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&

@@ -1,4 +1,4 @@
-// Double alternatives: positions that differ from the one read in the places of two secondary
+// Double alternatives: positions that differ from the position read in the places of two secondary
 // sequences. docs/integrity.md.
 #pragma once
 
@@ -7,11 +7,11 @@
 namespace dotpose::core {
 
 /// Returns the summed odds of the 190,027 pairs of places at all shifts, at least 2^-41. Pairs that
-/// share several of the lines with the most information are counted one by one, the others by
-/// their expectation. The number of shared lines is chosen so that the expectation is about
+/// share several of the lines with the most information are counted one by one; all other pairs
+/// contribute their expectation. The required number of shared lines makes this expectation about
 /// `negligible`, or at most `max_odds` if that takes too long. If the expectation exceeds
-/// `max_odds` even then, it is returned without counting pairs, because the sum exceeds the limit
-/// anyway. Needs at least 6 lines.
+/// `max_odds` even then, returns the expectation without counting pairs, because the sum exceeds
+/// the limit anyway. Needs at least 6 lines.
 float sum_of_double_alternatives(const RankedLines& lines, float negligible, float max_odds);
 
 }  // namespace dotpose::core

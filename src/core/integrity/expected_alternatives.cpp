@@ -6,9 +6,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Safety factor for each step. A string of five digits occurs in a sequence at most once, so it is
-/// at most 3^5 / 233 times as frequent as in a random sequence. Over the four sequences this is
-/// 1.12 for five steps.
+/// Safety factor per step. A string of five digits occurs at most once in a sequence, which is at
+/// most 3^5 / 233 times as frequent as in a random sequence. Over the four sequences, this factor
+/// is 1.12 for five steps.
 constexpr float kUnevenness = 1.03F;
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Expected alternatives: the odds of all positions that differ from the one read in the places of
-// several secondary sequences. There are 4e8 of them, so the sum is an expectation over their
-// places. docs/integrity.md.
+// Expected alternatives: the odds of all positions that differ from the position read in the places
+// of several secondary sequences. There are 4e8 such positions, so the sum is an expectation over
+// their places. docs/integrity.md.
 #pragma once
 
 #include <array>
@@ -13,12 +13,13 @@ namespace dotpose::core {
 /// Adds up the expected odds, line by line.
 class ExpectedAlternatives {
   public:
-    /// Counts alternatives to a position that share at most `max_shared` adjacent lines with it, 3
-    /// or 4, and differ in the places of at least `min_different` sequences, 2 or 3.
+    /// Includes alternatives that share at most `max_shared` adjacent lines with the position read
+    /// (3 or 4) and differ in the places of at least `min_different` sequences (2 or 3).
     ExpectedAlternatives(const code::Basis& basis, std::uint32_t position, int max_shared,
                          int min_different);
 
-    /// Adds the next line. `odds` are those of an alternative, by its roll offset; odds[0] is 1.
+    /// Adds the next line. `odds` are the odds of an alternative in this line, by its roll offset;
+    /// odds[0] is 1.
     void add_line(const std::array<float, kSections>& odds);
 
     /// Returns the expected odds over the lines added so far.
@@ -31,12 +32,12 @@ class ExpectedAlternatives {
 
     using ByShift = std::array<float, kSections>;
     struct Set {
-        unsigned different = 0;  ///< a bit for each sequence
+        unsigned different = 0;  ///< set of sequences, one bit per sequence
         float alternatives = 0;  ///< number of alternatives
         float equal = 1;  ///< probability that all digits of a step equal those of the reading
-        ByShift sums{};   ///< sums by the current shift; [0] is not used
+        ByShift sums{};   ///< sums indexed by the current shift; element 0 is not used
         std::array<float, kMaxShared>
-            shared{};  ///< sums at shift 0, by the number of adjacent lines shared
+            shared{};  ///< sums at shift 0, indexed by the number of adjacent shared lines minus 1
     };
 
     ByShift after_step(const Set& set, const ByShift& before) const;

@@ -6,11 +6,11 @@
 namespace dotpose::core {
 namespace {
 
-/// See kUnevenness in expected_alternatives.cpp.
+/// As kUnevenness in expected_alternatives.cpp.
 constexpr float kUnevenness = 1.03F;
-/// Lower bounds of odds and sums. They avoid denormal products, which are slow. Sums start at
-/// kStart, a large number, so the lower bounds contribute little even where other rolls fit some
-/// lines much better.
+/// Lower bounds of odds and sums, which avoid slow denormal products. Sums start at the large
+/// number kStart. The lower bounds then contribute little even if other rolls fit some lines much
+/// better.
 constexpr float kMinOdds = 0x1p-40F;
 constexpr float kMinSum = 0x1p-80F;
 constexpr float kStart = 0x1p40F;
@@ -46,7 +46,7 @@ class Pair {
         }
     }
 
-    /// Adds the odds of the alternatives to `totals`, by the number of anchors shared.
+    /// Adds the odds of the alternatives to `totals`, by the number of shared anchors.
     void add_to(std::span<float, kMinFound> totals) const {
         const float alternatives = static_cast<float>(a_.length * b_.length) / kStart;
         for (std::size_t n = 0; n < sums_.size(); ++n) {
@@ -63,7 +63,7 @@ class Pair {
     /// Applies a step in one sequence to the sums by shift. All digits of an alternative are
     /// equally probable; the digits of the reading are known.
     static void step(const code::Secondary& of, std::uint32_t place, float factor, ByShift& sums) {
-        // The sums are stored twice, so that every cyclic shift of them is contiguous.
+        // The sums are stored twice, which makes every cyclic shift of them contiguous.
         std::array<float, 2 * kSections> before;
         const float fraction = factor / static_cast<float>(of.base);
         for (std::size_t s = 0; s < kSections; ++s)
@@ -82,7 +82,8 @@ class Pair {
     std::uint32_t place_a_;
     std::uint32_t place_b_;
     bool is_first_ = true;
-    std::array<ByShift, kMinFound> sums_;  ///< sums by shift, by the number of anchors shared
+    /// Sums indexed by the number of shared anchors, then by shift.
+    std::array<ByShift, kMinFound> sums_;
 };
 
 }  // namespace

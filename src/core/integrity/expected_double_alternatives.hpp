@@ -1,13 +1,13 @@
-// Expected double alternatives: the odds of all positions that differ from the one read in the
+// Expected double alternatives: the odds of all positions that differ from the position read in the
 // places of two secondary sequences, by the number of lines that they share with it. The odds are
-// an expectation over their places. docs/integrity.md.
+// an expectation over the places. docs/integrity.md.
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"
 
 namespace dotpose::core {
 
-/// Maximum number of anchors. Anchors are the lines of the highest ranks.
+/// Maximum number of anchors. The anchors are the lines with the highest ranks.
 inline constexpr int kMaxAnchors = 12;
 /// Alternatives that share at least this number of anchors are always counted one by one.
 inline constexpr int kMinFound = 7;

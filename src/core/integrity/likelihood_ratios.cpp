@@ -10,15 +10,15 @@ namespace dotpose::core {
 
 namespace {
 
-/// Returns the Hamming distance of two substrings of the main sequence, given by their first
-/// indices.
+/// Returns the Hamming distance of two substrings of the main sequence, given by the indices of
+/// their first bits.
 constexpr int distance_of(std::size_t first, std::size_t other, std::size_t length) {
     const std::uint32_t all = length == 0 ? 0 : ~std::uint32_t{0} >> (32 - length);
     return bits_in((code::kMainWords[first] ^ code::kMainWords[other]) & all);
 }
 
-/// Minimum distance of a substring of the main sequence from the others of its length, and the
-/// number of substrings at that distance.
+/// Minimum distance of a substring of the main sequence from all other substrings of the same
+/// length, and the number of substrings at this distance.
 struct NearestSubstrings {
     int distance = kMaxComparedLines + 1;
     int count = 0;
@@ -36,8 +36,9 @@ constexpr NearestSubstrings nearest_of(std::size_t first, std::size_t length) {
     return nearest;
 }
 
-/// Minimum distances of the substrings of the main sequence, by first index: bit i is 1 if the
-/// distance grows with bit i. It grows by at most one with each bit.
+/// Minimum distances of the substrings of the main sequence, by first index. Bit i is 1 if the
+/// distance grows when bit i is added to the substring. The distance grows by at most one with each
+/// bit.
 constexpr auto kGrowingDistances = [] {
     std::array<std::uint32_t, kSections> grows{};
     for (std::size_t first = 0; first < grows.size(); ++first) {
@@ -58,8 +59,8 @@ static_assert([] {
     return true;
 }());
 
-/// Upper bound, by length, of log2 of the number of substrings at the minimum distance from
-/// another, in 2^-8.
+/// Upper bounds, by length, of log2 of the number of substrings at the minimum distance from a
+/// substring, in 2^-8.
 constexpr auto kLog2OfNearest = [] {
     std::array<std::uint16_t, kMaxComparedLines + 1> log2{};
     for (std::size_t length = 0; length < log2.size(); ++length) {
@@ -126,7 +127,7 @@ void LikelihoodRatios::set_min_losses_of_bits() {
 }
 
 int LikelihoodRatios::log2_of_nearest_q8(int line) const {
-    // All other rolls lose at least one bit more.
+    // All rolls except the nearest lose at least one bit more.
     const int log2_q8 = add_log2(log2_of_nearest_q8_[static_cast<std::size_t>(line)],
                                  kOtherRolls_q8 - odds_per_bit_q8_);
     return std::min(log2_q8, kOtherRolls_q8);
@@ -179,8 +180,8 @@ std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOff
     const int base = offsets[static_cast<std::size_t>(shared)];
     const int count = ratios.count();
     int lost = 0;
-    // Visits the lines after the shared one first, where the loss grows fastest, then those before
-    // it.
+    // Visits the lines after the shared line first, in which the loss grows fastest, then the lines
+    // before it.
     for (int i = 1, line = shared + 1; i < count; ++i, ++line) {
         if (line == count) line = 0;
         const int shift = offsets[static_cast<std::size_t>(line)] - base;

@@ -1,4 +1,4 @@
-// Likelihood ratios: the losses and odds of alternatives against the position read.
+// Likelihood ratios: the losses and odds of alternatives, relative to the position read.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 
 namespace dotpose::core {
 
-/// Maximum number of adjacent lines that two positions share, in the code with the misprint.
+/// Maximum number of adjacent lines that two positions share in the misprinted code (libdots).
 inline constexpr int kMaxShared = 7;
 
-/// log2 of the number of other rolls, 62, in 2^-8, rounded up.
+/// log2 of the number of other rolls (62), in 2^-8, rounded up.
 inline constexpr int kOtherRolls_q8 = 1525;
 
 /// Odds below 2^-64 are not computed further and count as 2^-64.
@@ -24,28 +24,28 @@ inline constexpr int kNegligible_q8 = -64 * 256;
 inline constexpr float kNegligible = 5.5e-20F;
 
 /// Losses and odds of alternatives, line by line. The loss of an alternative in a line is the score
-/// of the reading minus the score of the alternative. A line is shared if both have the same roll
-/// there; its loss is then 0.
+/// of the reading minus the score of the alternative. A line is shared if reading and alternative
+/// have the same roll in this line; the loss in a shared line is 0.
 class LikelihoodRatios {
   public:
-    /// Ratios of scored lines. `odds_per_bit_q8` is above 0.
+    /// Computes the ratios of scored lines. Requires odds_per_bit_q8 > 0.
     LikelihoodRatios(CodeVariant code, const Lines& lines_, const AxisReading& reading,
                      int odds_per_bit_q8);
-    /// Ratios of hard bits: each bit is either not read or has the weight 127.
+    /// Computes the ratios of hard bits: each bit either is not read or has the weight 127.
     LikelihoodRatios(CodeVariant code, std::span<const ComparedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8);
 
-    /// Ratios of hard bits, for lines whose rolls are known already.
+    /// Computes the ratios of hard bits, for lines whose rolls are already known.
     LikelihoodRatios(CodeVariant code, std::span<const ComparedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8,
                      std::span<const std::uint8_t> rolls);
 
     int count() const { return count_; }
-    /// Returns true for ratios of hard bits. They have no scores, and `lines` is empty.
+    /// Returns true for ratios of hard bits, which have no scores: `lines` is empty.
     bool is_of_bits() const { return !bits_.empty(); }
 
-    /// Returns the loss of an alternative in a line in which its roll is larger by `shift`; |shift|
-    /// < 63.
+    /// Returns the loss of an alternative in a line in which its roll is larger than that of the
+    /// reading by `shift`; |shift| < 63.
     int loss(int line, int shift) const {
         const int own = rolls_[static_cast<std::size_t>(line)];
         const int moved = own + shift;
@@ -56,21 +56,22 @@ class LikelihoodRatios {
                lines[line][static_cast<std::size_t>(other)];
     }
     int own_roll(int line) const { return rolls_[static_cast<std::size_t>(line)]; }
-    /// Returns the minimum loss of an alternative in a line that it does not share. It is negative
-    /// if another roll fits the line better.
+    /// Returns the minimum loss of an alternative in a line that it does not share. The loss is
+    /// negative if another roll fits the line better.
     int min_loss(int line) const { return min_losses_[static_cast<std::size_t>(line)]; }
     /// Returns the minimum losses of `count` adjacent lines.
     std::span<const std::int16_t> min_losses(int first, int count) const {
         return std::span(min_losses_)
             .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
     }
-    /// Returns the minimum loss of an alternative whose digit differs in the step from a line to
-    /// the next: it does not share one of the two lines. Not negative.
+    /// Returns the minimum loss of an alternative whose digit differs in the step from `line` to
+    /// the next line. Such an alternative does not share one of the two lines. The result is not
+    /// negative.
     int min_loss_of_step(int line) const {
         return std::max(std::min(min_loss(line), min_loss(line + 1)), 0);
     }
-    /// Returns log2, in 2^-8, of an upper bound of the ratio of the odds of all other rolls
-    /// together to the odds of the best of them. For hard bits only.
+    /// Returns an upper bound of log2, in 2^-8, of the odds of all other rolls together divided by
+    /// the odds of the best of them. For hard bits only.
     int log2_of_nearest_q8(int line) const;
     /// Returns the maximum score that an alternative gains in lines that other rolls fit better.
     int max_gain() const { return max_gain_; }
@@ -78,8 +79,8 @@ class LikelihoodRatios {
     int max_shared() const { return basis[3].has_twins ? kMaxShared : code::kOrder; }
     /// Returns the odds of an alternative with this loss, as log2 in 2^-8.
     int log2_odds_q8(int lost) const {
-        // A lost score is twice the weight of the bits. 129 / 2^15 is 1 / (2 * 127). Losses above
-        // kMaxLost do not change the result.
+        // A lost score is twice the weight of the bits. 129 / 2^15 is about 1 / (2 * 127). Losses
+        // above kMaxLost do not change the result.
         constexpr int kMaxLost = 1 << 18;
         return -(((std::min(lost, kMaxLost) * odds_per_bit_q8_) >> 8) * 129 >> 7);
     }
@@ -89,14 +90,14 @@ class LikelihoodRatios {
     float odds(int lost) const {
         const int log2_q8 = std::clamp(log2_odds_q8(lost), kNegligible_q8, -kNegligible_q8);
         const int whole = log2_q8 >> 8;
-        // The exponent of a float begins at bit 23, with 127 added. The builtin is std::bit_cast,
-        // which the standard library of emscripten lacks.
+        // The exponent of a float begins at bit 23 and has a bias of 127. The builtin replaces
+        // std::bit_cast, which the standard library of emscripten lacks.
         const auto power =
             __builtin_bit_cast(float, static_cast<std::uint32_t>(whole - 16 + 127) << 23);
         return static_cast<float>(exp2_q16(log2_q8 - whole * 256)) * power;
     }
-    /// Returns true if an alternative with this loss is negligible, whatever it gains in other
-    /// lines.
+    /// Returns true if an alternative with this loss is negligible, regardless of its gains in
+    /// other lines.
     bool is_hopeless(int lost) const { return lost > hopeless_score_; }
 
     const code::Basis& basis;
@@ -106,19 +107,19 @@ class LikelihoodRatios {
     std::array<std::uint32_t, 4> places;
 
   private:
-    /// Score lost by a wrong bit of full weight: its weight, twice.
+    /// Score lost by a wrong bit of full weight, which is twice its weight.
     static constexpr int kScoreOfBit = 2 * 127;
 
     void find_places();
     void follow_rolls(CodeVariant code, const AxisReading& reading);
     void set_min_losses_of_bits();
     void set_min_loss(int line, int min_loss);
-    /// Returns the number of bits that contradict another roll minus the number that contradict the
-    /// reading.
+    /// Returns the number of bits that contradict another roll minus the number of bits that
+    /// contradict the reading.
     int loss_of_bits(int line, int roll) const;
-    /// The other rolls with the minimum loss in a line.
+    /// The rolls with the minimum loss in a line, except the roll of the reading.
     struct Nearest {
-        int lost_bits = 0;      ///< number of bits that they lose
+        int lost_bits = 0;      ///< number of bits that these rolls lose
         int log2_count_q8 = 0;  ///< upper bound of log2 of the number of these rolls, in 2^-8
     };
     Nearest nearest(int line) const;
@@ -133,12 +134,12 @@ class LikelihoodRatios {
     std::array<std::int16_t, kMaxComparedLines> log2_of_nearest_q8_;  ///< for hard bits only
 };
 
-/// Roll offsets of an alternative by line: its roll minus that of the reading, modulo 63. They are
-/// known up to a common shift.
+/// Roll offsets of an alternative, by line: its roll minus the roll of the reading, modulo 63. The
+/// offsets are known up to a common shift.
 using RollOffsets = std::array<std::uint8_t, kMaxLines>;
 
-/// Returns the roll offset of a line, 0 to 62, from both rolls. Computed in bytes, to allow
-/// vectors.
+/// Returns the roll offset of a line, from 0 to 62, given both rolls. Computed in bytes, which
+/// allows vectors.
 constexpr std::uint8_t roll_offset(std::uint8_t own, std::uint8_t alternative) {
     return static_cast<std::uint8_t>(alternative - own + (alternative < own ? kSections : 0));
 }
@@ -155,8 +156,8 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
 }
 
 /// Returns the loss of an alternative at the shift at which it shares the line `shared`. Stops
-/// where the alternative is hopeless. Returns nullopt if it shares an earlier line, too, and was
-/// therefore counted there.
+/// adding as soon as the alternative is hopeless. Returns nullopt if the alternative shares an
+/// earlier line too, because it was counted at that line.
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
                                    int shared);
 

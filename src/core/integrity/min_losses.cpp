@@ -8,9 +8,10 @@ MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last) {
     const int count = ratios.count();
     const int max_shared = ratios.max_shared();
     MinLosses min_loss;
-    MinLosses unshared_last;  // minimum over those that do not share the last of the n lines
+    // Minimum over the alternatives that do not share the last of the n lines.
+    MinLosses unshared_last;
     unshared_last[0] = 0;
-    int lowest = 0;  // index of the smallest, at most `max_shared` lines back
+    int lowest = 0;  // index of the smallest element, at most `max_shared` lines back
     for (int n = 0;; ++n) {
         const int last = unshared_last[static_cast<std::size_t>(n)];
         if (last <= unshared_last[static_cast<std::size_t>(lowest)]) {

@@ -1,6 +1,6 @@
 // Minimum losses: lower bounds of the loss of every alternative. No alternative shares more
-// adjacent lines with the position read than `LikelihoodRatios::max_shared`. In most frames this
-// shows that no alternative matters.
+// adjacent lines with the position read than `LikelihoodRatios::max_shared`. In most frames, these
+// bounds show that no alternative matters.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -11,12 +11,13 @@ namespace dotpose::core {
 using MinLosses = std::array<int, kMaxLines + 1>;
 MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last);
 
-/// Returns the minimum loss of an alternative that shares lines at one shift before a border
-/// between two lines and at another shift beyond it, over all borders.
+/// Returns the minimum loss, over all borders between two lines, of an alternative that shares
+/// lines at one shift before the border and at another shift beyond it.
 int min_loss_with_border(const LikelihoodRatios& ratios);
 
-/// Returns true if every such alternative loses `loss_limit` in a single line: more adjacent lines
-/// are worth that much than can be shared on both sides of any border. Returns false if in doubt.
+/// Returns true if every such alternative loses `loss_limit` in a single line. This is the case if
+/// a run of adjacent lines, each with at least this loss, is longer than the lines that can be
+/// shared on both sides of a border. Returns false if in doubt.
 bool must_lose_with_border(const LikelihoodRatios& ratios, int loss_limit);
 
 }  // namespace dotpose::core

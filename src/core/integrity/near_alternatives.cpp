@@ -9,18 +9,19 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of repetitions of the shortest sequence that exceed the maximum number of lines.
+/// Number of repetitions of the shortest sequence that contain more than the maximum number of
+/// lines.
 constexpr std::uint32_t kTurns = kMaxLines / code::kA3.size() + 1;
 
-/// The places in one sequence at which the digits of a run of lines occur, including that of the
-/// reading.
+/// The places in one sequence at which the digits of a run of lines occur, including the place of
+/// the reading.
 class TwinPlaces {
   public:
-    /// The run begins at line `run` and has one line more than `digits`.
+    /// The run begins at line `run` and has one more line than `digits`.
     TwinPlaces(const RankedLines& lines, std::size_t sequence, std::uint32_t run, int digits) {
         const code::Secondary& a = lines.ratios.basis[sequence];
         const std::uint32_t own = (lines.ratios.places[sequence] + run) % a.length;
-        // The place of the reading comes first, and the places before it come last.
+        // The place of the reading comes first. The places before it in the sequence come last.
         for (const bool before : {false, true}) {
             const auto add = [&](std::uint32_t place) {
                 if ((place < own) != before) return;
@@ -32,8 +33,8 @@ class TwinPlaces {
         }
     }
 
-    /// A place: its offsets, and those of the first eight lines minus that of the first line of the
-    /// run, modulo 63.
+    /// A place: its offsets, and the offsets of the first eight lines minus the offset of the first
+    /// line of the run, modulo 63.
     struct Twin {
         EightOffsets first = 0;
         const RankedLines::Offsets* offsets;
@@ -81,7 +82,7 @@ float sum_of_twins(const RankedLines& lines, const std::array<TwinPlaces, 4>& pl
     for (const auto& a : places[0].all()) {
         for (const auto& b : places[1].all()) {
             for (const auto& c : places[2].all()) {
-                // No byte carries, as four times 62 is 248.
+                // No byte overflows, because four times 62 is 248.
                 const EightOffsets first = a.first + b.first + c.first;
                 for (const auto& d : places[3].all()) {
                     if (!is_own) sum += odds_of_twins(lines, first + d.first, {&a, &b, &c, &d});

@@ -9,11 +9,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds of other places below which they are ordinary doubts, which a second attempt may remove.
+/// Odds of places in other codes below which these places are ordinary doubts, which a second
+/// attempt may remove.
 constexpr float kAmbiguousOdds = 1e-3F;
 /// Odds below which no attempt is made in a code, because earlier frames contradict it.
 constexpr float kRuledOutOdds = 1e-9F;
-/// Factors below this are rounding errors and do not count.
+/// Factors below this value are rounding errors and are ignored.
 constexpr float kRoundings = 1.01F;
 
 std::size_t index(CodeVariant code) {
@@ -86,8 +87,8 @@ CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others) {
     for (std::size_t i = 0; i < log2_q8.size(); ++i) {
         if (i == index(read)) continue;
         const float odds = others.of[i].here() + others.of[i].elsewhere();
-        // A code that explains the frame equally well gives no evidence; rounding errors must not
-        // add up.
+        // A code that explains the frame equally well gives no evidence. Its rounding errors must
+        // not accumulate.
         const bool is_equal = odds <= kRoundings && odds * kRoundings >= 1;
         log2_q8[i] = is_equal ? 0 : log2_of_odds_q8(odds);
     }

@@ -1,5 +1,5 @@
-// Possible codes: how certain a fix in one code is, given that the sheet may have another code.
-// docs/integrity.md, "Which code?", derives the numbers.
+// Possible codes: determines how certain a fix in one code is, given that the sheet may have
+// another code. docs/integrity.md, "Which code?", derives the numbers.
 #pragma once
 
 #include <array>
@@ -16,29 +16,29 @@ namespace dotpose::core {
 struct Judgement {
     bool is_certain = false;
     bool is_ambiguous = false;  ///< true if a place in another code is about as likely
-    int p_wrong_log2 = 0;       ///< bound of the probability of being wrong, over all codes
+    int p_wrong_log2 = 0;  ///< log2 of the bound of the probability of being wrong, over all codes
     CodeVariant other = CodeVariant::anoto;  ///< likeliest code other than the one read
-    float other_odds = 0;                    ///< odds of that code against the one read
+    float other_odds = 0;                    ///< odds of that code relative to the code read
 };
 
 /// The codes that a sheet may have, with their odds before the frame.
 class PossibleCodes {
   public:
-    /// Only one code is possible.
+    /// Constructs the case that only one code is possible.
     explicit PossibleCodes(CodeVariant only);
-    /// All codes are possible, with the odds of earlier frames.
+    /// Constructs the case that all codes are possible, with the odds of earlier frames.
     explicit PossibleCodes(const CodeEvidence& evidence);
 
     /// Returns the codes that earlier frames do not rule out, the likeliest first.
     std::span<const CodeVariant> in_order() const { return std::span(order_).first(count_); }
     CodeVariant likeliest() const { return order_[0]; }
     bool is_known() const { return is_known_; }
-    /// Returns true if earlier frames favour no code.
+    /// Returns true if earlier frames do not favour any code.
     bool are_equal() const { return !is_known_ && weight(order_[1]) == 1; }
 
-    /// Returns the number of possible codes, each weighted by its odds against the one read.
+    /// Returns the number of possible codes, each weighted by its odds relative to the code read.
     float number(CodeVariant read) const;
-    /// Returns the bound 2^log2, multiplied by a factor, as log2, rounded up.
+    /// Returns log2 of 2^log2 * factor, rounded up.
     static int rounded_up(int log2, float factor);
 
     /// Judges a fix with status ok, read in the code `read`.
@@ -50,11 +50,11 @@ class PossibleCodes {
 
     bool is_known_;
     std::size_t count_ = 1;                           ///< number of codes that are not ruled out
-    std::array<float, kCodeVariantCount> weights_{};  ///< odds against the likeliest code
+    std::array<float, kCodeVariantCount> weights_{};  ///< odds relative to the likeliest code
     std::array<CodeVariant, kCodeVariantCount> order_{};
 };
 
-/// Returns log2 of the likelihood of the bits in each code, against that of the code read, in 2^-8.
+/// Returns log2 of the likelihood of the bits in each code relative to the code read, in 2^-8.
 CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others);
 
 }  // namespace dotpose::core

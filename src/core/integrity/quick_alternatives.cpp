@@ -12,13 +12,14 @@
 namespace dotpose::core {
 namespace {
 
-/// log2 of the number of places of all four sequences, 741, in 2^-8, rounded up.
+/// log2 of the number of places of all four sequences (741), in 2^-8, rounded up.
 constexpr int kSingles_q8 = 2441;
 /// Odds below which no closer bound is computed.
 constexpr int kSmallOdds_q8 = -36 * 256;
-/// The default limit. Bounds are at least this close, even if the caller accepts more doubt.
+/// The default limit. Bounds are at least as close as this limit requires, even if the caller
+/// accepts more doubt.
 constexpr int kUsualLimit_q8 = -30 * 256;
-/// Upper bound of the odds, as log2, charged for each pruned single alternative.
+/// Upper bound of the odds charged for each pruned single alternative, as log2.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 
 /// Odds of an alternative in a line that it does not share, as log2.
@@ -28,13 +29,13 @@ struct LineOdds {
 };
 using AllLineOdds = std::array<LineOdds, kMaxLines>;
 
-/// 2^-b in 2^-12, rounded up, for each half bit of b.
+/// 2^-b in 2^-12, rounded up, for b in steps of half a bit.
 constexpr std::array<std::uint16_t, 26> kPowers{4096, 2897, 2048, 1449, 1024, 725, 512, 363, 256,
                                                 182,  128,  91,   64,   46,   32,  23,  16,  12,
                                                 8,    6,    4,    3,    2,    2,   1,   1};
 
-/// Returns log2 of the sum of 2^-b over all other rolls. b is the loss of a roll, in bits, minus
-/// the loss of the best of these rolls.
+/// Returns log2 of the sum of 2^-b over all rolls except that of the reading. b is the loss of a
+/// roll, in bits, minus the loss of the best of these rolls.
 int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     const std::int16_t* scores = ratios.lines[line].data();
     const int own = ratios.own_roll(line);
@@ -43,7 +44,8 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
         const auto half_bits = static_cast<std::size_t>(-ratios.log2_odds_q8(best - score) >> 7);
         return kPowers[std::min(half_bits, kPowers.size() - 1)];
     };
-    // Most rolls lose so much that they have the smallest power, that of 12 bits or more.
+    // Most rolls lose so much that they contribute the smallest power, which is that of 12 bits or
+    // more.
     const int min_power_score = best - ratios.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
     for (int roll = 0; roll < kSections; ++roll)
@@ -52,20 +54,20 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     return log2_at_most_q8(sum_q12) - 12 * 256;
 }
 
-/// Returns an upper bound of the sum that `ExpectedAlternatives` computes for one set. All shifts
-/// at which a line is not shared are merged into one state. The probability of a step to any one of
+/// Returns an upper bound of the sum that `ExpectedAlternatives` computes for one set. Merges all
+/// shifts at which a line is not shared into one state. The probability of a step to any one of
 /// these shifts is at most p, the probability that the next line is shared too. The contribution of
-/// a line is therefore bounded twice: by p times the sum of its odds over all rolls, and by its
-/// best odds.
+/// a line therefore has two bounds: p times the sum of its odds over all rolls, and its best odds.
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
     const auto max_shared = static_cast<std::size_t>(ratios.max_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
-    // All sums are divided by the probability that every line so far is shared. The sum of the
+    // All sums are divided by the probability that all lines so far are shared. The sum of the
     // alternatives that share exactly the newest n lines then stays constant.
     std::array<int, kMaxShared + kMaxLines> sharing;
-    // Each element of `sharing` plus the one before it: halves the number of terms.
+    // Sums of each element of `sharing` and the element before it. Adding pairs halves the number
+    // of terms.
     std::array<int, kMaxShared + kMaxLines> pairs;
     std::fill_n(sharing.begin(), kMaxShared, kNever_q8);
     std::fill_n(pairs.begin(), kMaxShared, kNever_q8);
@@ -88,8 +90,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
 }
 
 /// Returns an upper bound of the odds, over all sets, of the alternatives that share at most seven
-/// lines. These alternatives lose in all other lines. Their roll in the first line is open, and
-/// there are fewer than 2^lines subsets of shared lines.
+/// lines. These alternatives lose in all other lines. Their roll in the first line is arbitrary,
+/// and there are fewer than 2^lines subsets of shared lines.
 int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
     constexpr std::size_t kFew = 7;
     std::array<int, kFew> largest{};  // the largest losses
@@ -108,8 +110,8 @@ int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
            (256 + kUnevenness_q8) * ratios.count() + ratios.log2_odds_q8(lost);
 }
 
-/// Returns the sum over all sets. `roughly` uses the number of rolls times the best instead of the
-/// sum over rolls. Stops adding sets once the sum exceeds `max_log2_q8`.
+/// Returns the sum over all sets. If `roughly` is true, the number of rolls times the best odds
+/// replaces the sum over rolls. Stops adding sets as soon as the sum exceeds `max_log2_q8`.
 int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     AllLineOdds odds;
     odds[0] = {};
@@ -121,9 +123,9 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
         odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
-    // The four other sets have more alternatives, which share a line more rarely. In each of these
-    // sets, the alternatives that share more than seven lines have less than half of the odds of
-    // the first set.
+    // The four other sets contain more alternatives, which share lines more rarely. In each of
+    // these sets, the alternatives that share more than seven lines have less than half of the odds
+    // of the first set.
     constexpr int kThreeTimes_q8 = 406;
     if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
         const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(ratios));
@@ -136,13 +138,13 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     return sum;
 }
 
-/// Sums up the odds of single alternatives, at every shift at which they share enough lines to
+/// Adds up the odds of single alternatives, at every shift at which they share enough lines to
 /// matter.
 class ByShift {
   public:
     ByShift(const LikelihoodRatios& ratios, int loss_limit);
 
-    /// Returns `sum` plus the odds of the alternative at a place.
+    /// Returns `sum` plus the odds of the alternative with another place in one sequence.
     int add(std::size_t sequence, std::uint32_t place, int sum) {
         if (sequence != sequence_) begin(sequence);
         return may_matter(rolls_ + place) ? add_closely(place, sum) : sum;
@@ -152,7 +154,8 @@ class ByShift {
     struct Loss {
         std::uint16_t least;  ///< minimum loss of the alternatives that do not share the line
         std::uint8_t line;
-        std::uint8_t own = 0;  ///< part of the roll there that the place of the reading adds
+        /// Part of the roll of the line that comes from the place of the reading.
+        std::uint8_t own = 0;
     };
 
     void begin(std::size_t sequence) {
@@ -170,10 +173,10 @@ class ByShift {
     const std::uint8_t* rolls_ = nullptr;
     std::uint32_t loss_limit_;
     std::size_t count_ = 0;               ///< number of lines with a loss
-    std::array<Loss, kMaxLines> losses_;  ///< sorted, the largest first
+    std::array<Loss, kMaxLines> losses_;  ///< in decreasing order
     std::uint32_t in_all_ = 0;            ///< sum of all losses
-    /// Number and sum of the first losses: as many as stay below the limit without the largest,
-    /// which may be kept.
+    /// Number and sum of the first losses. Their sum stays below the limit even without the largest
+    /// loss, which may be kept.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
     /// Sum of the losses that are kept at each shift, plus `none_`. Smaller values are left over
@@ -201,8 +204,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     }
 }
 
-/// Returns true if the place may lose less than the limit at some shift.
-// Not inlined, so that small processors can keep everything in registers.
+/// Returns true if the alternative with this place may lose less than the limit at some shift.
+// Not inlined, because small processors then keep all variables in registers.
 [[gnu::noinline]] bool ByShift::may_matter(const std::uint8_t* alternative) {
     std::uint32_t* const kept = kept_.data();
     const std::uint32_t none = none_ += in_all_;
@@ -217,7 +220,7 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // If less than this is kept, the lines so far lose enough.
+    // If at most this sum is kept, the lines visited so far lose the limit.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);
@@ -232,7 +235,7 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
 [[gnu::noinline]] int ByShift::add_closely(std::uint32_t place, int sum) const {
     RollOffsets offsets;
     set_roll_offsets(ratios_, sequence_, place, offsets);
-    std::array<std::uint32_t, kSections> kept;  // by the shift at which lines are shared
+    std::array<std::uint32_t, kSections> kept;  // indexed by the shift at which lines are shared
     for (int line = 0; line < ratios_.count(); ++line)
         kept[offsets[static_cast<std::size_t>(line)]] = 0;
     for (std::size_t i = 0; i < count_; ++i)
@@ -251,8 +254,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
 }
 
 /// Returns an upper bound of the odds of the single alternatives of one sequence that share a line,
-/// from the minimum loss of these alternatives. Each alternative shares a line at no more shifts
-/// than there are lines.
+/// from the minimum loss of these alternatives. An alternative is counted once per shift at which
+/// it shares a line, so at most `ratios.count()` times.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                      std::size_t sequence) {
     const int lost = unshared.min_loss(sequence, Sharing::at_one_shift) - ratios.max_gain();
@@ -261,12 +264,12 @@ int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshar
            ratios.log2_odds_q8(std::max(lost, 0));
 }
 
-/// Set of sequences, a bit for each.
+/// Set of sequences, one bit per sequence.
 using Sequences = unsigned;
 constexpr Sequences kAllSequences = 15;
 
-/// Adds the bounds from tables, where they are below `little_q8`, for the given sequences. Returns
-/// the sequences that remain.
+/// Adds the bounds from tables to `sum`, for those of the given sequences whose bound is below
+/// `little_q8`. Returns the remaining sequences.
 Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences sequences,
                         int& sum) {
     for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
@@ -283,8 +286,8 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
     return sequences;
 }
 
-/// Returns the odds of the single alternatives of the given sequences. Alternatives that must lose
-/// the limit are skipped. The few other alternatives are counted one by one.
+/// Returns the odds of the single alternatives of the given sequences. Skips alternatives that must
+/// lose more than the limit, and counts the few remaining alternatives one by one.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();
@@ -329,7 +332,7 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);
-        // Alternatives that share no line lose at least as much as those in other sections.
+        // Alternatives that share no line lose at least as much as alternatives in other sections.
         singles = add_log2(singles, kSingles_q8 + other_sections);
     }
     if (sequences != 0) singles = add_log2(singles, singles_log2_q8(ratios, sequences));

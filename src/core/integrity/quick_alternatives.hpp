@@ -1,6 +1,6 @@
-// Quick alternatives: an upper bound of the summed odds of all alternatives, in integers only. It
-// takes a thousandth of the work of `alternatives_log2`, and is far below the limit in most frames.
-// docs/integrity.md derives it.
+// Quick alternatives: computes an upper bound of the summed odds of all alternatives, in integers
+// only. The bound takes a thousandth of the work of `alternatives_log2`, and is far below the limit
+// in most frames. docs/integrity.md derives it.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"

@@ -1,24 +1,24 @@
-// Ranked lines: the lines sorted by information, largest first, so that most alternatives become
-// hopeless after a few lines; and the roll offsets of all places of the secondary sequences, in
-// this order.
+// Ranked lines: the lines, sorted by decreasing information, and the roll offsets of all places of
+// the secondary sequences in this order. Most alternatives then become hopeless after a few lines.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
 
 namespace dotpose::core {
 
-/// Roll offsets in the first eight lines by rank: one byte each, the first in the lowest.
+/// Roll offsets in the eight lines of the highest ranks, one byte each. The first line is in the
+/// lowest byte.
 using EightOffsets = std::uint64_t;
 
 /// 1 in each byte.
 inline constexpr EightOffsets kInEach = 0x0101010101010101;
 
-/// Losses, odds and roll offsets, by the ranks of lines.
+/// Losses, odds and roll offsets, indexed by the ranks of lines.
 class RankedLines {
   public:
     explicit RankedLines(const LikelihoodRatios& ratios);
 
-    /// Roll offsets of one place, by rank; 0 to 62.
+    /// Roll offsets of one place, indexed by rank, from 0 to 62.
     struct Offsets {
         EightOffsets first;
         RollOffsets all;
@@ -27,20 +27,20 @@ class RankedLines {
     int count() const { return ratios.lines.count(); }
     int line(int rank) const { return lines_[static_cast<std::size_t>(rank)]; }
     int rank(std::uint32_t line) const { return ranks_[line]; }
-    /// Returns the odds of each shift in a line, given by its number and not by its rank.
+    /// Returns the odds of each shift in a line. `line` is the number of the line, not its rank.
     const std::array<float, kSections>& odds(int line) const {
         return odds_[static_cast<std::size_t>(line)];
     }
     const Offsets& offsets(std::size_t sequence, std::uint32_t place) const {
         return offsets_[kFirsts[sequence] + place];
     }
-    /// Returns the loss of an alternative in a line. `further` is its roll offset modulo 63, stored
-    /// as 0 to 255.
+    /// Returns the loss of an alternative in a line. `further` is the roll offset of the
+    /// alternative modulo 63, stored as any congruent number from 0 to 255.
     int loss(int rank, int further) const {
         return losses_[static_cast<std::size_t>(rank)][static_cast<std::size_t>(further)];
     }
-    /// Returns the loss of eight offsets in the first eight lines, or in the first four if that is
-    /// hopeless.
+    /// Returns the loss of eight offsets in the first eight lines. If the loss in the first four
+    /// lines is hopeless, returns this loss.
     int loss_of_first(EightOffsets further) const {
         const int lost = loss_of_four(0, further);
         return ratios.is_hopeless(lost) ? lost : lost + loss_of_four(4, further >> 32);
@@ -67,7 +67,7 @@ class RankedLines {
     std::array<std::uint8_t, kMaxLines> lines_{};
     std::array<std::uint8_t, kMaxLines> ranks_{};
     std::array<std::array<float, kSections>, kMaxLines> odds_;
-    /// Losses by rank. Ranks without a line, up to the eighth, have 0.
+    /// Losses, indexed by rank. Ranks below 8 without a line have losses of 0.
     std::array<std::array<std::int16_t, 256>, kMaxLines> losses_;
     std::array<Offsets, kPlaces> offsets_;
 };

@@ -11,11 +11,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Prior probability that a given border between two lines is a seam between sections a given
-/// distance apart. A position is still accepted if a seam explains the view equally well, but not
-/// if a seam explains it better.
+/// Prior probability that a given border between two lines is a seam between sections at a given
+/// distance from each other. With this value, a position is accepted if a seam explains the view
+/// equally well, but not if a seam explains it better.
 constexpr int kSeam_q8 = -32 * 256;
-/// Odds against the position read below which an alternative is not counted.
+/// Odds relative to the position read below which an alternative is not counted.
 constexpr int kMin_q8 = -8 * 256;
 
 /// Minimum losses of an alternative before each line, and from each line on, over its shifts. Skips
@@ -27,7 +27,7 @@ class LossesByBorder {
         before_.fill(kNone);
         from_.fill(kNone);
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios.count()));
-        // Loss that is avoided by sharing the lines of a shift.
+        // Loss that an alternative avoids by sharing the lines of a shift.
         std::array<int, kSections> kept{};
         int in_all = 0;
         int max_kept = 0;
@@ -38,7 +38,7 @@ class LossesByBorder {
         }
         for (const std::uint8_t shift : in_view) {
             if (in_all - kept[shift] - max_kept < loss_limit) add(offsets, shift);
-            kept[shift] = -in_all;  // so that each shift is added once
+            kept[shift] = -in_all;  // marks the shift as added
         }
     }
 
@@ -76,14 +76,14 @@ class LossesByBorder {
     std::array<int, kMaxLines> from_;
 };
 
-/// Sums up the odds of the seam alternatives that explain the lines about as well as the position
+/// Adds up the odds of the seam alternatives that explain the lines about as well as the position
 /// read.
 class SeamAlternatives {
   public:
     SeamAlternatives(const LikelihoodRatios& ratios, int loss_limit)
         : ratios_(ratios), loss_limit_(loss_limit) {}
 
-    /// Adds the alternatives with another place in one sequence, at all borders.
+    /// Adds the alternatives with another place in one sequence, with a seam at any border.
     void add(std::size_t sequence, std::uint32_t place) {
         RollOffsets offsets;
         set_roll_offsets(ratios_, sequence, place, offsets);
@@ -101,13 +101,13 @@ class SeamAlternatives {
     int sum_q8_ = kNever_q8;
 };
 
-/// Returns the loss from which an alternative is too improbable to be counted.
+/// Returns the loss at which an alternative is too improbable to be counted.
 int loss_limit_of(const LikelihoodRatios& ratios) {
     return ratios.loss_for(kMin_q8) + ratios.max_gain();
 }
 
 /// Returns the losses of all steps, in parts. An alternative that loses `StepLosses::kLimitParts`
-/// parts loses the limit even if one step, that of the border, does not count.
+/// parts loses at least the limit, even if one step (the step across the border) is ignored.
 StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {
     StepLosses steps;
     steps.count = ratios.count() - 1;

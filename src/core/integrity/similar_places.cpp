@@ -5,7 +5,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Losses of 32 alternatives in bit-sliced counters, one alternative in each bit.
+/// Losses of 32 alternatives in bit-sliced counters. Each alternative has one bit.
 class Losses {
   public:
     explicit Losses(std::uint32_t excluded) : excluded_(excluded) {}
@@ -18,11 +18,11 @@ class Losses {
         add_digit(eights_, has_bit(parts, 3), alternatives, carry);
         excluded_ |= carry;
     }
-    /// Returns the alternatives that have lost the limit.
+    /// Returns the alternatives that have reached the limit.
     std::uint32_t excluded() const { return excluded_; }
 
   private:
-    /// Tests the sign bit, which takes fewer instructions.
+    /// Tests a bit by shifting it to the sign bit, which takes fewer instructions.
     static bool has_bit(unsigned n, int bit) {
         return static_cast<std::int32_t>(n << (31 - bit)) < 0;
     }
@@ -36,7 +36,7 @@ class Losses {
         digit ^= alternatives;
     }
 
-    // Counters start at 1, so that 15 parts carry.
+    // Counters start at 1, so a loss of 15 parts carries.
     static_assert(kLimitParts == 15);
     std::uint32_t ones_ = ~std::uint32_t{0};
     std::uint32_t twos_ = 0;
@@ -54,20 +54,20 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
     };
     int needed = loss_limit;
     if (excused == Excused::any_one) {
-        // The limit must be lost even without any one of the steps.
+        // An alternative must lose the limit even if the step with its largest loss is excused.
         for (int step = 0; step < count; ++step)
             needed = std::max(needed, loss_limit + lost_at(step));
     }
     constexpr int kParts = kLimitParts;
     const int part = (needed + kParts - 1) / kParts;
-    // Maximum loss up to a step if no two adjacent steps count.
+    // Maximum loss up to a step if no two adjacent steps are counted.
     int max_loss = 0;
     int max_loss_before = 0;
     for (int step = 0; step < count; ++step) {
         std::uint8_t parts = 0;
         for (int lost = lost_at(step); lost >= part; lost -= part)
             ++parts;
-        // A loss of one part does not pay for its work.
+        // A loss of one part excludes too few places to be worth its time.
         if (parts == 1) parts = 0;
         losses[static_cast<std::size_t>(step)] = parts;
         const int with_this = max_loss_before + parts;
@@ -89,7 +89,7 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     }
 }
 
-// Not inlined, so that small processors can keep everything in registers.
+// Not inlined, because small processors then keep all variables in registers.
 [[gnu::noinline]] std::uint32_t SimilarPlaces::operator[](std::uint32_t word) const {
     // Excludes the bits beyond the end of the sequence and the bit of the place that was read.
     const std::uint32_t places = sequence_.length - 32 * word;
@@ -101,7 +101,7 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     for (const Step& step : std::span(steps_).first(count_)) {
         const std::uint32_t* here = step.places + word;
         const std::uint32_t equal = here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
-        // No line counts twice, as part of two steps.
+        // A line that is part of two steps must not be counted twice.
         if (step.ahead != before + 1) counted = 0;
         before = step.ahead;
         counted = ~(equal | counted);

@@ -1,5 +1,5 @@
 // Similar places: the places of a sequence whose digits are so similar to those of the reading that
-// their alternatives may matter. They are found 32 at a time, one in each bit.
+// their alternatives may matter. The search processes 32 places at a time, one per bit.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -12,12 +12,12 @@ inline constexpr int kMaxSteps = 18;
 /// Number of parts into which the loss limit is divided.
 inline constexpr unsigned kLimitParts = 15;
 
-/// Steps at which an alternative is excused: it loses nothing there, whatever its digit.
+/// Steps at which an alternative is excused: it loses nothing there, regardless of its digit.
 enum class Excused : std::uint8_t { none, any_one };
 
-/// Minimum loss of an alternative in each step in which its digit differs from that of the reading:
-/// it does not share one of the two lines, so the smaller loss of the two. In parts of the loss
-/// limit, rounded down.
+/// Minimum loss of an alternative in each step in which its digit differs from that of the reading.
+/// Such an alternative does not share one of the two lines, so its loss is at least the smaller
+/// loss of the two lines. In parts of the loss limit, rounded down.
 struct Steps {
     Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused);
 
@@ -33,7 +33,8 @@ class SimilarPlaces {
     /// `own` is the place of the reading at the first step of `steps`.
     SimilarPlaces(const code::Secondary& a, std::uint32_t own, const Steps& steps);
 
-    /// Returns the similar places among the 32 from 32 * word on, except that of the reading.
+    /// Returns the similar places among the 32 places from 32 * word on, except the place of the
+    /// reading.
     std::uint32_t operator[](std::uint32_t word) const;
 
   private:
@@ -48,7 +49,7 @@ class SimilarPlaces {
     std::array<Step, kMaxSteps> steps_;
 };
 
-/// Calls `use` for each place that is set in a word; `word` is its index.
+/// Calls `use` for each place whose bit is set in a word. `word` is the index of the word.
 template <typename Use>
 void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
     for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
@@ -56,8 +57,8 @@ void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
     }
 }
 
-/// Calls `use` with the sequence and the place, at the first line, of all similar places. Sequences
-/// for which `is_settled` returns true are skipped.
+/// Calls `use` with the sequence and the place, at the first line, of all similar places. Skips
+/// sequences for which `is_settled` returns true.
 template <typename IsSettled, typename Use>
 void visit_similar_places(const LikelihoodRatios& ratios, const Steps& steps, IsSettled is_settled,
                           Use use) {

@@ -1,4 +1,4 @@
-// Single alternatives: positions that differ from the one read in the place of one secondary
+// Single alternatives: positions that differ from the position read in the place of one secondary
 // sequence. docs/integrity.md.
 #pragma once
 
@@ -7,8 +7,8 @@
 namespace dotpose::core {
 
 /// Returns the summed odds of all single alternatives, counted one by one at every shift at which
-/// they share a line with the reading. The result is an upper bound: hopeless alternatives count as
-/// negligible.
+/// they share a line with the reading. The result is an upper bound, because hopeless alternatives
+/// count as negligible.
 float sum_of_single_alternatives(const RankedLines& lines);
 
 }  // namespace dotpose::core

@@ -16,14 +16,14 @@ class Bounds {
         for (std::size_t n = 1; n < odds_.size(); ++n)
             odds_[n] = ratios.odds(unshared.min_loss_of(n) - ratios.max_gain());
     }
-    /// An alternative with n unshared lines of the table loses at least the sum of the n smallest
-    /// line losses. The table bounds the number of such alternatives for each n, and the minimum of
-    /// n for each place.
+    /// Returns the bound of a sequence. An alternative with n unshared lines of the table loses at
+    /// least the sum of the n smallest line losses. The table bounds the number of such
+    /// alternatives for each n, and the minimum of n for each place.
     float operator[](std::size_t sequence) const {
         const LikelihoodRatios& ratios = unshared_.ratios();
         const auto& max_with = code::kMaxPositionsWith[unshared_.tables() - 1][sequence];
-        // The alternatives beyond the table. Each shares a line at no more shifts than there are
-        // lines.
+        // Alternatives with more unshared lines than the table covers. An alternative is counted
+        // once per shift at which it shares a line, so at most `ratios.count()` times.
         float sum =
             static_cast<float>(ratios.count() * ratios.basis[sequence].length) * odds_.back();
         std::size_t n = unshared_.min_unshared(sequence, Sharing::at_one_shift);
@@ -34,8 +34,8 @@ class Bounds {
 
   private:
     const UnsharedLines& unshared_;
-    /// Element n bounds the odds of an alternative with n unshared lines. The last element bounds
-    /// those with as many or more.
+    /// Element n bounds the odds of an alternative with n unshared lines. The last element also
+    /// bounds the odds of alternatives with more unshared lines.
     std::array<float, code::kMaxCounted + 2> odds_;
 };
 

@@ -1,5 +1,5 @@
 // Unshared lines: the minimum loss of all single alternatives of a sequence, from a table of the
-// number of lines that they share at most. Most alternatives need not be enumerated then.
+// minimum number of lines that they leave unshared. Most alternatives then need not be enumerated.
 #pragma once
 
 #include <array>
@@ -11,10 +11,11 @@
 
 namespace dotpose::core {
 
-/// Shifts at which an alternative shares lines: one shift, or one before and one beyond a border.
+/// Shifts at which an alternative shares lines: a single shift, or one shift on each side of a
+/// border.
 enum class Sharing : std::uint8_t {
     at_one_shift,
-    on_two_sides,  ///< at one shift before some border and at another beyond it
+    on_two_sides,  ///< at one shift before any border and at another shift beyond it
 };
 
 /// Minimum losses of all single alternatives, by sequence.
@@ -29,8 +30,8 @@ class UnsharedLines {
                   int max_lines = kMaxTableLines);
 
     const LikelihoodRatios& ratios() const { return ratios_; }
-    /// Returns the number of tables with at most as many lines as are in view. The last of them is
-    /// used.
+    /// Returns the number of tables that have at most as many lines as are in view. The last of
+    /// these tables is used.
     std::size_t tables() const { return row_ + 1; }
     /// Returns true if all alternatives of a sequence lose at least `loss_limit`, apart from gains
     /// in other lines.
@@ -46,19 +47,20 @@ class UnsharedLines {
     /// Returns the minimum loss of all alternatives of a sequence, or 0 if there is no table for
     /// the sequence.
     int min_loss(std::size_t sequence, Sharing sharing) const;
-    /// Returns the minimum loss of all places in the a4 of another code, given its rows of
-    /// `code::kUnsharedInOther`.
+    /// Returns the minimum loss of all places in the a4 of another code. The argument contains the
+    /// rows of `code::kUnsharedInOther` for that code.
     int min_loss(const std::array<std::string_view, 3>& unshared_in_other) const;
 
   private:
-    /// Returns the losses of the lines in the middle to which the table is applied: those lines are
-    /// longest. Empty if there are too few lines for any table.
+    /// Returns the losses of the lines in the middle to which the table is applied. The middle
+    /// lines are the longest. Returns an empty span if there are too few lines for any table.
     std::span<const std::int16_t> choose_lines(int max_lines);
 
     const LikelihoodRatios& ratios_;
-    std::size_t row_ = SIZE_MAX;  ///< row of the table; SIZE_MAX if there are too few lines for any
+    /// Row of the table; SIZE_MAX if there are too few lines for any table.
+    std::size_t row_ = SIZE_MAX;
     std::uint32_t first_line_ = 0;
-    SmallestSums smallest_sums_{};  ///< up to the maximum number of unshared lines in a table
+    SmallestSums smallest_sums_{};  ///< sums of the n smallest losses, for each n
 };
 
 inline std::size_t UnsharedLines::min_unshared(std::size_t sequence, Sharing sharing) const {

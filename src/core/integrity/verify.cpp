@@ -22,7 +22,7 @@ AxisReading reading_of(CodeVariant code, const Place& place, Axis axis) {
     return {position, static_cast<std::uint8_t>(here), 0, 0};
 }
 
-// Not inlined, so that small processors can keep everything in registers.
+// Not inlined, because small processors then keep all variables in registers.
 [[gnu::noinline]] void compare_line(std::span<const std::int8_t> line, const std::uint8_t* bit,
                                     Confidence& confidence) {
     for (const std::int8_t weight : line) {
@@ -54,10 +54,11 @@ Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& up
     return moved(code, decoding.place, corner.x, corner.y);
 }
 
-/// Result of comparing all bits in view, before alternatives are counted.
+/// Result of the comparison of all bits in view with the code, before alternatives are counted.
 struct Doubt {
     int odds_per_bit_q8 = 0;  ///< 0 if the bits carry no information
-    /// log2 of the bound that random bits agree as well, in 2^-8, for each axis.
+    /// log2 of the bound of the probability that random bits agree equally well, in 2^-8, for each
+    /// axis.
     std::array<int, 2> by_chance_q8{};
 };
 
@@ -66,10 +67,10 @@ Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptio
     decoding.bits = agreements[0].bits() + agreements[1].bits();
     fix.bit_errors = agreements[0].wrong() + agreements[1].wrong();
     for (const Confidence& agreement : agreements) {
-        // This many wrong bits mean that two patterns are in view.
+        // A larger fraction of wrong bits means that two patterns are in view.
         if (agreement.wrong() > agreement.bits() * options.max_bit_error_q8 / 256) return {};
     }
-    // Both axes are read from the same dots and have the same error rate.
+    // Both axes are read from the same dots and therefore have the same error rate.
     Confidence both = agreements[0];
     both.add(agreements[1]);
     Doubt doubt{odds_per_bit_q8(both), {}};
@@ -98,8 +99,8 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
 }
 
 /// Returns the bound of the probability that each axis is wrong, as log2 in 2^-8.
-/// `alternatives_q8(axis, ratios)` returns the odds of its alternatives. They are not counted where
-/// chance alone exceeds the limit.
+/// `alternatives_q8(axis, ratios)` returns the odds of the alternatives of an axis. It is not
+/// called for an axis whose chance alone exceeds the limit.
 template <typename Alternatives>
 std::array<int, 2> with_alternatives(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
@@ -125,8 +126,8 @@ int sum(const std::array<int, 2>& p_wrong_q8) {
     return add_log2(p_wrong_q8[0], p_wrong_q8[1]);
 }
 
-/// Returns true if the position is refused whatever its alternatives are: the bits carry no
-/// information, or chance exceeds the limit.
+/// Returns true if the position is refused regardless of its alternatives: the bits carry no
+/// information, or the probability of a match by chance exceeds the limit.
 bool is_hopeless(const Doubt& doubt, int limit_q8) {
     return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
 }
@@ -138,7 +139,7 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
     return is_sure ? Status::ok : Status::not_certain;
 }
 
-/// Returns the bound of the probability that each axis is wrong, by quick_alternatives.hpp.
+/// Returns the bound of the probability that each axis is wrong. Uses quick_alternatives.hpp.
 std::array<int, 2> estimate_quickly(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                     int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {
@@ -190,7 +191,7 @@ TrackedAxis tracked_axis(CodeVariant code, std::span<const ComparedLine> columns
     }
     result.confidence.add(127, false, seen - wrong);
     result.confidence.add(127, true, wrong);
-    // The reading is that of the first line in view, at the cell in line with the corner.
+    // The reading is that of the first line in view, at the first cell of that line.
     const auto ahead = static_cast<std::int32_t>(begin);
     result.reading = axis == Axis::x ? reading_of(code, moved(code, corner, ahead, 0), axis)
                                      : reading_of(code, moved(code, corner, 0, ahead), axis);
@@ -231,7 +232,8 @@ std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
             compare(code, all, Axis::y, reading_of(code, corner, Axis::y))};
 }
 
-/// Sets the bound of chance for several possible codes.
+/// Sets the bound of chance for several possible codes. `log2_codes_q8` is log2 of their number, in
+/// 2^-8.
 void count_hypotheses_of(int log2_codes_q8, const Grid& grid, CodeVariant code,
                          const Decoding& decoding, Doubt& doubt) {
     const auto agreements = compare_both(grid, code, decoding);
@@ -276,8 +278,8 @@ Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Deco
                           [&](std::size_t, const LikelihoodRatios& ratios) {
                               return quick_alternatives_log2_q8(ratios, limit_q8) + codes_q8;
                           });
-    // The probability is computed as closely as for the default limit, even if a caller accepts
-    // more.
+    // The probability is computed as closely as for the default limit, even if the caller accepts a
+    // larger probability.
     const int doubtful_q8 = std::min(limit_q8, -30 * 256);
     if (sum(p_wrong_q8) > doubtful_q8) {
         const auto counted_q8 = with_alternatives(

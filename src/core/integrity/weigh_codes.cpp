@@ -20,7 +20,7 @@ constexpr float kSkippedOdds = 2.3e-16F;
 /// Summed odds below which no closer bound is computed.
 constexpr float kNegligibleOdds = 1e-12F;
 
-/// Minimum losses of places in the lines that they do not share.
+/// Minimum losses of the lines that a place does not share.
 struct Losses {
     explicit Losses(const LikelihoodRatios& ratios)
         : loss_limit(ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain()) {
@@ -33,13 +33,13 @@ struct Losses {
         }
     }
 
-    /// Returns the losses of all steps, in parts. A place that loses `StepLosses::kLimitParts` of
-    /// them loses the limit.
+    /// Returns the losses of all steps, in parts. A place that loses `StepLosses::kLimitParts`
+    /// parts loses the limit.
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
-        // Quotients are below 16, where floats are exact enough not to round up to the next
-        // integer.
+        // The quotients are below 16. Floats of this size are exact enough to never be rounded up
+        // to the next integer.
         const auto part = static_cast<float>((loss_limit + StepLosses::kLimitParts - 1) /
                                              StepLosses::kLimitParts);
         for (int step = 0; step < steps.count; ++step) {
@@ -50,11 +50,11 @@ struct Losses {
         return steps;
     }
 
-    /// Returns true if places lose the limit when the lines that they share are worth at most
-    /// `all_but`.
+    /// Returns true if a place loses more than the limit when the lines that it shares have a loss
+    /// of at most `all_but`.
     bool exceed_limit(int all_but) const { return kUnit * (all - all_but) > loss_limit; }
 
-    /// Unit of scores, to which they are rounded down, where their sum must fit 16 bits.
+    /// Unit of losses, to which they are rounded down, because their sum must fit in 16 bits.
     static constexpr int kUnit = 8;
     int loss_limit;                           ///< loss from which a place is skipped
     int all = 0;                              ///< loss of places that share no line, in units
@@ -62,7 +62,7 @@ struct Losses {
     std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units
 };
 
-/// Sums up the odds of the places in one other code.
+/// Adds up the odds of the places in one other code.
 class OtherPlaces {
   public:
     OtherPlaces(const LikelihoodRatios& ratios, const Losses& losses, CodeVariant read,
@@ -73,7 +73,7 @@ class OtherPlaces {
           theirs_(code::basis(other)[kA4]),
           shift_here_(code::roll_further(read, other, ratios.position, ratios.places[kA4])),
           here_(offsets_of(ratios.places[kA4])) {
-        // A line with the same roll as the reading loses nothing.
+        // A line loses nothing if its roll equals that of the reading.
         const int shared = modulo(here_[0] - shift_here_);
         int lost = 0;
         for (std::size_t line = 0; line < count_ && !ratios_.is_hopeless(lost); ++line) {
@@ -84,10 +84,10 @@ class OtherPlaces {
         result_.here = ratios_.odds(lost);
     }
 
-    /// Likelihood ratio of the same place.
+    /// Returns the likelihood ratio of the same place.
     float here() const { return result_.here; }
-    /// Upper bound of the sum of the likelihood ratios of all other places, or that sum once they
-    /// are counted.
+    /// Returns an upper bound of the sum of the likelihood ratios of all other places, or the sum
+    /// itself once they are counted.
     float elsewhere() const { return result_.elsewhere; }
 
     /// Bounds the odds of the places elsewhere by a table.
@@ -95,19 +95,20 @@ class OtherPlaces {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
         const int lost = unshared.min_loss(table) - ratios_.max_gain();
-        // Each place shares a line at no more shifts than there are lines.
+        // Each place is counted once per shift at which it shares a line, so at most `count_`
+        // times.
         result_.elsewhere =
             static_cast<float>(theirs_.length * count_) * ratios_.odds(std::max(lost, 0)) +
             sharing_none();
     }
 
-    /// Resets the bound, before places are counted one by one.
+    /// Resets the bound, before the places are counted one by one.
     void begin_count() { result_.elsewhere = 0; }
 
     /// Adds the same place of a4 at its other shifts, and all places at shifts that share no line.
     void add_unsimilar() {
-        // A place with the rolls of the reading shares all lines at one shift and none at the
-        // others.
+        // A place with the rolls of the reading shares all lines at one shift, and no line at any
+        // other shift.
         if (!has_same_rolls_) add(ratios_.places[kA4], here_, shift_here_);
         add_sharing_none();
     }
@@ -145,13 +146,14 @@ class OtherPlaces {
         return offsets;
     }
 
-    /// Returns an upper bound of the odds of all places at shifts that share no line: each counts
-    /// like the best.
+    /// Returns an upper bound of the odds of all places at shifts that share no line. Each of these
+    /// places is counted with the best odds that any of them can have.
     float sharing_none() const {
         return static_cast<float>(theirs_.length * (kSections - 1)) * ratios_.odds(losses_.at_best);
     }
 
-    /// Adds the places at shifts that share no line, one by one if their bound is not negligible.
+    /// Adds the places at shifts that share no line. If their bound is not negligible, they are
+    /// counted one by one.
     void add_sharing_none() {
         const float all = sharing_none();
         if (all <= kNegligibleOdds) {
@@ -180,7 +182,8 @@ class OtherPlaces {
     }
 
     void add(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
-        // Loss of the lines shared at each shift, in units, by their roll offset.
+        // Loss of the lines shared at each shift, in units of kUnit, indexed by the roll offset of
+        // the lines.
         std::array<std::uint16_t, kSections + 1> shared{};
         std::uint16_t most = 0;
         for (std::size_t line = 0; line < count_; ++line) {
@@ -240,14 +243,14 @@ class AxisWeigher {
           read_(read),
           losses_(ratios_) {}
 
-    /// Returns the places in the code `other`; those elsewhere are bounded by a table.
+    /// Returns the places in the code `other`. The places elsewhere are bounded by a table.
     OtherPlaces bounded(CodeVariant other) const {
         OtherPlaces others(ratios_, losses_, read_, other);
         others.bound(unshared_, read_, other);
         return others;
     }
 
-    /// Counts the places elsewhere one by one if their bound is not negligible. `across` is the
+    /// Counts the places elsewhere one by one if their bound is not negligible. `across` are the
     /// odds of the other axis.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
@@ -260,7 +263,7 @@ class AxisWeigher {
         const PlaceBits similar = kernels_.find_similar_places(a4, ratios_.places[kA4], *steps_);
         int added = 0;
         for (std::uint32_t word = 0; word < similar.size(); ++word) {
-            // Few places are similar, so the loop visits only bits that are set.
+            // Few places are similar, so the loop visits only set bits.
             for (std::uint32_t rest = similar[word]; rest != 0; rest &= rest - 1) {
                 others.add(32 * word + static_cast<std::uint32_t>(std::countr_zero(rest)));
                 ++added;
@@ -275,7 +278,7 @@ class AxisWeigher {
     const UnsharedLines& unshared_;
     const CodeVariant read_;
     const Losses losses_;
-    std::optional<StepLosses> steps_;  ///< set when they are needed
+    std::optional<StepLosses> steps_;  ///< set when they are first needed
 };
 
 }  // namespace

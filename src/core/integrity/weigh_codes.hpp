@@ -1,5 +1,5 @@
-// Weigh codes: the odds of the places in the other codes that explain an axis as well as the place
-// read. Codes differ in a4 only, so these are places that differ from the reading in a4 alone.
+// Weigh codes: computes the odds of the places in the other codes that explain an axis as well as
+// the place read. Codes differ in a4 only, so these places differ from the reading in a4 alone.
 // docs/integrity.md derives the sums.
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace dotpose::core {
 
-/// Returns the odds of the places in the code `other`, against the reading of `ratios` in the code
-/// `read`.
+/// Returns, for one axis, the odds of the places in the code variant `other` relative to the
+/// reading. `ratios` are the likelihood ratios of the reading in the variant `read`.
 OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, CodeVariant read,
                            CodeVariant other);
 

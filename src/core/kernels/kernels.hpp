@@ -1,7 +1,7 @@
 // Kernels: the loops over pixels, dots and cells, which take most of the time of the desktop
 // attempts. Each kernel has several implementations, one per kind of processor, with bit-identical
-// results. `select.hpp` selects one implementation. Single precision; lengths in the image are in
-// px.
+// results. `select.hpp` selects one implementation. All numbers are in single precision; lengths in
+// the image are in px.
 #pragma once
 
 #include <array>
@@ -18,7 +18,8 @@ namespace dotpose::core {
 
 /// Two plane waves of the same length at right angles: cos(2 pi (kx x + ky y) - phase).
 struct Waves {
-    float kx = 0;  ///< frequency of the first wave, turns per px; the second is perpendicular to it
+    /// Frequency of the first wave, in turns per px; the second wave is perpendicular to it.
+    float kx = 0;
     float ky = 0;
     float power = 0;  ///< power of both waves; at most 2 for a grid without displacements
     /// Phases of both waves, as cosine and sine.
@@ -29,27 +30,29 @@ struct Waves {
 /// Options of one pass that assigns dots to cells.
 struct CellPass {
     float reach_px = 0;  ///< maximum distance of a dot from the centre along each axis
-    float max_off = 0;   ///< maximum distance of a dot from the nearest place of its cell, spacings
-    float displacement = 0;  ///< distance of the four places of a cell from its centre, spacings; 0
-                             ///< for one place at the centre
+    /// Maximum distance of a dot from the nearest place of its cell, in spacings.
+    float max_off = 0;
+    /// Distance of the four places of a cell from its centre, in spacings; 0 for one place at the
+    /// centre.
+    float displacement = 0;
     bool with_perspective = false;
 };
 
 /// Sums over the dots of one pass, for the least-squares plane with perspective: i (1 + g x + h y)
-/// = a x + b y + c, and likewise j with d, e and f. Without perspective, only the first three
+/// = a x + b y + c, and the same for j with d, e and f. Without perspective, only the first three
 /// elements of `i` and `j` are set, and `square` is 0.
 struct CellSums {
     float seen = 0;  ///< number of dots within reach
     float used = 0;  ///< number of these dots that are near a place
-    /// Sum of the squared distances of the used dots from their places, spacings^2.
+    /// Sum of the squared distances of the used dots from their places, in spacings^2.
     float squares = 0;
     std::array<float, 6> one{};     ///< sums of 1, x, y, xx, xy, yy
-    std::array<float, 6> i{};       ///< the six sums with each term times i
-    std::array<float, 6> j{};       ///< the six sums with each term times j
-    std::array<float, 6> square{};  ///< the six sums with each term times i^2 + j^2
+    std::array<float, 6> i{};       ///< the six sums with each term multiplied by i
+    std::array<float, 6> j{};       ///< the six sums with each term multiplied by j
+    std::array<float, 6> square{};  ///< the six sums with each term multiplied by i^2 + j^2
 };
 
-/// Maximum number of columns, and of rows, of cells in view in an image turned by any angle.
+/// Maximum number of columns, and of rows, of cells in view, at any angle of the image.
 inline constexpr int kMaxLinesInView = 1024;
 
 /// Places of the windows of listed cells: none, intersections or dots.
@@ -59,20 +62,20 @@ enum class Windows : std::uint8_t { none, on_intersections, on_dots };
 struct CellsInView {
     FloatPlane plane;  ///< upright pattern; image points are relative to `centre`
     FloatLens lens;
-    float centre_x = 0;  ///< origin of image points, px from the first pixel of the image
+    float centre_x = 0;  ///< origin of image points, in px relative to the first pixel of the image
     float centre_y = 0;
     float width_px = 0;
     float height_px = 0;
     float margin_px = 0;     ///< minimum distance of a dot from the border
     float reach_px = 0;      ///< maximum distance of a dot from the centre along each axis
-    float displacement = 0;  ///< distance of dots from their intersections, spacings
+    float displacement = 0;  ///< distance of dots from their intersections, in spacings
     Windows windows = Windows::on_intersections;
     int step = 1;  ///< row subsampling step: every `step`-th cell of a row is listed
-    /// Index in the main sequence of each column at row `first_row`, and of each row at column
-    /// `first_column`.
+    /// Index in the main sequence of each column at row `first_row`; `row_rolls` contains that of
+    /// each row at column `first_column`.
     const std::uint8_t* column_rolls = nullptr;
     const std::uint8_t* row_rolls = nullptr;
-    int first_column = 0;  ///< first cell of the pattern that has rolls
+    int first_column = 0;  ///< first column of the pattern for which rolls are given
     int first_row = 0;
     int columns = 0;
     int rows = 0;
@@ -80,13 +83,14 @@ struct CellsInView {
 
 /// Options of `measure_windows`.
 struct WindowOptions {
-    float spacing_px = 11;  ///< at the image centre
+    float spacing_px = 11;  ///< spacing at the image centre
     float reach = 0.36F;    ///< half the side of a window, in spacings; at most kMaxHalfWindow_px
-    int cut_q8 = 128;       ///< threshold: pixels darker than the paper by this fraction, in 1/256,
-                            ///< belong to the dot
-    float typical_mass = 0;  ///< mass of a dot over the paper level; 0 to use that of most windows
+    /// Threshold, in 1/256 of the paper level: minimum contrast of a pixel of a dot.
+    int cut_q8 = 128;
+    /// Mass of a dot relative to the paper level; 0 to use the mass of most windows.
+    float typical_mass = 0;
 };
-/// Maximum of half the side of a window, and of the radius of a centroid window.
+/// Maximum half side of a window, and maximum radius of a centroid window.
 inline constexpr int kMaxHalfWindow_px = 24;
 inline constexpr float kMaxCentroidRadius_px = 24;
 /// Maximum radius of a small centroid window, which takes a tenth of the time of a larger one.
@@ -95,21 +99,22 @@ inline constexpr float kSmallCentroidRadius_px = 4;
 /// include the edge of the dot at 8 to 13 px per spacing.
 inline constexpr float kPredictedCentroidRadius_px = 3.65F;
 
-/// Sums over dots for the fit of nine parameters; see PlaneNormal. Places (u, v) are those of
-/// the dots in the plane, relative to its `at`, in units of its scale. Residuals (x, y) are in
+/// Sums over dots for the fit of nine parameters; see PlaneNormal. Places (u, v) are the places
+/// of the dots in the plane, relative to its `at`, in units of its scale. Residuals (x, y) are in
 /// spacings.
 struct FitSums {
     int points = 0;       ///< number of inliers
     int outliers = 0;     ///< number of outliers
     float farthest = 0;   ///< largest squared residual of an inlier
-    float projected = 0;  ///< sum of offset . direction of displacement
+    float projected = 0;  ///< sum of the offsets along the direction of the displacement
     float squares = 0;    ///< sum of the squared residuals
     /// 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv, quu, quv, qvv, qqu, qqv, qqq; q = uu + vv.
     std::array<float, 16> places{};
     std::array<float, 9> residuals{};  ///< x, y, xu, yv, yu, xv, au, av, aq; a = xu + yv
 };
 
-/// Sums over predicted dots: their places, in px from the image centre, and their offsets.
+/// Sums over predicted dots: of their places, in px relative to the image centre, and of their
+/// offsets.
 struct DotOffsets {
     int points = 0;
     float u = 0;  ///< sum of places
@@ -118,9 +123,12 @@ struct DotOffsets {
     float squared = 0;  ///< sum of the squared offsets
     float off_u = 0;    ///< sum of offsets
     float off_v = 0;
-    float along = 0;  ///< sums of offsets times places: parallel and perpendicular to the place
+    /// Sum of offset times place: the component parallel to the place (along) and perpendicular to
+    /// it (across).
+    float along = 0;
     float across = 0;
-    /// Sums of offsets times the direction of the displacement along x, and along y.
+    /// Sums of offsets times the direction of the displacement along x; `of_y` contains the sums
+    /// along y.
     std::array<float, 2> of_x{};
     std::array<float, 2> of_y{};
 };
@@ -136,7 +144,7 @@ struct BlockSums {
     std::array<Block, kMaxAlong * kMaxAlong> all;
     float dots = 0;      ///< number of inliers
     float outliers = 0;  ///< number of outliers
-    float squares = 0;   ///< sum of the dots' squared residuals, spacings^2
+    float squares = 0;   ///< sum of the squared residuals of the dots, in spacings^2
 };
 
 /// Result of reading bits.
@@ -156,7 +164,8 @@ struct LineLoss {
     std::uint8_t loss = 0;
 };
 
-/// Places in the four sequences of a position, each with a line that it shares with the reading.
+/// Places in the four sequences of a position. Each place has a line that it shares with the
+/// reading.
 struct SimilarPlaceList {
     static constexpr int kMax = 256;
     struct Entry {
@@ -168,11 +177,11 @@ struct SimilarPlaceList {
     std::array<Entry, kMax> places;
 };
 
-/// Set of places of a sequence: a bit for each, the first in the lowest bit.
+/// Set of places of a sequence, one bit per place. The first place is the lowest bit.
 using PlaceBits = std::array<std::uint32_t, 8>;
 
-/// Minimum loss of an alternative whose digit differs from that of the reading in a step from one
-/// line to the next: the alternative does not share one of these two lines. The unit is
+/// Minimum loss of an alternative whose digit differs from that of the reading in the step from one
+/// line to the next. Such an alternative does not share one of the two lines. The unit is
 /// 1/kLimitParts of the loss limit.
 struct StepLosses {
     static constexpr int kLimitParts = 8;
@@ -180,17 +189,17 @@ struct StepLosses {
     std::array<std::uint8_t, 64> parts;  ///< loss of each step; at most kLimitParts
 };
 
-/// Alternatives by the set of sequences in which they differ: their number, and the probability
-/// that all their digits in a step equal those of the reading.
+/// Alternatives, grouped by the set of sequences in which they differ: their number, and the
+/// probability that all their digits in a step equal those of the reading.
 struct FarAlternatives {
     std::array<float, 8> equal{1, 1, 1, 1, 1, 1, 1, 1};
     std::array<float, 8> number{};
 };
 
-/// Sums of the n smallest losses, by n.
+/// Sums of the n smallest losses, indexed by n.
 using SmallestSums = std::array<std::int32_t, 9>;
 
-/// Bits of 64 lines of 64 cells, a word for each line. `valid` has a bit for each cell that was
+/// Bits of 64 lines of 64 cells, one word per line. `valid` has one bit for each cell that was
 /// read.
 struct BitLines {
     std::array<std::uint64_t, 64> bits{};
@@ -202,31 +211,32 @@ struct Kernels {
     const char* name;
     /// Copies a part of the image, reduced by an integer factor, with a white margin.
     void (*fill_patch)(const ImageView& image, Patch& patch);
-    /// Smooths the patch by 1-2-1 along both axes, and finds the brightest and darkest pixel of
+    /// Smooths the patch by 1-2-1 along both axes, and finds the brightest and the darkest pixel of
     /// each tile.
     void (*smooth_patch)(Patch& patch);
-    /// Lists dots, relative to the middle of the patch: minima of the smoothed patch that are
-    /// darker than its thresholds, at the vertices of parabolas through their neighbours.
+    /// Lists the dots: minima of the smoothed patch that are darker than its thresholds. Their
+    /// places are the vertices of parabolas through the neighbouring pixels, relative to the middle
+    /// of the patch.
     void (*find_minima)(Patch& patch);
-    /// Returns the strongest waves with about `per_px` turns per px, of 12 directions.
+    /// Returns the strongest waves of 12 directions, with about `per_px` turns per px.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
     /// Returns the sums of one pass over the dots.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
-    /// Sets the bits of the dots by their cells. Cell (-32, -32) is the first.
+    /// Sets the bits of the cells in which the dots are. Cell (-32, -32) is the first.
     void (*read_cells)(const PatchDots& dots, const FloatPlane& plane, float displacement,
                        BitLines& columns, BitLines& rows);
     /// Scores 64 cells of a line against the main sequence at each roll.
     void (*score_line)(std::uint64_t bits, std::uint64_t valid, ScoredLine& line);
     /// Lists the cells in view, with the centres of their windows, the symbols of their dots and,
-    /// in `x` and `y`, the places of the dots in the image, with lens distortion.
+    /// in `x` and `y`, the places of the dots in the image, including lens distortion.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
     /// Finds the shift of all dots at which the mean of their surroundings is darkest. Sets
-    /// `cut_q8`, its contrast relative to the paper level there, in 1/256. Returns false if too few
-    /// dots are in view.
+    /// `cut_q8` to the contrast at this shift relative to the paper level, in 1/256. Returns false
+    /// if too few dots are in view.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
     /// Sets the centroids of the dark pixels in the windows of the dots. Drops dots whose mass is
-    /// much larger or smaller than that of a typical window, which is returned.
+    /// much larger or smaller than that of a typical window. Returns the mass of a typical window.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowOptions& options, MeasuredDots& dots);
     /// Sets the centres to weighted centroids in centroid windows, without a threshold and its
@@ -236,44 +246,46 @@ struct Kernels {
                            MeasuredDots& dots);
     /// Reads the bits of cells whose dots are predicted to a fraction of their displacement: the
     /// dot is at the darkest of the four places of its cell. `depth_q8` is the contrast of a
-    /// typical dot. Bits are compared and added to lines as by `read_bits`; dots with a wrong bit
-    /// are dropped.
+    /// typical dot. Bits are compared and added to lines as in `read_bits`. Drops dots with a wrong
+    /// bit.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Sets the centres of predicted dots as `refine_centres` does, in windows of
-    /// kPredictedCentroidRadius_px, and drops dots with an offset above `max_off_px`. `weight_px`
-    /// is the offset, in px, that corresponds to a moment-to-weight ratio of 1, or 0 to estimate
-    /// this offset from dots in the middle of the list. Returns the sums over the remaining dots.
+    /// kPredictedCentroidRadius_px. Drops dots with an offset above `max_off_px`. `weight_px` is
+    /// the offset, in px, that corresponds to a moment-to-weight ratio of 1, or 0 to estimate this
+    /// offset from dots in the middle of the list. Returns the sums over the remaining dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
-    /// Reads the bits of measured dots and compares them with the code. Adds them to `columns` and
-    /// `rows`, unless these are null; cell (-32, -32) is the first. The lines must be empty, and no
-    /// cell may have two dots.
+    /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`
+    /// and `rows`, unless these are null; cell (-32, -32) is the first. The lines must be empty,
+    /// and no cell may have two dots.
     BitsRead (*read_bits)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                           BitLines* columns, BitLines* rows);
     /// Returns the sums over the inliers, whose squared residuals are at most `limit` (spacings^2).
     /// `scale` is the unit of places.
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float scale, float limit);
-    /// Sums up the residuals of the inliers, at most `limit` (spacings^2), in `side` x `side`
-    /// blocks that extend `reach_px` from the centre of the plane along both axes.
+    /// Adds up the residuals of the inliers, whose squared residuals are at most `limit`
+    /// (spacings^2), in `side` x `side` blocks that extend `reach_px` from the centre of the plane
+    /// along both axes.
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
     /// Returns the other places of a sequence that may lose less than the limit, according to the
     /// steps.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
-    /// Returns the expected odds of the far alternatives. `best` has, for each line, the odds of
-    /// the best other roll. At most `max_shared` adjacent lines are shared.
+    /// Returns the expected odds of the far alternatives. `best` contains, for each line, the odds
+    /// of the best other roll. At most `max_shared` adjacent lines are shared.
     float (*sum_far_alternatives)(std::span<const float> best, int max_shared,
                                   const FarAlternatives& sets);
     /// Lists the other places, in the sequences whose bit is set, that may lose less than
-    /// `loss_limit` over these lines, sorted with the largest loss first. Returns false if there
-    /// are too many, or if places that share none of the first lines may lose less.
+    /// `loss_limit` over the given lines, which are sorted by decreasing loss. Returns false if
+    /// there are too many places, or if places that share none of the first lines may lose less
+    /// than the limit.
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 unsigned sequences, std::span<const LineLoss> lines, int loss_limit,
                                 SimilarPlaceList& list);
-    /// Sums up the smallest of 8 to 16 losses. Negative losses count as 0.
+    /// Adds up the smallest of 8 to 16 losses. Negative losses count as 0.
     void (*sum_smallest_losses)(std::span<const std::int16_t> losses, SmallestSums& sums);
 };
 

@@ -15,7 +15,7 @@ inline constexpr int kMaxLines = 64;
 /// Agreement of one column or row with the main sequence at each roll.
 using LineScores = std::array<std::int16_t, kSections>;
 
-/// The best score, and its margin over the second best.
+/// The best score, and its margin over the second best score.
 struct BestScore {
     std::int16_t score = 0;
     std::int16_t margin = 0;

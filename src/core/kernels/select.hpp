@@ -1,11 +1,11 @@
-// Select: the kernels for the current processor.
+// Select: returns the kernels for the current processor.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
 
-/// Returns scalar kernels for any processor, with which the others are compared.
+/// Returns scalar kernels for any processor. The other kernels are compared with them.
 const Kernels& portable_kernels();
 /// Returns kernels with vectors of 16 bytes, for every x86-64 and 64-bit ARM processor.
 const Kernels& wide_kernels();

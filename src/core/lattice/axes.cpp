@@ -19,7 +19,7 @@ using Values = std::span<std::int32_t>;
 std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     std::size_t n = 0;
     for (const SeedEdge& edge : edges) {
-        // Neighbours are within 128 px per axis, so half of the square fits 32 bits.
+        // Neighbours are within 128 px per axis, so half of the squared length fits in 32 bits.
         if (!is_within(edge.step_q8, (1 << 15) - 1)) continue;
         const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
         const auto y = static_cast<std::uint32_t>(edge.step_q8.y * edge.step_q8.y);
@@ -41,30 +41,30 @@ std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t 
         const std::int32_t x = (step.x * inverse_q16) >> 16;
         const std::int32_t y = (step.y * inverse_q16) >> 16;
         const std::int32_t squared_length = x * x + y * y;
-        // Diagonals are left out: their fourth powers are opposite and four times as large.
+        // Diagonals are left out, because their fourth powers are opposite and four times as large.
         if (squared_length > 1280 * 1280 || squared_length < 512 * 512) continue;
         const std::int32_t re = (x * x - y * y) >> 10;
         const std::int32_t im = (2 * x * y) >> 10;
         sum_re += (re * re - im * im) >> 10;
         sum_im += (2 * re * im) >> 10;
     }
-    // The sums are at most 2^9 edges times (5/4)^4 2^10.
+    // The sums are at most 2^9 edges times (5/4)^4 2^10, which fits in 32 bits.
     return angle_bam({sum_re, sum_im}) / 4;
 }
 
-/// Cluster of an edge, and its side of the origin.
+/// The cluster of an edge, and the side of the origin on which the edge is.
 enum class Side : std::uint8_t { first, second, opposite_first, opposite_second, unknown };
 
 std::size_t cluster_of(Side side) {
     return static_cast<std::size_t>(side) & 1;
 }
-/// Returns the edge, reversed if it is opposite to its cluster.
+/// Returns the edge, reversed if it is opposite to the mean of its cluster.
 FixedVec turned(FixedVec edge, Side side) {
     return side >= Side::opposite_first ? -edge : edge;
 }
 using Sides = std::array<Side, kMaxEdges>;
 
-/// Sum of the edges of one side.
+/// Sum and number of the edges of one side.
 struct Sum {
     FixedVec total;
     std::int32_t count = 0;
@@ -74,10 +74,10 @@ struct Sum {
         count += times;
     }
 };
-using Sums = std::array<Sum, 5>;  ///< by Side
+using Sums = std::array<Sum, 5>;  ///< indexed by Side
 
-/// Two of the four clusters. The other two are their mirror images about the origin, which is the
-/// constraint of Fig. 5.
+/// Two of the four clusters. The other two clusters are their mirror images about the origin, which
+/// is the constraint of Fig. 5.
 class Clusters {
   public:
     explicit Clusters(const std::array<FixedVec, 2>& means_q8) : means_q8_(means_q8) {
@@ -98,7 +98,7 @@ class Clusters {
             *side++ = now;
         }
     }
-    /// Returns the means of the sums. A cluster without edges keeps its mean.
+    /// Returns the means of the clusters from the sums. A cluster without edges keeps its mean.
     std::array<FixedVec, 2> means_q8(const Sums& sums) const {
         std::array<FixedVec, 2> means = means_q8_;
         for (std::size_t k = 0; k < 2; ++k) {
@@ -115,7 +115,7 @@ class Clusters {
         const FixedVec e{edge_q8.x >> 2, edge_q8.y >> 2};
         const std::int32_t along_0 = e.x * means_q6_[0].x + e.y * means_q6_[0].y;
         const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
-        // Compares |edge -+ mean|^2 / 2 without the common |edge|^2.
+        // Compares |edge -+ mean|^2 / 2 without |edge|^2, which is common to all four distances.
         if (magnitude(along_1) - magnitude(along_0) > farther_)
             return along_1 < 0 ? Side::opposite_second : Side::second;
         return along_0 < 0 ? Side::opposite_first : Side::first;
@@ -126,11 +126,12 @@ class Clusters {
     }
 
     std::array<FixedVec, 2> means_q8_;
-    std::array<FixedVec, 2> means_q6_;  ///< in 2^-6: products fit 32 bits
-    std::int32_t farther_;  ///< half the difference of the squared means, second minus first
+    std::array<FixedVec, 2> means_q6_;  ///< in 2^-6 px, for products that fit in 32 bits
+    /// Half the difference of the squared lengths of the means, second minus first.
+    std::int32_t farther_;
 };
 
-/// Finds the side of each edge by k-means with the constraint (Fig. 5).
+/// Finds the cluster and side of each edge by k-means with the constraint (Fig. 5).
 void constrained_k_means(std::span<const SeedEdge> edges, Clusters clusters, Sides& sides) {
     std::fill_n(sides.begin(), edges.size(), Side::unknown);
     Sums sums{};
@@ -157,7 +158,7 @@ FixedVec cluster_median(std::span<const SeedEdge> edges, const Sides& sides, std
     return {median(x.first(n)), median(y.first(n))};
 }
 
-/// Returns the medians of both clusters.
+/// Returns the medians of the edges of both clusters.
 std::array<FixedVec, 2> medians(std::span<const SeedEdge> edges, const Clusters& clusters,
                                 Values memory) {
     Sides sides;
@@ -176,8 +177,8 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
                          shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
     const Clusters clusters({along, FixedVec{-along.y, along.x}});
     const auto [u, v] = medians(edges, clusters, memory);
-    // Symmetric edges are 4 % too short on average: the nearest neighbours of a dot tend to be
-    // displaced towards it.
+    // Symmetric edges are 4 % too short on average, because the nearest neighbours of a dot tend to
+    // be displaced towards this dot.
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
     // differs: the paper keeps both axes. Their deviation from a square is scatter of the medians
@@ -189,7 +190,8 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
 }
 
 bool is_nearly_square(FixedVec u, FixedVec v) {
-    // Fourteen bits of the longest component suffice, and their fourth powers fit 64 bits.
+    // Fourteen bits of the longest component suffice, and products of four such components fit in
+    // 64 bits.
     const auto longest =
         static_cast<std::uint32_t>(std::max(larger_component(u), larger_component(v)));
     const int shift = std::max(static_cast<int>(std::bit_width(longest)) - 14, 0);
@@ -198,7 +200,8 @@ bool is_nearly_square(FixedVec u, FixedVec v) {
     const std::int32_t uu = u.x * u.x + u.y * u.y;
     const std::int32_t vv = v.x * v.x + v.y * v.y;
     const std::int32_t area = u.x * v.y - u.y * v.x;
-    // The ratio of the lengths is at most 3:2, and the sine of the angle between them at least 0.9.
+    // The ratio of the lengths must be at most 3:2, and the sine of the angle between them at least
+    // 0.9.
     const std::int64_t squared_area = std::int64_t{area} * area;
     return area > 0 && std::int64_t{4} * uu <= std::int64_t{9} * vv &&
            std::int64_t{4} * vv <= std::int64_t{9} * uu &&

@@ -10,7 +10,8 @@ namespace {
 
 constexpr int kDistanceBins = 64;
 
-/// The seeds, sorted row by row into square buckets, so that near seeds are near in memory.
+/// The seeds, sorted row by row into square buckets. Seeds that are near each other in the image
+/// are then near each other in memory.
 class Buckets {
   public:
     Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
@@ -22,13 +23,14 @@ class Buckets {
     int column(FixedVec at_q8) const { return at_q8.x >> shift_; }
     int row(FixedVec at_q8) const { return at_q8.y >> shift_; }
     std::span<const BucketedSeed> all() const { return memory_.first(count_); }
-    /// Returns the first seed in the bucket at this column of a row, or the first seed after it.
+    /// Returns the first seed in the bucket at this column of a row, or the next seed if the bucket
+    /// is empty.
     const BucketedSeed* in_row(int row, int column) const {
         return &memory_[memory_[static_cast<std::size_t>(row * columns_ + column)].begin];
     }
 
   private:
-    const std::span<BucketedSeed> memory_;  ///< the entry after the last bucket contains its end
+    const std::span<BucketedSeed> memory_;  ///< the element after the last bucket contains its end
     const std::size_t count_;
     int shift_ = 0;
     int columns_ = 1;
@@ -45,7 +47,8 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
         corner = {std::min(corner.x, p.x), std::min(corner.y, p.y)};
         end = {std::max(end.x, p.x), std::max(end.y, p.y)};
     }
-    // A bucket has one to four seeds, so the four nearest are usually in the 3 x 3 buckets around.
+    // A bucket contains one to four seeds, so the four nearest seeds are usually in the 3 x 3
+    // buckets around a seed.
     const int max_buckets = static_cast<int>(seeds.size());
     do {
         ++shift_;
@@ -79,11 +82,11 @@ std::uint32_t wrapped_square(std::int32_t a) {
     return static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(a);
 }
 
-/// The four seeds nearest to one seed among those tested so far, nearest first.
+/// The four nearest seeds of one seed among the seeds tested so far, nearest first.
 class Nearest {
   public:
-    /// Keeps only seeds nearer than the square root of `within_q16`. `may_be_far` is true if seeds
-    /// may be 128 px away or more.
+    /// Keeps only seeds at squared distances below `within_q16`. `may_be_far` is true if seeds may
+    /// be 128 px away or more.
     Nearest(const BucketedSeed& self, std::uint32_t within_q16, bool may_be_far)
         : self_(self), may_be_far_(may_be_far) {
         for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -104,15 +107,15 @@ class Nearest {
         }
     }
     bool has_four() const { return points_[3] != nullptr; }
-    /// Writes the four seeds; -1 for missing ones.
+    /// Writes the indices of the four seeds; -1 for each missing seed.
     void write(std::array<std::int16_t, 4>& seeds) const {
         for (std::size_t k = 0; k < seeds.size(); ++k)
             seeds[k] = points_[k] == nullptr ? -1 : static_cast<std::int16_t>(points_[k]->seed);
     }
 
   private:
-    /// Keeps the point if it is another seed and not too far. Returns the squared distance that the
-    /// next seed must be below.
+    /// Keeps the point if it is another seed and near enough. Returns the squared distance below
+    /// which a further seed is kept.
     DOTPOSE_NOINLINE std::uint32_t consider(const BucketedSeed* p, std::uint32_t squared_q16) {
         const bool is_far = may_be_far_ && larger_component(p->at_q8 - self_.at_q8) >= kFarthest_q8;
         if (p != &self_ && !is_far) insert<3>(p, squared_q16);
@@ -150,7 +153,7 @@ void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
 
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds) {
-    // Bins are as narrow as possible while the last bin contains the farthest dot.
+    // Bins are as narrow as possible, provided that the last bin contains the farthest dot.
     std::array<std::uint16_t, kDistanceBins> histogram{};
     int shift = 0;
     for (const DetectedDot& dot : dots) {
@@ -190,7 +193,7 @@ void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uin
             const bool is_last = reach >= max_reach || sure_q8 >= kFarthest_q8;
             const auto within_q16 =
                 is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8);
-            // Seeds are at most one bucket beyond `reach`, and therefore at most twice as far.
+            // Seeds are at most one bucket beyond `reach`, and therefore at most twice as far away.
             Nearest nearest(p, within_q16, 2 * sure_q8 > kFarthest_q8);
             const int left = std::max(column - reach, 0);
             const int right = std::min(column + reach, buckets.columns() - 1);
@@ -206,7 +209,7 @@ void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uin
 
 namespace {
 
-/// A pair of seeds. The first has the lower index.
+/// A pair of seeds. `from` is the lower index.
 struct Pair {
     std::int16_t from;
     std::int16_t to;

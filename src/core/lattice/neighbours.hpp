@@ -1,7 +1,7 @@
 // Neighbours: the four nearest dots of each dot near the image centre, and the symmetric edges
-// between them. Paper section II-B.2. differs: the paper connects all dots; here the dots nearest
-// the centre (seeds), at most kMaxSeeds, give the first grid, which is then extended outwards
-// (grow.hpp, refine_grid.hpp). This bounds the time for any image.
+// between them. Paper section II-B.2. differs: the paper connects all dots. Here only the dots
+// nearest the centre (seeds), at most kMaxSeeds, give the first grid, which is then extended
+// outwards (device/grow.hpp, lattice/refine_grid.hpp). This bounds the time for any image.
 #pragma once
 
 #include <cstdint>
@@ -14,27 +14,27 @@ namespace dotpose::core {
 /// grid.
 inline constexpr int kMaxSeeds = 256;
 
-/// Element n of two unrelated arrays: the n-th seed, sorted by bucket in row-major order, and the
-/// n-th bucket.
+/// Element n of two unrelated arrays that share their memory: the n-th seed, sorted by bucket in
+/// row-major order, and the n-th bucket.
 struct BucketedSeed {
     FixedVec at_q8;           ///< place of the seed relative to the corner of the first bucket
     std::uint16_t seed = 0;   ///< index of the seed
     std::uint16_t begin = 0;  ///< index of the first seed of the bucket in this order
 };
 
-/// Chooses the dots nearest to a point, by square distance, up to the size of `seeds`. Sets `seeds`
-/// to their indices and returns their number.
+/// Chooses the dots nearest to a point, by the larger of the distances along x and y, up to the
+/// size of `seeds`. Sets `seeds` to their indices and returns their number.
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds);
 
 /// Finds the four nearest other seeds of each seed, nearest first, within 128 px per axis; -1 for
-/// missing ones. `memory` has one element more than there are seeds.
+/// each missing seed. `memory` must have one element more than there are seeds.
 void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                      std::span<BucketedSeed> memory,
                      std::span<std::array<std::int16_t, 4>> neighbours);
 
-/// Finds the pairs of seeds that are neighbours of each other, each once, pointing down. Returns
-/// their number.
+/// Finds the pairs of seeds that are neighbours of each other. Each pair is written once, as an
+/// edge that points down. Returns the number of pairs.
 int connect_symmetric(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                       std::span<const std::array<std::int16_t, 4>> neighbours,
                       std::span<SeedEdge> edges);
@@ -47,7 +47,7 @@ inline bool counts(std::span<const std::array<std::int16_t, 4>> neighbours, int 
     return false;
 }
 
-/// Returns true if each seed is among the four nearest of the other.
+/// Returns true if each seed is among the four nearest seeds of the other.
 inline bool are_connected(std::span<const std::array<std::int16_t, 4>> neighbours, int a, int b) {
     return counts(neighbours, a, b) && counts(neighbours, b, a);
 }

@@ -18,7 +18,8 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     const PatchDots& dots = patch.dots;
     const auto scale = static_cast<float>(patch.scale);
     if (spacing < tuned::kFinest_px * scale || spacing > tuned::kCoarsest_px * scale) return {};
-    // The central dots are those in the disc that contains `central_dots` cells at this spacing.
+    // The central dots are the dots within the disc that contains `central_dots` cells at this
+    // spacing.
     const float radius_2 = view.central_dots * spacing * spacing / 3.14159265F;
     alignas(64) std::array<float, tuned::kMaxCentralDots + 8> x;
     alignas(64) std::array<float, tuned::kMaxCentralDots + 8> y;
@@ -35,7 +36,7 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     const float unit = static_cast<float>(count) * static_cast<float>(count);
     Waves best;
     // Missing dots increase the estimated spacing and false dots reduce it, so other spacings are
-    // tried as well.
+    // tried too.
     for (const float by : {1.0F, 0.93F, 1.07F, 0.87F, 1.14F, 0.81F}) {
         const Waves waves =
             kernels.strongest_waves(x.data(), y.data(), static_cast<int>(count), by / spacing);
@@ -46,7 +47,7 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     return best;
 }
 
-/// Returns the phase of a wave in turns, from -1/2 to 1/2, with an error of a thousandth.
+/// Returns the phase of a wave in turns, from -1/2 to 1/2, with an error of at most a thousandth.
 float phase_in_turns(const Waves& waves, std::size_t i) {
     const float x = std::abs(waves.phase_cos[i]);
     const float y = std::abs(waves.phase_sin[i]);
@@ -68,7 +69,7 @@ FloatPlane plane_from_waves(const Waves& waves) {
     return plane;
 }
 
-/// Inverse of the matrix of sums over (x, y, 1).
+/// Inverse of the matrix of the sums of products of (x, y, 1).
 struct Inverse {
     std::array<std::array<float, 3>, 3> m;
     bool is_regular = false;
@@ -98,16 +99,17 @@ float inner(const std::array<float, 3>& a, const std::array<float, 3>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Solves the least squares of i (1 + g x + h y) = a x + b y + c, and of j with d, e, f. Eliminates
-/// a, b, c and d, e, f, which leaves two equations for g and h. Without perspective, g = h = 0.
-/// Returns false if the dots do not determine the plane.
+/// Solves the least-squares problem of i (1 + g x + h y) = a x + b y + c, and of the same equation
+/// for j with d, e, f. Eliminates a, b, c and d, e, f, which leaves two equations for g and h.
+/// Without perspective, g = h = 0. Returns false if the dots do not determine the plane.
 bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane) {
     const Inverse inverse(sums.one);
     if (!inverse.is_regular) return false;
     const auto right_of = [](const std::array<float, 6>& s) {
         return std::array{s[1], s[2], s[0]};
     };
-    // Sums of (x, y, 1) times x, and times y, each times the cell.
+    // Sums of (x, y, 1) times x, and of (x, y, 1) times y. Each term is multiplied by the column or
+    // row of the cell.
     const auto with_x = [](const std::array<float, 6>& s) { return std::array{s[3], s[4], s[1]}; };
     const auto with_y = [](const std::array<float, 6>& s) { return std::array{s[4], s[5], s[2]}; };
     std::array<float, 3> i = inverse(right_of(sums.i));
@@ -150,13 +152,14 @@ bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
            spacing < tuned::kMaxSpacing * first_spacing && fold < tuned::kMaxFold;
 }
 
-/// Returns the factor on the reach for the next round, from the fraction of dots near their places.
+/// Returns the factor on the reach for the next round, from the fraction of dots near a place of
+/// their cells.
 float growth(float fraction) {
     if (fraction > tuned::kGoodFraction) return tuned::kGoodGrowth;
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// Number of nearest dots, the dot itself included, from which the spacing is estimated.
+/// Number of nearest dots, including the dot itself, from which the spacing is estimated.
 constexpr std::size_t kNearest = 20;
 
 float squared_reach_of_nearest(const PatchDots& dots, FloatVec of) {
@@ -186,7 +189,7 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     PatchDots& dots = patch.dots;
     const int count = dots.count;
     if (count < tuned::kMinDots) return false;
-    // Tests a sample of the dots as origins. In noise, with many dots, the sample is smaller.
+    // Tests a sample of the dots as origins. In noise, which has many dots, the sample is smaller.
     constexpr int kMaxCandidates = 64;
     constexpr int kMinCandidates = 16;
     constexpr int kMaxDistances = 32768;
@@ -199,7 +202,8 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
         const float reach_2 = squared_reach_of_nearest(dots, candidate);
         if (reach_2 >= min_reach_2) continue;
         min_reach_2 = reach_2;
-        // Whole pixels: planes can be moved to this origin without loss of precision.
+        // The origin is in whole pixels, so planes can be moved to this origin without loss of
+        // precision.
         from_middle_px = {std::floor(candidate.x), std::floor(candidate.y)};
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
@@ -221,7 +225,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     plane = plane_from_waves(*waves);
     const float spacing = spacing_px(plane);
     const float full = view.full_reach_px;
-    // The first rounds fit the intersections; displacements count as noise.
+    // The first rounds fit the intersections. The displacements of dots count as noise.
     CellPass pass{tuned::kFirstReach * spacing, tuned::kFirstMaxOffset, 0};
     CellSums sums;
     for (int round = 0; round < 2; ++round) {
@@ -233,8 +237,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     if (mean_square < kUndisplaced) return false;
     grid.displacement =
         std::clamp(std::sqrt(mean_square), tuned::kMinDisplacement, tuned::kMaxDisplacement);
-    // The next rounds fit the nearest of the four places of each cell, which leaves a fifth of that
-    // noise.
+    // The next rounds fit the nearest of the four places of each cell. This reduces the noise to a
+    // fifth.
     pass.displacement = grid.displacement;
     pass.max_off = std::min(tuned::kMaxOffsetPart * grid.displacement, tuned::kMaxOffset);
     for (int round = 0; round < tuned::kMaxRounds; ++round) {

@@ -1,6 +1,6 @@
 // Outwards: finds the plane of the grid from the dots of a patch. Waves through the dots near the
-// middle give a first plane. Further planes are fitted to more and more dots, and with perspective
-// when it is measurable. Paper sections II-B.2 and II-B.3.
+// middle give a first plane. Further planes are fitted to more and more dots, with perspective as
+// soon as it is measurable. Paper sections II-B.2 and II-B.3.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -12,28 +12,29 @@ namespace dotpose::core {
 struct PatchGrid {
     FloatPlane grid_from_image;  ///< relative to the middle of the patch
     float displacement = 0;      ///< displacement of a typical dot, in spacings
-    float variance = 0;  ///< variance of the distance of a dot from the nearest of the four places
-                         ///< of its cell, per axis, in spacings^2
+    /// Variance of the offset of a dot from the nearest of the four places of its cell, per axis,
+    /// in spacings^2.
+    float variance = 0;
 };
 
-/// Estimates for the dots of a patch before the search. The search is around the origin of their
+/// Estimates for the dots of a patch before the search. The search begins at the origin of their
 /// coordinates.
 struct PatchView {
     float spacing_px = 0;     ///< approximate spacing, in px of the image
     float full_reach_px = 0;  ///< maximum distance of a dot along an axis, in px of the image
-    /// Approximate number of dots near the middle in which waves are searched, at most 64.
+    /// Approximate number of dots near the middle that are used to search waves, at most 64.
     float central_dots = 30;
 };
 
 /// Returns the view of a patch with dots everywhere.
 PatchView whole_view(const Patch& patch);
 
-/// Moves the origin of the dots to the dot with the nearest neighbours, for a patch that the
-/// pattern covers only in part. Sets `from_middle_px` to its distance from the middle of the patch.
-/// Returns false if there are too few dots.
+/// Moves the origin of the dots to the dot with the nearest neighbours. For a patch that is only
+/// partly covered by the pattern. Sets `from_middle_px` to the new origin relative to the middle of
+/// the patch. Returns false if there are too few dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
-/// Finds the grid. Returns false if the dots are on no grid, or are not displaced.
+/// Finds the grid. Returns false if the dots are not on a grid, or are not displaced.
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid);
 
 }  // namespace dotpose::core

@@ -14,7 +14,7 @@ namespace tuned = tuning::periodogram_search;
 /// A wave whose crests are the rows of a grid.
 struct Wave {
     std::int32_t direction_bam = 0;
-    std::int32_t spacing_q16 = 0;  ///< px
+    std::int32_t spacing_q16 = 0;  ///< in 2^-16 px
 
     /// Returns the wave vector in turns per px.
     FixedVec vector_q30() const {
@@ -66,7 +66,7 @@ class Periodogram {
 
 constexpr std::int32_t kDegree_bam = 11930465;
 
-/// Steps of a raster around a wave, and their number on each side.
+/// Step sizes of a search raster around a wave, and the number of steps to each side.
 struct Raster {
     std::int32_t turn_bam;
     std::int32_t stretch_q16;
@@ -93,8 +93,8 @@ Wave best_around(const Wave& around, const Raster& raster, Power power) {
     return best;
 }
 
-/// Returns the wave at the local maximum of the power near `wave`, by rasters of finer and finer
-/// steps.
+/// Returns the wave at the local maximum of the power near `wave`. Searches with rasters of
+/// decreasing step sizes.
 template <typename Power>
 Wave ascend(Wave wave, Power power) {
     const std::int32_t spacing_q16 = wave.spacing_q16;
@@ -113,8 +113,8 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     const FixedVec a = first.vector_q30();
     const FixedVec b = second.vector_q30();
     const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
-    // Two waves in the same direction span no grid. The caller refuses the result later, but it
-    // must not overflow.
+    // Two waves in the same direction do not determine a grid. The caller refuses the result later,
+    // but it must not overflow.
     constexpr std::int32_t kLongest_q16 = 4096 << 16;
     const auto entry = [&](std::int32_t part_q30) {
         return limited((std::int64_t{part_q30} << 30) / area_q44, kLongest_q16);
@@ -122,7 +122,8 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     Lattice lattice;
     lattice.u_q16 = {entry(b.y), entry(-b.x)};
     lattice.v_q16 = {entry(-a.y), entry(a.x)};
-    // The phases of both waves at a dot are whole turns, apart from the phase of their sum.
+    // At the dots, the phases of both waves are whole turns plus the phases of their sums over all
+    // dots.
     const std::int64_t i_q16 = angle_bam(periodogram.sum(first)) >> 16;
     const std::int64_t j_q16 = angle_bam(periodogram.sum(second)) >> 16;
     lattice.origin_q16 = {
@@ -140,13 +141,14 @@ void search_periodogram(std::span<const DetectedDot> dots, std::span<const std::
     Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
                          lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
               static_cast<std::int32_t>(length_q16)};
-    // Within a few cells the peak is broad enough for a coarse raster.
+    // Within a few cells, the peak is broad enough for a coarse raster.
     const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * tuned::kNear_cells);
     wave = best_around(wave,
                        {tuned::kTurn_deg * kDegree_bam, wave.spacing_q16 / tuned::kStretchPart,
                         max_turn_deg / tuned::kTurn_deg, tuned::kStretches},
                        [&](const Wave& w) { return near.power_of_square(w); });
-    // A tilted camera gives the two directions different spacings and angles.
+    // If the camera is tilted, the two directions have different spacings and are not at right
+    // angles.
     const Raster tilt{tuned::kTiltTurn_deg * kDegree_bam,
                       wave.spacing_q16 / tuned::kTiltStretchPart, tuned::kTiltSteps,
                       tuned::kTiltSteps};

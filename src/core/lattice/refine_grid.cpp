@@ -13,12 +13,12 @@ namespace {
 
 namespace tuned = tuning::refine_grid;
 
-/// Distance of the farthest cell that is used.
+/// Maximum distance of a cell that is used, in cells.
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Corrects the origin by eq. 6: its error is the median offset of the dots near it. The offset is
-/// relative to the estimate, so the paper's o - median becomes a sum.
+/// Corrects the origin by eq. 6: the error of the origin is the median offset of the dots near it.
+/// The offset is relative to the estimate, so the difference o - median of the paper becomes a sum.
 void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
@@ -54,7 +54,7 @@ Judged judge(std::span<const DetectedDot> dots, int reach_cells, const LatticeOp
     return found;
 }
 
-/// Place in the grid that a dot is assigned to.
+/// Place in the grid to which a dot is assigned.
 struct Target {
     bool is_used = false;
     FixedVec place_q16;
@@ -69,7 +69,7 @@ int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
 }
 
 /// Fits the plane to dots and their targets by one Gauss-Newton step. `target_of(g)` returns the
-/// target of a dot with the GridPoint g.
+/// target of a dot whose GridPoint is g.
 template <typename TargetOf>
 void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, TargetOf target_of) {
     // Relative to its value at the centre, which may have more digits than a float.
@@ -108,8 +108,8 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
 }
 
 /// Fits the plane to the dots within reach. differs: eq. 6 continues with median lengths between
-/// neighbours. Here a least-squares fit, with displacements as noise, gives all terms, and the
-/// reach grows from round to round.
+/// neighbours. Here a least-squares fit, in which displacements are noise, determines all terms,
+/// and the reach grows from round to round.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
     fit_to_targets(dots, plane, [&](const GridPoint& g) {
@@ -120,7 +120,7 @@ void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOption
 }
 
 /// Fits the plane to the places of displaced dots. Each dot is assigned to the nearest of the four
-/// places of its cell. Dots far from all four are left out.
+/// places of its cell. Leaves out dots that are far from all four places.
 void fit_places(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     constexpr std::int32_t kFar_q16 = tuned::kFar_q16;
     fit_to_targets(dots, plane, [](const GridPoint& g) {

@@ -9,8 +9,8 @@
 namespace dotpose::core {
 
 /// Sets the map from the image to the grid, with perspective, and with the curvature of an unknown
-/// lens if the dots determine it. Errors: no_grid, if the dots are not near intersections;
-/// no_displacement, if they are on the intersections (a plain dot grid).
+/// lens if the dots determine it. Errors: no_grid, if the dots are not near the intersections;
+/// no_displacement, if the dots are on the intersections (a plain dot grid).
 Status refine_grid(std::span<const DetectedDot> dots, const LatticeOptions& options,
                    FixedVec image_centre_q8, const Lattice& first, PlaneFromImage& grid_from_image);
 

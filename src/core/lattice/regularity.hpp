@@ -1,4 +1,4 @@
-// Regularity: agreement of dots with a grid that is fitted to more and more of them.
+// Regularity: agreement of the dots with a grid that is fitted to a growing number of dots.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,8 @@ inline constexpr int kFirstReach_cells = 4;
 struct Regularity {
     int dots = 0;
     int near_intersections = 0;
-    int farthest_cell = 0;  ///< farthest cell of all dots, also beyond the reach
+    /// Maximum distance of the cell of a dot, including dots beyond the reach.
+    int farthest_cell = 0;
 
     bool is_settled() const {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
@@ -29,7 +30,8 @@ struct Regularity {
 
     /// Returns the status for the mean square of all offsets, in spacings^2. Dots at random places
     /// are near an intersection in half of the cases, with a mean square of 1/6. Displaced dots are
-    /// always near one, with 1/36, and those of a plain grid with 0.
+    /// always near an intersection, with a mean square of 1/36. Dots of a plain grid have a mean
+    /// square of 0.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
         constexpr std::int64_t kUndisplaced_q20 = (1 << 20) / 256;
@@ -43,8 +45,8 @@ struct Regularity {
 
 /// Extends a fit from the first reach to the farthest dot. `fit(reach_cells)` fits the grid to the
 /// dots within the reach and sets `found`. It is called for each reach until the dots are settled,
-/// at most `max_rounds` times: a better fit assigns more dots to the correct cells. Returns false
-/// if a fit fails.
+/// at most `max_rounds` times, because a better fit assigns more dots to the correct cells. Returns
+/// false if a fit fails.
 template <typename Fit>
 bool fit_outwards(int max_rounds, const Regularity& found, Fit fit) {
     for (int reach = kFirstReach_cells;; reach += reach / 2 + 1) {

@@ -1,4 +1,4 @@
-// Cells: the grid cells of many points through a plane without perspective or lens, in 32-bit
+// Cells: maps many points to grid cells, through a plane without perspective or lens, in 32-bit
 // arithmetic.
 #pragma once
 
@@ -14,22 +14,22 @@ class Cells {
           du_q18_{plane.du_q24.x >> 6, plane.du_q24.y >> 6},
           dv_q18_{plane.dv_q24.x >> 6, plane.dv_q24.y >> 6} {}
 
-    /// Returns the offset from the centre in 1/8 px. The rounding error is at most 1/100 of the
+    /// Returns the offset from the centre, in 1/8 px. The rounding error is at most 1/100 of the
     /// smallest spacing.
     FixedVec from_centre_q3(FixedVec image_point_q8) const {
         const FixedVec p = image_point_q8 - rounding_centre_q8_;
         return {p.x >> 5, p.y >> 5};
     }
-    /// Returns the plane point in spacings. Valid within 512 spacings of the centre.
+    /// Returns the plane point, in 2^-16 spacing. Valid within 512 spacings of the centre.
     FixedVec plane_point_q16(FixedVec from_centre_q3) const {
         return rounding_plane_point_q16(from_centre_q3) - FixedVec{kHalf_q16, kHalf_q16};
     }
-    /// Returns the plane point plus half a spacing, which truncates to the nearest cell.
+    /// Returns the plane point plus half a spacing. Its integer part is the nearest cell.
     FixedVec rounding_plane_point_q16(FixedVec p) const {
         return {rounding_at_centre_q16_.x + ((du_q18_.x * p.x + dv_q18_.x * p.y) >> 5),
                 rounding_at_centre_q16_.y + ((du_q18_.y * p.x + dv_q18_.y * p.y) >> 5)};
     }
-    /// Returns the nearest cell and the offset from it: eq. 3-5.
+    /// Returns the nearest cell and the offset from it, by eq. 3-5.
     GridPoint operator()(FixedVec from_centre_q3) const {
         const FixedVec c = rounding_plane_point_q16(from_centre_q3);
         return {{c.x >> 16, c.y >> 16}, {(c.x & 0xFFFF) - kHalf_q16, (c.y & 0xFFFF) - kHalf_q16}};
@@ -38,7 +38,8 @@ class Cells {
   private:
     static constexpr std::int32_t kHalf_q16 = 1 << 15;
 
-    // Half a unit less, and half a cell more, make truncation round to nearest.
+    // The centre is reduced by half a unit, and the plane point is increased by half a cell.
+    // Truncation then rounds to nearest.
     FixedVec rounding_centre_q8_;
     FixedVec rounding_at_centre_q16_;
     FixedVec du_q18_;

@@ -68,7 +68,7 @@ std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
 
 std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
     if (shift > 0) {
-        // Shifts the numerator as far left as 62 bits and the shift allow.
+        // Shifts the numerator left by as many bits as `shift` and the limit of 62 bits allow.
         const auto bits = std::bit_width(static_cast<std::uint64_t>(magnitude(numerator)));
         const int up = std::clamp(62 - static_cast<int>(bits), 0, shift);
         numerator *= std::int64_t{1} << up;
@@ -83,7 +83,7 @@ std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, i
 }
 
 std::int64_t log2_q16(std::uint32_t n) {
-    // Computes the logarithm bit by bit: squaring doubles it.
+    // Computes the logarithm bit by bit. Squaring a number doubles its logarithm.
     int whole = 0;
     while (n >> whole > 1)
         ++whole;
@@ -118,7 +118,7 @@ std::int32_t angle_bam(FixedVec direction) {
         y = -y;
         angle = static_cast<std::uint32_t>(kHalfTurn);
     }
-    // The vector is scaled to 41 bits. The sum of the truncation errors is then far below the last
+    // Scales the vector to 41 bits. The sum of the truncation errors is then far below the last
     // step.
     const auto bits = std::bit_width(static_cast<std::uint64_t>(x + magnitude(y)));
     x <<= 41 - static_cast<int>(bits);
@@ -134,8 +134,9 @@ std::int32_t angle_bam(FixedVec direction) {
             angle -= static_cast<std::uint32_t>(kAtan[i]);
         }
     };
-    // Before step i, |y| is at most 2^(1 - i) of the length, which these rotations increase to at
-    // most 1.65 * 2^41. From step 12 on, |y| and the amount subtracted from it fit 32 bits.
+    // Before step i, |y| is at most 2^(1 - i) of the length of the vector, which these rotations
+    // increase to at most 1.65 * 2^41. From step 12 on, |y| and the amount subtracted from it fit
+    // in 32 bits.
     constexpr std::size_t kNarrow = 12;
     for (std::size_t i = 0; i < kNarrow; ++i)
         turn(x, y, x >> i, i);

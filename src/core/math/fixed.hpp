@@ -139,16 +139,16 @@ constexpr int add_log2(int a_q8, int b_q8) {
     return larger + kGain[whole] + 1 - (fall >> 8);
 }
 
-/// Returns the median, or 0 if there are no values. An even number of values has the lower median.
-/// Reorders the values.
+/// Returns the median, or 0 if there are no values. For an even number of values, returns the lower
+/// median. Reorders the values.
 std::int32_t median(std::span<std::int32_t> values);
 
 /// Returns the value that a quarter of the values exceed, or 0 if there are no values. Reorders the
 /// values.
 std::int32_t upper_quartile(std::span<std::int32_t> values);
 
-/// Returns a sine times 2^14 with an error of at most 6 %, from two parabolas. Phases are in 2^-16
-/// turns.
+/// Returns the sine of a phase, times 2^14, with an error of at most 6 %, from two parabolas.
+/// Phases are in 2^-16 turns.
 constexpr std::int32_t rough_sine(std::int32_t phase_q16) {
     const std::int32_t x = static_cast<std::int16_t>(phase_q16 & 0xFFFF);
     return x * (32768 - magnitude(x)) >> 14;

@@ -21,7 +21,7 @@ struct FloatPlane {
     float bend = 0;
 };
 
-/// The lens of eq. 1-2, for points relative to the plane's centre, in px.
+/// The lens of eq. 1-2. Its distortion centre is relative to the centre of the plane, in px.
 struct FloatLens {
     float k = 0;  ///< per px^2
     float centre_x = 0;
@@ -33,12 +33,12 @@ struct FloatVec {
     float y = 0;
 };
 
-/// Returns the plane point, in spacings, of an image point in px from the centre. The divisor is at
-/// least 1/4, because planes fold farther away.
+/// Returns the plane point, in spacings, of an image point in px relative to the centre. The
+/// divisor is clamped to at least 1/4, because planes fold farther away.
 FloatVec plane_point(const FloatPlane& plane, FloatVec px);
 
-/// Returns the same plane relative to another point of the image. The result is an approximation if
-/// the plane has a lens term.
+/// Returns the same plane relative to another image point. The result is an approximation if the
+/// plane has a lens term.
 FloatPlane recentred(const FloatPlane& plane, FloatVec to_px);
 
 /// Returns the spacing at the centre, in px.
@@ -46,8 +46,8 @@ inline float spacing_px(const FloatPlane& plane) {
     return 1 / std::sqrt(std::abs(plane.du_x * plane.dv_y - plane.dv_x * plane.du_y));
 }
 
-/// Returns true if a camera can see paper like this: the spacing is measurable, the paper faces the
-/// camera and is not seen from the side, the map does not fold within the image, and the
+/// Returns true if the plane is a plausible view of paper: the spacing is measurable, the paper
+/// faces the camera and is not seen from the side, the map does not fold within the image, and the
 /// coordinates are small. Returns false if any value is NaN.
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px);
 

@@ -55,7 +55,7 @@ FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point) {
     // Newton's method with the slope at the current point. For an affine plane, one round is exact
     // except for the truncation of the division.
     constexpr int kMaxRounds = 12;
-    // The search may leave the range of all images where the map folds.
+    // Where the map folds, the search may leave the range of all images.
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
     FixedVec point_q8 = plane.centre_q8;
     for (int round = 0; round < kMaxRounds; ++round) {

@@ -12,8 +12,9 @@ struct GridPoint {
     FixedVec offset_q16;  ///< eq. 5, in spacings, each in [-1/2, 1/2)
 };
 
-/// Limit of coordinates in 2^-16 spacing and of slopes in 2^-24 spacings per px. No image shows
-/// more, but planes fitted to false dots may exceed it. Four times the limit fits 32 bits.
+/// Limit of coordinates, in 2^-16 spacing, and of slopes, in 2^-24 spacings per px. No image has
+/// larger values, but planes fitted to false dots may exceed the limit. Four times the limit fits
+/// in 32 bits.
 inline constexpr std::int32_t kBeyondReason = 1 << 28;
 
 /// Returns k r^2 in 2^-48, with r clamped to 4096 px. Points of images are rarely farther from the
@@ -29,11 +30,11 @@ inline bool is_affine(const PlaneFromImage& plane) {
     return plane.perspective_q30 == FixedVec{} && plane.lens_q40 == 0;
 }
 
-/// Returns the plane of a lattice, without perspective or lens. Requires |u x v| > 0.
+/// Returns the plane of a lattice, without perspective or lens. Requires u x v > 0.
 PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 
 /// Returns the plane point of an image point by eq. 3, in 2^-16 spacing. differs: the paper
-/// projects on u and v, which is correct only if they are at right angles and the camera is not
+/// projects on u and v, which is correct only if u and v are at right angles and the camera is not
 /// tilted.
 FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 
@@ -44,7 +45,7 @@ GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8);
 FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point_q16);
 
 /// Returns the tangent of the plane at an image point: the plane without perspective or lens that
-/// has the same value and slope there.
+/// has the same value and slope at this point.
 PlaneFromImage tangent(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the tangent of a plane that has neither perspective nor lens.

@@ -1,5 +1,5 @@
-// Tabled: a function of small integers whose values are quotients, read from a table. The smallest
-// processors have no divider.
+// Tabled: reads a function of small integers from a table, because the smallest processors have no
+// divider.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace dotpose::core {
 
 /// Returns kFunction(n) for n < kCount, from a table that the compiler computes. Targets that have
-/// a divider and little flash, or that are downloaded, call the function instead.
+/// a divider and little flash, or whose code is downloaded, call the function instead.
 template <std::uint32_t (*kFunction)(std::uint32_t), std::uint32_t kCount>
 std::uint32_t tabled(std::uint32_t n) {
 #if defined(__wasm__) || defined(__mips__) || defined(__riscv_div) || \

@@ -1,4 +1,5 @@
-// Vectors: arithmetic on four numbers at once, in vector instructions where the processor has them.
+// Vectors: arithmetic on four numbers at once, with vector instructions where the processor has
+// them.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,8 @@ inline FourInts four_at(const std::int32_t* first) {
     return vector_at<FourInts>(first);
 }
 
-/// Adds the four elements of a to the first sum, those of b to the second, and so on, in order.
+/// Adds the four elements of a to the first sum, the four elements of b to the second sum, and so
+/// on, in order.
 inline void add_each(Four& sums, Four a, Four b, Four c, Four d) {
     const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
     const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);

@@ -6,8 +6,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the derivatives, by the parameters, of the direction from one point to another, in rad.
-/// `scale` is the unit of the places, in spacings.
+/// Returns the derivatives, with respect to the parameters, of the direction from one point to
+/// another, in rad. `scale` is the unit of the places, in spacings.
 Parameters direction_gradient(const FourVecs& places, float scale, std::size_t from,
                               std::size_t to) {
     const float x = (places.x[to] - places.x[from]) * scale;
@@ -48,11 +48,12 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
                          FixedVec reference_q8, Fix& fix) {
     fix.dots_used = fit.dots;
     fix.surface = fit.surface;
-    // Some dots are found only when they are measured at their place in the code, not as blobs.
+    // Some dots are found only when they are measured at their places in the code, and not as
+    // blobs.
     fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
     const ScaledPlane plane(float_plane(pattern_from_image), static_cast<float>(fit.reach_px));
-    // Theta is the direction of the x axis of the image, here between two points that are 16 px
+    // Theta is the direction of the x axis of the image, computed between two points that are 16 px
     // apart.
     constexpr float kStep_px = 8;
     const FixedVec from_centre_q8 = reference_q8 - pattern_from_image.centre_q8;

@@ -10,7 +10,8 @@ namespace {
 constexpr auto kSide = DotPixels::kSide;
 
 /// Cosines of the angles at which the chords of the ellipse end, from the outermost chord to the
-/// middle. The other half is symmetric. Neighbouring chords are less than a pixel apart.
+/// middle. The other half of the ellipse is symmetric. Neighbouring chords are less than a pixel
+/// apart.
 constexpr float kChordsOfSmall[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                     0.60876143F, 0.38268343F, 0.13052619F};
 constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F, 0.76040597F,
@@ -50,13 +51,14 @@ struct Normal {
     }
 };
 
-/// Responses of a line of pixels to a blurred step and to a blurred point at one place.
+/// Responses of a line of pixels to a blurred step and to a blurred point at a given place.
 struct PixelLine {
-    std::array<float, kSide> step;  ///< response to a step: darkness 1 beyond the place
+    std::array<float, kSide> step;  ///< response to a step: the darkness is 1 beyond the place
     std::array<float, kSide>
-        point;  ///< response to a point: negative derivative of `step` by the place
-    std::array<float, kSide> slope;          ///< negative derivative of `point` by the place
-    std::array<float, kSide> point_by_blur;  ///< derivative of `point` by the variance of the blur
+        point;  ///< response to a point: negative derivative of `step` with respect to the place
+    std::array<float, kSide> slope;  ///< negative derivative of `point` with respect to the place
+    /// Derivative of `point` with respect to the variance of the blur.
+    std::array<float, kSide> point_by_blur;
 
     PixelLine(float place, float blur_2, int half_px) {
         const float sigma = std::sqrt(blur_2);
@@ -72,7 +74,7 @@ struct PixelLine {
             before = after;
         }
     }
-    /// Returns the derivative of `step` by the variance of the blur.
+    /// Returns the derivative of `step` with respect to the variance of the blur.
     float step_by_blur(std::size_t i) const { return slope[i] / 2; }
 };
 
@@ -115,7 +117,7 @@ DotImages draw(const ModelDot& dot, int half_px) {
     }
     for (std::size_t v = begin; v < end; ++v) {
         for (std::size_t u = begin; u < end; ++u) {
-            // The total darkness stays 1, so a wider ellipse is paler everywhere.
+            // The total darkness is always 1, so a wider ellipse is paler everywhere.
             float& by = by_radius_u.all[v][u];
             by = (by - images.dot.all[v][u] / radius.x) / (2 * radius.x);
             by_radius_v.all[v][u] /= 2 * radius.y;

@@ -1,5 +1,5 @@
-// Dot model: the image of a dot. An ellipse, blurred by a Gaussian and averaged over square pixels,
-// with its derivatives by the parameters.
+// Dot model: computes the image of a dot and its derivatives with respect to the parameters. The
+// dot is an ellipse, blurred by a Gaussian and averaged over square pixels.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@ namespace dotpose::core {
 
 /// An ellipse in the image. Lengths are in px, squares in px^2.
 struct ModelDot {
-    FloatVec centre;    ///< centre, from the middle of the central pixel
+    FloatVec centre;    ///< relative to the middle of the central pixel
     FloatVec radius_2;  ///< squared half axes along u and v
     FloatVec blur_2;    ///< variance of the blur along each axis
 };
 
-/// Square of pixels, by row and column.
+/// A square of pixels, by row and column.
 struct DotPixels {
-    static constexpr int kHalf_px = 6;  ///< distance from the central pixel to the last one
+    static constexpr int kHalf_px = 6;  ///< distance from the central pixel to the last pixel
     static constexpr std::size_t kSide = 2 * kHalf_px + 1;
 
     float& at(int u, int v) {
@@ -31,16 +31,16 @@ struct DotPixels {
     std::array<std::array<float, kSide>, kSide> all{};
 };
 
-/// Images of a model dot and of its derivatives. The darkness of the dot has the sum 1.
+/// Images of a model dot and of its derivatives. The pixels of the dot have a total darkness of 1.
 struct DotImages {
     DotPixels dot;
-    /// Derivatives by the centre, the squared half axis and the blur, each along u and then along
-    /// v.
+    /// Derivatives with respect to the centre, the squared half axis and the blur, each along u and
+    /// then along v.
     std::array<DotPixels, 6> derivatives;
 };
 
-/// Draws the pixels that are at most `half_px` from the central one along each axis. Other pixels
-/// are 0.
+/// Draws the pixels that are at most `half_px` from the central pixel along each axis. All other
+/// pixels are 0.
 DotImages draw(const ModelDot& dot, int half_px);
 
 }  // namespace dotpose::core

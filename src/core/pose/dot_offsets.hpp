@@ -8,7 +8,7 @@ namespace dotpose::core {
 /// A measured dot in the pattern, in spacings.
 struct DotOffset {
     FloatVec at;        ///< measured place
-    FloatVec residual;  ///< vector from there to its place in the code
+    FloatVec residual;  ///< vector from the measured place to the place in the code
     float squared() const { return residual.x * residual.x + residual.y * residual.y; }
 };
 

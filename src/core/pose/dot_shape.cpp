@@ -78,7 +78,7 @@ DotShape::Terms DotShape::changed(const Terms& terms, const Terms& step) {
     Terms result = terms;
     for (std::size_t i = 0; i < Term::count; ++i)
         result[i] += step[i];
-    // Half axes and blur stay positive: a step reduces them to a quarter at most.
+    // Half axes and blur must stay positive, so a step reduces each of them at most to a quarter.
     for (const std::size_t i : {radius_u, radius_v, blur_u, blur_v})
         result[i] = std::max({result[i], terms[i] / 4, tuned::kMin_px2});
     return result;
@@ -93,7 +93,7 @@ bool DotShape::fit(const StackedDots& stacks) {
     terms_ = first;
     Normal normal = equations(stacks, terms_, first, noise_2);
     float damping = tuned::kFirstDamping;
-    // Levenberg 1944, Marquardt 1963.
+    // Damped least squares (Levenberg 1944, Marquardt 1963).
     for (int round = 0; round < tuned::kMaxRounds && damping < tuned::kMaxDamping; ++round) {
         Normal damped = normal;
         damped.scale_diagonal(1 + damping);

@@ -1,4 +1,4 @@
-// Dot shape: size and blur of the dots of a frame, from a model dot that is fitted to their mean
+// Dot shape: determines size and blur of the dots of a frame by fitting a model dot to their mean
 // images.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace dotpose::core {
 class DotShape {
   public:
     /// Terms of the fit: common offset of all dots along u and v; squared half axes and blur of the
-    /// model dot; its darkness, and the darkness of the paper.
+    /// model dot; its total darkness; and the darkness of the paper.
     enum Term : std::size_t {
         offset_u,
         offset_v,
@@ -29,19 +29,19 @@ class DotShape {
     /// determined.
     bool fit(const StackedDots& stacks);
 
-    /// Draws the complete model dot at a place.
+    /// Draws the fitted model dot at a place.
     DotImages drawn_at(FloatVec centre) const {
         return draw(dot(terms_, centre), DotPixels::kHalf_px);
     }
-    /// Returns the variance of the blur along each axis, px^2.
+    /// Returns the variance of the blur along each axis, in px^2.
     FloatVec blur_2() const { return {terms_[blur_u], terms_[blur_v]}; }
-    /// Returns the common offset of the dots from their expected places, px.
+    /// Returns the common offset of the dots from their expected places, in px.
     FloatVec offset() const { return {terms_[offset_u], terms_[offset_v]}; }
-    /// Returns the variance of a quantity with these derivatives by the terms. It includes the
-    /// misfit of the model.
+    /// Returns the variance of a quantity, given its derivatives with respect to the terms. The
+    /// variance includes the misfit of the model.
     float variance(const Terms& derivatives) const;
-    /// Returns the ratio of the squared residuals of the images to the noise, at least 1. 1 is a
-    /// perfect fit.
+    /// Returns the ratio of the squared residuals of the images to the noise. The ratio is at least
+    /// 1, which is a perfect fit.
     float misfit() const { return misfit_; }
 
   private:

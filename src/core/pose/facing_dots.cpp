@@ -10,7 +10,7 @@ namespace dotpose::core {
 namespace {
 
 /// Calls use(first, second, direction) for all pairs of facing dots. `direction` is the unit vector
-/// from the first to the second.
+/// from the first dot to the second.
 template <typename Use>
 void visit_facing(const MeasuredDots& dots, Use use) {
     const auto is_at = [&](std::size_t k, float column, float row, Symbol symbol) {

@@ -1,6 +1,7 @@
-// Facing dots: adjacent dots that are displaced towards each other. If they are large or blurred,
-// each biases the centroid of the other towards itself. The biases cancel in the pose, but increase
-// the residuals. differs: the paper does not state the uncertainty of a pose.
+// Facing dots: corrects the bias of adjacent dots that are displaced towards each other. If such
+// dots are large or blurred, each biases the centroid of the other towards itself. The biases
+// cancel in the pose, but increase the residuals. differs: the paper does not state the uncertainty
+// of a pose.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -9,8 +10,9 @@
 
 namespace dotpose::core {
 
-/// Estimates this bias from the residuals and subtracts it from the centres of facing dots. `dots`
-/// are listed row by row. Returns false, without a change, if the bias is not significant.
+/// Estimates the neighbour bias from the residuals and subtracts it from the centres of facing
+/// dots. `dots` must be listed row by row. Returns false, without a change, if the bias is not
+/// significant.
 bool correct_neighbour_bias(const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 
 }  // namespace dotpose::core

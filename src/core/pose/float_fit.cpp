@@ -10,8 +10,9 @@ namespace {
 
 namespace tuned = tuning::fit;
 
-/// Returns the step, in squared deviations of the pose, below which no other round is needed. The
-/// less nonlinear the plane is, the closer a step ends to the solution.
+/// Returns the squared length of a step, in units of the standard deviation of the pose, below
+/// which no further round is needed. The less nonlinear the plane, the closer a step ends to the
+/// solution.
 float settled(const FloatPlane& p, float reach) {
     const float nonlinear =
         (std::abs(p.tilt_x) + std::abs(p.tilt_y)) * reach + std::abs(p.bend) * reach * reach;
@@ -19,7 +20,8 @@ float settled(const FloatPlane& p, float reach) {
                       tuned::kMinSettled, tuned::kMaxSettled);
 }
 
-/// Returns true if the same dots, or nearly the same, are inliers within another limit.
+/// Returns true if the inliers within the limit `other` are the same, or nearly the same, as those
+/// within `limit`.
 bool keeps_dots(const FitSums& sums, float limit, float other) {
     return (sums.outliers == 0 && sums.farthest <= other) ||
            std::abs(other - limit) < tuned::kSameLimit * limit;

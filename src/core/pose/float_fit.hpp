@@ -1,4 +1,4 @@
-// Float fit: the pose from dots that were measured at their places in the code. The same fit as
+// Float fit: fits the pose to dots that were measured at their places in the code. The same fit as
 // `refine_pose`, in vectors and single precision. differs: the paper stops at eq. 12.
 #pragma once
 
@@ -8,8 +8,9 @@
 namespace dotpose::core {
 
 /// Fits the plane by least squares, starting from `plane`. Dots are inliers if their squared
-/// residual (spacings^2) is at most `limit` in the first round, and at most four standard
-/// deviations in the last. Sets all of `fit`. Returns false if the dots do not determine the plane.
+/// residual (in spacings^2) is at most `limit` in the first round, and at most four standard
+/// deviations in the last round. Sets all members of `fit`. Returns false if the dots do not
+/// determine the plane.
 bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, float limit,
                float displacement, FloatPlane& plane, PoseFit& fit);
 

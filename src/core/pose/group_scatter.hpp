@@ -1,5 +1,5 @@
-// Group scatter: correlation of the residuals of neighbouring dots. A one-way analysis of variance
-// of both coordinates together.
+// Group scatter: measures the correlation of the residuals of neighbouring dots, by a one-way
+// analysis of variance of both coordinates together.
 #pragma once
 
 #include <algorithm>
@@ -7,14 +7,16 @@
 
 namespace dotpose::core {
 
-/// Sums over groups of neighbouring dots, about a plane that was fitted to all dots, in spacings^2.
+/// Sums over groups of neighbouring dots. Residuals are relative to a plane that was fitted to all
+/// dots; squares are in spacings^2.
 struct GroupScatter {
     float squares = 0;  ///< squared residuals of the dots
-    float between = 0;  ///< squared mean residuals of the groups, each times the number of its dots
+    /// Squared mean residuals of the groups, each multiplied by the number of its dots.
+    float between = 0;
     float dots = 0;
     float groups = 0;
 
-    /// Returns the degrees of freedom of the group means: two coordinates each, minus the
+    /// Returns the degrees of freedom of the group means: two coordinates per group, minus the
     /// parameters of the fit.
     float freedom() const {
         constexpr float kFitted = 6;
@@ -29,8 +31,8 @@ struct GroupScatter {
     float excess() const {
         return (between / (freedom() * variance_within()) - 1) * std::sqrt(freedom() / 2);
     }
-    /// Returns the variance, along one axis, of the displacement that the dots of a group have in
-    /// common.
+    /// Returns the variance, along one axis, of the displacement that is common to the dots of a
+    /// group.
     float variance_between() const {
         return std::max(between - freedom() * variance_within(), 0.0F) / std::max(2 * dots, 1.0F);
     }

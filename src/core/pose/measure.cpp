@@ -22,7 +22,7 @@ FixedVec rounded_px(FixedVec point_q8) {
     return {(point_q8.x + 128) >> 8, (point_q8.y + 128) >> 8};
 }
 
-/// Pixels of a window. Bounds are inclusive.
+/// A box of pixels. All four bounds are inclusive.
 struct Box {
     int left;
     int right;
@@ -37,7 +37,8 @@ struct Window {
     int half_px = 0;
     std::int32_t sigma_q8 = 0;
 
-    /// Sets the size for dots whose standard deviation, with blur, is about a tenth of the spacing.
+    /// Sets the size for dots whose standard deviation, including blur, is about a tenth of the
+    /// spacing.
     explicit Window(std::int32_t spacing_q8)
         : half_px(std::min<std::int32_t>(
               std::max<std::int32_t>(spacing_q8 * tuned::kHalf_32nds / 32 + 255,
@@ -47,9 +48,9 @@ struct Window {
           sigma_q8(std::max<std::int32_t>(spacing_q8 * tuned::kSigma_128ths / 128,
                                           tuned::kMinSigma_q8)) {}
 
-    /// Returns the part of the window around a pixel that is in the image together with the
-    /// neighbours of all its pixels, or nullopt if that pixel itself is not. Windows may be cut,
-    /// because dots at the border determine angle and tilt best.
+    /// Returns the part of the window around a pixel in which every pixel has all its neighbours in
+    /// the image, or nullopt if the pixel itself lacks a neighbour. Windows at the border are
+    /// cropped and not rejected, because dots at the border determine angle and tilt best.
     std::optional<Box> box_around(const ImageView& image, int u, int v) const {
         const int last_u = image.width_px - 2;
         const int last_v = image.height_px - 2;
@@ -60,13 +61,13 @@ struct Window {
 };
 
 constexpr int kMaxSide_px = 2 * kMaxHalf_px + 1;
-/// Columns, padded to a multiple of four.
+/// Maximum number of columns, padded to a multiple of four.
 constexpr std::size_t kMaxInFours = kMaxSide_px + 3;
 
-/// Grey levels of the pixels of a box, without defective pixels.
+/// Grey levels of the pixels of a box, with defective pixels replaced.
 class Patch {
   public:
-    /// Loads the grey levels of a box, unless it is loaded already.
+    /// Loads the grey levels of a box, unless they are already loaded.
     void load(const ImageView& image, const Box& box) {
         if (box == box_) return;
         box_ = box;
@@ -78,7 +79,8 @@ class Patch {
         }
     }
     const Box& box() const { return box_; }
-    /// Returns a row, from the left side of the box. At least three zeros follow its last pixel.
+    /// Returns a row, beginning at the left side of the box. At least three zeros follow its last
+    /// pixel.
     const float* row(int v) const { return levels_[static_cast<std::size_t>(v - box_.top)].data(); }
     float at(int u, int v) const { return row(v)[u - box_.left]; }
 
@@ -94,9 +96,9 @@ struct BorderBackground {
     float slope_v = 0;
 };
 
-/// Fits the paper level to the sides of the window that are in the image. These are at least two,
-/// because no image is smaller than a window. If one of two opposite sides is missing, the slope in
-/// that direction is 0.
+/// Fits the paper level to the sides of the window that are in the image. At least two sides are in
+/// the image, because no image is smaller than a window. If one of two opposite sides is missing,
+/// the slope in that direction is 0.
 BorderBackground border_background(const Patch& patch, FixedVec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};
@@ -132,8 +134,8 @@ BorderBackground border_background(const Patch& patch, FixedVec pixel, int half)
 ///
 ///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d), all in units of sigma.
 ///
-/// In a complete window the result is the windowed centroid. In a window that is cut by the border
-/// of the image it is not biased.
+/// In a complete window, the result is the windowed centroid. In a window that is cropped by the
+/// border of the image, the result is unbiased.
 class DotFit {
   public:
     /// Adds four pixels of a row.
@@ -172,20 +174,20 @@ class DotFit {
     }
 
   private:
-    // Sums weighted with the squared profile: 1, x, y, x^2, xy, y^2; and with the profile:
-    // darkness, and darkness times x and y.
+    // Sums of 1, x, y, x^2, xy and y^2, weighted with the squared profile, and sums of the darkness
+    // and the darkness times x and y, weighted with the profile.
     Four one_x_y_xx_{};
     Four xy_yy_dark_{};
     Four dark_y_{};
 };
 
-/// CodeVariant of the window along one axis: distances from its centre in sigma, and exp(-d^2 / 2).
+/// Profile of the window along one axis: distances from its centre, in sigmas, and exp(-d^2 / 2).
 /// Padded with zeros to a multiple of four.
 struct AxisProfile {
     using Values = std::array<float, kMaxInFours>;
     Values distance;
     Values code;
-    Values from_pixel;  ///< distance from the central pixel, px
+    Values from_pixel;  ///< distance from the central pixel, in px
 
     AxisProfile(int first, int last, int pixel, std::int32_t middle_q8, std::int32_t sigma_q8) {
         std::size_t count = 0;
@@ -222,7 +224,8 @@ DotFit fit_dot(const Patch& patch, const BorderBackground& light, std::int32_t s
     return fit;
 }
 
-/// Returns the dot near a point, or nullopt if the point is outside the image or has no dark spot.
+/// Returns the dot near a point, or nullopt if the point is outside the image or there is no dark
+/// spot.
 std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
                                    FixedVec start_q8) {
     const std::int64_t farthest =
@@ -254,8 +257,8 @@ std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
     return dot;
 }
 
-/// Rejects dots whose mass differs much from the typical one: paper where a dot is missing, dirt,
-/// graphics.
+/// Rejects dots whose mass differs much from the typical mass: paper where a dot is missing, dirt,
+/// and graphics.
 void reject_mass_outliers(Grid& grid, std::span<DetectedDot> dots) {
     constexpr std::size_t kSample = tuned::kMedianSample;
     std::array<std::int32_t, kSample> masses;

@@ -1,4 +1,4 @@
-// Measure: the exact centres of all dots, measured in the image at their places in the code. Used
+// Measure: measures the exact centres of all dots in the image, at their places in the code. Used
 // by the second attempt, whose filter and threshold blur and miss dots. differs:
 // docs/differs-from-paper.md.
 #pragma once
@@ -10,10 +10,10 @@
 
 namespace dotpose::core {
 
-/// Replaces the dots by measured ones, one for each cell that has a dot at its place, and links the
-/// cells to them. Centres are Gaussian-windowed centroids (Bertin, SExtractor: XWIN), iterated from
-/// the nominal places; windows may be cut by the border of the image. Masses are darkness over
-/// paper level, in 2^-14. Returns the number of dots.
+/// Replaces the dots by measured dots, one for each cell that has a dot at its place, and links the
+/// cells to these dots. Centres are Gaussian-windowed centroids (Bertin, SExtractor: XWIN),
+/// iterated from the nominal places. Windows may be cropped by the border of the image. Masses are
+/// darkness relative to the paper level, in 2^-14. Returns the number of dots.
 int measure_dots(const ImageView& image, const FixedLens& lens,
                  const PlaneFromImage& pattern_from_image, const Nominal& nominal, Grid& grid,
                  std::span<DetectedDot> dots);

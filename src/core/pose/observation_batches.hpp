@@ -1,4 +1,4 @@
-// Observation batches: all observations in batches, for each round of a fit.
+// Observation batches: splits all observations into batches, for each round of a fit.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@ struct ObservationBatch {
     using Values = std::array<Value, kMax>;
 
     std::size_t count = 0;
-    Values<std::int32_t> x_q8;  ///< place in the image, from the centre of the plane
+    Values<std::int32_t> x_q8;  ///< image point relative to the centre of the plane, in 2^-8 px
     Values<std::int32_t> y_q8;
-    Values<std::int32_t> step_x_q16;  ///< place of the intersection, in spacings
+    Values<std::int32_t> step_x_q16;  ///< place of the intersection, in 2^-16 spacings
     Values<std::int32_t> step_y_q16;
     Values<std::int32_t> dx;  ///< direction of the displacement: -1, 0 or 1
     Values<std::int32_t> dy;
@@ -32,19 +32,19 @@ struct ObservationBatch {
         dy[count] = dotpose::dy(symbol);
         noise[count++] = its_noise;
     }
-    /// Pads to a multiple of four with dots that are not counted and are too far away to be
-    /// inliers.
+    /// Pads the batch to a multiple of four. The added dots are not counted, and are too far away
+    /// to be inliers.
     void fill_up();
 };
 
-/// Observations relative to the centre of a plane.
+/// Observations, with image points relative to the centre of a plane.
 class ObservationBatches {
   public:
     ObservationBatches(const Observations& observations, FixedVec centre_q8);
 
-    /// Returns a bound of the distances of the dots from the centre along each axis.
+    /// Returns an upper bound of the distance of the dots from the centre, along each axis.
     int reach_px() const { return reach_px_; }
-    /// Returns a regular subsample of the dots, or all of them if they fit in one batch.
+    /// Returns a regular subsample of the dots, or all dots if they fit in one batch.
     const ObservationBatch& sample() const { return sample_; }
 
     /// Calls `use` for all dots, in padded batches.

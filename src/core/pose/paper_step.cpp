@@ -20,13 +20,15 @@ constexpr float kLinesPerSpacing = 2;
 constexpr int kDirections = 8;
 constexpr float kBehind = tuned::kBehind;
 
-/// Sums over the dots of one part. Coherent dots are those whose residuals a common displacement
-/// may explain.
+/// Sums over the dots of one part of the sheet. Coherent dots are dots whose residuals a common
+/// displacement may explain.
 struct PartSums {
-    Four counts;   ///< number of dots, log odds of the single plane; number of coherent dots, their
-                   ///< squared residuals
-    Four places;   ///< coherent dots: sums of x, y, residuals along x and y
-    Four moments;  ///< coherent dots: sums of xx, xy, yy from the reference point, and of torque
+    /// Number of dots; their log odds for the single plane; number of coherent dots; their squared
+    /// residuals.
+    Four counts;
+    Four places;  ///< coherent dots: sums of x and y, and of the residuals along x and y
+    /// Coherent dots: sums of xx, xy and yy, relative to the reference point, and of the torque.
+    Four moments;
 
     PartSums& operator+=(const PartSums& o) {
         counts += o.counts;
@@ -42,7 +44,7 @@ struct PartSums {
     float dots() const { return counts[2]; }
     float squares() const { return counts[3]; }
 
-    /// Returns the squared residuals that remain if the part was displaced and turned as a whole.
+    /// Returns the squared residuals that remain if the part is displaced and turned as a whole.
     float remaining() const {
         if (dots() < 3) return squares();
         const float by = 1 / dots();
@@ -79,7 +81,7 @@ struct Symmetric3 {
     Symmetric3 times(float by) const {
         return {by * xx, by * xy, by * xz, by * yy, by * yz, by * zz};
     }
-    /// Returns the inverse, or 0 if there is none.
+    /// Returns the inverse, or 0 if the matrix has no inverse.
     Symmetric3 inverse() const {
         const Symmetric3 a = adjugate();
         const float determinant = xx * a.xx + xy * a.xy + xz * a.xz;
@@ -87,12 +89,12 @@ struct Symmetric3 {
     }
 };
 
-/// Least-squares affine map of all coherent dots. A step at a line only explains what such a map
-/// does not: an affine map without the step absorbs most of a step in the middle.
+/// Least-squares affine map of all coherent dots. The gain of a step at a line is relative to this
+/// map, because an affine map without a step absorbs most of a step in the middle.
 class AffineFit {
   public:
     AffineFit() = default;
-    /// `x_off` and `y_off` are the residuals along x and y, times 1, x and y.
+    /// `x_off` and `y_off` are the sums of the residuals along x and y, multiplied by 1, x and y.
     AffineFit(const PartSums& all, const Triple& x_off, const Triple& y_off)
         : inverse_(Symmetric3{all.dots(), all.places[0], all.places[1], all.moments[0],
                               all.moments[1], all.moments[2]}
@@ -101,7 +103,7 @@ class AffineFit {
           y_(inverse_ * y_off),
           squares_(all.squares() - inner_product(x_, x_off) - inner_product(y_, y_off)) {}
 
-    /// Returns the squared residuals of all dots.
+    /// Returns the squared residuals of all coherent dots after the affine map.
     float squares() const { return squares_; }
     /// Returns the reduction of the squared residuals if the part beyond a line is displaced.
     float explained_by_displacement(const PartSums& beyond) const {
@@ -140,7 +142,8 @@ class AffineFit {
     }
 
   private:
-    /// A part that differs from the whole by less than this number of dots determines no step.
+    /// Minimum effective number of dots by which a part must differ from the whole to determine a
+    /// step.
     static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};
@@ -159,7 +162,7 @@ class Search {
         const std::size_t every = count / kMaxDots + 1;
         weight_ = static_cast<float>(every);
         float outliers = 0;
-        float reach = 0;  // squared distance of the farthest dot
+        float reach = 0;  // squared distance of the farthest dot from the reference point
         for (std::size_t k = 0; k < count; k += every) {
             if (all.x[k] >= kNoDot_px) continue;
             DotOffset dot = dot_offset(all, k, plane, fit.displacement);
@@ -173,7 +176,7 @@ class Search {
         const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
         lines_ = std::clamp(wanted, std::size_t{4}, kLines);
         per_spacing_ = static_cast<float>(lines_) / length;
-        // If outliers are frequent, as among words, more of them beyond a line carry little
+        // If outliers are frequent, as among words, additional outliers beyond a line are weak
         // evidence.
         off_plane_ = std::log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
@@ -201,7 +204,8 @@ class Search {
             if (max_gain_of(part, here) > best.gain) consider(line, gain_of(part, here));
         }
         if (likeliest == 0) return;
-        // Tests for a turn of the part only near the line that explains most by displacement alone.
+        // Tests for a turn of the part only near the line at which a displacement alone explains
+        // most.
         constexpr std::size_t kNear = 2;
         const std::size_t last = std::min(likeliest + kNear, lines_ - 1);
         for (std::size_t line = std::max(likeliest, kNear + 1) - kNear; line <= last; ++line) {
@@ -249,8 +253,8 @@ class Search {
         affine_ = AffineFit(all_, x_off, y_off);
     }
 
-    /// Returns the gain of a step at the line over any affine map, as a log likelihood ratio, or 0
-    /// if it is below `min_gain`.
+    /// Returns the gain of a step at the line relative to the best affine map, as a log likelihood
+    /// ratio, or 0 if the gain is below `min_gain`.
     float gain_of_step(const PartSums& beyond, float min_gain) const {
         const float explained = affine_.explained_by_step(beyond);
         const float remaining = affine_.squares() - explained;
@@ -259,7 +263,7 @@ class Search {
         return dots * std::log(affine_.squares() / remaining);
     }
 
-    /// Returns the log odds of the dots of a part for a plane of its own.
+    /// Returns the log odds of the dots of a part for a plane of their own.
     float on_own_plane(const PartSums& part) const {
         return kOnPlane * part.dots() - part.remaining() / (2 * variance_) +
                off_plane_ * (part.seen() - part.dots());
@@ -274,8 +278,9 @@ class Search {
                           std::max(max_of(here) - here.on_plane(), 0.0F));
     }
 
-    /// Returns the gain of two parts over the single plane, as a log likelihood ratio. The part
-    /// beyond may be displaced in any way; the single plane may be a compromise between the parts.
+    /// Returns the gain of two parts relative to the single plane, as a log likelihood ratio. The
+    /// part beyond the line may be displaced in any way, and the single plane may be a compromise
+    /// between the parts.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
@@ -290,7 +295,7 @@ class Search {
     float off_plane_;  ///< log odds of a dot that is not on the plane
     float weight_ = 1;
     std::size_t lines_ = 0;
-    float per_spacing_ = 0;  ///< lines per spacing
+    float per_spacing_ = 0;  ///< number of lines per spacing
 };
 
 FloatVec turned(FloatVec v, float c, float s) {
@@ -309,7 +314,7 @@ PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, con
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // Turning the best line a little increases the gain, but hardly to twice as much.
+    // Turning the best line a little increases the gain, but hardly doubles it.
     if (best.gain < PaperStep::kPossible / 2) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {

@@ -12,15 +12,15 @@ namespace {
 
 namespace tuned = tuning::bias;
 
-/// Returns sin(2 pi x), with an error below 0.001 and the same bits on every platform.
+/// Returns sin(2 pi x). The error is below 0.001, and the bits are the same on every platform.
 float sine_of_turns(float x) {
     const float turn = x - std::floor(x + 0.5F);
     const float y = 8 * turn * (1 - 2 * std::abs(turn));
     return 0.775F * y + 0.225F * y * std::abs(y);
 }
 
-/// Returns the centre of the centroid window of a dot along one axis, px: a multiple of 1/4 px, as
-/// the kernels place it.
+/// Returns the centre of the centroid window of a dot along one axis, in px. The centre is a
+/// multiple of 1/4 px, as the kernels place it.
 float place_of_window(std::int32_t window, std::int32_t sum, std::int32_t mass) {
     const float quarters =
         4 * static_cast<float>(sum) / static_cast<float>(std::max<std::int32_t>(mass, 1));
@@ -45,7 +45,8 @@ struct WindowWeights {
     }
 };
 
-/// Returns the sum over pixels, weighted along u and v.
+/// Returns the weighted sum over the pixels. `along_u` and `along_v` are the weights along the two
+/// axes.
 float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide>& along_u,
                const std::array<float, DotPixels::kSide>& along_v) {
     float sum = 0;
@@ -60,16 +61,16 @@ float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide
 
 /// Error of the centroid of a model dot.
 struct CentroidError {
-    float px;                  ///< from the true centre to the centroid
-    DotShape::Terms by_shape;  ///< derivatives of `px` by the shape
-    float slopes;              ///< slope of the moment along the axis, divided by that along u
+    float px;                  ///< offset of the centroid from the true centre
+    DotShape::Terms by_shape;  ///< derivatives of `px` with respect to the terms of the shape
+    float slopes;              ///< slope of the moment along the axis, divided by the slope along u
 };
 
 enum class Along : std::uint8_t { u, v };
 
 /// Returns the error along an axis. `dot_px` and `window_px` are the places of the dot and of the
-/// window along this axis, from the centre of a pixel. The slope used is that along u, because the
-/// kernels have one for both axes.
+/// window along this axis, relative to the centre of a pixel. The error is computed with the slope
+/// along u, because the kernels use this slope for both axes.
 CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, float window_px,
                              float radius_px) {
     const bool is_u = axis == Along::u;
@@ -91,7 +92,7 @@ CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, fl
     return error;
 }
 
-/// Bias along one axis, amplitude * sin(2 pi phase), of windows that are centred on their dots.
+/// Bias along one axis of windows that are centred on their dots: amplitude * sin(2 pi phase).
 class AxisBias {
   public:
     AxisBias(const DotShape& shape, Along axis, float radius_px) {
@@ -108,16 +109,16 @@ class AxisBias {
     }
 
     float amplitude_px() const { return amplitude_px_; }
-    /// Returns the slope of the moments along this axis, divided by that along u.
+    /// Returns the slope of the moments along this axis, divided by the slope along u.
     float slopes() const { return slopes_; }
-    /// Returns the bias of a dot, px, and adds its phase to the mean.
+    /// Returns the bias of a dot, in px, and adds its phase to the mean.
     float of(float phase) {
         const float sine = sine_of_turns(phase);
         sines_ += sine;
         dots_ += 1;
         return amplitude_px_ * sine;
     }
-    /// Returns the remaining variance of the mean over the dots, px^2.
+    /// Returns the variance of the mean over the dots that remains, in px^2.
     float variance_of_mean() const {
         const float mean = sines_ / std::max(dots_, 1.0F);
         return variance_ * mean * mean;
@@ -131,10 +132,10 @@ class AxisBias {
     float dots_ = 0;
 };
 
-/// Returns the error, px, of a window whose centre is `d` away from its dot. The kernels take one
-/// Newton step, which treats moments as linear: the moment has the slope (d - bend d^3) and is
-/// divided by the slope at the centre of the window along u. `slopes` is the slope along v divided
-/// by that along u.
+/// Returns the error, in px, of a window whose centre is at a distance d from its dot. The kernels
+/// take one Newton step, which treats the moment as linear. The moment is proportional to (d - bend
+/// d^3), and is divided by the slope at the centre of the window along u. `slopes` is the slope
+/// along v divided by the slope along u.
 FloatVec error_off_centre(float bend, float slopes, FloatVec d) {
     return {2 * bend * d.x * d.x * d.x,
             d.y * (slopes * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1)};
@@ -174,7 +175,7 @@ class ExpectedDots {
 
   private:
     const FloatPlane& plane_;
-    const float by_;  ///< px^2 per spacing^2
+    const float by_;  ///< in px^2 per spacing^2
     const float displacement_;
     const float limit_;
     const FloatVec centre_px_;

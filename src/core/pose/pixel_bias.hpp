@@ -1,6 +1,7 @@
-// Pixel bias: error of the centroids due to the sub-pixel phase of the dots. It averages out if the
-// dots have all phases. If all have the same phase, it is computed from a model dot and subtracted.
-// differs: in the frames of the paper the dots have all phases.
+// Pixel bias: corrects the error of the centroids due to the sub-pixel phase of the dots. If the
+// dots have all phases, the error averages out. If all dots have the same phase, the error is
+// computed from a model dot and subtracted. differs: in the frames of the paper the dots have all
+// phases.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -12,17 +13,18 @@ namespace dotpose::core {
 
 /// The centroid window with which the centres of the dots were measured.
 struct CentroidWindow {
-    float radius_px = 0;      ///< distance at which the weight becomes 0
-    float dot_radius_px = 0;  ///< approximate radius of the dots
-    FloatVec centre_px;       ///< origin of the places of dots, from the first pixel of the image
+    float radius_px = 0;      ///< distance from the centre at which the weight becomes 0, in px
+    float dot_radius_px = 0;  ///< approximate radius of the dots, in px
+    /// Origin of the places of dots, in px relative to the first pixel of the image.
+    FloatVec centre_px;
 };
 
 /// Moves the centroid windows to the current centres, before the dots are measured again. Drops
 /// dots whose window is not completely in the image.
 void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots);
 
-/// Subtracts the bias from the centres of all inliers of the plane. Returns the variance of the
-/// mean of all centres that remains, along u and v, px^2.
+/// Subtracts the bias from the centres of all inliers of the plane. Returns the remaining variance
+/// of the mean of all centres, along u and v, in px^2.
 FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window,
                             const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 

@@ -13,8 +13,9 @@ namespace tuned = tuning::fit;
 
 constexpr float kPower30 = 1073741824.0F;
 
-/// Dependence of the scatter of dots on the light. Print errors are the same everywhere; pixel
-/// noise grows as light decreases. A line is fitted to the squared residuals.
+/// Dependence of the scatter of dots on the light. Print errors do not depend on the light; pixel
+/// noise increases as the light decreases. Fits a line to the squared residuals as a function of
+/// the noise.
 class Scatter {
   public:
     void add(float noise, float squared_residual) {
@@ -34,7 +35,7 @@ class Scatter {
         by_noise_ = std::clamp(slope / mean_square, 0.0F, tuned::kMaxByNoise / mean_noise);
         always_ = 1 - by_noise_ * mean_noise;
     }
-    /// Returns the variance of the typical dot divided by that of a dot with this noise.
+    /// Returns the variance of the typical dot divided by the variance of a dot with this noise.
     Four weight(Four noise) const { return 1.0F / (always_ + by_noise_ * noise); }
 
   private:
@@ -47,7 +48,7 @@ class Scatter {
     float by_noise_ = 0;
 };
 
-/// One Gauss-Newton round: the equations at the current pose, and the step from there.
+/// One Gauss-Newton round: computes the equations at the current pose, and the step from this pose.
 class Round {
   public:
     Round(const ObservationBatches& batches, const PlaneFromImage& pose)
@@ -55,7 +56,7 @@ class Round {
           pose_(pose),
           plane_(from_its_at(pose), static_cast<float>(batches.reach_px())) {
         const ObservationBatch& sample = batches.sample();
-        ObservationBatch::Values<std::int32_t> x_q16;  // distances from the intersections
+        ObservationBatch::Values<std::int32_t> x_q16;  // offsets from the intersections
         ObservationBatch::Values<std::int32_t> y_q16;
         ObservationBatch::Values<std::int32_t> values;
         for (std::size_t i = 0; i < sample.count; ++i) {
@@ -149,7 +150,7 @@ class Round {
     const PlaneFromImage& pose_;
     ScaledPlane plane_;
     std::int32_t displacement_q16_ = 0;
-    float limit_ = 0;  ///< squared residual beyond which a dot is an outlier, spacings^2
+    float limit_ = 0;  ///< squared residual beyond which a dot is an outlier, in spacings^2
 };
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::paper_step;
 
-/// Finds the residual, in spacings, that most of the dots near a point have in common. Returns
-/// false if too few agree.
+/// Finds the residual, in spacings, on which most of the dots near a point agree. Returns false if
+/// too few dots agree.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMaxDots = 256;
@@ -76,8 +76,8 @@ bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
                        split.fit))
             return false;
         if (round + 1 == tuned::kRounds) break;
-        // The plane of one side shows the line more clearly, but not its probability, because the
-        // dots beyond did not contribute to the plane.
+        // The plane of one side determines the line more exactly. It does not give the probability
+        // of the line, because the dots beyond the line did not contribute to the plane.
         const PaperStep step = find_paper_step(dots, split.plane, split.fit, reference_px);
         if (step.gain > 0) split.step = step;
     }

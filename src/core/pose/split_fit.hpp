@@ -1,12 +1,12 @@
-// Split fit: planes of the two parts of a sheet that a line divides.
+// Split fit: fits one plane to each of the two parts of a sheet that a line divides.
 #pragma once
 
 #include "core/pose/paper_step.hpp"
 
 namespace dotpose::core {
 
-/// Hides the dots on one side of a line from fits, during the lifetime of the object: moves their
-/// cells far away.
+/// Hides the dots on one side of a line from fits during the lifetime of the object, by moving
+/// their cells far away.
 class HalfPlane {
   public:
     enum class Side : std::uint8_t { here, beyond };
@@ -29,12 +29,12 @@ struct SplitFit {
     PaperStep step = {};
 };
 
-/// Finds the likeliest line and fits the plane to the dots on the side of the reference point.
-/// `split` has the fit to all dots on entry. Returns false if no line is likely enough.
+/// Finds the likeliest line and fits the plane to the dots on the side of the reference point. On
+/// entry, `split` contains the fit to all dots. Returns false if no line is likely enough.
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    SplitFit& split);
 
-/// Fits the plane beyond the line. Returns false if the dots there do not determine it.
+/// Fits the plane beyond the line. Returns false if the dots beyond the line do not determine it.
 bool fit_far_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                   const SplitFit& split, FloatPlane& beyond);
 

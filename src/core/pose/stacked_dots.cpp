@@ -37,7 +37,7 @@ void StackedDots::add(const ImageView& image, const Phase& phase, float paper) {
 }
 
 bool StackedDots::are_enough() const {
-    constexpr float kMinBeyond = 16;  // besides one in each stack
+    constexpr float kMinBeyond = 16;  // in addition to one dot per stack
     float stacks = 0;
     visit([&](const Stack&) { stacks += 1; });
     return dots_ >= stacks + kMinBeyond;

@@ -1,4 +1,4 @@
-// Stacked dots: mean images of dots, by their sub-pixel phase.
+// Stacked dots: mean images of the dots, grouped by their sub-pixel phase.
 #pragma once
 
 #include "core/pose/dot_model.hpp"
@@ -10,13 +10,13 @@ namespace dotpose::core {
 struct Phase {
     int u = 0;  ///< pixel that contains the point
     int v = 0;
-    FloatVec rest;  ///< offset from the centre of that pixel, -0.5 to 0.5 px
+    FloatVec rest;  ///< offset from the centre of that pixel, in [-0.5, 0.5] px
 
     explicit Phase(FloatVec point_px);
 };
 
-/// Sums of the images of dots, by the quarter of a pixel, along u and v, that contains their
-/// centre.
+/// Sums of the images of dots. Dots are grouped by the quarter of a pixel, along u and v, that
+/// contains their centre.
 class StackedDots {
   public:
     /// The dots of one stack.
@@ -39,7 +39,7 @@ class StackedDots {
             if (stack.dots > 0) use(stack);
         }
     }
-    /// Calls `use` for the pixels used, relative to the central one.
+    /// Calls `use` for the pixels used, relative to the central pixel.
     template <typename Use>
     void visit_pixels(Use use) const {
         for (int v = -half_px_; v <= half_px_; ++v) {
@@ -48,13 +48,13 @@ class StackedDots {
             }
         }
     }
-    /// Returns the distance of the outermost pixels from the central one, along each axis.
+    /// Returns the distance of the outermost pixels from the central pixel, along each axis.
     int half_px() const { return half_px_; }
     /// Returns true if there are enough dots to separate signal from noise.
     bool are_enough() const;
-    /// Returns the mean darkness of a dot: the sum over its pixels.
+    /// Returns the mean darkness of a dot, which is the sum over its pixels.
     float mass() const;
-    /// Returns the variance of a pixel over the dots of a stack.
+    /// Returns the variance of the darkness of a pixel among the dots of a stack.
     float noise_2() const;
 
   private:

@@ -14,10 +14,10 @@ PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn 
 
 namespace {
 
-/// Writes the pose at the centre of a plane without perspective and lens.
+/// Writes the pose at the centre of a plane that has neither perspective nor lens.
 void write_pose(const PlaneFromImage& there, CodeVariant code, const Place& place, Fix& fix) {
-    // Eq. 10-12: the decoded position plus the vector from there to the reference point, in grid
-    // units.
+    // Eq. 10-12: the decoded position plus the vector from this position to the reference point, in
+    // grid units.
     const FixedVec t = there.at_centre_q16;
     const Place at = moved(code, place, t.x >> 16, t.y >> 16);
     fix.cell = at.cell;

@@ -1,7 +1,7 @@
-// Tuning: empirical constants of the pose fit. Those of the second attempt were found on the hard
-// frames that decode/tuning.hpp names. Where a comment compares values, it gives the frames located
-// and the median and 95 % of their errors by `dotpose evaluate --preset hard --frames 2000 --seed
-// 404`: 1,994, 2.21 and 5.42 µm with the values below.
+// Tuning: empirical constants of the pose fit. The constants of the second attempt were determined
+// on the hard frames that decode/tuning.hpp names. Comments that compare values state the number of
+// frames that `dotpose evaluate --preset hard --frames 2000 --seed 404` locates, and the median and
+// the 95 % quantile of their errors. With the values in this file: 1,994, 2.21 and 5.42 µm.
 #pragma once
 
 namespace dotpose::core::tuning {
@@ -9,24 +9,24 @@ namespace dotpose::core::tuning {
 /// Centres of dots in a window (pose/measure).
 namespace measure {
 /// Half the side of the window, in 1/32 of the spacing, but at least kMinHalf_q8 (1/256 px). The
-/// border of the window is paper even if the dot is displaced away from the centre, and no other
-/// dot reaches into it.
+/// border of the window is on paper even if the dot is displaced from the centre, and no other dot
+/// reaches into the window.
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
 /// Standard deviation of the fitted dot, in 1/128 of the spacing, but at least kMinSigma_q8 (1/256
-/// px): the width of a blurred dot. With 6: 1,994, 2.19 and 5.36 µm; with 24: 1,904, 3.58 and 9.19
-/// µm.
+/// px). This is the width of a blurred dot. With 6: 1,994, 2.19 and 5.36 µm; with 24: 1,904, 3.58
+/// and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
-/// Maximum distance of a dot from its place, in sigmas, squared. The fit separates dirt from badly
-/// printed dots; a smaller limit would reject badly printed dots, which costs accuracy and hides
-/// print errors.
+/// Maximum squared distance of a dot from its place, in units of sigma^2. The fit separates dirt
+/// from badly printed dots. A smaller limit would reject badly printed dots, which costs accuracy
+/// and hides print errors.
 inline constexpr int kFarthest_2 = 9;
 /// Maximum number of Gauss-Newton steps. A step of less than kSettled_q8 (1/256 px) is the last.
 inline constexpr int kMaxIterations = 5;
 inline constexpr int kSettled_q8 = 4;
-/// Upper limit of the darkness of a dot, in halves of the darkness of the typical dot; the lower
-/// limit is one half. Rejects paper where a dot is missing, dirt and graphics.
+/// Maximum darkness of a dot, in halves of the darkness of the typical dot. The minimum is one
+/// half. The limits reject paper where a dot is missing, dirt, and graphics.
 inline constexpr int kTooDark_halves = 3;
 /// Maximum number of dots in the sample whose median is the darkness of the typical dot.
 inline constexpr int kMedianSample = 256;
@@ -37,14 +37,14 @@ namespace fit {
 /// Maximum number of Gauss-Newton rounds, in `refine_pose` and in `fit_plane`.
 inline constexpr int kMaxRounds = 4;
 inline constexpr int kMaxRoundsOfFloats = 5;
-/// Size of a step, in squared deviations of the pose, after which no other step is needed: the next
-/// step would be much smaller.
+/// Squared length of a step, in units of the standard deviation of the pose, after which no further
+/// step is needed. The next step would be much smaller.
 inline constexpr float kSettled = 0.01F;
-/// Limit of outliers, in medians of the squared residuals. The median is 1.39 sigma^2, so 12 of
-/// them are 4 sigma, beyond which 1 dot in 3,000 is by chance.
+/// Outlier limit, in medians of the squared residuals. The median is 1.39 sigma^2, so 12 medians
+/// are 4 sigma. By chance, 1 dot in 3,000 exceeds the limit.
 inline constexpr int kOutlier_medians = 12;
-/// Limit of outliers, in variances, where the variance is known: 4.1 sigma, beyond which 1 dot in
-/// 4,000 is by chance.
+/// Outlier limit, in variances, if the variance is known: 4.1 sigma. By chance, 1 dot in 4,000
+/// exceeds the limit.
 inline constexpr float kOutlier = 16.6F;
 /// Relative change of the limit beyond which the inliers may change.
 inline constexpr float kSameLimit = 0.04F;
@@ -52,15 +52,15 @@ inline constexpr float kSameLimit = 0.04F;
 inline constexpr float kMaxByNoise = 0.9F;
 /// Minimum number of dots for the vectorized plane fit.
 inline constexpr int kMinDots = 20;
-/// Size of a step, in squared deviations of the pose, below which no other round is needed:
-/// kNonlinearSettled divided by the square of the nonlinearity of the plane (a fifth of a deviation
-/// remains), but at least kMinSettled and at most kMaxSettled.
+/// Squared length of a step, in units of the standard deviation of the pose, below which no further
+/// round is needed. The value is kNonlinearSettled / nonlinearity^2, which leaves an error of a
+/// fifth of a deviation, clamped to [kMinSettled, kMaxSettled].
 inline constexpr float kMinSettled = 0.2F;
 inline constexpr float kMaxSettled = 30;
 inline constexpr float kNonlinearSettled = 0.04F;
 }  // namespace fit
 
-/// The model dot of a frame (pose/dot_shape).
+/// Fit of the model dot of a frame (pose/dot_shape).
 namespace shape {
 /// Prior of the terms: standard deviation of the common offset of all dots; mean and standard
 /// deviation of the variance of the blur; standard deviation of the difference of the squared half
@@ -72,77 +72,80 @@ inline constexpr float kContrast = 0.8F;
 inline constexpr float kSigmaOfContrast = 0.15F;
 /// Minimum of the squared half axes and of the variance of the blur.
 inline constexpr float kMin_px2 = 0.005F;
-/// Damping of the steps: initial value, maximum, and growth after a rejected step.
+/// Damping of the steps: initial value, maximum, and factor after a rejected step.
 inline constexpr float kFirstDamping = 0.01F;
 inline constexpr float kMaxDamping = 1e4F;
 inline constexpr float kDampingGrows = 10;
-/// Reduction of the cost, in squared deviations, below which a step is the last.
+/// Reduction of the cost, in squared deviations, below which a step is the last, and maximum number
+/// of rounds.
 inline constexpr float kSettled = 0.3F;
 inline constexpr int kMaxRounds = 30;
 }  // namespace shape
 
 /// The bias of facing dots (pose/facing_dots).
 namespace facing {
-/// Significance, in standard deviations, from which the bias of facing dots is corrected.
+/// Minimum significance, in standard deviations, at which the bias of facing dots is corrected.
 inline constexpr float kSure = 4;
 }  // namespace facing
 
 /// The pixel bias of dots with the same sub-pixel phase (pose/pixel_bias).
 namespace bias {
-/// Number of dots whose images are stacked: enough to show their shape.
+/// Number of dots whose images are stacked. It is large enough to determine their shape.
 inline constexpr int kDots = 256;
-/// Distance beyond the edge of a dot up to which pixels are used: the extent of the blur.
+/// Distance beyond the edge of a dot up to which pixels are used. This is the extent of the blur.
 inline constexpr float kBeyondEdge_px = 1.5F;
 /// Variance of the blur above which the bias is negligible.
 inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
-/// Variance of the bias, relative to its square, that a model dot leaves: kOfModel for round dots,
-/// plus kOfMisfit for each noise variance of misfit beyond kMisfit, for dots that are not round.
+/// Variance of the bias that remains after correction by a model dot, relative to the square of the
+/// bias. kOfModel is the value for round dots. For dots that are not round, kOfMisfit is added for
+/// each noise variance of misfit beyond kMisfit.
 inline constexpr float kOfModel = 0.01F;
 inline constexpr float kMisfit = 2.5F;
 inline constexpr float kOfMisfit = 0.025F;
-/// Relative difference of the slopes along the axes that noise causes for round dots.
+/// Relative difference between the slopes along the two axes that noise causes for round dots.
 inline constexpr float kSlopes = 0.03F;
 }  // namespace bias
 
 /// Correlation of residuals (pose/uneven).
 namespace uneven {
-/// Excess of the scatter of blocks, in standard deviations. Fast attempts search for a line beyond
-/// kSuspect; the second attempt, whose dots are noisier, beyond kMaybeLine, because the plane
-/// absorbs most of a step at a line. Beyond kShared, which one flat sheet in twenty exceeds, the
-/// common residuals widen the covariance. One side of a line is even up to kSuspect. A sheet
-/// without a line is uneven beyond kUneven, which hardly one flat sheet in 1,000 exceeds. Measured
-/// by `dotpose_tables slips`.
+/// Limits of the excess of the scatter between blocks, in standard deviations. Fast attempts search
+/// for a line beyond kSuspect. The second attempt, whose dots are noisier, searches beyond
+/// kMaybeLine, because the plane absorbs most of a step at a line. Beyond kShared, which one flat
+/// sheet in twenty exceeds, the common residuals increase the covariance. One side of a line counts
+/// as even up to kSuspect. A sheet without a line counts as uneven beyond kUneven, which hardly one
+/// flat sheet in 1,000 exceeds. Measured by `dotpose_tables slips`.
 inline constexpr float kMaybeLine = 0.9F;
-/// Number of dots up to which kMaybeLine holds. With more dots, common residuals of any sheet
+/// Number of dots up to which kMaybeLine applies. With more dots, common residuals of any sheet
 /// become more significant.
 inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;
-/// Number of outliers explained by chance: a constant plus a fraction of the dots.
+/// Number of outliers that chance explains: a constant plus a fraction of the dots.
 inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
-/// Maximum number of dots for kFewAlong blocks along each side. For more dots there are nine
-/// blocks.
+/// Maximum number of dots for which each side is divided into kFewAlong blocks. With more dots,
+/// each side is divided into nine blocks.
 inline constexpr int kManyDots = 1000;
 /// Number of blocks along each side for at most kManyDots dots. With 170 dots, each block contains
 /// five dots.
 inline constexpr int kFewAlong = 6;
-/// Variance that uneven blocks add to place and angle, in variances of the mean residual of a
-/// block. docs/integrity.md compares it with the errors on bent sheets.
+/// Variance that uneven blocks add to place and angle, in units of the variance of the mean
+/// residual of a block. docs/integrity.md compares the result with the errors on bent sheets.
 inline constexpr float kOfPlace = 2;
 inline constexpr float kOfTurn = 8;
-/// Standard deviation of the common residuals of blocks that is not attributed to the sheet: pixel
-/// bias of dots whose phase drifts slowly, which averages out over the view.
+/// Standard deviation of the common residuals of blocks that is not attributed to the sheet. It is
+/// the pixel bias of dots whose phase drifts slowly, which averages out over the view.
 inline constexpr float kPixelBias_px = 0.004F;
-/// Distance from the line, in spacings, within which the reference point may be on either side.
+/// Distance from the line, in spacings, within which the reference point may be on either side of
+/// the line.
 inline constexpr float kNearLine = 1.2F;
 }  // namespace uneven
 
-/// The line that divides a sheet (pose/paper_step, pose/split_fit).
+/// Search for the line that divides a sheet (pose/paper_step, pose/split_fit).
 namespace paper_step {
-/// Maximum evidence of a dot for the plane that it is on: natural log odds against dots anywhere in
-/// their cells.
+/// Maximum evidence of a dot for the plane on which it is: natural log odds relative to dots
+/// anywhere in their cells.
 inline constexpr float kOnPlane = 5;
 /// Maximum residual of a dot, in variances, for which a common displacement of its part is
 /// considered.
@@ -151,19 +154,20 @@ inline constexpr float kTogether = 36;
 inline constexpr float kBehind = 0.5F;
 /// Minimum number of dots beyond the line.
 inline constexpr float kMinBeyond = 12;
-/// Limit of outliers, in spacings^2, in the first round of a fit to one side, which starts from a
-/// plane fitted to both sides.
+/// Outlier limit, in spacings^2, in the first round of a fit to one side, which starts from a plane
+/// fitted to both sides.
 inline constexpr float kFarOff = 0.04F;
-/// Distance from the line, in spacings, within which dots belong to neither side: the uncertainty
-/// of the line.
+/// Distance from the line, in spacings, within which dots belong to neither side. It is the
+/// uncertainty of the line.
 inline constexpr float kMargin = 0.8F;
-/// Search for the common residual of the dots beyond the line: within kReach spacings of the
-/// reference point, from at least kMinAgreeing dots that agree within kAgreement (spacings^2).
+/// Search for the common residual of the dots beyond the line. Uses dots within kReach spacings of
+/// the reference point, and needs at least kMinAgreeing dots that agree within kAgreement
+/// (spacings^2).
 inline constexpr float kReach = 10;
 inline constexpr int kMinAgreeing = 8;
 inline constexpr float kAgreement = 0.08F * 0.08F;
-/// Number of rounds. Each round fits the dots on the near side of the line. All rounds but the last
-/// then search for the line again.
+/// Number of rounds. Each round fits the dots on the near side of the line. All rounds except the
+/// last then search for the line again.
 inline constexpr int kRounds = 3;
 }  // namespace paper_step
 

@@ -56,7 +56,7 @@ class Blocks {
     float variance_of_bias_;
 };
 
-/// Returns the blocks of the dots on the side of the reference point.
+/// Returns the blocks of the dots on the same side as the reference point.
 Blocks blocks_here(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const SplitFit& split) {
     const HalfPlane only(HalfPlane::Side::here, dots, split.plane, reference_px, split.step);
@@ -68,8 +68,8 @@ bool has_outliers(const Blocks& blocks) {
            tuned::kFewOutliers + tuned::kOutlierFraction * blocks.scatter().dots;
 }
 
-/// Adds the difference of two planes at the reference point to the covariance, times `weight`,
-/// because the pose may be that of either.
+/// Adds the difference of two planes at the reference point to the covariance, multiplied by
+/// `weight`, because the pose may be that of either plane.
 void add_difference(const FloatPlane& plane, const FloatPlane& other, FloatVec reference_px,
                     float weight, PoseFit& fit) {
     const FloatVec p = plane_point(plane, reference_px);
@@ -89,7 +89,7 @@ void add(float variance, std::size_t i, PoseFit& fit) {
     fit.uneven[i][i] += variance;
 }
 
-/// Adds the uncertainty due to common residuals to the covariance.
+/// Adds the uncertainty due to common residuals of blocks to the covariance.
 void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     const float variance = blocks.variance_of_sheet();
     add(tuned::kOfPlace * variance, 0, fit);
@@ -97,22 +97,23 @@ void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     add(tuned::kOfTurn * variance / (blocks.side() * blocks.side()), 2, fit);
 }
 
-/// Widens the covariance if the line passes so close to the reference point that the point may be
-/// on either side.
+/// Increases the covariance if the line passes so close to the reference point that the point may
+/// be on either side of the line.
 void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                      const SplitFit& split, PoseFit& fit) {
     if (split.step.distance > tuned::kNearLine) return;
     FloatPlane beyond;
     if (fit_far_side(kernels, dots, reference_px, split, beyond))
         return add_difference(split.plane, beyond, reference_px, 1, fit);
-    // Without a plane, the other side may be anywhere in its cell, turned by some degrees.
+    // If its plane is not known, the other side may be anywhere within a cell, turned by some
+    // degrees.
     add(1.0F / 12, 0, fit);
     add(1.0F / 12, 1, fit);
     add(0.02F * 0.02F, 2, fit);
 }
 
 /// Uses the fit to the side of the reference point if a line certainly divides the sheet and that
-/// side is even. If a line is only possible, the covariance covers both fits.
+/// side is even. If a line is only possible, the covariance includes both fits.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
     SplitFit split{plane, fit};
@@ -123,7 +124,7 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
         plane = split.plane;
         fit = split.fit;
         fit.surface = Surface::divided;
-        // Without outliers, the paper may be bent instead.
+        // Without outliers, the sheet may be bent instead of divided.
         if (!has_outliers(blocks)) widen_by_blocks(blocks, fit);
     } else {
         const float excess = blocks.scatter().excess();
@@ -146,9 +147,9 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
         widen_by_blocks(blocks, fit);
 }
 
-/// Returns the deviations from which a thorough attempt searches for a line. Common residuals that
-/// every sheet has, such as pixel bias, become more significant with the number of dots, and so do
-/// lines.
+/// Returns the excess, in standard deviations, beyond which a thorough attempt searches for a line.
+/// Common residuals that every sheet has, such as pixel bias, become more significant with the
+/// number of dots, and so do lines.
 float patient_excess(const Blocks& blocks) {
     return tuned::kMaybeLine *
            std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));

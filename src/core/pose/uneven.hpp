@@ -1,6 +1,6 @@
-// Uneven: correlation of the residuals of neighbouring dots. One plane explains a flat sheet. If
-// neighbouring dots have common residuals, the sheet is not flat, and the fix is less accurate than
-// independent residuals suggest. differs: the paper has one plane.
+// Uneven: tests the residuals of neighbouring dots for correlation. One plane explains a flat
+// sheet. If neighbouring dots have common residuals, the sheet is not flat, and the fix is less
+// accurate than independent residuals suggest. differs: the method of the paper has one plane.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -13,8 +13,8 @@ namespace dotpose::core {
 void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                 FloatPlane& plane, PoseFit& fit);
 
-/// Does the same for a plane that was fitted to observations. Searches for a line at a much lower
-/// correlation, which takes longer. `dots` is memory for the observations; if it is too small, the
+/// As above, for a plane that was fitted to observations. Searches for a line at a much lower
+/// correlation, which takes longer. `dots` is memory for the observations. If it is too small, the
 /// surface counts as even.
 void fit_uneven(const Kernels& kernels, const Observations& observations, FixedVec reference_q8,
                 MeasuredDots& dots, PlaneFromImage& plane, PoseFit& fit);

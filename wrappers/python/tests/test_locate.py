@@ -41,7 +41,7 @@ def test_covariance_is_in_mm_and_rad(frames):
 def test_a_frame_without_a_fix_is_false_and_says_why():
     fix = dotpose.Locator().locate(np.full((120, 188), 200, np.uint8))
     assert not fix and not fix.ok and fix.status == "no_contrast"
-    assert fix.message == "the image has no dark marks on a lighter ground"
+    assert fix.message == "the image has no dark marks on a lighter background"
     assert math.isnan(fix.x_mm) and math.isnan(fix.y_mm) and math.isnan(fix.theta_rad)
     assert np.isnan(fix.covariance).all()
     assert fix.section is None and fix.cell is None and fix.p_wrong == 1

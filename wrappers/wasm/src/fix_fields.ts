@@ -37,28 +37,31 @@ export const kAt = {
 /** The fields of a fix that are plain values. */
 export interface FixFields {
     /**
-     * Pattern point under the reference point, to the right, in mm; not a number if the spacing of the sheet is
+     * x of the pattern point under the reference point, to the right, in mm; NaN if the spacing of the sheet is
      * not known.
      */
     x_mm: number;
-    /** The same DOWN the page, in mm. */
+    /**
+     * y of the pattern point under the reference point, DOWN the page, in mm; NaN if the spacing of the sheet is
+     * not known.
+     */
     y_mm: number;
     /**
      * Angle of the image x axis in the pattern, from +x towards +y: clockwise as seen on the paper, in [-pi,
      * pi).
      */
     theta_rad: number;
-    /** The position is wrong with a probability of at most this. */
+    /** Upper bound of the probability that the position is wrong. */
     p_wrong: number;
     /** Blobs of the size of a dot. */
     dots_seen: number;
-    /** Dots that the pose was fitted to. */
+    /** Dots to which the pose was fitted. */
     dots_used: number;
     /** The attempt that made the fix. */
     attempt: Attempt;
-    /** Whether the paper in view is one plane. */
+    /** Flatness of the paper in view, as determined from the dots. */
     surface: Surface;
-    /** Bits, two for each cell read, that contradict the position. */
+    /** Number of bits that contradict the position; each cell read has two bits. */
     bit_errors: number;
     /** Root mean square distance of the dots from their fitted places, per axis, in px. */
     residual_px: number;

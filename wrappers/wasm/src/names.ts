@@ -16,7 +16,7 @@ export const kAttempts = ["tracked", "first", "second", "device"] as const;
 export type Attempt = (typeof kAttempts)[number];
 
 export const kSurfaces = ["even", "divided", "uneven"] as const;
-/** Whether the paper in view is one plane, as far as the dots show it. */
+/** Flatness of the paper in view, as determined from the dots. */
 export type Surface = (typeof kSurfaces)[number];
 
 /** One more coordinate per axis, 0 to 62: there are 63 x 63 sheets of all positions. */

@@ -1,4 +1,5 @@
-// Headers of the loops. They must be included before the namespace of a form begins.
+// Headers that the loops need. They must be included before the namespace of an implementation
+// begins.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +19,8 @@
 
 namespace dotpose::core {
 
-/// True if loops have one form for all cases instead of a faster one for each: the size of
-/// WebAssembly matters.
+/// True if loops have one version for all cases, and not a faster version for each case, because
+/// the size of WebAssembly code matters.
 #if defined(__wasm__)
 inline constexpr bool kOneForm = true;
 #else

@@ -1,4 +1,4 @@
-// The loops with plain numbers.
+// The kernels with scalar numbers.
 #include "core/kernels/loops/headers.hpp"
 
 #define DOTPOSE_LANE_BYTES 0

@@ -1,6 +1,6 @@
-// The loops in vectors of 32 bytes, for processors with AVX2. Only the code between the pragmas is
-// compiled for AVX2: the linker keeps one copy of functions in headers, which must run on every
-// processor.
+// The kernels with 32-byte vectors, for processors with AVX2. Only the code between the pragmas is
+// compiled for AVX2. Functions in headers are outside, because the linker keeps one copy of them,
+// which must run on every processor.
 #include "core/kernels/loops/headers.hpp"
 
 #if defined(__x86_64__)

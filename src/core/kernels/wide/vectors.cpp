@@ -1,4 +1,4 @@
-// The loops in vectors of 16 bytes.
+// The kernels with 16-byte vectors.
 #include "core/kernels/loops/headers.hpp"
 
 #define DOTPOSE_LANE_BYTES 16
