@@ -12,22 +12,23 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// The part of J^T J that belongs to one block that is not shared.
+/// Part of J^T J of one block that is not shared.
 struct Own {
     Index begin;  ///< first column of the block
     MatrixXd with_shared;
     MatrixXd with_itself;
 };
 
-/// J^T J without the parts that are 0.
+/// J^T J, without the products of two different blocks that are not shared, which are 0.
 struct Normal {
-    ceres::CRSMatrix jacobian;  ///< the columns of the shared blocks come first
+    ceres::CRSMatrix jacobian;  ///< columns of the shared blocks come first
     MatrixXd shared;
     std::vector<Own> owns;
-    std::vector<std::size_t> own_of_column;  ///< by column, for those that are not shared
+    /// Index in `owns` of each column after the shared columns.
+    std::vector<std::size_t> own_of_column;
 };
 
-/// Calls `work(column, value)` for each element of one row of the Jacobian.
+/// Calls `work(column, value)` for each stored element of one row of the Jacobian.
 template <typename Work>
 void for_each_in_row(const ceres::CRSMatrix& matrix, std::size_t row, Work work) {
     for (auto i = static_cast<std::size_t>(matrix.rows[row]);
@@ -76,7 +77,8 @@ Normal normal_of(ceres::Problem& problem, const std::vector<double*>& shared) {
     return normal;
 }
 
-/// Returns how the best values of a block follow the shared ones, with opposite sign.
+/// Returns the negated derivative of the best values of a block with respect to the shared
+/// parameters.
 MatrixXd following(const Own& own) {
     return inverse_of(own.with_itself) * own.with_shared;
 }
