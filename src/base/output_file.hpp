@@ -35,7 +35,7 @@ class OutputFile : public ByteSink {
 
     void require_good() const override;
 
-    /// Closes the temporary file and renames it to the target. Throws Error.
+    /// Closes the temporary file and renames it to the target. Throws Error if either fails.
     void commit();
 
   private:

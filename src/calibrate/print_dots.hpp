@@ -49,7 +49,7 @@ struct PrintLevels {
     double dot = 0;    ///< median darkness around the centre of a dot
 };
 
-/// Returns the levels around the dots whose centres are given in px.
+/// Returns the levels of paper and dots around the dots with the given centres.
 PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
                            const std::vector<Eigen::Vector2d>& dots_px);
 

@@ -50,7 +50,8 @@ FixedVec mean_step(const std::vector<LocatedDot>& dots) {
             static_cast<std::int32_t>(std::lround(sum.y()))};
 }
 
-/// Returns the fields of the image (`SheetView::fields`) that contain dots of a part.
+/// Returns the fields of the image (`SheetView::fields`) that contain the given dots. Pixels of the
+/// dots are relative to `part`.
 std::uint64_t fields_of(const GreyImage& image, const SeamLocator::Part& part,
                         const std::vector<LocatedDot>& dots) {
     const auto field = [](double pixel, int side_px) {

@@ -42,7 +42,7 @@ class SeamLocator {
     SeamLocator(const std::vector<SheetEntry>& sheets, const std::optional<Camera>& camera);
 
     /// Returns a view for each sheet in the frame, from the part that shows most of its dots.
-    /// Throws Error.
+    /// Throws Error if the image does not have the size of the camera's images.
     std::vector<SheetView> views(const GreyImage& image);
 
     /// Rectangle of the image, in px.

@@ -16,8 +16,8 @@ const SheetEntry* find(const SheetFile& file, const std::string& name) {
     return found == file.sheets().end() ? nullptr : &*found;
 }
 
-/// Returns true if a sheet still has the reserved region, and is not another sheet with the same
-/// name.
+/// Returns true if two sheets have the same region. Sheets with the same name may differ, if the
+/// name was reassigned.
 bool is_same_region(const Sheet& a, const Sheet& b) {
     return a.origin == b.origin && a.columns == b.columns && a.rows == b.rows &&
            a.pattern.code == b.pattern.code && a.pattern.section == b.pattern.section;

@@ -19,10 +19,11 @@ class ScriptText {
     /// `pdf` must outlive this object, and this object must exist until `pdf` has been written.
     explicit ScriptText(QPDF& pdf) : pdf_(pdf) {}
 
-    /// Returns the width of a line, in points. Throws Error if it cannot be set.
+    /// Returns the width of a line, in points. Throws Error if the line cannot be set.
     double width_pt(const std::string& utf8, double size_pt);
 
-    /// Returns the content that draws a line with its baseline at (x_pt, y_pt). Throws Error.
+    /// Returns the content that draws a line with its baseline at (x_pt, y_pt). Throws Error if the
+    /// line cannot be set.
     std::string draw(const std::string& utf8, double size_pt, double x_pt, double y_pt);
 
     /// Adds the lines drawn since the last call to the resources of their page.

@@ -1,6 +1,6 @@
 // A Kalman filter whose state is (x, y, theta) with velocities and accelerations. The accelerations
-// decay towards zero and are driven by white noise (Singer 1970), whose variance, the agility, is
-// adapted to the motion of the robot.
+// decay towards zero and are driven by white noise (Singer 1970). The variance of the noise, the
+// agility, is adapted to the motion of the robot.
 //
 // Bar-Shalom, Li, Kirubarajan: Estimation with Applications to Tracking and Navigation, 8.2 (the
 // model) and 11.2 (fitting it).

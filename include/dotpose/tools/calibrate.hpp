@@ -143,10 +143,10 @@ struct SpinCalibration {
 /// Finds the position of the camera on the robot from at least 3 frames over more than 30 degrees.
 /// A full turn in 12 frames is recommended. `camera` contains the lens and the view of the paper.
 /// Without `camera`, the lens is assumed to have no distortion. Throws Error if too few frames have
-/// a fix, the turn is too small, the frames differ in size from the camera file, the spacing
-/// contradicts the view of the camera, the reference point is beyond the range of a camera file, or
-/// the centre of rotation varies by more than one spacing (rms per axis) or is uncertain by more
-/// than half a spacing.
+/// a fix, the turn is too small, a frame has another size than the camera file or the first frame,
+/// the spacing contradicts the view of the camera, the reference point is beyond the range of a
+/// camera file, or the centre of rotation varies by more than one spacing (rms per axis) or is
+/// uncertain by more than half a spacing.
 SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
                                const CalibrateOptions& options);
@@ -163,9 +163,10 @@ struct DriveCalibration {
 };
 
 /// Finds the direction of the camera from at least 2 frames over more than 5 mm. Throws Error if
-/// too few frames have a fix, the frames differ in size from the camera file, the spacing
-/// contradicts the view of the camera, the drive is too short, or the robot turned by more than 5
-/// degrees from its mean direction, left the straight line by more than this angle, or went back.
+/// too few frames have a fix, a frame has another size than the camera file or the first frame, the
+/// spacing contradicts the view of the camera, the drive is too short, or the robot turned by more
+/// than 5 degrees from its mean direction, left the straight line by more than this angle, or went
+/// back.
 DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
                                  const CalibrateOptions& options);

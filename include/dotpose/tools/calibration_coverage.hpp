@@ -1,5 +1,5 @@
-/// The coverage of a lens calibration by the frames so far, and what is missing: for programs that
-/// take frames while the camera moves, like `dotpose calibrate --live`.
+/// Coverage of a lens calibration by the frames so far, and the missing requirements. Intended for
+/// programs that take frames while the camera moves, like `dotpose calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
 ///     coverage.add(view);  // for each frame taken

@@ -28,7 +28,7 @@ struct Outcome {
     Fix fix;
     Truth truth;
     double elapsed_us = 0;  ///< time of `locate` alone
-    std::string problem;    ///< error of the file; if not empty, the other members are not valid
+    std::string problem;    ///< error of the file; if not empty, all other members are not valid
 
     /// Returns true if the frame was read and located, correctly or not.
     bool is_fix() const { return problem.empty() && fix.status == Status::ok; }

@@ -10,7 +10,7 @@
 
 namespace dotpose {
 
-/// Scrambles 64 bits so that every input bit affects every output bit: the finalizer of splitmix64
+/// Scrambles 64 bits: every input bit affects every output bit. This is the finalizer of splitmix64
 /// (Steele, Lea, Flood, OOPSLA 2014).
 constexpr std::uint64_t scramble(std::uint64_t bits) noexcept {
     bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9u;

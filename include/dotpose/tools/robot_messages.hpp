@@ -8,12 +8,12 @@
 ///     if (messages.pose) publish(to_cdr(*messages.pose));
 ///
 /// Frames (ROS REP 103: metres, x forward, y left, z up, counter-clockwise; REP 105): `map` is the
-/// world of the sheet file, or without one the pattern with y up and the same origin. `odom` begins
-/// at the first pose of the robot. While the robot is followed, `map` to `odom` does not change;
-/// when it is found again after it was lost, or was put elsewhere, `map` to `odom` jumps, and
-/// `odom` to `base_link` continues. `base_link` is the reference point of the camera file on the
-/// paper, with the robot's heading; without a camera file it is the point under the image centre,
-/// with x along the image x axis.
+/// world of the sheet file. Without a sheet file, it is the pattern frame with y up and the same
+/// origin. `odom` begins at the first pose of the robot. While the robot is followed, the transform
+/// from `map` to `odom` does not change. When the robot is found again after it was lost or put
+/// elsewhere, `map` to `odom` jumps, and `odom` to `base_link` continues. `base_link` is the
+/// reference point of the camera file on the paper, with the robot's heading; without a camera file
+/// it is the point under the image centre, with x along the image x axis.
 #pragma once
 
 #include <array>
