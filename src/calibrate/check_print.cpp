@@ -117,13 +117,13 @@ double spacing_px(const Field& field) {
 }
 
 /// Returns the resolution, or an empty optional if the spacing of the dots contradicts it.
-std::optional<Resolution> believable(const std::optional<Resolution>& resolution,
-                                     const Pattern& pattern, const Field& field) {
+std::optional<Resolution> plausible_resolution(const std::optional<Resolution>& resolution,
+                                               const Pattern& pattern, const Field& field) {
     if (!resolution) return std::nullopt;
     const double px_per_mm = std::sqrt(resolution->x_dpi * resolution->y_dpi) / 25.4;
     const double scale = spacing_px(field) / (pattern.spacing_mm * px_per_mm);
-    const bool is_believable = scale < kMaxSpacingRatio && scale > 1 / kUnbelievableScale;
-    return is_believable ? resolution : std::nullopt;
+    const bool is_plausible = scale < kMaxSpacingRatio && scale > 1 / kMaxSpacingRatio;
+    return is_plausible ? resolution : std::nullopt;
 }
 
 }  // namespace
@@ -180,7 +180,7 @@ namespace {
 
 /// If bits contradict the given code variant, checks whether the page has another variant, and
 /// reports it.
-void look_for_another_code(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
+void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;
     const bool is_suspicious = std::ranges::any_of(
@@ -256,7 +256,7 @@ void measure_fields(const ImageView& scan, std::vector<CollectedField> collected
     }
     std::vector<const CollectedField*> measured;
     for (CollectedField& part : collected) {
-        auto resolution = believable(options.resolution, part.result.pattern, part.field);
+        auto resolution = plausible_resolution(options.resolution, part.result.pattern, part.field);
         if (!resolution || check.camera) check.resolution.reset();
         if (check.camera) resolution.reset();
         const Measuring measuring{scan, part.field, part.grid, resolution, options.ink_reflectance};
@@ -295,7 +295,7 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& asked) {
     check.is_test_page = std::ranges::any_of(check.fields, &PrintField::is_patch);
     if (check.is_test_page) rank_patches(options.pattern.code, check);
     add_findings(options, check);
-    if (tiles && !asked.any_code) look_for_another_code(*tiles, locator, check);
+    if (tiles && !asked.any_code) check_other_codes(*tiles, locator, check);
     return check;
 }
 

@@ -36,7 +36,7 @@ class Series {
         : frame_at_(frame_at), options_(options), total_(2 * frames) {}
 
     /// Returns the frame for the first reading, or an empty optional if it equals an earlier frame.
-    std::optional<GreyImage> first_look(int index) {
+    std::optional<GreyImage> new_frame(int index) {
         GreyImage image = frame_at_(index);
         if (width_px == 0) {
             width_px = image.width_px;
@@ -56,7 +56,7 @@ class Series {
         hashes_.push_back(hash);
         return image;
     }
-    GreyImage look_again(int index) const { return frame_at_(index); }
+    GreyImage frame_again(int index) const { return frame_at_(index); }
     void step() {
         if (options_.progress && !options_.progress(++done_, total_)) {
             throw Error("stopped; nothing was written");
@@ -228,7 +228,7 @@ std::vector<LocatedFrame> read_first(int frames, Series& series, FrameReader& re
                                      LensCalibration& result) {
     std::vector<LocatedFrame> located;
     for (int i = 0; i < frames; ++i) {
-        const auto image = series.first_look(i);
+        const auto image = series.new_frame(i);
         if (!image) {
             ++result.duplicates;
         } else if (auto frame = reader.read(image->view())) {
@@ -261,7 +261,7 @@ std::vector<LocatedFrame> read_again(const std::vector<LocatedFrame>& first, Ser
                                      FrameReader& reader) {
     std::vector<LocatedFrame> located;
     for (const LocatedFrame& before : first) {
-        auto frame = reader.read(series.look_again(before.index).view());
+        auto frame = reader.read(series.frame_again(before.index).view());
         located.push_back(frame ? std::move(*frame) : before);
         located.back().index = before.index;
         series.step();

@@ -117,8 +117,8 @@ class Meter {
           per_paper_(1 / paper) {}
 
     /// Returns the darkest of the four possible places of a dot.
-    Vector2d likeliest(const Vector2d& intersection_px) const {
-        Vector2d likeliest_px = intersection_px;
+    Vector2d darkest_place(const Vector2d& intersection_px) const {
+        Vector2d darkest_px = intersection_px;
         double best = -1e9;
         for (const Symbol symbol : kSymbols) {
             const Vector2d offset(dx(symbol), dy(symbol));
@@ -126,16 +126,16 @@ class Meter {
             const double strength = strength_at(place);
             if (strength <= best) continue;
             best = strength;
-            likeliest_px = place;
+            darkest_px = place;
         }
-        return likeliest_px;
+        return darkest_px;
     }
 
     /// Measures the dot at the darkest of its four places, after iterating to its centroid.
     /// `strength` is the expected darkness of a dot. Returns the offset of the dot from its
     /// intersection, in spacings.
     Vector2d measure(const Vector2d& intersection_px, double strength, SeenCell& cell) const {
-        Vector2d place_px = likeliest(intersection_px);
+        Vector2d place_px = darkest_place(intersection_px);
         double moved_px = 1;
         for (int i = 0; i < kCentrings && moved_px > kCentred_px; ++i) {
             const Vector2d before = place_px;

@@ -77,11 +77,11 @@ class Findings {
             std::any_of(findings_.begin() + static_cast<std::ptrdiff_t>(first_finding),
                         findings_.end(), is_fault);
         if (has_fault) return;
-        const bool is_all_told =
+        const bool is_complete =
             check_.is_test_page || !field_ ||
             (check_.fields[*field_].are_sizes_told && check_.fields[*field_].are_dots_told);
         remark(FindingKind::good,
-               is_all_told ? "the print can be used as it is"
+               is_complete ? "the print can be used as it is"
                            : "as far as this photo shows, the print can be used as it is");
     }
 
@@ -172,7 +172,7 @@ class Findings {
             const bool are_dots_told = field.are_dots_told && !is_coarse;
             if (field.are_sizes_told && !is_coarse) judge_size(field);
             if (are_dots_told) judge_faulty_dots(field);
-            remark_untold(field, are_dots_told);
+            remark_unresolved(field, are_dots_told);
         }
         if (field.covered_share() > kNotableShare) {
             remark(FindingKind::covered,
@@ -248,7 +248,7 @@ class Findings {
     }
 
     /// Adds a remark if the photo does not show some properties of the dots.
-    void remark_untold(const PrintField& field, bool are_dots_told) {
+    void remark_unresolved(const PrintField& field, bool are_dots_told) {
         if (field.are_sizes_told && are_dots_told) return;
         const double dot_px = field.dot_mm * field.spacing_px / field.pattern.spacing_mm;
         remark(FindingKind::unresolved,

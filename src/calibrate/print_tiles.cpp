@@ -15,7 +15,7 @@ constexpr double kSmallSpacing_px = 9;
 /// Number of crops that determine the spacing, or the code, accurately enough.
 constexpr std::size_t kEnoughProbes = 40;
 /// Number of pixels in the first set of crops of each size. These crops are spread over the page.
-constexpr int kFirstLook_px = 8'000'000;
+constexpr int kSample_px = 8'000'000;
 
 /// Side and magnification of a crop. A crop must contain at least 8 x 8 cells.
 struct Probe {
@@ -77,9 +77,9 @@ double TileLocator::find_spacing_px() {
         for (const Probe& probe : kProbes) {
             zoom_ = probe.zoom;
             const Tiling tiling(scan_.width_px, scan_.height_px, probe.side_px);
-            const int first_look =
-                kFirstLook_px / (probe.side_px * probe.side_px * probe.zoom * probe.zoom);
-            const int step = thorough ? std::max(tiling.count() / first_look, 1) : 1;
+            const int sample_count =
+                kSample_px / (probe.side_px * probe.side_px * probe.zoom * probe.zoom);
+            const int step = thorough ? std::max(tiling.count() / sample_count, 1) : 1;
             const double spacing_px = probe_spacing_px(tiling, step);
             if (spacing_px > 0 || is_mirrored_) return spacing_px;
         }

@@ -98,8 +98,8 @@ std::size_t fixed_sheet(const std::vector<SheetEntry>& sheets,
         if (views[i].frame == views[i - 1].frame)
             joined.insert({views[i].sheet, views[i - 1].sheet});
     }
-    const auto lies_in_world = [&](std::size_t i) { return sheets[i].world.has_value(); };
-    const auto fixed = std::ranges::find_if(joined, lies_in_world);
+    const auto has_world_pose = [&](std::size_t i) { return sheets[i].world.has_value(); };
+    const auto fixed = std::ranges::find_if(joined, has_world_pose);
     if (fixed != joined.end()) return *fixed;
     for (const SheetEntry& entry : sheets) {
         if (!entry.world) continue;
@@ -131,7 +131,7 @@ void require_reference(const ScaleReference& reference, const std::vector<SheetE
 
 /// Throws Error if the camera file gives a print scale that no printer produces. In that case the
 /// view in the camera file or the spacing in the sheet file is wrong.
-void require_believable(const AxisScale& scale, const SheetEntry& entry) {
+void require_plausible(const AxisScale& scale, const SheetEntry& entry) {
     constexpr double kMaxScaleError = 0.25;
     const double mean = std::sqrt(scale.x * scale.y);
     if (std::abs(mean - 1) <= kMaxScaleError) return;
@@ -164,7 +164,7 @@ void describe_sheets(const SheetGraph& graph, std::size_t fixed, Stitching& resu
         entry.print_scale_y = scale.y;
         result.stitched.push_back(
             {entry.name, graph.sigma_mm(i), graph.sigma_rad(i), i == fixed, sigma.x, sigma.y});
-        if (result.reference.by == ScaleReference::By::camera) require_believable(scale, entry);
+        if (result.reference.by == ScaleReference::By::camera) require_plausible(scale, entry);
     }
 }
 

@@ -31,9 +31,9 @@ std::optional<std::string> text_of(const fs::path& path) {
 }
 
 /// Waits for locks on a file. All locks share one time limit.
-class Patience {
+class LockWait {
   public:
-    Patience(const fs::path& path, const SheetFileWait& wait)
+    LockWait(const fs::path& path, const SheetFileWait& wait)
         : path_(path),
           wait_(wait),
           end_(Clock::now() + std::chrono::duration<double>(wait.most_s)) {}
@@ -51,11 +51,11 @@ class Patience {
                                 "{:g} s",
                                 path_.string(), wait_.most_s));
             }
-            if (!is_told_) {
+            if (!is_reported_) {
                 wait_.tell(
                     fmt::format("waiting for another program that is changing {}", path_.string()));
             }
-            is_told_ = true;
+            is_reported_ = true;
             std::this_thread::sleep_for(kPause);
         }
     }
@@ -65,7 +65,7 @@ class Patience {
     const fs::path& path_;
     const SheetFileWait& wait_;
     std::chrono::time_point<Clock, std::chrono::duration<double>> end_;
-    bool is_told_ = false;
+    bool is_reported_ = false;
 };
 
 }  // namespace
@@ -83,12 +83,12 @@ std::vector<SheetEntry> read_sheets(const fs::path& path) {
 
 SheetFile::Lock::Lock(const fs::path& path, const SheetFileWait& wait) : path_(path) {
     path_.replace_filename(fmt::format(".{}.lock", path.filename().string()));
-    Patience patience(path, wait);
+    LockWait lock_wait(path, wait);
     while (true) {
         descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (descriptor_ < 0) throw_system("lock", path, errno);
         try {
-            patience.lock(descriptor_);
+            lock_wait.lock(descriptor_);
         } catch (const Error&) {
             close(descriptor_);
             throw;

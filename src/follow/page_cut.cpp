@@ -53,8 +53,8 @@ std::uint8_t brightness_of(ImageView image) {
 
 /// Returns the image with all pixels outside `region` set to the grey level of the paper, or none
 /// if `region` contains all corners of the image.
-template <typename GridRegion>
-std::optional<GreyImage> cut_to(ImageView image, const GridRegion& region) {
+template <typename Region>
+std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
     const int right = image.width_px - 1;
     const int bottom = image.height_px - 1;
     if (region.holds(0, 0) && region.holds(right, 0) && region.holds(0, bottom) &&

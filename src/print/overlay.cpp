@@ -51,7 +51,7 @@ bool begins_like_pdf(const fs::path& path) {
 
 /// Returns the warnings of qpdf about repaired faults, which the new file does not contain. Throws
 /// Error for faults that qpdf does not repair: it would copy such content unchanged.
-std::set<std::string> small_faults(QPDF& pdf, const fs::path& path) {
+std::set<std::string> repaired_faults(QPDF& pdf, const fs::path& path) {
     std::set<std::string> faults;
     for (const QPDFExc& warning : pdf.getWarnings()) {
         const std::string& detail = warning.getMessageDetail();
@@ -100,7 +100,7 @@ void open(QPDF& pdf, const fs::path& path, const std::string& password,
 
 /// Runs `work` and reports exceptions of qpdf as damage of the document.
 template <typename Work>
-auto understood(const fs::path& path, const Work& work) {
+auto with_damage_errors(const fs::path& path, const Work& work) {
     try {
         return work();
     } catch (const Error&) {
@@ -175,7 +175,7 @@ class Overlay {
     void write(const fs::path& out) {
         base::OutputFile file(out);
         print::write_document(pdf_, *rows_, file);
-        for (const std::string& fault : small_faults(pdf_, in_))
+        for (const std::string& fault : repaired_faults(pdf_, in_))
             report_.warnings.push_back("the document had a fault that was repaired: " + fault);
         file.commit();
     }
@@ -185,7 +185,7 @@ class Overlay {
   private:
     std::vector<QPDFPageObjectHelper> all_pages() {
         std::vector<QPDFPageObjectHelper> pages = QPDFPageDocumentHelper(pdf_).getAllPages();
-        small_faults(pdf_, in_);
+        repaired_faults(pdf_, in_);
         return pages;
     }
 
@@ -351,7 +351,7 @@ class Overlay {
             "it already has dots of dotpose, and dots over dots cannot be read: use the document "
             "without dots");
         if (options_.under) add(areas_, "filled areas and images cover the dots below them");
-        for (const std::string& kind : colours_.left_alone()) {
+        for (const std::string& kind : colours_.unconverted()) {
             report_.warnings.push_back(kind + " were not converted and may hide dots");
         }
         QPDFObjectHandle form = pdf_.getRoot().getKey("/AcroForm");
@@ -397,7 +397,7 @@ OverlayReport overlay_pdf(const fs::path& in, const fs::path& out, const Overlay
         throw BadArgument(
             fmt::format("{} is the document itself; give the result another name", out.string()));
     }
-    return understood(in, [&] {
+    return with_damage_errors(in, [&] {
         Overlay overlay(in, options);
         overlay.add_dots();
         overlay.write(out);

@@ -204,9 +204,9 @@ QPDFObjectHandle ColourConverter::resources(QPDFObjectHandle original) {
     });
     replace_all(copy, "/Pattern", [&](QPDFObjectHandle object) { return pattern(object); });
     replace_all(copy, "/Font", [&](QPDFObjectHandle object) { return font(object); });
-    if (original.getKey("/Shading").isDictionary()) left_alone_.insert("shadings");
+    if (original.getKey("/Shading").isDictionary()) unconverted_.insert("shadings");
     for (const auto& [name, kind] : named_spaces(original)) {
-        if (kind == ColourKind::other) left_alone_.insert("colours of special colour spaces");
+        if (kind == ColourKind::other) unconverted_.insert("colours of special colour spaces");
     }
     --level_;
     return copy;
@@ -234,13 +234,13 @@ QPDFObjectHandle ColourConverter::content(QPDFObjectHandle original, bool starts
 
 QPDFObjectHandle ColourConverter::pattern(QPDFObjectHandle original) {
     if (!original.isStream()) {
-        left_alone_.insert("shadings");
+        unconverted_.insert("shadings");
         return original;
     }
     // An uncoloured tiling pattern has the colour that the using content sets.
     const bool is_coloured = original.getDict().getKey("/PaintType").isInteger() &&
                              original.getDict().getKey("/PaintType").getIntValue() == 1;
-    if (!is_coloured) left_alone_.insert("uncoloured patterns");
+    if (!is_coloured) unconverted_.insert("uncoloured patterns");
     return is_coloured ? content(original, true) : original;
 }
 
@@ -279,7 +279,7 @@ QPDFObjectHandle ColourConverter::image(QPDFObjectHandle original, QPDFObjectHan
                           ? convert_palette(change_, dict, space, spaces, unpacked_)
                       : is_single ? convert_grey(change_, dict, kind)
                                   : convert_decode(change_, dict, kind, original.getOwningQPDF());
-    if (!done) left_alone_.insert(kind == ColourKind::cmyk ? "CMYK images" : "some images");
+    if (!done) unconverted_.insert(kind == ColourKind::cmyk ? "CMYK images" : "some images");
     converted_[id] = done ? copy : original;
     return converted_.at(id);
 }

@@ -26,7 +26,7 @@ class ColourConverter {
 
     /// Returns the kinds of content that were found but not converted, in words, for example
     /// "shadings".
-    const std::set<std::string>& left_alone() const { return left_alone_; }
+    const std::set<std::string>& unconverted() const { return unconverted_; }
 
   private:
     QPDFObjectHandle resources(QPDFObjectHandle original);
@@ -43,7 +43,7 @@ class ColourConverter {
     UnpackedBytes& unpacked_;
     int level_ = 0;  ///< nesting depth of the resources that are being converted
     std::map<QPDFObjGen, QPDFObjectHandle> converted_;
-    std::set<std::string> left_alone_;
+    std::set<std::string> unconverted_;
 };
 
 }  // namespace dotpose::print
