@@ -23,8 +23,8 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// A stated resolution is ignored if the spacing of the dots contradicts it by more than this
-/// factor.
+/// Maximum ratio between the measured spacing and the spacing at the stated resolution. Beyond this
+/// ratio, in either direction, the resolution is ignored.
 constexpr double kMaxSpacingRatio = 2;
 constexpr std::size_t kMinFieldDots = 30;
 

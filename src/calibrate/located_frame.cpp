@@ -14,7 +14,7 @@ constexpr std::array kCornerStretches = {0.0, -0.06, -0.12, -0.18, -0.25, 0.06, 
 /// has half of its darkness.
 double half_width(const ImageView& image, const std::vector<LocatedDot>& dots, double spacing_px) {
     constexpr int kBins = 10;
-    // In spacings; the distance of the next dot is at least 2/3.
+    // Maximum distance from the centre, in spacings. The next dot is at least 2/3 away.
     constexpr double kReach = 0.35;
     std::array<double, kBins> sums{};
     std::array<double, kBins> counts{};

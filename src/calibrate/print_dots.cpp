@@ -296,7 +296,7 @@ PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
     result.dot = median(strengths);
     result.paper = middle_mean(levels);
     if (result.paper <= 0) return result;
-    // Half of a normal distribution is within 0.6745 standard deviations of the mean.
+    // Standard deviations per distance between the quartiles of a normal distribution.
     constexpr double kSigmaPerQuartiles = 1 / (2 * 0.6745);
     const std::size_t quarter = levels.size() / 4;
     result.noise =

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 
-/// Minimum deviations of the scale that are reported: caused by the driver, because no printer or
-/// paper deviates as much; and notable.
+/// Deviations of the mean scale from 1: minimum that only the driver can cause, and minimum that is
+/// reported. Printers and paper deviate by less than kDriverScale.
 constexpr double kDriverScale = 0.015;
 constexpr double kNotableScale = 0.002;
 constexpr double kUnevenScale = 0.002;
@@ -24,7 +24,8 @@ constexpr double kImplausibleScale = 0.25;
 constexpr double kNotableRotation_rad = 0.2 * kDegree_rad;
 constexpr double kNotableSkew_rad = 0.1 * kDegree_rad;
 constexpr double kNotableDistortion_mm = 0.1;
-/// Relative changes of the dot diameter that usual printers do not reach.
+/// Minimum growth and maximum shrinkage of the dot diameter that are faults. Usual printers do not
+/// reach these limits.
 constexpr double kSwollenGain = 0.5;
 constexpr double kThinGain = -0.3;
 constexpr double kNotableShare = 0.01;

@@ -198,7 +198,8 @@ void measure_dots(const Measuring& m, const Fitted& fitted, PrintField& result) 
 /// Sets whether sizes and faults of dots in a photo are reliable despite noise, blur and the tone
 /// curve of the camera.
 void judge_photo_of_dots(const Measuring& m, PrintField& result) {
-    // The edge of a dot has an uncertainty of about one pixel.
+    // Minimum diameter of dots with a known size. The edge of a dot has an uncertainty of about one
+    // pixel.
     constexpr double kMinDot_px = 6;
     // Maximum relative scatter of the darkness, at which a cell without a dot is distinguishable
     // from a dot with a third of the usual darkness.

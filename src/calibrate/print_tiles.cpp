@@ -14,7 +14,7 @@ constexpr int kMaxTile_px = 2048;
 constexpr double kSmallSpacing_px = 9;
 /// Number of crops that determine the spacing, or the code, accurately enough.
 constexpr std::size_t kEnoughProbes = 40;
-/// Number of pixels in the first set of crops of each size. These crops are spread over the page.
+/// Total number of pixels of the first crops of each size, which are spread over the page.
 constexpr int kSample_px = 8'000'000;
 
 /// Side and magnification of a crop. A crop must contain at least 8 x 8 cells.

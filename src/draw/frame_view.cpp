@@ -141,7 +141,7 @@ Point FrameView::at_grid(double i, double j) const {
 
 Point FrameView::ahead_of_reference() const {
     const Plane pattern(trace_.pattern_from_image);
-    // In spacings; over a longer step the distortion would be visible.
+    // Step in spacings. Over a longer step, the distortion would be visible.
     constexpr double kShort = 0.1;
     const Point end_px = pattern.image_point(pattern.plane_point(reference_px_) + Point{kShort, 0});
     const Point ahead = at(end_px) - at(reference_px_);

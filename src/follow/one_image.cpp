@@ -43,8 +43,8 @@ Follower::Found Follower::read() {
             is_found = true;
         }
     }
-    // The trace must belong to the fix, so the image is located again in the best variant unless
-    // that was the last one.
+    // The trace must belong to the fix. The image is therefore located again in the best variant,
+    // unless this variant was tried last.
     return used_.code == best ? found : read_in(best);
 }
 

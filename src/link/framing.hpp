@@ -11,7 +11,7 @@
 namespace dotpose::link {
 
 inline constexpr std::size_t kPlainBytes = 27;
-/// Number of bytes after COBS encoding (Cheshire and Baker, 1999), which adds one byte per 254
+/// Number of bytes after COBS encoding (Cheshire and Baker, 1999), which adds one byte to up to 254
 /// bytes.
 inline constexpr std::size_t kCodedBytes = kPlainBytes + 1;
 /// Number of bytes of the CRC. Each byte contains at most 7 bits of the CRC, and its top bit is

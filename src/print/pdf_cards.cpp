@@ -19,7 +19,7 @@ constexpr double kMargin_mm = kMarkGap_mm + kMark_mm;
 constexpr double kMarkWidth_mm = 0.1;
 
 CardGrid grid_on(Paper paper, Paper card) {
-    // The tolerance allows for rounding in points: ten cards of 21 mm must fit into 210 mm.
+    // Tolerance for rounding in points: ten cards of 21 mm must fit into 210 mm.
     constexpr double kTolerance_mm = 0.01;
     const auto fit = [](double paper_mm, double card_mm) {
         return static_cast<int>((paper_mm - 2 * kMargin_mm + kTolerance_mm) / card_mm);

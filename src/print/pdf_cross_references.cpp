@@ -33,7 +33,8 @@ class CrossReferences {
     }
 
     void count() {
-        // Some files contain other data before and after the document.
+        // Number of bytes searched at the beginning and at the end. Some files contain other data
+        // before and after the document.
         constexpr qpdf_offset_t kNear = 1100;
         const std::string begin = text(0, kNear);
         std::smatch header;

@@ -31,7 +31,7 @@ constexpr double kLongTick_mm = 1.8;
 constexpr double kNumberAway_mm = kGap_mm + kLongTick_mm + 0.3;
 constexpr double kRulerRoom_mm = kNumberAway_mm + kNumberHeight_mm + kEdge_mm;
 
-// Between the numbers of a ruler and the arrow beside them.
+// Distance between the numbers of a ruler and the arrow beside them.
 constexpr double kArrowGap_mm = 0.9;
 constexpr double kArrow_mm = 6;  // length of an arrow beyond the other arrow
 constexpr double kArrowHead_mm = 1.3;

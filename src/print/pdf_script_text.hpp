@@ -34,7 +34,8 @@ class ScriptText {
 
     QPDF& pdf_;
     std::map<std::string, double> widths_pt_;
-    std::map<std::string, QPDFObjectHandle> forms_;  ///< by font size and text
+    /// Forms of the lines, by font size and text.
+    std::map<std::string, QPDFObjectHandle> forms_;
     /// Drawn lines of the current page, by name.
     std::map<std::string, QPDFObjectHandle> drawn_;
     std::vector<std::unique_ptr<QPDF>> sources_;  ///< documents that contain the original forms

@@ -11,8 +11,8 @@
 namespace dotpose::print {
 namespace {
 
-// Pages are nearly empty. The default level takes 3.5 times as long for files that are 20 %
-// smaller.
+// Compression level of zlib. Pages are nearly empty, and the default level takes 3.5 times as long
+// for files that are 20 % smaller.
 constexpr int kCompressionLevel = 4;
 
 /// Writes PNG. libpng exits its functions by longjmp after an error. Therefore only `guarded` calls

@@ -15,8 +15,8 @@ namespace dotpose {
 namespace print {
 namespace {
 
-// Centres halfway between two pixels must all be rounded in the same direction. Without this
-// constant, rounding errors of the double would determine the direction.
+// Offset that rounds all centres halfway between two pixels in the same direction. Without the
+// offset, rounding errors of the double would determine the direction.
 constexpr double kTie_px = 1e-6;
 
 int diameter_px(const Sheet& sheet, double dpi) {
