@@ -10,7 +10,8 @@
 namespace dotpose::follow_detail {
 namespace {
 
-/// Maps pixels to a page. Ignores tilt and lens distortion, so its error is some pixels.
+/// Maps pixels to a page. Ignores tilt and lens distortion, so positions have errors of a few
+/// pixels.
 class PixelsOnPage {
   public:
     PixelsOnPage(ImageView image, const Options& options, const Fix& fix, const SheetPlace& place)
