@@ -42,7 +42,7 @@ struct Sighting {
     std::int64_t x_nm = 0;
     std::int64_t y_nm = 0;
     std::int32_t theta_bam = 0;
-    /// Number of the plane; poses in different planes are unrelated.
+    /// Number of the plane. Poses in different planes are unrelated.
     std::uint32_t plane = 0;
     std::array<std::array<float, 3>, 3> covariance{};  ///< covariance of x, y and theta, in mm and
                                                        ///< rad
@@ -50,34 +50,34 @@ struct Sighting {
     /// TrackOptions::max_p_wrong_log2 the sighting is *weak*.
     int p_wrong_log2 = 0;
     std::int32_t spacing_nm = 508'000;  ///< spacing of the pattern in view
-    /// True if the y axis of the plane points up on the paper. Angles are then opposite to those in
-    /// the pattern.
+    /// True if the y axis of the plane points up on the paper. Angles then have the opposite sign
+    /// of those in the pattern.
     bool is_y_up = false;
 };
 
-/// Returns the sighting of a fix in the pattern frame; its plane is the section. The fix must be ok
-/// and its spacing known, at most 20 mm.
+/// Returns the sighting of a fix in the pattern frame. The plane is the section of the fix. The fix
+/// must be ok, and its spacing must be known and at most 20 mm.
 Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
 /// Limits of the robot's motion, and criteria for accepting sightings.
 struct TrackOptions {
-    /// Standard deviation of the acceleration of the robot while it manoeuvres. At other times the
-    /// filter estimates a lower value. Larger values follow sudden changes faster. Default: a
-    /// table-top robot.
+    /// Standard deviation of the robot's acceleration while it manoeuvres. At other times the
+    /// filter estimates a lower value. Larger values follow sudden changes faster. The default
+    /// suits a table-top robot.
     float acceleration_mm_s2 = 600;
     float angular_acceleration_rad_s2 = 6;
 
-    /// Maximum physically possible acceleration. A sighting that it cannot explain must be
-    /// confirmed before it is accepted.
+    /// Maximum physically possible acceleration. A sighting that is farther from the prediction
+    /// than this acceleration explains must be confirmed before it is accepted.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
     /// Maximum speed, which limits the distance that the robot can have moved without sightings.
     float max_speed_mm_s = 1000;
     float max_turn_rad_s = 20;
-    /// Number of standard deviations of the prediction by which a sighting may exceed these limits.
+    /// Number of standard deviations of the innovation by which a sighting may exceed these limits.
     float gate_sigmas = 5;
-    /// Number of consecutive consistent sightings that are needed to accept a jump. Larger numbers
-    /// accept a jump later; smaller numbers may accept a single wrong fix.
+    /// Number of consecutive consistent sightings that are needed to accept a jump. A larger number
+    /// delays the acceptance. With a smaller number, a single wrong fix may be accepted.
     int confirmations = 3;
 
     /// Time without an accepted sighting after which the robot is lost.
@@ -88,8 +88,8 @@ struct TrackOptions {
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
 
-    /// Standard deviations that are added to those of a sighting. They account for printing errors,
-    /// which are the same in every frame of a place.
+    /// Standard deviations of printing errors, which are added in squares to the covariance of a
+    /// sighting. Printing errors are the same in every frame of a place.
     float least_sigma_mm = 0.0002F;
     float least_sigma_rad = 0.00002F;
 
@@ -123,11 +123,12 @@ struct TrackedPose {
 
 /// The tracker's verdict on the sighting of a frame.
 enum class Verdict : std::uint8_t {
-    none,        ///< there was no sighting
-    accepted,    ///< certain enough without the prior, and physically possible
-    with_prior,  ///< accepted although weak: certain enough together with the prior
-    gated,       ///< physically impossible, and not confirmed yet
-    too_weak,    ///< weak, and the prior does not help
+    none,      ///< there was no sighting
+    accepted,  ///< sufficiently certain alone, and physically possible
+    /// Weak, but accepted because it is sufficiently certain together with the prior.
+    with_prior,
+    gated,     ///< physically impossible, and not confirmed yet
+    too_weak,  ///< weak, and the prior does not help
 };
 /// Number of values of Verdict.
 inline constexpr int kVerdictCount = 5;
@@ -138,8 +139,8 @@ const char* name(Verdict verdict) noexcept;
 struct TrackEvents {
     bool fix = false;   ///< the robot was lost and is found again
     bool lost = false;  ///< there was no accepted sighting for too long
-    bool kidnapped =
-        false;  ///< confirmed sightings are at a place to which the robot cannot have driven
+    /// Confirmed sightings are at a place to which the robot cannot have driven.
+    bool kidnapped = false;
     bool stationary = false;  ///< the robot came to rest
     bool moving = false;      ///< the robot was stationary and moves again
 };
@@ -153,8 +154,8 @@ struct Track {
     /// an accepted sighting.
     int p_wrong_log2 = 0;
     TrackEvents events;
-    /// Pose at the time of the newest frame, predicted if the frame had no accepted sighting. Not
-    /// valid while lost.
+    /// Pose at the time of the latest frame, predicted if the frame had no accepted sighting. Not
+    /// valid while the robot is lost.
     TrackedPose pose;
 };
 
@@ -184,30 +185,30 @@ struct MotionEstimate {
 /// Follows one robot through its sightings.
 class Tracker {
   public:
-    /// Constructs a tracker that has not seen the robot: `is_lost` is true.
+    /// Starts in the `lost` state.
     explicit Tracker(const TrackOptions& options = {}) : options_(options) {}
 
-    /// Updates the state with a frame: its time and its sighting (null without a fix). Ignores
-    /// frames that are not newer than the last frame.
+    /// Updates the state with a frame, given by its time and its sighting (null without a fix).
+    /// Ignores frames that are not newer than the previous frame.
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
     /// Returns the state after the newest frame.
     const Track& track() const { return track_; }
 
-    /// Predicts the place of the pattern in the frame at `time_us`: the map of `newest`, an ok fix
-    /// with the sighting `seen`, moved to the pose that the filter expects, with its uncertainty. A
-    /// sighting that is not accepted yet is predicted from the sightings that agree with it.
-    /// Without an expected pose (the filter has not followed `seen`, or will be lost by then),
-    /// returns Prediction::like(newest). `options` are those of the Locator.
+    /// Predicts the place of the pattern in the frame at `time_us`: moves the map of `newest`, an
+    /// ok fix with the sighting `seen`, to the pose that the filter expects, and adds its
+    /// uncertainty. A sighting that is not accepted yet is predicted from the sightings that agree
+    /// with it. Returns Prediction::like(newest) if there is no expected pose, because the filter
+    /// has not followed `seen` or will be lost at that time. `options` are those of the Locator.
     Prediction predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
                        const Options& options) const;
 
-    /// Returns true if a weak sighting of the next frame could be accepted. If so, it is worthwhile
-    /// to locate with a larger IntegrityOptions::max_p_wrong_log2.
+    /// Returns true if a weak sighting of the next frame could be accepted. In this case, it is
+    /// worthwhile to locate the frame with a relaxed IntegrityOptions::max_p_wrong_log2.
     bool has_prior() const { return !track_.is_lost; }
 
   private:
-    /// Returns the motion estimate whose newest sighting is `seen`; null if there is none.
+    /// Returns the motion with `seen` as its newest sighting; null if there is none.
     const track::MotionEstimate* following(const Sighting& seen) const;
     Verdict judge(const track::MotionEstimate& prediction, const Sighting& sighting);
     bool is_confirmed(const Sighting& sighting);
@@ -220,10 +221,10 @@ class Tracker {
     bool has_frame_ = false;
     std::int64_t newest_us_ = 0;
     track::MotionEstimate last_;  ///< state at the last accepted sighting
-    /// State at the newest contradicting sighting, filtered like accepted sightings, in case the
-    /// robot was put elsewhere.
+    /// State at the newest contradicting sighting. Contradicting sightings are filtered like
+    /// accepted sightings, in case the robot was put down elsewhere.
     track::MotionEstimate candidate_;
-    int agreeing_ = 0;  ///< number of sightings in the candidate
+    int agreeing_ = 0;  ///< number of sightings in `candidate_`
     TrackedPose rest_;  ///< pose from which movement is measured
 };
 

@@ -1,10 +1,10 @@
-/// A destination for the bytes of a file, on any medium.
+/// Destination for the bytes of a file, on any medium.
 #pragma once
 
 #include <cstddef>
 #include <string_view>
 
-// Visible outside of the library because the tools library derives from it too.
+// Exported, because the tools library derives from this class.
 #pragma GCC visibility push(default)
 
 namespace dotpose::base {
@@ -13,12 +13,13 @@ class ByteSink {
   public:
     virtual ~ByteSink() = default;
 
-    /// Appends. Never throws, because C libraries call it. The first failure is stored for
-    /// `require_good`, and later bytes are dropped.
+    /// Appends bytes. Never throws, because C libraries call this function. The first failure is
+    /// stored for `require_good`, and all later bytes are dropped.
     virtual void write(const void* data, std::size_t size_bytes) noexcept = 0;
     void write(std::string_view text) noexcept { write(text.data(), text.size()); }
 
-    /// Throws Error with the system's reason if a write failed, for example a full disk.
+    /// Throws Error with the system's reason if a write failed, for example because the disk is
+    /// full.
     virtual void require_good() const {}
 };
 

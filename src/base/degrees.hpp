@@ -4,7 +4,7 @@
 
 namespace dotpose {
 
-/// Degrees in a radian.
+/// Number of degrees per radian.
 inline constexpr double kDegrees = 180 / std::numbers::pi;
 
 }  // namespace dotpose

@@ -21,7 +21,7 @@ constexpr int kNameAttempts = 100;
 }  // namespace
 
 fs::path without_links(fs::path path) {
-    constexpr int kMaxLinks = 40;  // the limit of Linux
+    constexpr int kMaxLinks = 40;  // same limit as Linux
     std::error_code error;
     for (int i = 0; i < kMaxLinks && fs::is_symlink(path, error); ++i) {
         const fs::path target = fs::read_symlink(path, error);
@@ -38,8 +38,8 @@ OutputFile::OutputFile(const fs::path& target) : target_(without_links(target)) 
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         throw Error(fmt::format("cannot write {}: it is not a regular file", target_.string()));
     }
-    // Renaming onto a file needs no write permission for that file, so it would replace a
-    // write-protected file.
+    // Renaming onto a file does not require write permission for that file, so without this check
+    // it would replace a write-protected file.
     if (fs::exists(status) && access(target_.c_str(), W_OK) != 0) {
         throw_system("write", target_, errno);
     }
@@ -60,7 +60,7 @@ void OutputFile::open_temporary() {
         temporary_ = target_;
         temporary_.replace_filename(
             fmt::format(".{:.200}.{:08x}.tmp", target_.filename().string(), random()));
-        // open, not mkstemp: the mode then follows the user's umask.
+        // open instead of mkstemp, because its mode follows the user's umask.
         descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor < 0 && errno != EEXIST) break;
     }

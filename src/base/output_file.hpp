@@ -1,4 +1,4 @@
-/// Writes files so that they appear complete or not at all.
+/// Writes files that appear completely or not at all.
 #pragma once
 
 #include <cstddef>
@@ -8,16 +8,16 @@
 
 #include "base/byte_sink.hpp"
 
-// Visible outside of the library because the tools library calls them too.
+// Exported, because the tools library uses these declarations.
 #pragma GCC visibility push(default)
 
 namespace dotpose::base {
 
-/// Follows symbolic links and returns the path of their target, which need not exist.
+/// Resolves symbolic links and returns the path of their target, which need not exist.
 std::filesystem::path without_links(std::filesystem::path path);
 
-/// Writes to a temporary file beside the target; `commit` renames it, the destructor of an
-/// uncommitted file removes it. Symbolic links are followed, and an existing file keeps its mode.
+/// Writes to a temporary file beside the target. `commit` renames it to the target. The destructor
+/// removes an uncommitted file. Symbolic links are followed, and an existing target keeps its mode.
 class OutputFile : public ByteSink {
   public:
     /// Throws Error if the target is not a regular file or the temporary file cannot be created.
@@ -29,13 +29,13 @@ class OutputFile : public ByteSink {
     void write(const void* data, std::size_t size_bytes) noexcept override;
     using ByteSink::write;
 
-    /// Moves the position of the next write, like fseeko; returns the new position in bytes from
+    /// Sets the position of the next write, as fseeko does. Returns the new position in bytes from
     /// the start of the file.
     std::int64_t seek(std::int64_t offset, int whence) noexcept;
 
     void require_good() const override;
 
-    /// Closes the temporary file and renames it to the target. Throws Error.
+    /// Closes the temporary file and renames it to the target. Throws Error if either fails.
     void commit();
 
   private:
@@ -48,8 +48,8 @@ class OutputFile : public ByteSink {
     int error_number_ = 0;
 };
 
-/// Throws Error, as OutputFile does, if the file could not be created. Call it before a long
-/// computation whose result goes into the file.
+/// Throws Error, as OutputFile does, if the file cannot be created. Intended to be called before a
+/// long computation whose result is written to the file.
 void require_writable(const std::filesystem::path& target);
 
 }  // namespace dotpose::base

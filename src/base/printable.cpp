@@ -16,7 +16,7 @@ struct Character {
 };
 
 /// Decodes the first character of a text, which must not be empty. Accepts the sequences of table
-/// 3-7 of the Unicode standard: no overlong sequences, no surrogates, nothing beyond U+10FFFF.
+/// 3-7 of the Unicode standard: no overlong sequences, no surrogates, nothing above U+10FFFF.
 Character first_of(std::string_view text) {
     const auto byte = [&text](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
     if (byte(0) < 0x80) return {byte(0), 1};
@@ -45,8 +45,8 @@ bool acts_on_terminals(std::uint32_t code) {
     return code < 0x20 || is_del_or_c1(code) || breaks_line || turns_direction;
 }
 
-/// Replaces every character by what `shown` returns for it. Invalid bytes are passed to `shown` one
-/// at a time.
+/// Replaces every character by the result of `shown`. Invalid bytes are passed to `shown` one at a
+/// time.
 template <typename Shown>
 std::string rewritten(std::string_view text, Shown shown) {
     std::string result;

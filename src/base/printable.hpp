@@ -1,21 +1,21 @@
-/// Makes text from files, file names and networks safe to show on a terminal.
+/// Makes text from files, file names and networks safe to display on a terminal.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-// Visible outside of the library because the tools library calls them too.
+// Exported, because the tools library uses these functions.
 #pragma GCC visibility push(default)
 
 namespace dotpose::base {
 
 /// Returns the text with U+FFFD in place of every byte that is not UTF-8 and of every character
-/// that moves the cursor, starts a terminal command, breaks the line or changes the direction of
-/// writing. The result cannot control a terminal or look like another line of output.
+/// that moves the cursor, starts a terminal command, breaks the line or changes the writing
+/// direction. The result can neither control a terminal nor imitate another line of output.
 std::string printable(std::string_view text);
 
 /// Returns JSON text with the control characters U+007F to U+009F, which JSON allows unescaped, as
-/// \u escapes. The JSON value does not change, and a terminal does not interpret it.
+/// \u escapes. The JSON value does not change, and a terminal does not interpret the escapes.
 std::string with_escaped_controls(std::string_view json);
 
 }  // namespace dotpose::base

@@ -33,7 +33,7 @@ void base::validate_pattern(const Pattern& pattern) {
     require_length("spacing", pattern.spacing_mm);
     require_length("displacement", pattern.displacement_mm);
     require_length("dot diameter", pattern.dot_mm);
-    // Two neighbours displaced towards each other are the closest pair of dots.
+    // Two neighbouring dots displaced towards each other have the smallest distance.
     const double closest_mm = pattern.spacing_mm - 2 * pattern.displacement_mm;
     if (closest_mm <= 0) {
         throw BadArgument(
@@ -84,8 +84,8 @@ void validate(const Sheet& sheet) {
         return;
     }
     throw BadArgument(
-        fmt::format("{} x {} dots, {:g} mm apart and starting at ({:g}, {:g}) mm, do "
-                    "not lie on a page of {:g} x {:g} mm",
+        fmt::format("{} x {} dots, {:g} mm apart and starting at ({:g}, {:g}) mm, do not fit on a "
+                    "page of {:g} x {:g} mm",
                     sheet.columns, sheet.rows, sheet.pattern.spacing_mm, sheet.origin_x_mm,
                     sheet.origin_y_mm, sheet.width_mm, sheet.height_mm));
 }

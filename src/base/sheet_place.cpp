@@ -7,8 +7,8 @@
 namespace dotpose {
 namespace {
 
-/// Returns the signed number of cells from `first` to `cell` along one axis, the shorter way
-/// around: the code plane is cyclic, so its last column is left of its first.
+/// Returns the signed number of cells from `first` to `cell` along one axis, in the shorter
+/// direction: the code plane is cyclic, so its last column is to the left of its first column.
 std::int32_t steps(std::uint32_t first, std::uint32_t cell) {
     constexpr std::int64_t kPositions = kPositionsPerAxis;
     std::int64_t difference = std::int64_t{cell} - first;
@@ -17,13 +17,13 @@ std::int32_t steps(std::uint32_t first, std::uint32_t cell) {
     return static_cast<std::int32_t>(difference);
 }
 
-/// Position in units of the grid spacing from the first intersection of a sheet.
+/// Position relative to the first intersection of a sheet, in spacings.
 struct Offset {
     double x = 0;
     double y = 0;
 };
 
-/// Returns where on the sheet a fix is, or none if it was read in another section.
+/// Returns the position of a fix relative to a sheet, or none if the section of the fix differs.
 std::optional<Offset> offset_on(const Sheet& sheet, const Fix& fix) {
     const std::int32_t dx = steps(sheet.origin.x, fix.cell.x);
     const std::int32_t dy = steps(sheet.origin.y, fix.cell.y);
@@ -32,7 +32,7 @@ std::optional<Offset> offset_on(const Sheet& sheet, const Fix& fix) {
     return Offset{dx + fix.fraction_x_q16 / 65536.0, dy + fix.fraction_y_q16 / 65536.0};
 }
 
-/// Whether a position is on the sheet: within half a spacing of one of its intersections.
+/// Returns true if a position is on the sheet: within half a spacing of one of its intersections.
 bool in_region(const Sheet& sheet, Offset offset) {
     return offset.x >= -0.5 && offset.x < sheet.columns - 0.5 && offset.y >= -0.5 &&
            offset.y < sheet.rows - 0.5;
@@ -44,7 +44,7 @@ double wrapped(double angle_rad) {
     return angle <= -std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
 }
 
-/// Returns the covariance after each coordinate is multiplied by its factor.
+/// Returns the covariance after multiplication of each coordinate by its factor.
 PoseCovariance scaled(const auto& covariance, const std::array<double, 3>& factors) {
     PoseCovariance result{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -61,7 +61,7 @@ SheetPlace place_on(const SheetEntry& entry, Offset offset, const Fix& fix) {
     const double y_scale = entry.print_scale_y;
     const double c = std::cos(fix.theta_rad()) * x_scale;
     const double s = std::sin(fix.theta_rad()) * y_scale;
-    // The derivative of atan2(s, c) by theta.
+    // Derivative of atan2(s, c) with respect to theta.
     const double turn = x_scale * y_scale / (c * c + s * s);
     return {&entry, sheet.origin_x_mm + offset.x * spacing_mm * x_scale,
             sheet.origin_y_mm + offset.y * spacing_mm * y_scale, wrapped(std::atan2(s, c)),
@@ -94,8 +94,8 @@ std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, CodeVar
 std::optional<WorldPlace> world_place(const SheetPlace& place) {
     const auto& world = place.entry->world;
     if (!world) return std::nullopt;
-    // On a sheet y points down and angles are clockwise; in the world y points up and angles are
-    // counter-clockwise. Only this function converts between the two.
+    // On a sheet, y points down and angles are clockwise. In the world, y points up and angles are
+    // counter-clockwise. Only this function converts between the two frames.
     const double right_m = place.x_mm / 1000;
     const double up_m = -place.y_mm / 1000;
     const double yaw_of_image_rad = -place.theta_rad;

@@ -8,18 +8,20 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Greatest distance, in spacings, of a dot from its expected place: beyond all errors of print and
-/// fit, so that the fit decides which dots are outliers, but closer than another dot can be.
+/// Maximum distance of a dot from its expected place: kReach_sigmas standard deviations of the fit,
+/// clamped to [kMinReach, kMaxReach] spacings. The limit exceeds all errors of print and fit, so
+/// the next fit decides which dots are outliers. It is smaller than the distance of any other dot.
 constexpr double kReach_sigmas = 6;
-constexpr double kLeastReach = 0.1;
-constexpr double kMostReach = 1.0 / 3;
+constexpr double kMinReach = 0.1;
+constexpr double kMaxReach = 1.0 / 3;
 
 struct Candidate {
-    double off;  ///< spacings
+    double off;  ///< distance from the expected place, in spacings
     LocatedDot dot;
 };
 
-/// Returns a blob as the dot of the intersection nearest to it.
+/// Returns the blob at `pixel` as the dot of the nearest intersection. (`x`, `y`) is its place on
+/// the paper, in spacings from `start`.
 Candidate candidate(PixelPoint pixel, const Place& start, double x, double y, double displacement,
                     CodeVariant code) {
     const FixedVec step{static_cast<std::int32_t>(std::lround(x)),
@@ -38,7 +40,7 @@ void take_all_dots(const LensFit& fit, const FitSetting& setting, CodeVariant co
     for (std::size_t i = 0; i < frames.size(); ++i) {
         LocatedFrame& frame = frames[i];
         const double reach =
-            std::clamp(kReach_sigmas * fit.residual_px / frame.spacing_px, kLeastReach, kMostReach);
+            std::clamp(kReach_sigmas * fit.residual_px / frame.spacing_px, kMinReach, kMaxReach);
         std::map<std::pair<int, int>, Candidate> nearest;
         for (const PixelPoint& blob : frame.blobs) {
             const auto [x_mm, y_mm] = place_on_paper(fit, i, blob, setting);
@@ -50,7 +52,8 @@ void take_all_dots(const LensFit& fit, const FitSetting& setting, CodeVariant co
                 nearest.try_emplace({found.dot.step.x, found.dot.step.y}, found);
             if (!is_new && found.off < entry->second.off) entry->second = found;
         }
-        // A frame that the fit does not describe keeps the dots that were read.
+        // If the fit describes less than half of the dots of a frame, the frame keeps the dots that
+        // were read.
         if (2 * nearest.size() < frame.dots.size()) continue;
         frame.dots.clear();
         for (const auto& [step, found] : nearest)

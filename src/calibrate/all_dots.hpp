@@ -1,4 +1,4 @@
-// All dots: finds the dots of frames whose camera is known from a first fit.
+// All dots: finds all dots of the frames, given a first fit of the camera.
 #pragma once
 
 #include <vector>
@@ -7,12 +7,14 @@
 
 namespace dotpose::calibrate {
 
-/// Replaces the dots that `locate` read by all blobs that lie where `fit` expects the code's dots.
+/// Replaces the dots that `locate` read by all blobs at places where `fit` expects a dot of the
+/// code.
 ///
-/// `locate` reads the dots that a pose needs. Where its plane fits badly, in the corners of a
-/// slightly tilted camera, it leaves dots out, and mostly those whose errors add to the error of
-/// the plane. The remaining dots show too little perspective: by three standard deviations at 8
-/// degrees, as the unit test ASlightTiltTellsAnUnbiasedFocalLength measured without this function.
+/// `locate` reads only the dots that a pose needs. Where its plane fits badly, in the corners of a
+/// slightly tilted camera's image, it omits dots, mostly those whose residuals add to the error of
+/// the plane. The perspective of the remaining dots is too small: by three standard deviations at a
+/// tilt of 8 degrees, measured without this function by the unit test
+/// ASlightTiltTellsAnUnbiasedFocalLength.
 void take_all_dots(const LensFit& fit, const FitSetting& setting, CodeVariant code,
                    std::vector<LocatedFrame>& frames);
 

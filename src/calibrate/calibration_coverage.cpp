@@ -11,8 +11,7 @@
 namespace dotpose {
 namespace {
 
-/// Parts of the image across and down by which a region of it is called a corner, an edge or the
-/// middle.
+/// Boundaries of the regions that are named corner, edge or middle, in parts across and down.
 constexpr std::array kRegionColumns = {0, 4, 8, ImageCoverage::kColumns};
 constexpr std::array kRegionRows = {0, 3, 5, ImageCoverage::kRows};
 constexpr std::size_t kRegions = 3;
@@ -22,7 +21,7 @@ constexpr const char* kRegionNames[kRegions][kRegions] = {
     {"lower left corner", "lower edge", "lower right corner"},
 };
 
-/// Returns the share of a region of the image that shows dots.
+/// Returns the fraction of the parts of a region that show dots.
 double share_of(const ImageCoverage& image, std::size_t across, std::size_t down) {
     int parts = 0;
     int covered = 0;
@@ -35,7 +34,7 @@ double share_of(const ImageCoverage& image, std::size_t across, std::size_t down
     return static_cast<double>(covered) / parts;
 }
 
-/// Returns an undistorted pixel as seen from that of the middle of the image.
+/// Returns the undistorted position of a pixel relative to that of the middle of the image.
 PixelPoint from_middle(const Camera& camera, PixelPoint pixel) {
     const PixelPoint middle =
         undistorted(camera, {(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0});
@@ -58,7 +57,8 @@ double corner_sigma_px(const Camera& camera) {
                                 const char* key) {
         Camera other = camera;
         double& changed = of_centre != nullptr ? other.centre_px.*of_centre : other.*value;
-        // A part of the deviation, because the lens is not linear in its parameters.
+        // Step of the difference quotient, in standard deviations. It is small because undistortion
+        // is not linear in the parameters.
         constexpr double kPart = 1e-3;
         changed += kPart * camera.sigma.at(key);
         const PixelPoint moved = from_middle(other, corner);
@@ -117,12 +117,12 @@ int CalibrationCoverage::directions() const {
 }
 
 bool CalibrationCoverage::is_image_covered() const {
-    constexpr double kLeastOfCorner = 0.5;
+    constexpr double kMinCornerCoverage = 0.5;
     constexpr std::size_t kLast = kRegions - 1;
-    return image_.share() >= kLeastCoverage && share_of(image_, 0, 0) >= kLeastOfCorner &&
-           share_of(image_, kLast, 0) >= kLeastOfCorner &&
-           share_of(image_, 0, kLast) >= kLeastOfCorner &&
-           share_of(image_, kLast, kLast) >= kLeastOfCorner;
+    return image_.share() >= kLeastCoverage && share_of(image_, 0, 0) >= kMinCornerCoverage &&
+           share_of(image_, kLast, 0) >= kMinCornerCoverage &&
+           share_of(image_, 0, kLast) >= kMinCornerCoverage &&
+           share_of(image_, kLast, kLast) >= kMinCornerCoverage;
 }
 
 std::string CalibrationCoverage::image_advice() const {
@@ -162,10 +162,11 @@ std::vector<CalibrationNeed> CalibrationCoverage::missing(const std::optional<Ca
     if (frames_ < kWantedFrames) {
         need(Kind::frames, fmt::format("take more frames ({} of {})", frames_, kWantedFrames));
     } else if (!lens) {
-        need(Kind::lens, "go on to new places: the lens is not known yet");
+        need(Kind::lens, "move to new places: the lens is not determined yet");
     } else if (const double sigma_px = corner_sigma_px(*lens); sigma_px > kWantedCornerSigma_px) {
-        need(Kind::lens, fmt::format("go on to new places (corner known to {:.3f} px, wanted {:g})",
-                                     sigma_px, kWantedCornerSigma_px));
+        need(Kind::lens,
+             fmt::format("move to new places (uncertainty in the corner {:.3f} px, required {:g})",
+                         sigma_px, kWantedCornerSigma_px));
     }
     return needs;
 }

@@ -1,4 +1,4 @@
-// The lens of a calibrated camera, as `locate` takes it.
+// Lens of a calibrated camera, in the form that `locate` uses.
 #pragma once
 
 #include "dotpose/files/camera.hpp"
@@ -6,7 +6,8 @@
 
 namespace dotpose::calibrate {
 
-/// Throws BadArgument if the camera's images have no size that `locate` takes.
+/// Returns the lens of the camera. Throws BadArgument if `locate` does not support the image size
+/// of the camera.
 inline FixedLens lens_of(const Camera& camera) {
     Options options;
     use_camera(camera, camera.width_px, camera.height_px, options);

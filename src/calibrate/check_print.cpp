@@ -1,4 +1,5 @@
-// Checks a print: from located tiles to fields, their cells, and then scale, sizes and faults.
+// Checks a print: locates tiles, joins them to fields, measures the cells of each field, and
+// reports scale, sizes and faults.
 #include "dotpose/tools/check_print.hpp"
 
 #include <algorithm>
@@ -22,13 +23,13 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// If a stated resolution makes the dots this many times too far apart, or too near, it is not
-/// used.
-constexpr double kUnbelievableScale = 2;
-constexpr std::size_t kLeastFieldDots = 30;
+/// Maximum ratio between the measured spacing and the spacing at the stated resolution. Beyond this
+/// ratio, in either direction, the resolution is ignored.
+constexpr double kMaxSpacingRatio = 2;
+constexpr std::size_t kMinFieldDots = 30;
 
-/// Reports progress. The amount of work is not known before, so each part reduces the rest by a
-/// share.
+/// Reports progress. The amount of work is not known in advance, so the reported total is always
+/// kHalf steps ahead.
 class Work {
   public:
     explicit Work(const CheckPrintOptions& options) : options_(options) {}
@@ -69,7 +70,7 @@ void validate(const CheckPrintOptions& options) {
     }
 }
 
-/// Returns the sheet whose region holds a cell; none if there is none.
+/// Returns the index of the sheet whose region contains a cell, or an empty optional.
 std::optional<std::size_t> sheet_at(const CheckPrintOptions& options, Section section, Cell cell) {
     Sheet place;
     place.pattern.code = options.pattern.code;
@@ -82,7 +83,8 @@ std::optional<std::size_t> sheet_at(const CheckPrintOptions& options, Section se
     return static_cast<std::size_t>(found - options.sheets.begin());
 }
 
-/// Finds how a field was printed; on test pages and known sheets, its place in the code tells.
+/// Sets the nominal pattern of a field. On test pages and known sheets, the cells identify the
+/// pattern.
 void identify(const Field& field, const CheckPrintOptions& options, PrintField& result) {
     result.pattern = options.pattern;
     for (const auto& tile : field.tiles) {
@@ -95,7 +97,7 @@ void identify(const Field& field, const CheckPrintOptions& options, PrintField& 
         result.sheet = sheet_at(options, field.code.section, cell);
         if (patch) result.pattern = *patch;
         if (result.sheet) result.pattern = options.sheets[*result.sheet].pattern;
-        // The middle of a tile may lie on the margin, so further tiles are tried.
+        // The centre of a tile may be on the margin of the page, so further tiles are tried.
         if (patch || result.sheet) break;
     }
     result.pattern.code = options.pattern.code;
@@ -114,14 +116,14 @@ double spacing_px(const Field& field) {
     return count > 0 ? sum / count : 0;
 }
 
-/// Returns the resolution, unless the dots contradict it.
-std::optional<Resolution> believable(const std::optional<Resolution>& resolution,
-                                     const Pattern& pattern, const Field& field) {
+/// Returns the resolution, or an empty optional if the spacing of the dots contradicts it.
+std::optional<Resolution> plausible_resolution(const std::optional<Resolution>& resolution,
+                                               const Pattern& pattern, const Field& field) {
     if (!resolution) return std::nullopt;
     const double px_per_mm = std::sqrt(resolution->x_dpi * resolution->y_dpi) / 25.4;
     const double scale = spacing_px(field) / (pattern.spacing_mm * px_per_mm);
-    const bool is_believable = scale < kUnbelievableScale && scale > 1 / kUnbelievableScale;
-    return is_believable ? resolution : std::nullopt;
+    const bool is_plausible = scale < kMaxSpacingRatio && scale > 1 / kMaxSpacingRatio;
+    return is_plausible ? resolution : std::nullopt;
 }
 
 }  // namespace
@@ -176,9 +178,9 @@ double PrintField::bad_share() const {
 
 namespace {
 
-/// If bits contradict the given code variant, checks whether the page has another one, and reports
-/// it.
-void look_for_another_code(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
+/// If bits contradict the given code variant, checks whether the page has another variant, and
+/// reports it.
+void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;
     const bool is_suspicious = std::ranges::any_of(
@@ -192,7 +194,7 @@ void look_for_another_code(const LocatedTiles& tiles, TileLocator& locator, Prin
                                           name(code), name(check.code), name(code))});
 }
 
-/// A field with all its cells and the result for it.
+/// A field with all its cells, and its result.
 struct CollectedField {
     Field field;
     CellGrid grid;
@@ -215,7 +217,7 @@ std::vector<CollectedField> collect_fields(const ImageView& scan, const LocatedT
     return collected;
 }
 
-/// Returns the number of cells that both fields show with a correct dot.
+/// Returns the number of cells with a correct dot in both fields.
 int common_cells(const CellGrid& a, const CellGrid& b) {
     int count = 0;
     for (const SeenCell& cell : a.cells) {
@@ -227,19 +229,19 @@ int common_cells(const CellGrid& a, const CellGrid& b) {
     return count;
 }
 
-/// Finds the fields, of which `parts` are given in the order of `check.fields`, that show the same
-/// cells.
+/// Finds pairs of fields that show the same cells. `parts` is in the order of `check.fields`.
 void find_repetitions(const std::vector<const CollectedField*>& parts, PrintCheck& check) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
         for (std::size_t j = i + 1; j < parts.size(); ++j) {
             if (parts[i]->field.code.section != parts[j]->field.code.section) continue;
             const int cells = common_cells(parts[i]->grid, parts[j]->grid);
-            if (cells >= static_cast<int>(kLeastFieldDots)) check.repeated.push_back({i, j, cells});
+            if (cells >= static_cast<int>(kMinFieldDots)) check.repeated.push_back({i, j, cells});
         }
     }
 }
 
-/// Measures all fields, as on a scan or as on a photo, depending on the largest of them.
+/// Measures all fields. The largest field decides whether the image is treated as a scan or as a
+/// photo.
 void measure_fields(const ImageView& scan, std::vector<CollectedField> collected,
                     const CheckPrintOptions& options, PrintCheck& check) {
     std::vector<Match> matches;
@@ -248,17 +250,17 @@ void measure_fields(const ImageView& scan, std::vector<CollectedField> collected
         if (its.size() > matches.size()) matches = std::move(its);
     }
     check.resolution = options.resolution;
-    if (options.resolution && matches.size() >= kLeastFieldDots) {
+    if (options.resolution && matches.size() >= kMinFieldDots) {
         const Eigen::Vector2d middle_px(0.5 * (scan.width_px - 1), 0.5 * (scan.height_px - 1));
         check.camera = signs_of_camera(matches, middle_px);
     }
     std::vector<const CollectedField*> measured;
     for (CollectedField& part : collected) {
-        auto resolution = believable(options.resolution, part.result.pattern, part.field);
+        auto resolution = plausible_resolution(options.resolution, part.result.pattern, part.field);
         if (!resolution || check.camera) check.resolution.reset();
         if (check.camera) resolution.reset();
         const Measuring measuring{scan, part.field, part.grid, resolution, options.ink_reflectance};
-        if (measure_field(measuring, kLeastFieldDots, part.result)) measured.push_back(&part);
+        if (measure_field(measuring, kMinFieldDots, part.result)) measured.push_back(&part);
     }
     std::ranges::stable_sort(measured, std::ranges::greater{},
                              [](const CollectedField* part) { return part->result.dots; });
@@ -293,7 +295,7 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& asked) {
     check.is_test_page = std::ranges::any_of(check.fields, &PrintField::is_patch);
     if (check.is_test_page) rank_patches(options.pattern.code, check);
     add_findings(options, check);
-    if (tiles && !asked.any_code) look_for_another_code(*tiles, locator, check);
+    if (tiles && !asked.any_code) check_other_codes(*tiles, locator, check);
     return check;
 }
 

@@ -21,7 +21,7 @@ double squared_residual(const DotEquation& dot, const std::vector<double>& param
     return squares;
 }
 
-/// Fits the dots whose squared residual in the last fit is at most `limit`.
+/// Fits the dots whose squared residuals in the previous fit are at most `limit`.
 DotFit fit_near_dots(const std::vector<DotEquation>& dots, double limit, const DotFit& last) {
     const std::size_t parameters = last.parameters.size();
     NormalEquations equations(static_cast<int>(parameters));
@@ -57,7 +57,7 @@ DotFit fit_dots(const std::vector<DotEquation>& dots, int parameters) {
             squares.push_back(squared_residual(dot, fit.parameters));
         const auto median = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
         std::ranges::nth_element(squares, median);
-        // The median of the squared distances of a plane Gaussian is 1.39 sigma^2.
+        // The median of the squared length of a two-dimensional Gaussian vector is 1.386 sigma^2.
         limit = kOutlier_sigmas * kOutlier_sigmas * *median / 1.386;
     }
     return fit;

@@ -1,4 +1,4 @@
-// Dot fit: least squares over the dots of one frame, without outliers.
+// Dot fit: least squares over the dots of one frame, with rejection of outliers.
 #pragma once
 
 #include <array>
@@ -8,24 +8,24 @@
 
 namespace dotpose::calibrate {
 
-/// An equation of one dot along one axis: row . parameters = wanted. A fit with fewer parameters
-/// does not use the last coefficients.
+/// Equation of one dot along one axis: row . parameters = wanted. A fit with fewer than 7
+/// parameters ignores the last coefficients.
 struct AxisEquation {
     std::array<double, 7> row{};
     double wanted = 0;
 };
-/// The equations of one dot along both axes.
+/// Equations of one dot along both axes.
 using DotEquation = std::array<AxisEquation, 2>;
 
-/// The result of a fit.
+/// Result of a fit.
 struct DotFit {
     std::vector<double> parameters;
     Eigen::MatrixXd covariance;
-    double variance = 0;  ///< variance of a dot along one axis
+    double variance = 0;  ///< variance of the residuals of the dots, per axis
     int dots = 0;         ///< number of dots used
 };
 
-/// Fits all dots except those more than four standard deviations off.
+/// Fits the equations of all dots whose residuals are below four standard deviations.
 DotFit fit_dots(const std::vector<DotEquation>& dots, int parameters);
 
 }  // namespace dotpose::calibrate

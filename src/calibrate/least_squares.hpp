@@ -1,5 +1,5 @@
-// Least squares: normal equations, and operations on covariances. Decompositions and products of
-// matrices take long to compile, so least_squares.cpp contains those of the whole layer.
+// Least squares: normal equations, and operations on covariances. least_squares.cpp contains all
+// decompositions and products of matrices of this layer, because they are slow to compile.
 #pragma once
 
 #include <span>
@@ -9,22 +9,21 @@
 
 namespace dotpose::calibrate {
 
-/// A linear least-squares problem: the sum of its equations row . parameters = wanted.
+/// Linear least-squares problem: a set of equations row . parameters = wanted.
 class NormalEquations {
   public:
     explicit NormalEquations(int parameters);
 
-    /// Adds an equation. `row` has one coefficient per parameter.
+    /// Adds an equation. `row` contains one coefficient per parameter.
     void add(std::span<const double> row, double wanted);
-    /// Adds the equation parameter = 0, with a weight of its square.
+    /// Adds the equation parameter = 0. The square of its residual is multiplied by `weight`.
     void pull_to_zero(int parameter, double weight);
 
     /// Returns the parameters with the smallest sum of squared residuals.
     std::vector<double> solution() const;
-    /// Returns by how much the solution decreases the sum of squared residuals, compared with all
-    /// parameters 0.
+    /// Returns the decrease of the sum of squared residuals from all parameters 0 to the solution.
     double explained_squares() const;
-    /// Returns the covariance of the solution if each wanted value has variance 1.
+    /// Returns the covariance of the solution for wanted values of variance 1.
     Eigen::MatrixXd unit_covariance() const;
 
   private:
@@ -32,15 +31,15 @@ class NormalEquations {
     Eigen::VectorXd right_;
 };
 
-/// Returns the inverse of a symmetric, positive definite matrix, of which only the lower triangle
-/// is read. Rows may differ in scale by orders of magnitude.
+/// Returns the inverse of a symmetric, positive definite matrix. Only the lower triangle is read.
+/// The scales of the rows may differ by orders of magnitude.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& symmetric);
 
-/// Returns the matrix that scales errors with this covariance to independent errors of variance 1.
-/// It is lower triangular.
+/// Returns the lower triangular matrix that transforms errors with this covariance to independent
+/// errors of variance 1.
 Eigen::MatrixXd whitening_of(const Eigen::MatrixXd& covariance);
 
-/// Returns the covariance of values that are linear in parameters of known covariance: derivative *
+/// Returns the covariance of linear functions of parameters with known covariance: derivative *
 /// covariance * derivative^T.
 Eigen::MatrixXd propagated(const Eigen::MatrixXd& derivative, const Eigen::MatrixXd& covariance);
 

@@ -1,5 +1,6 @@
-// Calibrates a lens: locates the frames, fits the lens, repeats both with the lens known, and once
-// more with all dots; then sets the camera and the verdict.
+// Calibrates a lens in three rounds: locates the frames and fits a first lens; locates the frames
+// again with this lens; and adds all dots that the second fit predicts. Then sets the camera and
+// the verdict.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,17 +25,18 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// Frames whose places differ by less than this, in spacings, show the same dots.
+/// Maximum distance between the places of two frames, in spacings, at which they show the same
+/// dots.
 constexpr double kSamePlace = 1.5;
 
-/// The frames given to `calibrate_lens`, checked against each other.
+/// Reads the frames given to `calibrate_lens`, and detects different sizes and duplicates.
 class Series {
   public:
     Series(int frames, const FrameAt& frame_at, const CalibrateOptions& options)
         : frame_at_(frame_at), options_(options), total_(2 * frames) {}
 
-    /// Returns the frame for the first reading, unless it is the same as an earlier one.
-    std::optional<GreyImage> first_look(int index) {
+    /// Returns the frame for the first reading, or an empty optional if it equals an earlier frame.
+    std::optional<GreyImage> new_frame(int index) {
         GreyImage image = frame_at_(index);
         if (width_px == 0) {
             width_px = image.width_px;
@@ -54,7 +56,7 @@ class Series {
         hashes_.push_back(hash);
         return image;
     }
-    GreyImage look_again(int index) const { return frame_at_(index); }
+    GreyImage frame_again(int index) const { return frame_at_(index); }
     void step() {
         if (options_.progress && !options_.progress(++done_, total_)) {
             throw Error("stopped; nothing was written");
@@ -72,8 +74,8 @@ class Series {
     std::vector<std::uint64_t> hashes_;
 };
 
-/// Returns the decrease of the residuals of one frame, in units of their variance, if this frame
-/// alone has its own scale, shear and perspective. By chance it is 5.
+/// Returns the decrease of the squared residuals of one frame, in units of their variance, if the
+/// frame is fitted with its own scale, shear and perspective. The expected decrease by chance is 5.
 double gain_of_own_view(const LocatedFrame& frame,
                         const std::vector<std::array<double, 2>>& residuals,
                         const std::vector<char>& is_outlier, const FitSetting& setting,
@@ -84,14 +86,14 @@ double gain_of_own_view(const LocatedFrame& frame,
         if (is_outlier[k]) continue;
         const double a = (frame.dots[k].pixel.u - (setting.width_px - 1) / 2.0) / reach_px;
         const double b = (frame.dots[k].pixel.v - (setting.height_px - 1) / 2.0) / reach_px;
-        // To first order, the parameters are place, turn, scale, shear, perspective.
+        // To first order, the parameters are place (2), turn, scale, shear (2) and perspective (2).
         equations.add(std::array{1.0, 0.0, -b, a, a, b, a * a, a * b}, residuals[k][0]);
         equations.add(std::array{0.0, 1.0, a, b, -b, a, a * b, b * b}, residuals[k][1]);
     }
     return equations.explained_squares() / (sigma_px * sigma_px);
 }
 
-/// Whether heights and tilts of the frames differ by more than noise explains.
+/// Returns true if the heights and tilts of the frames differ by more than noise explains.
 bool is_held_by_hand(const std::vector<LocatedFrame>& located, const FitSetting& setting,
                      const LensFit& mounted) {
     double gain = 0;
@@ -140,15 +142,14 @@ Camera camera_of(const LensFit& fit, const FitSetting& setting) {
     try {
         validate(camera);
     } catch (const BadArgument& error) {
-        throw Error(
-            fmt::format("these frames lead to no lens that could be ({}): take more, all "
-                        "over the sheet",
-                        error.what()));
+        throw Error(fmt::format(
+            "the frames give no plausible lens ({}): take more frames, all over the sheet",
+            error.what()));
     }
     return camera;
 }
 
-/// Whether all frames show about the same dots.
+/// Returns true if all frames show about the same dots.
 bool is_same_place(const std::vector<LocatedFrame>& located, const LensFit& fit,
                    double spacing_mm) {
     for (std::size_t i = 1; i < located.size(); ++i) {
@@ -175,8 +176,8 @@ void judge(bool is_same, LensCalibration& result) {
     };
     if (is_same) {
         say(CalibrationVerdict::same_place,
-            "all frames show the same dots, so that printing errors look like errors of the lens: "
-            "move the camera by some centimetres between frames");
+            "all frames show the same dots, so printing errors look like lens errors: move the "
+            "camera by some centimetres between frames");
     } else if (result.dot_width > kWidestDot) {
         say(CalibrationVerdict::out_of_focus,
             fmt::format("the dots are blurred to {:.0f} % of their spacing (sharp ones are 17 %): "
@@ -184,20 +185,21 @@ void judge(bool is_same, LensCalibration& result) {
                         100 * result.dot_width));
     } else if (result.located < kWantedFrames) {
         say(CalibrationVerdict::too_few_frames,
-            fmt::format("only {} different frames show the pattern: take {} to 50 at different "
-                        "places and angles",
+            fmt::format("only {} different frames show the pattern: take {} to 50 frames at "
+                        "different places and angles",
                         result.located, kWantedFrames));
     } else if (result.coverage < kLeastCoverage) {
         say(CalibrationVerdict::corners_unseen,
-            fmt::format("only {:.0f} % of the image ever shows dots, so that the lens is guessed "
-                        "elsewhere: see that the pattern fills the image, evenly lit",
-                        100 * result.coverage));
+            fmt::format(
+                "only {:.0f} % of the image shows dots in any frame, so the lens is not measured "
+                "elsewhere: make sure that the pattern fills the image and is evenly lit",
+                100 * result.coverage));
     } else {
         say(CalibrationVerdict::good, "use the file with 'dotpose locate --camera'");
     }
 }
 
-/// Fills in the calibration except for the verdict.
+/// Sets residuals, counts, scale, dots and coverage of the calibration.
 void describe(const std::vector<LocatedFrame>& located, const Fits& fits, LensCalibration& result) {
     result.is_mounted = fits.after.stand != Stand::by_hand;
     result.residual_before_px = fits.before.residual_px;
@@ -226,7 +228,7 @@ std::vector<LocatedFrame> read_first(int frames, Series& series, FrameReader& re
                                      LensCalibration& result) {
     std::vector<LocatedFrame> located;
     for (int i = 0; i < frames; ++i) {
-        const auto image = series.first_look(i);
+        const auto image = series.new_frame(i);
         if (!image) {
             ++result.duplicates;
         } else if (auto frame = reader.read(image->view())) {
@@ -242,14 +244,14 @@ std::vector<LocatedFrame> read_first(int frames, Series& series, FrameReader& re
     if (located.empty()) {
         throw Error(
             fmt::format("no pattern was found in any of the {} frames: look at one of them with "
-                        "'dotpose locate --draw', and see that the dots are in focus, dark on "
-                        "light, 6 to 60 px apart, and of this --code",
+                        "'dotpose locate --draw', and make sure that the dots are in focus, dark "
+                        "on light, 6 to 60 px apart, and of this --code",
                         frames));
     }
     if (located.size() == 1) {
         throw Error(
-            fmt::format("only 1 of {} frames shows a pattern that can be located: take {} "
-                        "to 50 at different places and angles",
+            fmt::format("only 1 of {} frames shows a pattern that can be located: take {} to 50 "
+                        "frames at different places and angles",
                         frames, kWantedFrames));
     }
     return located;
@@ -259,7 +261,7 @@ std::vector<LocatedFrame> read_again(const std::vector<LocatedFrame>& first, Ser
                                      FrameReader& reader) {
     std::vector<LocatedFrame> located;
     for (const LocatedFrame& before : first) {
-        auto frame = reader.read(series.look_again(before.index).view());
+        auto frame = reader.read(series.frame_again(before.index).view());
         located.push_back(frame ? std::move(*frame) : before);
         located.back().index = before.index;
         series.step();
@@ -293,8 +295,8 @@ LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
     if (frames < 1) throw BadArgument("no frames were given");
     if (frames == 1) {
         throw Error(
-            fmt::format("a single frame does not tell lens from print: take {} to 50 at "
-                        "different places and angles",
+            fmt::format("a single frame does not distinguish lens errors from printing errors: "
+                        "take {} to 50 frames at different places and angles",
                         kWantedFrames));
     }
     LensCalibration result;
@@ -307,7 +309,7 @@ LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
         places.push_back(frame.place);
     result.spacing_mm = printed_spacing_mm(options, reader.code(), places);
     const FitSetting setting{series.width_px, series.height_px, result.spacing_mm};
-    // Only with a known lens are dots found up to the corners.
+    // Dots in the corners are found only if the lens is known.
     reader.use_lens(lens_of(camera_of(fit_all(first, setting).after, setting)));
     auto located = read_again(first, series, reader);
     take_all_dots(fit_all(located, setting).after, setting, reader.code(), located);

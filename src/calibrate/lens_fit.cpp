@@ -13,29 +13,30 @@ namespace {
 
 constexpr int kLensRounds = 3;
 constexpr double kOutlier_sigmas = 4;
-/// Standard deviation of the residuals that is assumed before any is known.
+/// Assumed standard deviation of the residuals before the first fit.
 constexpr double kFirstSigma_px = 0.3;
-/// Prior knowledge of the camera, before the first frame: the distortion centre is within about 5 %
-/// of the image's diagonal from its centre, the field of view is about 55 degrees, pixels are
-/// square to 2 %. These priors matter only where the frames determine nothing: the centre without
-/// distortion, the focal length without tilt, the shape of pixels where the tilt never changes.
-constexpr double kCentrePrior = 0.1;  // reaches (half diagonals)
+/// Prior standard deviations of the camera. The distortion centre is within about 5 % of the image
+/// diagonal from the image centre, the field of view is about 55 degrees, and pixels are square to
+/// 2 %. The priors only matter for parameters that the frames do not determine: the centre of a
+/// lens without distortion, the focal length without tilt, and the shape of the pixels if the tilt
+/// never changes.
+constexpr double kCentrePrior = 0.1;  // in reaches (half diagonals)
 constexpr double kReachPerFocal = 0.5;
 constexpr double kReachPerFocalPrior = 0.5;
 constexpr double kSquarePrior = 0.02;
 
 /// One dot, as input of the residuals.
 struct Seen {
-    double u;  ///< reaches, from the image centre
+    double u;  ///< in reaches, from the image centre
     double v;
     double reach_px;
-    double nominal_x;  ///< mm, without its displacement
+    double nominal_x;  ///< mm, without the displacement
     double nominal_y;
     double displaced_x;  ///< mm per unit of displacement
     double displaced_y;
-    double mm_per_px;  ///< approximate
+    double mm_per_px;  ///< approximate scale
 
-    /// Returns undistorted px from the distortion centre.
+    /// Returns the undistorted position relative to the distortion centre, in px.
     template <typename T>
     std::array<T, 2> undistorted(const T* lens) const {
         const T x = u - lens[1] / reach_px;
@@ -43,8 +44,7 @@ struct Seen {
         const T stretch = reach_px / (1.0 + lens[0] * (x * x + y * y));  // eq. 2
         return {stretch * x, stretch * y};
     }
-    /// Returns the printed place in the coordinates of the frame's pose, in mm: relative to its
-    /// position and rotated by its negative angle.
+    /// Returns the printed position of the dot in the frame of the pose, in mm.
     template <typename T>
     std::array<T, 2> printed(const T& displacement, const T* pose) const {
         using std::cos;
@@ -57,12 +57,13 @@ struct Seen {
     }
 };
 
-/// The distance of a seen dot from its printed place, for a mounted camera.
+/// Distance between the position of a dot in the image and its printed position, in px, for a
+/// mounted camera.
 struct MountedResidual {
     Seen seen;
 
-    /// Returns the place in mm from the point under the distortion centre, along the image axes
-    /// there.
+    /// Returns the position on the paper in mm, relative to the point under the distortion centre
+    /// and along the image axes at that point.
     template <typename T>
     std::array<T, 2> on_paper(const T* lens, const T* paper) const {
         const auto [a, b] = seen.undistorted(lens);
@@ -80,8 +81,8 @@ struct MountedResidual {
     }
 };
 
-/// The distance of a seen dot from its printed place, for the camera of simulate.hpp, but with
-/// pixels that need not be square.
+/// Distance between the position of a dot in the image and its printed position, in px, for the
+/// camera model of simulate.hpp, extended by pixels that are not square.
 struct HandheldResidual {
     Seen seen;
 
@@ -97,8 +98,8 @@ struct HandheldResidual {
         const T sx = sin(pose[4]);
         const T cy = cos(pose[5]);
         const T sy = sin(pose[5]);
-        // The ray (a, b, focal) meets the paper at s (cy, sx sy, -cx sy) + t (0, cx, sx) + (0, 0,
-        // distance).
+        // The ray (a, b, focal) intersects the paper at s (cy, sx sy, -cx sy) + t (0, cx, sx) + (0,
+        // 0, distance).
         const T m00 = cy + a * per_focal * cx * sy;
         const T m01 = -a * per_focal * sx;
         const T m10 = sx * sy + b * per_focal * cx * sy;
@@ -117,7 +118,7 @@ struct HandheldResidual {
     }
 };
 
-/// The residual of a prior: weight * (parameter[index] - expected).
+/// Residual of a prior: weight * (parameter[index] - expected).
 template <int kSize>
 struct Prior {
     int index;
@@ -152,7 +153,8 @@ Seen seen_of(const LocatedDot& dot, const LocatedFrame& frame, const FitSetting&
             mm / frame.spacing_px};
 }
 
-/// Returns the best-fitting similarity from undistorted px to mm: place, turn, mm per px.
+/// Returns the pose of the best-fitting similarity from undistorted px to mm: place, turn, mm per
+/// px, and two tilts of 0.
 std::array<double, 6> first_pose(const LocatedFrame& frame, const FitSetting& setting,
                                  const SharedModel& camera) {
     using Complex = std::complex<double>;
@@ -212,7 +214,6 @@ class Fitter {
             ceres::Solve(options, &problem, &summary);
             evaluate();
             if (round == kLensRounds - 1) estimate_sigmas(problem);
-            // The median of the squared distances of a plane Gaussian is 1.39 sigma^2.
             sigma_px = mark_outliers();
         }
     }
@@ -259,7 +260,7 @@ class Fitter {
         }
     }
 
-    /// Sets the residuals, their sum of squares and the numbers of dots and parameters.
+    /// Sets the residuals, their sum of squares, and the numbers of dots and parameters.
     void evaluate() {
         const SharedModel& c = fit_.camera;
         fit_.squares_px2 = 0;
@@ -288,14 +289,15 @@ class Fitter {
         fit_.residual_px = std::sqrt(fit_.squares_px2 / freedom);
     }
 
-    /// Marks the outliers; returns the standard deviation of the residuals, in px.
+    /// Marks the outliers. Returns the standard deviation of the residuals, in px.
     double mark_outliers() {
         std::vector<double> squares;
         for (const auto& frame : fit_.residuals_px) {
             for (const auto& [du, dv] : frame)
                 squares.push_back(du * du + dv * dv);
         }
-        constexpr double kMedian = 1.386;  // median of the square of a plane Gaussian, in sigma^2
+        // Median of the squared length of a two-dimensional Gaussian vector, in sigma^2.
+        constexpr double kMedian = 1.386;
         const double variance = median_of(std::move(squares)) / kMedian;
         for (std::size_t i = 0; i < frames_.size(); ++i) {
             for (std::size_t k = 0; k < frames_[i].dots.size(); ++k) {

@@ -12,54 +12,56 @@ namespace dotpose::calibrate {
 
 /// How the camera was held over the paper.
 enum class Stand {
-    ideal,    ///< straight above, at one height, with a lens without distortion
-    mounted,  ///< at one height and tilt in all frames
-    by_hand,  ///< at its own height and tilt in each frame
+    ideal,    ///< camera perpendicular to the paper, at one height, without lens distortion
+    mounted,  ///< same height and tilt in all frames
+    by_hand,  ///< individual height and tilt in each frame
 };
 
-/// The parameters that all frames share; which of them are used depends on the stand. Lengths in
-/// the image are in px from the image centre; `reach` is half the image's diagonal.
+/// Parameters that all frames share. The stand determines which parameters are fitted. Lengths in
+/// the image are in px from the image centre; `reach` is half the diagonal of the image.
 struct SharedModel {
-    std::array<double, 3> lens{};          ///< k reach^2, distortion centre
-    std::array<double, 5> paper{};         ///< as PaperScale, with perspective times reach
-    std::array<double, 3> shape{0, 1, 0};  ///< by hand: reach / focal length, aspect, skew
-    double displacement = 1.0 / 6;         ///< displacement of the dots as seen, in spacings
+    std::array<double, 3> lens{};  ///< k reach^2, and the distortion centre in px
+    /// As in PaperScale, with the perspective multiplied by reach.
+    std::array<double, 5> paper{};
+    std::array<double, 3> shape{0, 1, 0};  ///< by hand only: reach / focal length, aspect, skew
+    double displacement = 1.0 / 6;         ///< displacement of the dots in the image, in spacings
 };
 
-/// The result of a fit.
+/// Result of a fit.
 struct LensFit {
     Stand stand = Stand::mounted;
     SharedModel camera;
-    SharedModel sigma;  ///< standard deviations
-    /// Covariance of `camera.lens` and `camera.paper`; only if mounted.
+    SharedModel sigma;  ///< standard deviations of `camera`
+    /// Covariance of `camera.lens` and `camera.paper`. Set only if the camera is mounted.
     Eigen::MatrixXd mounted_covariance;
-    /// By frame: place (mm, from the intersection where its steps start) and turn; by hand also mm
-    /// per px and tilt.
+    /// Pose of each frame: x and y in mm from the intersection where the steps of the frame start,
+    /// and turn in radians. By hand also mm per px and the two tilts in radians.
     std::vector<std::array<double, 6>> poses;
-    std::vector<std::vector<std::array<double, 2>>> residuals_px;  ///< by frame and dot
+    /// Residual of each dot of each frame.
+    std::vector<std::vector<std::array<double, 2>>> residuals_px;
     std::vector<std::vector<char>> is_outlier;
-    double squares_px2 = 0;  ///< sum over the dots used
+    double squares_px2 = 0;  ///< sum of the squared residuals of the dots used
     int dots = 0;            ///< number of dots used
     int parameters = 0;
-    double residual_px = 0;  ///< rms per axis, corrected for the parameters
+    double residual_px = 0;  ///< rms residual per axis, corrected for the number of parameters
 };
 
-/// The size of the image, and the spacing on the paper.
+/// Size of the image in px, and spacing on the paper in mm.
 struct FitSetting {
     int width_px = 0;
     int height_px = 0;
     double spacing_mm = 0;
-    /// Returns half the image's diagonal.
+    /// Returns half the diagonal of the image.
     double reach_px() const;
 };
 
-/// Fits camera and poses, starting from `start` if there is one. Dots more than four standard
-/// deviations off are left out.
+/// Fits camera and poses, beginning with `start` if it is given. Dots with residuals above four
+/// standard deviations are excluded.
 LensFit fit_lens(const std::vector<LocatedFrame>& frames, const FitSetting& setting, Stand stand,
                  const LensFit* start = nullptr);
 
-/// Returns where a pixel of a frame lies on the paper by the fit, in mm from the intersection where
-/// the frame's steps start.
+/// Returns the place on the paper that the fit assigns to a pixel of a frame, in mm from the
+/// intersection where the steps of the frame start.
 std::array<double, 2> place_on_paper(const LensFit& fit, std::size_t frame, PixelPoint pixel,
                                      const FitSetting& setting);
 

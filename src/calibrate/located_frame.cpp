@@ -7,14 +7,15 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Lenses that are tried if none is known, as k r^2 in the corner of the image.
+/// Lenses that are tried if the lens is not known, as k r^2 in the corner of the image.
 constexpr std::array kCornerStretches = {0.0, -0.06, -0.12, -0.18, -0.25, 0.06, 0.12};
 
-/// Returns the distance from the dots' centres, in spacings, at which they are half as dark as in
-/// the middle, from the mean profile of all dots.
+/// Returns the distance from the centre, in spacings, at which the mean radial profile of all dots
+/// has half of its darkness.
 double half_width(const ImageView& image, const std::vector<LocatedDot>& dots, double spacing_px) {
     constexpr int kBins = 10;
-    constexpr double kReach = 0.35;  // spacings; the next dot may be 2/3 away
+    // Maximum distance from the centre, in spacings. The next dot is at least 2/3 away.
+    constexpr double kReach = 0.35;
     std::array<double, kBins> sums{};
     std::array<double, kBins> counts{};
     const int reach_px = static_cast<int>(std::ceil(kReach * spacing_px));
@@ -81,7 +82,7 @@ std::optional<LocatedFrame> FrameReader::read(const ImageView& image) {
     for (const double stretch : kCornerStretches) {
         const FixedLens lens = FixedLens::from_k(stretch / (reach_px * reach_px));
         if (!locate_with(image, lens)) continue;
-        lens_ = lens;  // tried first with the next frame
+        lens_ = lens;  // tried first for the next frame
         return read_trace(image);
     }
     return std::nullopt;
@@ -97,7 +98,7 @@ bool FrameReader::locate_with(const ImageView& image, const FixedLens& lens) {
 LocatedFrame FrameReader::read_trace(const ImageView& image) const {
     const Trace trace = locator_.trace();
     const FixedLens& lens = trace.options.lens;
-    // The camera has the lens that was used, with its rounding.
+    // The lens of `locate`, including its rounding to fixed point.
     Camera used;
     used.k_per_px2 = lens.k_q40 * 0x1p-40;
     used.centre_px = {(image.width_px - 1) / 2.0 + lens.centre_dx_q8 / 256.0,

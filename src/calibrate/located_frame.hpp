@@ -11,44 +11,43 @@
 
 namespace dotpose::calibrate {
 
-/// A dot and its intersection.
+/// A measured dot and its intersection.
 struct LocatedDot {
     PixelPoint pixel;
-    FixedVec step;  ///< intersection, in spacings from the frame's `place`
+    FixedVec step;  ///< intersection, in spacings from `LocatedFrame::place`
     Symbol symbol = Symbol::up;
 };
 
-/// Returns the dots that `locate` read, as undistorted pixels; steps start at
+/// Returns the dots that `locate` read. Pixels are undistorted. Steps are relative to
 /// `trace.decoding.place`.
 std::vector<LocatedDot> dots_read(const Trace& trace);
 
-/// The dots of one frame.
+/// The dots of one frame. Pixels are those of the image, without correction of distortion.
 struct LocatedFrame {
-    int index = 0;                  ///< index of the frame
-    Place place;                    ///< place where the steps start
-    std::vector<LocatedDot> dots;   ///< pixels of the image, distorted
-    std::vector<PixelPoint> blobs;  ///< all blobs of a dot's size, in pixels of the image,
-                                    ///< distorted
-    double dot_width = 0;           ///< width at half depth, in spacings
+    int index = 0;                  ///< index of the frame in the series
+    Place place;                    ///< place of step (0, 0)
+    std::vector<LocatedDot> dots;   ///< dots of the code
+    std::vector<PixelPoint> blobs;  ///< all blobs with the size of a dot
+    double dot_width = 0;           ///< width of the dots at half their darkness, in spacings
     double spacing_px = 0;
 };
 
-/// Locates frames with a lens that may be known or unknown.
+/// Locates frames. If the lens is not known, tries several lenses.
 class FrameReader {
   public:
-    /// Without a code variant, it is found from the frames.
+    /// If `code` is empty, the reader detects the code variant from the frames.
     explicit FrameReader(std::optional<CodeVariant> code);
 
-    /// Sets the lens, which is known from now on.
+    /// Sets the lens for all following frames. No other lens is tried afterwards.
     void use_lens(const FixedLens& lens) {
         lens_ = lens;
         is_known_ = true;
     }
-    /// Returns the code variant of the frames, as far as it is known.
+    /// Returns the code variant that was given, or the most probable variant so far.
     CodeVariant code() const { return reader_.code(); }
-    /// Locates a frame; none if it cannot be located.
+    /// Locates a frame. Returns an empty optional if there is no fix.
     std::optional<LocatedFrame> read(const ImageView& image);
-    /// Returns what the stages left of the newest frame, with its fix.
+    /// Returns the results of the stages for the latest frame, including its fix.
     Trace trace() const { return locator_.trace(); }
 
   private:

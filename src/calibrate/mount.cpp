@@ -1,4 +1,5 @@
-// Finds where a camera sits on a robot, from a turn on the spot and from a straight drive.
+// Finds the position and direction of a camera on a robot, from a turn on the spot and from a
+// straight drive.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,32 +23,32 @@ using calibrate::NormalEquations;
 using calibrate::printed_spacing_mm;
 using Eigen::Vector2d;
 
-constexpr int kLeastSpinFrames = 3;
-constexpr double kLeastTurn_rad = std::numbers::pi / 6;
-constexpr double kLeastDrive_mm = 5;
-/// Greatest angle that a robot may turn, or its path may differ from the mean line, in a straight
-/// drive.
-constexpr double kMostSwerve_rad = std::numbers::pi / 36;
-/// Probability that a robot that stayed on the spot is taken for one that moved on while it turned.
+constexpr int kMinSpinFrames = 3;
+constexpr double kMinTurn_rad = std::numbers::pi / 6;
+constexpr double kMinDrive_mm = 5;
+/// Maximum angle, in a straight drive, by which the robot may turn or by which its path may deviate
+/// from the mean line.
+constexpr double kMaxSwerve_rad = std::numbers::pi / 36;
+/// Probability that noise of a robot that stays on the spot is taken for a drift.
 constexpr double kFalseDrift = 1e-3;
-/// Least number of frames from which a drift can be distinguished from noise.
-constexpr int kLeastDriftFrames = 5;
+/// Minimum number of frames that distinguish a drift from noise.
+constexpr int kMinDriftFrames = 5;
 
-/// Place (mm, from the first frame's cell) and angle of the image centre in one frame.
+/// Position (in mm from the cell of the first frame) and angle of the image centre in one frame.
 struct Station {
     Vector2d place_mm;
     double theta_rad = 0;
 };
 
-/// The stations of all frames that could be located.
+/// Stations of all frames with a fix.
 struct Stations {
-    Camera camera;  ///< without reference point and offset
+    Camera camera;  ///< without reference point and angle offset
     std::vector<Station> stations;
     double spacing_mm = 0;
-    double mm_per_px = 0;  ///< mean
+    double mm_per_px = 0;  ///< mean over the frames
 };
 
-/// Returns the steps from one cell to another, by the shorter way around the plane.
+/// Returns the number of steps from one cell to another, in the shorter direction around the plane.
 double steps(std::uint32_t from, std::uint32_t to) {
     return std::remainder(double(to) - double(from), double(kPositionsPerAxis));
 }
@@ -70,16 +71,15 @@ Camera without_distortion(const GreyImage& image) {
     return camera;
 }
 
-/// Throws Error if the camera file measures another spacing than that of the sheet.
+/// Throws Error if the spacing measured with the camera file contradicts the spacing of the sheet.
 void require_spacing(const std::vector<double>& measured_mm, double spacing_mm) {
     double mean_mm = 0;
     for (const double mm : measured_mm)
         mean_mm += mm / static_cast<double>(measured_mm.size());
     if (!contradicts(mean_mm, spacing_mm)) return;
     throw Error(fmt::format(
-        "the camera file measures a spacing of {:.3f} mm, and the sheet is said to have "
-        "{:g} mm: give its --spacing or --sheets, or calibrate the lens again; nothing "
-        "was written",
+        "the camera file measures a spacing of {:.3f} mm, but the spacing of the sheet is {:g} mm: "
+        "give its --spacing or --sheets, or calibrate the lens again; nothing was written",
         mean_mm, spacing_mm));
 }
 
@@ -125,7 +125,8 @@ Stations locate_stations(int frames, const FrameAt& frame_at, const std::optiona
     return result;
 }
 
-/// Returns the smallest arc that holds all angles: a full turn minus the widest gap.
+/// Returns the length of the smallest arc that contains all angles: a full turn minus the widest
+/// gap.
 double arc_of(const std::vector<Station>& stations) {
     std::vector<double> angles;
     for (const Station& station : stations)
@@ -137,8 +138,8 @@ double arc_of(const std::vector<Station>& stations) {
     return 2 * std::numbers::pi - widest;
 }
 
-/// Returns the undistorted pixel of a point given in mm from the point under the image centre,
-/// along the image axes there.
+/// Returns the undistorted pixel of a point. `offset_mm` is relative to the point under the image
+/// centre, along the image axes there.
 PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
     if (!stations.camera.paper) {
         const PixelPoint centre = image_centre(stations.camera);
@@ -148,8 +149,9 @@ PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
     return pixel_from_image_centre(stations.camera, {offset_mm.x(), offset_mm.y()});
 }
 
-/// Returns the standard deviation, per axis, of a point given in mm from the image centre, as far
-/// as it comes from the calibration of the lens: from place and direction of the image centre.
+/// Returns the standard deviation, per axis, of a point that is due to the calibration of the lens:
+/// to the errors of place and direction of the image centre. `offset_mm` is relative to the image
+/// centre.
 double sigma_of_lens_mm(const Camera& camera, const Vector2d& offset_mm) {
     const auto sigma = [&](const char* key) {
         const auto found = camera.sigma.find(key);
@@ -165,22 +167,24 @@ void require_stations(std::size_t found, int least, int frames) {
                             frames, least));
 }
 
-/// A turn about one point, by least squares: pivot + t drift - turn(theta) offset = place, which is
-/// linear in all three; t runs from -1 at the first frame to 1 at the last.
+/// Least-squares fit of a turn about one point: pivot + t drift - turn(theta) offset = place. The
+/// equation is linear in pivot, drift and offset. t increases from -1 at the first frame to 1 at
+/// the last frame.
 struct SpotTurn {
     Vector2d pivot;
-    Vector2d offset;          ///< from the image centre to the pivot, along the image axes
-    Vector2d drift;           ///< 0 for a robot that stays on the spot
-    double squares_mm2 = 0;   ///< sum of the squared residuals
-    double offset_share = 0;  ///< variance of the offset, per axis, relative to that of a place
+    Vector2d offset;         ///< from the image centre to the pivot, along the image axes
+    Vector2d drift;          ///< 0 for a robot that stays on the spot
+    double squares_mm2 = 0;  ///< sum of the squared residuals
+    /// Variance of the offset, per axis, relative to the variance of a place.
+    double offset_share = 0;
 };
 
-/// Returns t of a frame.
+/// Returns the time t of a frame, from -1 to 1.
 double time_of(std::size_t frame, const std::vector<Station>& stations) {
     return 2.0 * double(frame) / double(stations.size() - 1) - 1;
 }
 
-/// Returns where the turn expects a frame minus where the frame is.
+/// Returns the place of a frame predicted by the turn, minus its measured place.
 Vector2d residual_mm(const SpotTurn& spot_turn, std::size_t frame,
                      const std::vector<Station>& stations) {
     const Station& station = stations[frame];
@@ -188,7 +192,7 @@ Vector2d residual_mm(const SpotTurn& spot_turn, std::size_t frame,
            turned(station.theta_rad, spot_turn.offset) - station.place_mm;
 }
 
-/// Fits the turn of a robot that stays on the spot, or of one that also drifts.
+/// Fits the turn of a robot that stays on the spot or, if `has_drift`, drifts.
 SpotTurn fit_turn(const std::vector<Station>& stations, bool has_drift) {
     const std::size_t parameters = has_drift ? 6 : 4;  // pivot, offset, drift
     NormalEquations equations(static_cast<int>(parameters));
@@ -210,11 +214,11 @@ SpotTurn fit_turn(const std::vector<Station>& stations, bool has_drift) {
     return result;
 }
 
-/// Returns the error of the offset, per axis, from a drift of the robot; 0 if noise explains it.
-/// With two more parameters, the F test of m = 2 n - 6 degrees of freedom has the tail (squares
-/// with drift / squares without) ^ (m / 2).
+/// Returns the error of the offset, per axis, that a drift of the robot causes; 0 if noise explains
+/// the drift. The drift has two parameters, so the p-value of the F test with 2 and m = 2 n - 6
+/// degrees of freedom is (squares with drift / squares without drift) ^ (m / 2).
 double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on_the_spot) {
-    if (stations.size() < kLeastDriftFrames) return 0;
+    if (stations.size() < kMinDriftFrames) return 0;
     const SpotTurn drifting = fit_turn(stations, true);
     const auto half_m = static_cast<double>(stations.size() - 3);
     const double chance = std::pow(drifting.squares_mm2 / on_the_spot.squares_mm2, half_m);
@@ -222,34 +226,32 @@ double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on
     return (drifting.offset - on_the_spot.offset).norm() / std::numbers::sqrt2;
 }
 
-/// Throws Error unless the centre of rotation is good enough, by the pattern's own measure. A point
-/// that leaves its cell (residual above one spacing) did not stay where it was, and a reference
-/// uncertain by more than half a spacing does not even determine the cell that the robot stands on.
+/// Throws Error unless the centre of rotation is accurate enough compared with the spacing. A
+/// centre that leaves its cell (residual above one spacing) was not at rest. A centre with an
+/// uncertainty of more than half a spacing does not determine the cell under the robot.
 void require_spin(const SpinCalibration& spin, double spacing_mm) {
     if (spin.residual_mm > spacing_mm) {
         throw Error(
-            fmt::format("these are no frames of a turn on the spot: the point that stays put best "
-                        "moved by {:.2f} "
-                        "mm from frame to frame (rms per axis), and more than one spacing, {:.3f} "
-                        "mm, is not on "
-                        "the spot; nothing was written",
+            fmt::format("the frames do not show a turn on the spot: the centre of rotation moved "
+                        "by {:.2f} mm from frame to frame (rms per axis), and at most one spacing, "
+                        "{:.3f} mm, is permitted; nothing was written",
                         spin.residual_mm, spacing_mm));
     }
     if (spin.sigma_mm <= spacing_mm / 2) return;
     const std::string why = spin.drift_mm > 0
                                 ? "the robot moved on while it turned: turn it on the spot"
-                                : "turn farther, best all around, and take more frames";
-    throw Error(fmt::format(
-        "the frames do not tell the point that stays put: it is known to +- {:.2f} mm, and half a "
-        "spacing, {:.3f} mm, is needed; {}",
-        spin.sigma_mm, spacing_mm / 2, why));
+                                : "turn farther, preferably a full turn, and take more frames";
+    throw Error(
+        fmt::format("the frames do not determine the centre of rotation: it is known to +- {:.2f} "
+                    "mm, and half a spacing, {:.3f} mm, is needed; {}",
+                    spin.sigma_mm, spacing_mm / 2, why));
 }
 
-/// Returns the direction of the line that fits the places best, with the sense of `drive`: the
-/// major axis of their scatter.
+/// Returns the direction of the best-fitting line through the places: the major axis of their
+/// scatter, oriented like `drive`.
 Vector2d direction_of_line(const std::vector<Station>& stations, const Vector2d& mean,
                            const Vector2d& drive) {
-    double difference = 0;  // of the scatter along x and along y
+    double difference = 0;  // scatter along x minus scatter along y
     double product = 0;
     for (const Station& station : stations) {
         const Vector2d off = station.place_mm - mean;
@@ -261,20 +263,20 @@ Vector2d direction_of_line(const std::vector<Station>& stations, const Vector2d&
     return along.dot(drive) < 0 ? Vector2d(-along) : along;
 }
 
-/// Throws Error unless the frames are in the order of the drive, and none is farther off the line
-/// than a robot that turned by kMostSwerve_rad in the middle.
+/// Throws Error unless the frames are in the order of the drive, and all places are as close to the
+/// line as those of a robot that turned by at most kMaxSwerve_rad in the middle of the drive.
 void require_straight(const std::vector<Vector2d>& on_line, double length_mm) {
-    const double most_mm = std::tan(kMostSwerve_rad) * length_mm / 2;
+    const double max_mm = std::tan(kMaxSwerve_rad) * length_mm / 2;
     double farthest_mm = on_line.front().x();
     for (const Vector2d& place : on_line) {
-        if (std::abs(place.y()) > most_mm) {
+        if (std::abs(place.y()) > max_mm) {
             throw Error(fmt::format(
-                "the robot did not drive straight: it was {:.2f} mm off the line, more than {:.0f} "
-                "degrees from its middle; drive straight ahead",
-                std::abs(place.y()), kMostSwerve_rad * 180 / std::numbers::pi));
+                "the robot did not drive straight: it was {:.2f} mm off the line, which is more "
+                "than {:.0f} degrees as seen from the middle; drive straight ahead",
+                std::abs(place.y()), kMaxSwerve_rad * 180 / std::numbers::pi));
         }
         farthest_mm = std::max(farthest_mm, place.x());
-        if (farthest_mm - place.x() > most_mm) {
+        if (farthest_mm - place.x() > max_mm) {
             throw Error(
                 fmt::format("the robot went back by {:.2f} mm: drive straight ahead, and "
                             "name the frames in order",
@@ -293,16 +295,16 @@ SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
                                const CalibrateOptions& options) {
     const Stations found = locate_stations(frames, frame_at, camera, options);
-    require_stations(found.stations.size(), kLeastSpinFrames, frames);
+    require_stations(found.stations.size(), kMinSpinFrames, frames);
     SpinCalibration result;
     result.frames = frames;
     result.located = static_cast<int>(found.stations.size());
     result.turn_rad = arc_of(found.stations);
-    if (result.turn_rad < kLeastTurn_rad) {
+    if (result.turn_rad < kMinTurn_rad) {
         throw Error(fmt::format(
-            "the frames cover {:.0f} degrees of a turn: turn the robot on the "
-            "spot by at least {:.0f}, best all around",
-            result.turn_rad * 180 / std::numbers::pi, kLeastTurn_rad * 180 / std::numbers::pi));
+            "the frames cover {:.0f} degrees of a turn: turn the robot on the spot by at least "
+            "{:.0f} degrees, preferably a full turn",
+            result.turn_rad * 180 / std::numbers::pi, kMinTurn_rad * 180 / std::numbers::pi));
     }
     const SpotTurn fitted = fit_turn(found.stations, false);
     const Vector2d& offset = fitted.offset;
@@ -349,9 +351,9 @@ DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
     }
     const Vector2d drive = found.stations.back().place_mm - found.stations.front().place_mm;
     result.length_mm = drive.norm();
-    if (result.length_mm < kLeastDrive_mm) {
+    if (result.length_mm < kMinDrive_mm) {
         throw Error(
-            fmt::format("the robot moved by {:.1f} mm only: drive straight ahead for some "
+            fmt::format("the robot moved by only {:.1f} mm: drive straight ahead for some "
                         "centimetres, and name the frames in order",
                         result.length_mm));
     }
@@ -368,7 +370,8 @@ DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
     require_straight(on_line, result.length_mm);
     const double theta_rad = std::atan2(heading.y(), heading.x());
     result.residual_mm = std::sqrt(across_mm2 / count);
-    // Variances of the line's direction and of the mean angle are added.
+    // The variance of the angle is the sum of the variances of the line's direction and of the mean
+    // angle.
     const double line = result.residual_mm * result.residual_mm / along_mm2;
     double squares = 0;
     double swerve_rad = 0;
@@ -377,9 +380,9 @@ DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
         squares += off * off;
         swerve_rad = std::max(swerve_rad, std::abs(off));
     }
-    if (swerve_rad > kMostSwerve_rad) {
+    if (swerve_rad > kMaxSwerve_rad) {
         throw Error(fmt::format(
-            "the robot turned by {:.0f} degrees off its mean direction: drive straight ahead",
+            "the robot turned by {:.0f} degrees from its mean direction: drive straight ahead",
             swerve_rad * 180 / std::numbers::pi));
     }
     result.sigma_rad = std::sqrt(line + squares / (count * std::max(count - 1, 1.0)));

@@ -1,4 +1,4 @@
-// Fits the pose of a camera whose view of the paper is known: place, angle and scale, by least
+// Fits the pose (place, angle and scale) of a camera with a known view of the paper, by least
 // squares.
 #include "dotpose/tools/mounted_pose.hpp"
 
@@ -18,11 +18,11 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-constexpr std::size_t kLeastPoseDots = 12;
+constexpr std::size_t kMinPoseDots = 12;
 
-/// The equation of a dot: printed + displacement * displaced = place + (c, -s; s, c) (x, y). All
-/// lengths are in spacings of true length, except (x, y), in mm from `middle`. The parameters are
-/// place, c, s, and the displacement, which ink and blur change.
+/// Equation of a dot: printed + displacement * displaced = place + (c, -s; s, c) (x, y). (x, y) is
+/// in mm from `middle`. All other lengths are in spacings, corrected for the print scale. The
+/// parameters are place, c, s, and the displacement, which ink and blur change.
 constexpr int kParameters = 5;
 
 struct PoseFit : DotFit {
@@ -54,7 +54,7 @@ std::uint32_t to_bam(double angle_rad) {
     return static_cast<std::uint32_t>(std::llround(angle_rad * kBam_per_rad));
 }
 
-/// Writes x and y, in spacings from `place`, as cell and fraction.
+/// Sets cell and fraction of `fix` to the place (x, y), in spacings from `place`.
 void write_place(double x, double y, CodeVariant code, const Place& place, Fix& fix) {
     const auto x_q16 = std::llround(x * 65536);
     const auto y_q16 = std::llround(y * 65536);
@@ -66,8 +66,9 @@ void write_place(double x, double y, CodeVariant code, const Place& place, Fix& 
     fix.fraction_y_q16 = static_cast<std::uint16_t>(y_q16 & 65535);
 }
 
-/// Writes the covariance at the reference point (`x`, `y`), in mm from the middle of the dots. The
-/// variance of the angle is that on the paper, which is nearly that of the nominal angle.
+/// Sets the covariance at the reference point (`x`, `y`), in mm from the middle of the dots. The
+/// variance of the angle is that of the angle on the paper, which is nearly that of the nominal
+/// angle.
 void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& print, Fix& out) {
     const double c = fit.parameters[2];
     const double s = fit.parameters[3];
@@ -108,12 +109,12 @@ bool contradicts(double measured_mm, double spacing_mm) {
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const AxisScale& print) {
     if (fix.status != Status::ok) return fix;
     Fix result = fix;
-    // The angle on the paper; the nominal one differs a little where a print is longer along one
-    // axis.
+    // Angle on the paper. The nominal angle differs slightly if the print scales of the axes
+    // differ.
     double theta_rad =
         std::atan2(std::sin(fix.theta_rad()) * print.y, std::cos(fix.theta_rad()) * print.x);
     const auto dots = dots_read(trace);
-    if (camera.paper && dots.size() >= kLeastPoseDots) {
+    if (camera.paper && dots.size() >= kMinPoseDots) {
         const PoseFit pose = fit_pose(dots, camera, print);
         const PixelPoint reference{
             (camera.width_px - 1) / 2.0 + trace.options.reference_dx_q8 / 256.0,
@@ -128,8 +129,8 @@ Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const 
         result.dots_used = pose.dots;
         result.dots_seen = std::max(result.dots_seen, result.dots_used);
         result.residual_px = static_cast<float>(std::sqrt(pose.variance) * fix.spacing_px());
-        // The angle counts at the image centre; elsewhere, image rows of a tilted camera run in
-        // another direction.
+        // The angle is defined at the image centre. Elsewhere, the image rows of a tilted camera
+        // have another direction on the paper.
         const PixelPoint centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
         theta_rad =
             std::atan2(pose.parameters[3], pose.parameters[2]) + image_axis_rad(camera, centre);

@@ -12,22 +12,23 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// The part of J^T J that belongs to one block that is not shared.
-struct Own {
-    Index begin;  ///< first column of the block
-    MatrixXd with_shared;
-    MatrixXd with_itself;
+/// Part of J^T J of one block that is not shared.
+struct UnsharedBlock {
+    Index begin;           ///< first column of the block
+    MatrixXd with_shared;  ///< products with the shared columns
+    MatrixXd squares;      ///< products within the block
 };
 
-/// J^T J without the parts that are 0.
+/// J^T J, without the products of two different blocks that are not shared, which are 0.
 struct Normal {
-    ceres::CRSMatrix jacobian;  ///< the columns of the shared blocks come first
+    ceres::CRSMatrix jacobian;  ///< columns of the shared blocks come first
     MatrixXd shared;
-    std::vector<Own> owns;
-    std::vector<std::size_t> own_of_column;  ///< by column, for those that are not shared
+    std::vector<UnsharedBlock> unshared;
+    /// Index in `unshared` of each column after the shared columns.
+    std::vector<std::size_t> block_of_column;
 };
 
-/// Calls `work(column, value)` for each element of one row of the Jacobian.
+/// Calls `work(column, value)` for each stored element of one row of the Jacobian.
 template <typename Work>
 void for_each_in_row(const ceres::CRSMatrix& matrix, std::size_t row, Work work) {
     for (auto i = static_cast<std::size_t>(matrix.rows[row]);
@@ -44,9 +45,10 @@ void add_squares(Normal& normal) {
                 const double product = value_a * value_b;
                 if (a < size && b < size) normal.shared(a, b) += product;
                 if (a < size) return;
-                Own& own = normal.owns[normal.own_of_column[static_cast<std::size_t>(a - size)]];
-                if (b < size) own.with_shared(a - own.begin, b) += product;
-                if (b >= size) own.with_itself(a - own.begin, b - own.begin) += product;
+                UnsharedBlock& block =
+                    normal.unshared[normal.block_of_column[static_cast<std::size_t>(a - size)]];
+                if (b < size) block.with_shared(a - block.begin, b) += product;
+                if (b >= size) block.squares(a - block.begin, b - block.begin) += product;
             });
         });
     }
@@ -63,10 +65,11 @@ Normal normal_of(ceres::Problem& problem, const std::vector<double*>& shared) {
     normal.shared = MatrixXd::Zero(size, size);
     for (double* block : blocks) {
         const Index width = problem.ParameterBlockSize(block);
-        const Index begin = size + static_cast<Index>(normal.own_of_column.size());
-        normal.own_of_column.insert(normal.own_of_column.end(), static_cast<std::size_t>(width),
-                                    normal.owns.size());
-        normal.owns.push_back({begin, MatrixXd::Zero(width, size), MatrixXd::Zero(width, width)});
+        const Index begin = size + static_cast<Index>(normal.block_of_column.size());
+        normal.block_of_column.insert(normal.block_of_column.end(), static_cast<std::size_t>(width),
+                                      normal.unshared.size());
+        normal.unshared.push_back(
+            {begin, MatrixXd::Zero(width, size), MatrixXd::Zero(width, width)});
     }
     ceres::Problem::EvaluateOptions options;
     options.parameter_blocks = shared;
@@ -76,15 +79,16 @@ Normal normal_of(ceres::Problem& problem, const std::vector<double*>& shared) {
     return normal;
 }
 
-/// Returns how the best values of a block follow the shared ones, with opposite sign.
-MatrixXd following(const Own& own) {
-    return inverse_of(own.with_itself) * own.with_shared;
+/// Returns the negated derivative of the best values of a block with respect to the shared
+/// parameters.
+MatrixXd negated_gain(const UnsharedBlock& block) {
+    return inverse_of(block.squares) * block.with_shared;
 }
 
 MatrixXd inverse_of_shared(const Normal& normal) {
     MatrixXd left = normal.shared;
-    for (const Own& own : normal.owns)
-        left -= own.with_shared.transpose() * following(own);
+    for (const UnsharedBlock& block : normal.unshared)
+        left -= block.with_shared.transpose() * negated_gain(block);
     return inverse_of(left);
 }
 
@@ -97,9 +101,9 @@ MatrixXd normal_inverse(ceres::Problem& problem, const std::vector<double*>& sha
 MatrixXd normal_gain(ceres::Problem& problem, const std::vector<double*>& shared) {
     const Normal normal = normal_of(problem, shared);
     const Index size = normal.shared.rows();
-    std::vector<MatrixXd> followings;
-    for (const Own& own : normal.owns)
-        followings.push_back(following(own));
+    std::vector<MatrixXd> negated_gains;
+    for (const UnsharedBlock& block : normal.unshared)
+        negated_gains.push_back(negated_gain(block));
     MatrixXd left = MatrixXd::Zero(size, normal.jacobian.num_rows);
     for (Index row = 0; row < left.cols(); ++row) {
         for_each_in_row(
@@ -108,9 +112,10 @@ MatrixXd normal_gain(ceres::Problem& problem, const std::vector<double*>& shared
                     left(column, row) += value;
                     return;
                 }
-                const auto own = normal.own_of_column[static_cast<std::size_t>(column - size)];
+                const auto block = normal.block_of_column[static_cast<std::size_t>(column - size)];
                 left.col(row) -=
-                    value * followings[own].row(column - normal.owns[own].begin).transpose();
+                    value *
+                    negated_gains[block].row(column - normal.unshared[block].begin).transpose();
             });
     }
     return inverse_of_shared(normal) * left;

@@ -1,4 +1,4 @@
-// Normal inverse: covariances of problems that share a few parameters among many poses.
+// Normal inverse: covariances for problems with a few parameters that many poses share.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,14 @@
 
 namespace dotpose::calibrate {
 
-/// Returns the block of (J^T J)^-1 that belongs to the shared blocks of parameters, in their order.
-/// No residual may depend on more than one of the other blocks. ceres::Covariance would take a
-/// minute for these problems.
+/// Returns the block of (J^T J)^-1 for the shared parameter blocks, in the order of `shared`. A
+/// residual may depend on at most one block that is not shared. ceres::Covariance needs a minute
+/// for these problems.
 Eigen::MatrixXd normal_inverse(ceres::Problem& problem, const std::vector<double*>& shared);
 
-/// Returns how much the best values of the shared blocks change with each residual, in the order in
-/// which residuals were added. This matrix times its transpose is `normal_inverse`.
+/// Returns the derivative of the solution for the shared blocks with respect to the residuals, in
+/// the order in which the residuals were added. This matrix times its transpose is
+/// `normal_inverse`.
 Eigen::MatrixXd normal_gain(ceres::Problem& problem, const std::vector<double*>& shared);
 
 }  // namespace dotpose::calibrate

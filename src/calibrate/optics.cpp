@@ -11,11 +11,11 @@ namespace dotpose {
 namespace {
 
 constexpr double kRadPerS_per_rpm = 2 * std::numbers::pi / 60;
-/// Limits of what `locate` reads.
-constexpr double kLeastSpacing_px = 6;
+/// Limits of the images that `locate` reads.
+constexpr double kMinSpacing_px = 6;
 constexpr double kGoodSpacing_px = 8;
-constexpr double kMostSpacing_px = 60;
-constexpr double kLeastDot_px = 1.5;
+constexpr double kMaxSpacing_px = 60;
+constexpr double kMinDot_px = 1.5;
 
 void require(bool is_good, std::string_view what) {
     if (!is_good) throw BadArgument(std::string(what));
@@ -48,7 +48,7 @@ void set_field(const Optics& o, OpticsReport& r) {
     r.dots_in_view = r.field_width_mm * r.field_height_mm / (o.spacing_mm * o.spacing_mm);
 }
 
-/// Sets whether 8 x 8 dots fit into the field, by paper III-A.3.
+/// Computes whether 8 x 8 dots fit into the field (paper III-A.3).
 void set_block(const Optics& o, OpticsReport& r) {
     const double side_mm = o.spacing_mm * (7 + 2.0 / 6) + o.dot_mm;
     r.block_diagonal_mm = std::numbers::sqrt2 * side_mm;
@@ -58,8 +58,8 @@ void set_block(const Optics& o, OpticsReport& r) {
     r.block_fits_anywhere = shorter_mm >= r.block_anywhere_mm;
 }
 
-/// Sets the limits of motion, by paper III-A.2: blur along the image axes; in a turn the middle of
-/// the far edge is fastest.
+/// Computes the limits of motion (paper III-A.2). Blur is measured along the image axes. In a turn,
+/// the middle of the far edge of the field is fastest.
 void set_motion(const Optics& o, OpticsReport& r) {
     const double blur_mm = o.largest_blur_px * r.mm_per_px;
     const double radius_mm = std::max(r.field_width_mm, r.field_height_mm) / 2;
@@ -70,7 +70,7 @@ void set_motion(const Optics& o, OpticsReport& r) {
     r.blur_px = motion_mm_s * o.exposure_s / r.mm_per_px;
 }
 
-/// Sets the distances at which the blur of a point on the sensor is one pixel wide.
+/// Computes the distances at which the blur of a point is one pixel wide on the sensor.
 void set_depth(const Optics& o, OpticsReport& r) {
     const double squared = o.focal_mm * o.focal_mm;
     const double spread = o.f_number * o.pixel_um / 1000 * (o.distance_mm - o.focal_mm);
@@ -82,27 +82,27 @@ void advise_on_scale(const Optics& o, OpticsReport& r) {
     const auto say = [&r](bool is_fault, std::string text) {
         r.advice.push_back({is_fault, std::move(text)});
     };
-    // Returns the distance at which the spacing has `px` pixels.
+    // Returns the distance at which the spacing is `px` pixels.
     const auto distance_mm = [&](double px) {
         return o.focal_mm * (1 + o.spacing_mm / px / (o.pixel_um / 1000));
     };
-    if (r.px_per_spacing < kLeastSpacing_px) {
+    if (r.px_per_spacing < kMinSpacing_px) {
         say(true,
             fmt::format("{:.1f} px from dot to dot are too few: at least {:g} are needed, {:g} are "
                         "good; go closer ({:.1f} mm), or take more pixels or a longer lens",
-                        r.px_per_spacing, kLeastSpacing_px, kGoodSpacing_px,
+                        r.px_per_spacing, kMinSpacing_px, kGoodSpacing_px,
                         distance_mm(kGoodSpacing_px)));
     } else if (r.px_per_spacing < kGoodSpacing_px) {
         say(false, fmt::format("{:.1f} px from dot to dot are enough only with sharp, even images; "
                                "{:g} are good ({:.1f} mm away)",
                                r.px_per_spacing, kGoodSpacing_px, distance_mm(kGoodSpacing_px)));
-    } else if (r.px_per_spacing > kMostSpacing_px) {
+    } else if (r.px_per_spacing > kMaxSpacing_px) {
         say(true, fmt::format("{:.1f} px from dot to dot are more than {:g}: bin pixels",
-                              r.px_per_spacing, kMostSpacing_px));
+                              r.px_per_spacing, kMaxSpacing_px));
     }
-    if (r.px_per_dot < kLeastDot_px) {
+    if (r.px_per_dot < kMinDot_px) {
         say(true,
-            fmt::format("a dot of {:.1f} px is hardly seen: print larger dots", r.px_per_dot));
+            fmt::format("a dot of {:.1f} px is hardly visible: print larger dots", r.px_per_dot));
     }
 }
 
@@ -114,17 +114,16 @@ void advise(const Optics& o, OpticsReport& r) {
     const double shorter_mm = std::min(r.field_width_mm, r.field_height_mm);
     if (!r.block_fits) {
         say(true,
-            fmt::format(
-                "8 x 8 dots do not fit at every angle: the shorter side of the field is "
-                "{:.2f} mm, {:.2f} mm are needed; see more of the paper (shorter lens, more "
-                "distance, larger sensor) or print a spacing of {:.3f} mm",
-                shorter_mm, r.block_diagonal_mm, o.spacing_mm * shorter_mm / r.block_diagonal_mm));
+            fmt::format("8 x 8 dots do not fit at every angle: the shorter side of the field is "
+                        "{:.2f} mm, {:.2f} mm are needed; enlarge the field (shorter focal length, "
+                        "more distance, larger sensor) or print a spacing of {:.3f} mm",
+                        shorter_mm, r.block_diagonal_mm,
+                        o.spacing_mm * shorter_mm / r.block_diagonal_mm));
     } else if (!r.block_fits_anywhere) {
-        say(false,
-            fmt::format("8 x 8 dots fit at every angle only if the grid lies well: for every "
-                        "place at 45 degrees the field would need {:.2f} mm; dotpose reads "
-                        "all dots in view, not just 8 x 8",
-                        r.block_anywhere_mm));
+        say(false, fmt::format("8 x 8 dots fit at every angle, but not at every position of the "
+                               "grid: at 45 degrees, the field would need {:.2f} mm; dotpose reads "
+                               "all dots in view, not just 8 x 8",
+                               r.block_anywhere_mm));
     }
     if (r.blur_px > o.largest_blur_px) {
         say(true,
@@ -132,12 +131,12 @@ void advise(const Optics& o, OpticsReport& r) {
                         "{:.1f} times the light",
                         r.blur_px, 1 / r.longest_exposure_s, r.blur_px / o.largest_blur_px));
     }
-    constexpr double kLeastDepth_mm = 0.5;
-    if (r.depth_mm() < kLeastDepth_mm) {
+    constexpr double kMinDepth_mm = 0.5;
+    if (r.depth_mm() < kMinDepth_mm) {
         say(true,
-            fmt::format("the image is sharp over {:.2f} mm of height only: close the aperture "
-                        "to f/{:.1f}",
-                        r.depth_mm(), o.f_number * kLeastDepth_mm / r.depth_mm()));
+            fmt::format(
+                "the image is sharp over only {:.2f} mm of height: close the aperture to f/{:.1f}",
+                r.depth_mm(), o.f_number * kMinDepth_mm / r.depth_mm()));
     }
     if (r.advice.empty()) say(false, "nothing needs to be changed");
 }

@@ -14,16 +14,16 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Greatest relative standard deviation of a focal length that is worth reporting.
-constexpr double kWorthTelling = 0.15;
+/// Maximum relative standard deviation of a reported focal length.
+constexpr double kMaxFocalError = 0.15;
 
-/// The difference between a view (PaperScale, perspective times reach) and that of a tilted camera
-/// with square pixels.
+/// Difference between a measured view (PaperScale, with the perspective multiplied by reach) and
+/// the view of a tilted camera with square pixels.
 struct TiltResidual {
     std::array<double, 5> seen;
     Eigen::MatrixXd whitening;
 
-    /// `tilt`: mm per px, angle about x, angle about y, reach / focal length.
+    /// `tilt` contains mm per px, angle about x, angle about y, and reach / focal length.
     template <typename T>
     bool operator()(const T* tilt, T* residual) const {
         using std::cos;
@@ -33,17 +33,18 @@ struct TiltResidual {
         const T sx = sin(tilt[1]);
         const T cy = cos(tilt[2]);
         const T sy = sin(tilt[2]);
-        // As in simulate.hpp, the paper's axes are s = (cy, sx sy, -cx sy) and t = (0, cx, sx). At
-        // the centre, (s, t) per px to the right is (1, -sx sy / cx) / cy, and per px down (0, 1 /
-        // cx), each times mm per px; the paper's x axis is then turned onto the first.
+        // As in simulate.hpp, the axes of the paper are s = (cy, sx sy, -cx sy) and t = (0, cx,
+        // sx). At the centre, one px to the right is (s, t) = mm per px * (1, -sx sy / cx) / cy,
+        // and one px down is mm per px * (0, 1 / cx). The x axis of the paper is then rotated onto
+        // the first vector.
         const T right_s = 1.0 / cy;
         const T right_t = -sx * sy / (cx * cy);
         const T down_t = 1.0 / cx;
         const T length = sqrt(right_s * right_s + right_t * right_t);
         const T down_along = down_t * right_t / length;
         const T down_across = down_t * right_s / length;
-        // Depth is 1 + (z_s s + z_t t) / distance; the divisor of the view is its inverse, which
-        // turns the signs of the perspective.
+        // The depth is 1 + (z_s s + z_t t) / distance. The divisor of the view is its inverse, so
+        // the perspective has the opposite sign.
         const T per_px_u = tilt[3] * (-cx * sy * right_s + sx * right_t);
         const T per_px_v = tilt[3] * (sx * down_t);
         const T view[5] = {tilt[0] * length, tilt[0] * down_across, down_along / length, -per_px_u,
@@ -60,8 +61,9 @@ struct TiltResidual {
 /// Place (x, y in mm) and direction (radians) of the image centre.
 using CentrePose = std::array<double, 3>;
 
-/// Returns the pose of the image centre of `camera`, after its view is laid onto that of `other` in
-/// the same pixels by place, angle and scale, as `with_camera` does.
+/// Returns the pose of the image centre of `camera` relative to the view of `other`. As in
+/// `with_camera`, place, angle and scale align the view of `camera` with that of `other` in the
+/// same pixels.
 CentrePose centre_pose(const Camera& camera, const Camera& other) {
     using Point = std::complex<double>;
     const auto seen = [](const Camera& by, PixelPoint straight) {
@@ -94,7 +96,7 @@ CentrePose centre_pose(const Camera& camera, const Camera& other) {
     return {at.real(), at.imag(), std::arg(turn) + image_axis_rad(camera, centre)};
 }
 
-/// Returns the camera with one parameter of `LensFit::mounted_covariance` moved by a step.
+/// Returns the camera with one parameter of `LensFit::mounted_covariance` changed by `step`.
 Camera with_moved(Camera camera, Eigen::Index parameter, double step, double reach_px) {
     PaperScale& paper = camera.paper.value();
     const std::array<double*, 8> values = {
@@ -125,7 +127,8 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
 
     const auto residual =
         new TiltResidual{paper, whitening_of(fit.mounted_covariance.bottomRightCorner(5, 5))};
-    // Perspective is tilt over focal length; half a reach per focal length is typical of lenses.
+    // Start: the perspective is the tilt divided by the focal length, and half a reach per focal
+    // length is typical of lenses.
     std::array tilt{std::sqrt(paper[0] * paper[1]), -2 * paper[4], 2 * paper[3], 0.5};
     ceres::Problem problem;
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<TiltResidual, 5, 4>(residual), nullptr,
@@ -138,7 +141,7 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
     ceres::Solve(options, &problem, &summary);
     const Eigen::MatrixXd covariance = normal_inverse(problem, {tilt.data()});
     const double share = std::sqrt(covariance(3, 3)) / std::abs(tilt[3]);
-    if (!(tilt[3] > 0 && share < kWorthTelling)) return;
+    if (!(tilt[3] > 0 && share < kMaxFocalError)) return;
     camera.focal_px = reach_px / tilt[3];
     camera.sigma["focal_px"] = *camera.focal_px * share;
     camera.tilt = Tilt{tilt[1], tilt[2]};
@@ -147,7 +150,8 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
 }
 
 void describe_centre(const LensFit& fit, double reach_px, Camera& camera) {
-    // The step is so small that differences are derivatives, for any parameter.
+    // Step of the difference quotients, in standard deviations. It is so small that they are
+    // derivatives for all parameters.
     constexpr double kStep_sigmas = 0.01;
     const CentrePose here = centre_pose(camera, camera);
     Eigen::MatrixXd derivative(3, 8);
@@ -165,7 +169,7 @@ void describe_centre(const LensFit& fit, double reach_px, Camera& camera) {
 void describe_handheld(const LensFit& fit, double reach_px, Camera& camera) {
     const double reach_per_focal = fit.camera.shape[0];
     const double share = fit.sigma.shape[0] / reach_per_focal;
-    if (!(reach_per_focal > 0 && share < kWorthTelling)) return;
+    if (!(reach_per_focal > 0 && share < kMaxFocalError)) return;
     camera.focal_px = reach_px / reach_per_focal;
     camera.sigma["focal_px"] = *camera.focal_px * share;
 }

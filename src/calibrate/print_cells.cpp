@@ -10,18 +10,18 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Outer lines of cells belong to a field if at least this share of their cells, and
-/// kLeastRightShare of their dots, read right.
-constexpr double kLeastLineShare = 0.5;
-/// They must also have more than this share of the dots of the longest line.
-constexpr double kLeastLength = 0.15;
+/// Minimum number of correct dots of an outer line of a field, as a fraction of its cells.
+constexpr double kMinLineShare = 0.5;
+/// Minimum number of correct dots of an outer line, as a fraction of the correct dots of the
+/// longest line (exclusive).
+constexpr double kMinLength = 0.15;
 
-/// Least share of the dots of a line that must read right. A quarter would by chance, and half of
-/// them in another region if its columns happen to agree.
-constexpr double kLeastRightShare = 0.7;
+/// Minimum number of correct dots of an outer line, as a fraction of its dots. By chance a quarter
+/// of the dots are correct, and in another region half of them if the columns happen to agree.
+constexpr double kMinRightShare = 0.7;
 
-/// Returns the located tiles by whose maps the cells of a tile are found: its own; if it was not
-/// located, those around it, because a tile that shows only the edge of a field has no fix.
+/// Returns the located tiles whose maps predict the cells of a tile: the tile itself or, if it has
+/// no fix, its neighbours. A tile that shows only the edge of a field has no fix.
 std::vector<const LocatedTile*> views_of(int tile, const Tiling& tiling, const Field& field) {
     if (const auto& own = field.tiles[static_cast<std::size_t>(tile)]) return {&*own};
     std::vector<const LocatedTile*> views;
@@ -36,7 +36,7 @@ std::vector<const LocatedTile*> views_of(int tile, const Tiling& tiling, const F
     return views;
 }
 
-/// Whether no other of the views is nearer to a cell than `view`.
+/// Returns true if no other view is nearer to the cell than `view`.
 bool is_nearest(const LocatedTile& view, const SeenCell& cell,
                 const std::vector<const LocatedTile*>& views) {
     const Vector2d pixel = view.map.pixel(Vector2d(cell.x, cell.y));
@@ -46,7 +46,7 @@ bool is_nearest(const LocatedTile& view, const SeenCell& cell,
     });
 }
 
-/// Returns the rectangle of cells that the maps of a field can reach, none of them seen yet.
+/// Returns the rectangle of all cells that the maps of a field can reach, without measurements.
 CellGrid empty_grid(const Tiling& tiling, const Field& field) {
     Vector2d low = Vector2d::Constant(1e18);
     Vector2d high = -low;
@@ -79,14 +79,14 @@ CellGrid empty_grid(const Tiling& tiling, const Field& field) {
     return grid;
 }
 
-/// Counts of a column or row: cells that were measured, dots among them, and dots that read right.
+/// Counts of the cells of a column or row: measured cells, cells with a dot, and correct dots.
 struct Coverage {
     int seen = 0;
     int dots = 0;
     int right = 0;
 };
 
-/// Removes outer columns and rows from a grid until the outermost ones read right.
+/// Removes outer columns and rows from a grid until all four outer lines belong to the field.
 class Trimmer {
   public:
     Trimmer(const CellGrid& grid, const std::vector<bool>& seen) : grid_(grid), seen_(seen) {
@@ -115,8 +115,8 @@ class Trimmer {
 
   private:
     /// Removes the worst of the four outer lines that do not belong to the field. Returns false if
-    /// all of them do. One after the other, because a column of the field reads wrong as long as it
-    /// continues through many rows beside the field.
+    /// all four belong to the field. Only one line is removed at a time, because a column of the
+    /// field has many wrong dots as long as it includes rows beside the field.
     bool remove_worst_line() {
         struct Outer {
             Coverage line;
@@ -132,7 +132,7 @@ class Trimmer {
         double worst_share = 1;
         for (const Outer& one : outer) {
             if (is_enough(one.line, one.longest)) continue;
-            // The share of a short line says little.
+            // The fraction of correct dots of a short line is not significant.
             const double share =
                 is_long(one.line, one.longest) ? double(one.line.right) / one.line.seen : 0;
             if (worst != nullptr && share >= worst_share) continue;
@@ -165,13 +165,13 @@ class Trimmer {
     }
 
     static bool is_long(const Coverage& line, int longest) {
-        return line.right > kLeastLength * longest;
+        return line.right > kMinLength * longest;
     }
-    /// Whether a line belongs to the field; a few cells of a cut-off line, or of other print, are
-    /// not enough.
+    /// Returns true if a line belongs to the field. A few correct cells of a cropped line or of
+    /// other print are not enough.
     static bool is_enough(const Coverage& line, int longest) {
-        return line.right >= kLeastLineShare * line.seen &&
-               line.right >= kLeastRightShare * line.dots && is_long(line, longest);
+        return line.right >= kMinLineShare * line.seen &&
+               line.right >= kMinRightShare * line.dots && is_long(line, longest);
     }
 
     const CellGrid& grid_;
@@ -199,7 +199,8 @@ CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field&
                 const std::int64_t j = std::int64_t{cell.y} - grid.origin.y;
                 if (i < 0 || j < 0 || i >= grid.columns || j >= grid.rows) continue;
                 const auto index = static_cast<std::size_t>(j * grid.columns + i);
-                // Tiles overlap by half a cell; a cell that reads right in one of them counts.
+                // Neighbouring tiles share cells along their border. A correct measurement takes
+                // precedence.
                 if (!grid.cells[index].is_right()) grid.cells[index] = cell;
                 seen[index] = true;
             }

@@ -7,12 +7,12 @@
 
 namespace dotpose::calibrate {
 
-/// The cells of a field: a rectangle of the code, row by row.
+/// Cells of a field: a rectangle of the code, row by row.
 struct CellGrid {
     Cell origin;
     int columns = 0;
     int rows = 0;
-    std::vector<SeenCell> cells;  ///< cells that were not measured have no dot
+    std::vector<SeenCell> cells;  ///< a cell that was not measured has no dot
 
     const SeenCell& at(int i, int j) const {
         return cells[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
@@ -20,8 +20,8 @@ struct CellGrid {
     }
 };
 
-/// Measures all cells of a field. Outer columns and rows of which less than half reads right are
-/// left out. If nothing is left, the grid has no columns.
+/// Measures all cells of a field. Outer columns and rows are removed until the outermost lines
+/// belong to the field. If nothing remains, the grid has no columns.
 CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field& field);
 
 }  // namespace dotpose::calibrate

@@ -10,25 +10,26 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::array kSymbols = {Symbol::up, Symbol::left, Symbol::right, Symbol::down};
-/// Greatest distance of ink from its intersection, in spacings; farther ink belongs to another dot.
-constexpr double kFarthest = 0.42;
-/// Least darkness of a dot, as a share of that of a typical one.
-constexpr double kLeastShare = 0.35;
-/// Share of a dot's darkness that is subtracted before its centroid is computed: noise and ringing
-/// of JPEG.
+/// Maximum distance of a dot from its intersection along x and y, in spacings. Ink at a larger
+/// distance belongs to another dot.
+constexpr double kMaxOffset = 0.42;
+/// Minimum darkness of a dot, relative to a typical dot.
+constexpr double kMinShare = 0.35;
+/// Level, relative to the darkness of a dot, that is subtracted before the centroid is computed. It
+/// removes noise and JPEG ringing.
 constexpr double kFloorShare = 0.15;
-/// Radius, in spacings, within which a dot is summed up: half the way to the nearest possible dot.
+/// Radius of the sums over a dot, in spacings: half the distance to the nearest possible dot.
 constexpr double kReach = 1.0 / 3;
-/// Other print, such as text or pictures, is assumed where a cell's border is darker than this
-/// share of a dot's darkness, and darker than this number of standard deviations of blank paper.
+/// Minimum darkness of other print, such as text or pictures, on the border of a cell: relative to
+/// the darkness of a dot, and in standard deviations of blank paper. Both limits apply.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
-/// Displacement by which the levels are measured, in spacings; it need not be exact.
+/// Displacement for the measurement of levels, in spacings. It need not be exact.
 constexpr double kUsualDisplacement = 1.0 / 6;
 constexpr int kCentrings = 4;
 constexpr double kCentred_px = 0.01;
 
-/// Returns the median; reorders the values.
+/// Returns the median. Reorders the values.
 double median(std::vector<double>& values) {
     if (values.empty()) return 0;
     const auto middle = values.begin() + static_cast<long>(values.size() / 2);
@@ -36,8 +37,10 @@ double median(std::vector<double>& values) {
     return *middle;
 }
 
-/// Removes the levels of grey areas beside the paper from sorted levels at the corners of cells, of
-/// which a quarter must show paper: those below a normal distribution with these quantiles.
+/// Removes the levels of grey areas beside the paper from the sorted levels at the corners of
+/// cells. Assumes that at least a quarter of the levels are paper. Estimates their standard
+/// deviation from the quantiles of 75 % and 95 %, and removes levels more than kSigmas standard
+/// deviations below the quantile of 75 %.
 void keep_paper(std::vector<double>& levels) {
     constexpr double kSigmas = 3.6;
     constexpr double kSigmasPerRange = 1.6449 - 0.6745;
@@ -79,7 +82,7 @@ struct CellRange {
     std::int64_t y_end = 0;
 };
 
-/// Returns the cells that may lie in a rectangle.
+/// Returns the range of cells that may be inside a rectangle.
 CellRange cells_in(const PixelRect& rect, const TileMap& map) {
     Vector2d low = Vector2d::Constant(1e18);
     Vector2d high = -low;
@@ -99,7 +102,7 @@ CellRange cells_in(const PixelRect& rect, const TileMap& map) {
     return {first(low.x()), end(high.x()), first(low.y()), end(high.y())};
 }
 
-/// Measures dots in one tile, relative to its paper.
+/// Measures the dots in one tile, relative to the paper of the tile.
 class Meter {
   public:
     Meter(const ImageView& scan, const TileMap& map, double displacement, double paper)
@@ -113,9 +116,9 @@ class Meter {
           paper_(paper),
           per_paper_(1 / paper) {}
 
-    /// Returns the darkest of the four places of a dot.
-    Vector2d likeliest(const Vector2d& intersection_px) const {
-        Vector2d likeliest_px = intersection_px;
+    /// Returns the darkest of the four possible places of a dot.
+    Vector2d darkest_place(const Vector2d& intersection_px) const {
+        Vector2d darkest_px = intersection_px;
         double best = -1e9;
         for (const Symbol symbol : kSymbols) {
             const Vector2d offset(dx(symbol), dy(symbol));
@@ -123,16 +126,16 @@ class Meter {
             const double strength = strength_at(place);
             if (strength <= best) continue;
             best = strength;
-            likeliest_px = place;
+            darkest_px = place;
         }
-        return likeliest_px;
+        return darkest_px;
     }
 
-    /// Measures the dot at the likeliest of its places, after moving to its centroid from there.
-    /// `strength` is the expected darkness of a dot. Returns the dot's offset from its intersection
-    /// in spacings.
+    /// Measures the dot at the darkest of its four places, after iterating to its centroid.
+    /// `strength` is the expected darkness of a dot. Returns the offset of the dot from its
+    /// intersection, in spacings.
     Vector2d measure(const Vector2d& intersection_px, double strength, SeenCell& cell) const {
-        Vector2d place_px = likeliest(intersection_px);
+        Vector2d place_px = darkest_place(intersection_px);
         double moved_px = 1;
         for (int i = 0; i < kCentrings && moved_px > kCentred_px; ++i) {
             const Vector2d before = place_px;
@@ -142,7 +145,7 @@ class Meter {
         const Vector2d offset = map_.cells_per_px * (place_px - intersection_px);
         cell.strength = static_cast<float>(strength_at(place_px) / strength);
         cell.has_dot =
-            double(cell.strength) >= kLeastShare && offset.cwiseAbs().maxCoeff() <= kFarthest;
+            double(cell.strength) >= kMinShare && offset.cwiseAbs().maxCoeff() <= kMaxOffset;
         if (!cell.has_dot) return offset;
         cell.u_px = static_cast<float>(place_px.x());
         cell.v_px = static_cast<float>(place_px.y());
@@ -152,10 +155,10 @@ class Meter {
         return offset;
     }
 
-    /// Whether the border of a cell is not blank: darker by `least_darkness` or, where most of the
-    /// tile is filled with grey, lighter. The middles of the cell's sides do not count, because
-    /// swollen dots may run together there.
-    bool is_covered(const Vector2d& intersection_px, double least_darkness) const {
+    /// Returns true if the border of a cell is not blank: darker than paper by more than
+    /// `min_darkness`, or lighter by as much if most of the tile is filled with grey. The middles
+    /// of the four sides are not checked, because swollen dots may merge there.
+    bool is_covered(const Vector2d& intersection_px, double min_darkness) const {
         const Vector2d x = map_.px_per_cell.col(0);
         const Vector2d y = map_.px_per_cell.col(1);
         for (const double along : {-0.5, -0.25, 0.25}) {
@@ -163,13 +166,13 @@ class Meter {
                  {Vector2d(along * x - 0.5 * y), Vector2d(0.5 * x + along * y),
                   Vector2d(0.5 * y - along * x), Vector2d(-0.5 * x - along * y)}) {
                 const double darkness = darkness_at(scan_, intersection_px + step, paper_);
-                if (std::abs(darkness) > least_darkness) return true;
+                if (std::abs(darkness) > min_darkness) return true;
             }
         }
         return false;
     }
 
-    /// Returns the mean darkness of five points around `p`.
+    /// Returns the mean darkness of five points at and around `p`.
     double strength_at(const Vector2d& p) const {
         double sum = darkness_at(scan_, p, paper_);
         for (const double step : {-sample_px_, sample_px_}) {
@@ -180,8 +183,8 @@ class Meter {
     }
 
   private:
-    /// Visits the pixels within reach of a point, with their darkness and a weight that fades out
-    /// over the last pixel, so that sums change smoothly with the point.
+    /// Visits the pixels within reach of a point, with their darkness and weight. The weight
+    /// decreases to 0 over the last pixel, so sums are continuous functions of the point.
     template <typename Visit>
     void visit_around(const Vector2d& p, Visit visit) const {
         const auto first = [&](double centre) {
@@ -224,7 +227,7 @@ class Meter {
     const TileMap& map_;
     double displacement_;
     double reach_px_;
-    double inner_px2_;  ///< squared distances between which pixels count in part
+    double inner_px2_;  ///< between these squared distances, pixels have partial weight
     double outer_px2_;
     double sample_px_;
     double paper_;
@@ -237,19 +240,19 @@ Symbol nearest_symbol(const Vector2d& offset) {
     return offset.y() > 0 ? Symbol::down : Symbol::up;
 }
 
-/// Reads the dots from their offsets in spacings. The mean error of the offsets is subtracted: a
-/// renderer or scanner that puts dots on whole pixels displaces all of them, which the map of a fix
-/// does not follow.
+/// Reads the symbols of the dots from their offsets in spacings. Subtracts the mean error of the
+/// offsets: a renderer or scanner that rounds dots to whole pixels displaces all dots equally, and
+/// the map of a fix does not include this displacement.
 void read_symbols(const std::vector<Vector2d>& offsets, double displacement,
                   std::vector<SeenCell>& cells) {
-    constexpr double kFarthestError = 0.25;
+    constexpr double kMaxError = 0.25;
     Vector2d error_sum = Vector2d::Zero();
     double count = 0;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         if (!cells[i].has_dot) continue;
         const Symbol nominal = cells[i].nominal;
         const Vector2d error = offsets[i] - displacement * Vector2d(dx(nominal), dy(nominal));
-        if (error.norm() > kFarthestError) continue;
+        if (error.norm() > kMaxError) continue;
         error_sum += error;
         ++count;
     }
@@ -279,7 +282,7 @@ PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
     std::vector<double> levels;
     std::vector<double> strengths;
     for (const Vector2d& dot_px : dots_px) {
-        // No dot comes near the corner of a cell.
+        // Dots do not reach the corners of cells.
         const Vector2d cell = map.cell(dot_px);
         const double level =
             level_at(scan, map.pixel({std::round(cell.x()) + 0.5, std::round(cell.y()) + 0.5}));
@@ -293,7 +296,7 @@ PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
     result.dot = median(strengths);
     result.paper = middle_mean(levels);
     if (result.paper <= 0) return result;
-    // Half of a normal distribution lies within 0.6745 standard deviations.
+    // Standard deviations per distance between the quartiles of a normal distribution.
     constexpr double kSigmaPerQuartiles = 1 / (2 * 0.6745);
     const std::size_t quarter = levels.size() / 4;
     result.noise =
@@ -307,7 +310,7 @@ std::vector<SeenCell> measure_cells(const ImageView& scan, const PixelRect& rect
     std::vector<SeenCell> cells;
     std::vector<Vector2d> offsets;
     if (levels.paper <= 0) return cells;
-    // However great the noise, print as dark as a dot counts as other print.
+    // Print as dark as a dot is other print, regardless of the noise.
     const double other_print = std::max(kOtherPrintShare * levels.dot,
                                         std::min(kOtherPrint_sigmas * levels.noise, levels.dot));
     const Meter meter(scan, map, code.displacement, levels.paper);

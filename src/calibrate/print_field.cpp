@@ -10,14 +10,14 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Tiles belong to one field if their cells agree to this number of cells plus this share of the
-/// distance between them: paper stretches, and cameras see it in perspective.
+/// Maximum difference of the cells that the maps of two tiles of one field predict: kAgree_cells
+/// plus kAgreeShare of their distance. Paper stretches, and a camera adds perspective.
 constexpr double kAgree_cells = 1.5;
 constexpr double kAgreeShare = 0.05;
 
 using Group = std::vector<LocatedTile>;
 
-/// Whether a tile continues the nearest one of a group.
+/// Returns true if the map of a tile is consistent with that of the nearest tile in a group.
 bool continues(const Group& group, const LocatedTile& tile) {
     if (group.front().section != tile.section) return false;
     const auto distance_px2 = [&](const LocatedTile& other) {

@@ -1,4 +1,4 @@
-// Print fields: contiguous regions of the code in a scan, and where they lie.
+// Print fields: contiguous regions of the code in a scan, and their tiles.
 #pragma once
 
 #include <optional>
@@ -9,14 +9,15 @@
 
 namespace dotpose::calibrate {
 
-/// One region of the code in the scan, and its place in each tile that shows it.
+/// One region of the code in the scan, with its map in each tile that shows it.
 struct Field {
     Code code;
-    std::vector<std::optional<LocatedTile>> tiles;  ///< by number
+    std::vector<std::optional<LocatedTile>> tiles;  ///< indexed by the number of the tile
     double paper = 0;                               ///< median grey level of the paper
 };
 
-/// Joins tiles that continue each other to fields, those with the most tiles first.
+/// Joins neighbouring tiles with consistent maps to fields. The field with the most tiles comes
+/// first.
 std::vector<Field> join_tiles(const LocatedTiles& tiles);
 
 }  // namespace dotpose::calibrate

@@ -14,28 +14,30 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 
-/// Deviations of the scale: too large for any printer or paper, so that the driver must have
-/// scaled; and large enough for a remark.
+/// Deviations of the mean scale from 1: minimum that only the driver can cause, and minimum that is
+/// reported. Printers and paper deviate by less than kDriverScale.
 constexpr double kDriverScale = 0.015;
 constexpr double kNotableScale = 0.002;
 constexpr double kUnevenScale = 0.002;
-/// Deviation of the scale beyond which the stated pattern or resolution must be wrong.
+/// Deviation of the scale above which the stated pattern or resolution must be wrong.
 constexpr double kImplausibleScale = 0.25;
 constexpr double kNotableRotation_rad = 0.2 * kDegree_rad;
 constexpr double kNotableSkew_rad = 0.1 * kDegree_rad;
 constexpr double kNotableDistortion_mm = 0.1;
-/// Growth of dots beyond what usual printers do.
+/// Minimum growth and maximum shrinkage of the dot diameter that are faults. Usual printers do not
+/// reach these limits.
 constexpr double kSwollenGain = 0.5;
 constexpr double kThinGain = -0.3;
 constexpr double kNotableShare = 0.01;
-constexpr double kLeastContrast = 0.2;
-/// Below this number of pixels per spacing, faults of single dots may come from the scan: from this
-/// scatter, in spacings, and from this share of wrong bits on, they are attributed to it.
+constexpr double kMinContrast = 0.2;
+/// Below kCoarse_px per spacing, faults of single dots may be due to the scan. They are attributed
+/// to the scan if the dots scatter by more than kCoarseScatter spacings, or if more than
+/// kCoarseWrongShare of the bits are wrong.
 constexpr double kCoarse_px = 10;
 constexpr double kCoarseScatter = 0.05;
 constexpr double kCoarseWrongShare = 0.001;
-constexpr double kLeastSpacing_px = 5;
-/// Greatest share of bad cells in a good patch of a test page.
+constexpr double kMinSpacing_px = 5;
+/// Maximum fraction of bad cells in a good patch of a test page.
 constexpr double kGoodPatch = 0.005;
 
 std::string percent(double share, int decimals = 1) {
@@ -76,28 +78,28 @@ class Findings {
             std::any_of(findings_.begin() + static_cast<std::ptrdiff_t>(first_finding),
                         findings_.end(), is_fault);
         if (has_fault) return;
-        const bool is_all_told =
+        const bool is_complete =
             check_.is_test_page || !field_ ||
             (check_.fields[*field_].are_sizes_told && check_.fields[*field_].are_dots_told);
         remark(FindingKind::good,
-               is_all_told ? "the print can be used as it is"
-                           : "as far as this photo tells, the print can be used as it is");
+               is_complete ? "the print can be used as it is"
+                           : "as far as this photo shows, the print can be used as it is");
     }
 
     void judge_nothing_found() {
         if (options_.resolution) {
             const double dpi = std::min(options_.resolution->x_dpi, options_.resolution->y_dpi);
             const double spacing_px = options_.pattern.spacing_mm * dpi / 25.4;
-            if (spacing_px < kLeastSpacing_px) {
+            if (spacing_px < kMinSpacing_px) {
                 fault(FindingKind::too_coarse,
-                      fmt::format("at {:.0f} dpi the dots are only {:.1f} pixels apart, too near "
-                                  "to be told apart: scan at 600 dpi",
+                      fmt::format("at {:.0f} dpi the dots are only {:.1f} pixels apart, too close "
+                                  "to be resolved: scan at 600 dpi",
                                   dpi, spacing_px));
             }
         }
     }
 
-    /// Whether cells of the field are unique on the page, and known.
+    /// Reports cells that are repeated on the page, and pages that are not in the sheet file.
     void judge_place(const PrintField& field) {
         const auto is_part = [this](const RepeatedCells& cells) {
             return cells.first == *field_ || cells.second == *field_;
@@ -106,16 +108,17 @@ class Findings {
             check_.repeated, {},
             [&](const RepeatedCells& cells) { return is_part(cells) ? cells.cells : 0; });
         if (most != check_.repeated.end() && is_part(*most)) {
-            fault(FindingKind::repeated,
-                  fmt::format("{} of its cells are on this scan more than once, so that a place "
-                              "read there is not unique: print each copy with cells of its own "
-                              "(--sheets, or another --origin)",
-                              most->cells));
+            fault(
+                FindingKind::repeated,
+                fmt::format(
+                    "{} of its cells are on this scan more than once, so a place read there is not "
+                    "unique: print each copy with cells of its own (--sheets, or another --origin)",
+                    most->cells));
         }
         if (!options_.sheets.empty() && !field.sheet) {
             fault(FindingKind::unknown_sheet,
-                  fmt::format("this page is on no sheet of the sheet file, and was judged by a "
-                              "spacing of {:g} mm: give the sheet file that it was printed with",
+                  fmt::format("this page is not in the sheet file, and was checked for a spacing "
+                              "of {:g} mm: give the sheet file that it was printed with",
                               field.pattern.spacing_mm));
         }
     }
@@ -140,17 +143,17 @@ class Findings {
                               percent(mean)));
         } else if (std::abs(mean - 1) > kNotableScale) {
             remark(FindingKind::scaled,
-                   fmt::format("the page is {} too {}, as paper and printers often have it: "
-                               "reckon with a spacing of {:.5f} mm",
+                   fmt::format("the page is {} too {}, which is common with paper and printers: "
+                               "use a spacing of {:.5f} mm",
                                percent(std::abs(mean - 1), 2), mean > 1 ? "large" : "small",
                                field.pattern.spacing_mm * mean));
         }
         const double ratio = s.scale_x / s.scale_y - 1;
         if (std::abs(ratio) > kUnevenScale) {
             fault(FindingKind::uneven_scale,
-                  fmt::format("horizontal and vertical scale differ by {} ({} and {}): the "
-                              "printer's feed is off, or the scanner's; scan again, turned by 90 "
-                              "degrees, to tell which",
+                  fmt::format("horizontal and vertical scale differ by {} ({} and {}): the feed of "
+                              "the printer or of the scanner is wrong; scan again, turned by 90 "
+                              "degrees, to find out which",
                               percent(std::abs(ratio), 2), percent(s.scale_x, 2),
                               percent(s.scale_y, 2)));
         }
@@ -162,21 +165,21 @@ class Findings {
         const bool is_coarse = is_too_coarse(field);
         if (is_coarse && !is_photo) {
             fault(FindingKind::too_coarse,
-                  fmt::format("the image is too coarse to judge single dots: {:.1f} pixels from "
-                              "dot to dot, whose places scatter by {:.3f} mm; scan at 600 dpi, as "
-                              "PNG or TIFF",
-                              field.spacing_px, field.scatter_mm));
+                  fmt::format(
+                      "the image is too coarse to judge single dots: they are {:.1f} pixels apart, "
+                      "and their places scatter by {:.3f} mm; scan at 600 dpi, as PNG or TIFF",
+                      field.spacing_px, field.scatter_mm));
         } else {
             const bool are_dots_told = field.are_dots_told && !is_coarse;
             if (field.are_sizes_told && !is_coarse) judge_size(field);
             if (are_dots_told) judge_faulty_dots(field);
-            remark_untold(field, are_dots_told);
+            remark_unresolved(field, are_dots_told);
         }
         if (field.covered_share() > kNotableShare) {
             remark(FindingKind::covered,
-                   fmt::format("{} of the dots are covered or touched by other print, which a "
-                               "camera that sees it has to do without",
-                               percent(field.covered_share())));
+                   fmt::format(
+                       "{} of the dots are covered or touched by other print, and cannot be used",
+                       percent(field.covered_share())));
         }
         if (field.largest_distortion_mm > kNotableDistortion_mm) {
             remark(FindingKind::distorted,
@@ -221,18 +224,18 @@ class Findings {
     std::string why_no_scale() const {
         if (const auto& camera = check_.camera) {
             return fmt::format(
-                "scale was not checked, because this is a photo, which has none of its own: "
+                "scale was not checked, because this is a photo, which has no scale of its own: "
                 "lengths change by {} across the page, and the lens displaces its corners by {}; "
                 "scan it on a flatbed",
                 percent(camera->perspective), percent(std::abs(camera->lens)));
         }
         if (check_.is_photo) {
-            return "scale was not checked, because this is a photo, which has none of its own: its "
-                   "EXIF data have a camera's exposure; scan it on a flatbed, or give --dpi if the "
-                   "page lies in the image as in a scan";
+            return "scale was not checked, because this is a photo, which has no scale of its own: "
+                   "its EXIF data have a camera's exposure; scan it on a flatbed, or give --dpi if "
+                   "the page lies in the image as in a scan";
         }
-        return "scale was not checked, because the image states no resolution of a scan: scan on a "
-               "flatbed, or give --dpi if the page lies in the image as in a scan";
+        return "scale was not checked, because the image does not state the resolution of a scan: "
+               "scan on a flatbed, or give --dpi if the page lies in the image as in a scan";
     }
 
     void judge_scale_ratio(const PrintField& field) {
@@ -240,17 +243,17 @@ class Findings {
         const double ratio = field.scale_ratio->x_over_y - 1;
         if (std::abs(ratio) < kUnevenScale + field.scale_ratio->uncertainty) return;
         fault(FindingKind::uneven_scale,
-              fmt::format("horizontal and vertical scale differ by {}, give or take {}: the "
-                          "printer's feed is off; a scan tells more",
+              fmt::format("horizontal and vertical scale differ by {}, give or take {}: the feed "
+                          "of the printer is wrong; a scan is more accurate",
                           percent(std::abs(ratio), 2), percent(field.scale_ratio->uncertainty, 2)));
     }
 
-    /// Adds a remark about what a photo does not show of the dots.
-    void remark_untold(const PrintField& field, bool are_dots_told) {
+    /// Adds a remark if the photo does not show some properties of the dots.
+    void remark_unresolved(const PrintField& field, bool are_dots_told) {
         if (field.are_sizes_told && are_dots_told) return;
         const double dot_px = field.dot_mm * field.spacing_px / field.pattern.spacing_mm;
         remark(FindingKind::unresolved,
-               fmt::format("the dots are {:.1f} pixels across in this photo: it does not tell {}; "
+               fmt::format("the dots are {:.1f} pixels across in this photo: it does not show {}; "
                            "scan at 600 dpi, or come closer",
                            dot_px,
                            are_dots_told ? "their size and how black they are"
@@ -275,8 +278,9 @@ class Findings {
                               "of {:.3f} mm; choose a larger --dot, and switch off toner saving",
                               field.dot_mm, field.pattern.dot_mm));
         }
-        // Where pixels are as large as dots, no dot is dark, but `dot_mm` shows a pale dot as well.
-        if (field.spacing_px >= kCoarse_px && field.contrast < kLeastContrast) {
+        // If pixels are as large as dots, the contrast of all dots is low. `dot_mm` detects pale
+        // dots in this case.
+        if (field.spacing_px >= kCoarse_px && field.contrast < kMinContrast) {
             fault(FindingKind::pale,
                   fmt::format("the dots are only {} darker than the paper: print in black, "
                               "without toner saving",
@@ -293,7 +297,7 @@ class Findings {
         }
         if (field.wrong_share() > kNotableShare) {
             fault(FindingKind::bits_wrong,
-                  fmt::format("{} of the bits are wrong, because dots stand in the wrong place: "
+                  fmt::format("{} of the bits are wrong, because dots are in the wrong place: "
                               "print at the printer's own resolution, with a larger spacing",
                               percent(field.wrong_share())));
         }
@@ -303,14 +307,13 @@ class Findings {
         const double upright_rad = std::remainder(s.rotation_rad, std::numbers::pi / 2);
         if (std::abs(upright_rad) > kNotableRotation_rad) {
             remark(FindingKind::rotated,
-                   fmt::format("the page lies {:.2f} degrees askew, which does no harm",
+                   fmt::format("the page is {:.2f} degrees askew, which is harmless",
                                std::abs(upright_rad) / kDegree_rad));
         }
         if (std::abs(s.skew_rad) > kNotableSkew_rad) {
-            fault(FindingKind::skewed,
-                  fmt::format("the axes stand at {:.2f} degrees instead of 90: the paper was "
-                              "pulled in askew",
-                              90 + s.skew_rad / kDegree_rad));
+            fault(FindingKind::skewed, fmt::format("the angle between the axes is {:.2f} degrees "
+                                                   "instead of 90: the paper was fed askew",
+                                                   90 + s.skew_rad / kDegree_rad));
         }
     }
 
@@ -331,14 +334,15 @@ class Findings {
     std::optional<std::size_t> field_;  ///< index of the field being judged
 };
 
-/// Returns how far the size of printed dots is from the best one, a sixth of the spacing.
+/// Returns the difference between the size of the printed dots and the optimum, a sixth of the
+/// spacing, on a logarithmic scale.
 double dot_error(const PrintField& field) {
     const double wanted_mm = field.pattern.spacing_mm / 6;
     return std::abs(std::log(std::max(field.dot_mm, 1e-6) / wanted_mm));
 }
 
-/// Chooses for each spacing, among the patches that read well, the one whose dots came out nearest
-/// to a sixth of it; and of the spacings the finest, which gives the most dots in view.
+/// For each spacing, chooses the readable patch whose printed dots are closest to a sixth of the
+/// spacing. The best patch of all is that with the finest spacing, which has the most dots in view.
 void choose_best(PrintCheck& check) {
     std::map<double, std::size_t> best;
     for (std::size_t i = 0; i < check.fields.size(); ++i) {

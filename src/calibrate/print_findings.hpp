@@ -1,4 +1,4 @@
-// Print findings: what the measurements of a print mean for its user.
+// Print findings: converts the measurements of a print to messages for the user.
 #pragma once
 
 #include "dotpose/tools/check_print.hpp"
@@ -8,7 +8,7 @@ namespace dotpose::calibrate {
 /// Sets `best_per_spacing`, `best` and `unread_patches` of a test page.
 void rank_patches(CodeVariant code, PrintCheck& check);
 
-/// Fills the findings from the fields, faults first.
+/// Sets `check.findings` from the measured fields. Faults come before remarks.
 void add_findings(const CheckPrintOptions& options, PrintCheck& check);
 
 }  // namespace dotpose::calibrate

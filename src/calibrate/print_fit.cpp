@@ -17,32 +17,32 @@ using Eigen::Vector2d;
 constexpr int kPrintRounds = 2;
 constexpr int kSteps = 6;
 constexpr double kOutlier_sigmas = 4;
-/// Indices of the parameters: offset, rows of `linear`, perspective, lens.
+/// Indices of the parameters. The order is offset, rows of `linear`, perspective, lens.
 constexpr int kLinear = 2;
 constexpr int kPerspective = 6;
 constexpr int kLens = 8;
 
-/// Lengths by which parameters are scaled to similar size.
+/// Lengths that scale the parameters to similar magnitudes.
 struct Reach {
     double paper_mm = 0;
     double seen = 0;
 };
 
-/// Which parameters are fitted.
+/// Optional parameters that are fitted.
 struct Free {
     bool perspective = false;
     bool lens = false;
 };
 
-/// Returns the derivative of the lens's displacement at the place `q`, counted from the lens
-/// centre.
+/// Returns the derivative of the distorted position with respect to the undistorted position `q`.
+/// Both are relative to the lens centre.
 Matrix2d lens_slope(const PlaneFit& fit, const Vector2d& q) {
     return (1 + fit.lens * q.squaredNorm()) * Matrix2d::Identity() +
            2 * fit.lens * q * q.transpose();
 }
 
-/// Makes one Gauss-Newton step over the matches whose residual is at most `limit`. Returns the rms
-/// residual before the step.
+/// Performs one Gauss-Newton step with the matches whose residuals are at most `limit`. Returns the
+/// rms residual before the step.
 double step(const std::vector<Match>& matches, Free free, const Reach& reach, double limit,
             PlaneFit& fit) {
     NormalEquations equations(9);
@@ -119,7 +119,7 @@ PlaneFit fit_plane(const std::vector<Match>& matches, ViewModel model,
     }
     double limit = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kPrintRounds; ++round) {
-        // The first steps fix perspective and lens, which need a start that is nearly right.
+        // The first steps exclude perspective and lens, which need an approximate start.
         for (int i = 0; i < kSteps; ++i) {
             const bool has_start = round > 0 || i > 0;
             const Free free{has_start && model != ViewModel::flat,

@@ -7,40 +7,40 @@
 
 namespace dotpose::calibrate {
 
-/// A dot: its place on the paper as meant, and as seen.
+/// Nominal and measured position of a dot.
 struct Match {
     Eigen::Vector2d nominal_mm;
-    Eigen::Vector2d seen;  ///< px, or mm of a scan of known resolution
+    Eigen::Vector2d seen;  ///< px of a photo, or mm of a scan with known resolution
 };
 
-/// The ways in which an image may have been taken.
+/// Models of the projection from the page to the image.
 enum class ViewModel {
-    flat,         ///< on a scanner: lengths in the image are those on the paper, along each axis
-    perspective,  ///< by a camera without distortion
-    camera,       ///< by a camera whose lens distorts radially
+    flat,         ///< scanner: one scale along each axis
+    perspective,  ///< camera without distortion
+    camera,       ///< camera with radial lens distortion
 };
 
-/// The map of a field: seen = lens_centre + q (1 + lens q^2), with q = offset + (linear * d) / (1 +
-/// perspective . d), d = nominal - centre.
+/// Map from the page to the image: seen = lens_centre + q (1 + lens q^2), where q = offset +
+/// (linear * d) / (1 + perspective . d) and d = nominal - centre.
 struct PlaneFit {
     Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();
     Eigen::Vector2d offset = Eigen::Vector2d::Zero();
     Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
     Eigen::Vector2d perspective_per_mm = Eigen::Vector2d::Zero();
     Eigen::Vector2d lens_centre = Eigen::Vector2d::Zero();
-    double lens = 0;      ///< per squared unit of `seen`
-    double residual = 0;  ///< rms per axis, without outliers
+    double lens = 0;      ///< in 1 / (unit of `seen`)^2
+    double residual = 0;  ///< rms residual per axis, without outliers
 
-    /// Returns where a place of the paper is seen.
+    /// Returns the image position of a point on the page.
     Eigen::Vector2d seen(const Eigen::Vector2d& nominal_mm) const;
-    /// Returns the units of `seen` per mm at a place of the paper: the square root of the ratio of
-    /// areas.
+    /// Returns the local scale at a point on the page, in units of `seen` per mm: the square root
+    /// of the ratio of areas.
     double units_per_mm(const Eigen::Vector2d& nominal_mm) const;
 };
 
-/// Fits the map by least squares, twice: the second time without dots more than four standard
-/// deviations off. Needs at least 8 matches that are not on one line. `lens_centre` is used by
-/// ViewModel::camera only.
+/// Fits the map by least squares in two rounds. The second round excludes dots with residuals above
+/// four standard deviations. Needs at least 8 matches that are not collinear. `lens_centre` is used
+/// only by ViewModel::camera.
 PlaneFit fit_plane(const std::vector<Match>& matches, ViewModel model,
                    const Eigen::Vector2d& lens_centre = Eigen::Vector2d::Zero());
 

@@ -1,4 +1,4 @@
-// Print map: where the cells of the code are seen in the tiles of a scan.
+// Print map: maps from the cells of the code to the pixels of a scan.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 
 namespace dotpose::calibrate {
 
-/// Maps between the scan, in px, and the code plane, in cells, in and around one tile: cell =
-/// centre_cell + cells_per_px q / (1 + perspective_per_px . q + lens_per_px2 q^2), with q = pixel -
-/// centre_px. It is the map of a fix (PlaneFromImage) in the pixels of the scan.
+/// Map between the scan, in px, and the code plane, in cells, valid in and around one tile: cell =
+/// centre_cell + cells_per_px q / (1 + perspective_per_px . q + lens_per_px2 q^2), where q = pixel
+/// - centre_px. This is the map of a fix (PlaneFromImage), converted to pixels of the scan.
 struct TileMap {
     Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
     Eigen::Vector2d centre_cell = Eigen::Vector2d::Zero();
@@ -23,8 +23,8 @@ struct TileMap {
     Eigen::Vector2d perspective_per_px = Eigen::Vector2d::Zero();
     double lens_per_px2 = 0;
 
-    /// Returns the map of a fix in a crop of the scan that begins at `first_px` and is magnified by
-    /// `zoom`.
+    /// Returns the map of a fix in a crop of the scan. The crop begins at `first_px` and is
+    /// magnified by `zoom`.
     static TileMap of(const Fix& fix, const Eigen::Vector2d& first_px, int zoom);
 
     Eigen::Vector2d cell(const Eigen::Vector2d& pixel) const {
@@ -40,8 +40,8 @@ struct TileMap {
     double spacing_px() const { return std::sqrt(std::abs(px_per_cell.determinant())); }
 };
 
-/// Returns the place in a scan of a pixel in a crop that begins at `first_px` and is magnified by
-/// `zoom`.
+/// Returns the position in the scan of a pixel of a crop. The crop begins at `first_px` and is
+/// magnified by `zoom`.
 inline Eigen::Vector2d in_scan(const FixedVec& pixel_q8, const Eigen::Vector2d& first_px,
                                int zoom) {
     const Eigen::Vector2d from_edge(pixel_q8.x / 256.0 + 0.5, pixel_q8.y / 256.0 + 0.5);
@@ -63,7 +63,7 @@ inline TileMap TileMap::of(const Fix& fix, const Eigen::Vector2d& first_px, int 
     return map;
 }
 
-/// A rectangle of pixels, ends exclusive.
+/// Rectangle of pixels. The ends are exclusive.
 struct PixelRect {
     int u_begin = 0;
     int v_begin = 0;
@@ -73,14 +73,14 @@ struct PixelRect {
     Eigen::Vector2d centre_px() const {
         return {0.5 * (u_begin + u_end - 1), 0.5 * (v_begin + v_end - 1)};
     }
-    /// Whether a point lies in the rectangle or at most `border_px` outside.
+    /// Returns true if a point is inside the rectangle or at most `border_px` outside it.
     bool contains(const Eigen::Vector2d& pixel, double border_px) const {
         return pixel.x() >= u_begin - 0.5 - border_px && pixel.x() < u_end - 0.5 + border_px &&
                pixel.y() >= v_begin - 0.5 - border_px && pixel.y() < v_end - 0.5 + border_px;
     }
 };
 
-/// The tiles of a scan.
+/// Division of a scan into square tiles.
 struct Tiling {
     int width_px = 0;
     int height_px = 0;
@@ -100,8 +100,9 @@ struct Tiling {
         const int v = tile / columns * side_px;
         return {u, v, std::min(u + side_px, width_px), std::min(v + side_px, height_px)};
     }
-    /// Returns a tile with a sixth of its side around it, in a rectangle that is moved rather than
-    /// cut at the edges of the scan. What no tile shows whole is whole in some of these.
+    /// Returns a rectangle around a tile, with a margin of a sixth of the side. At the edges of the
+    /// scan the rectangle is moved rather than cropped. A region that no tile contains completely
+    /// is complete in one of these rectangles.
     PixelRect overlapping_rect(int tile) const {
         const int around_px = side_px / 6;
         const int full_px = side_px + 2 * around_px;

@@ -15,11 +15,12 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kInch_mm = 25.4;
-/// Darkness between two dots, relative to the dots, from which they count as run together.
+/// Darkness between two dots, relative to the dots, above which they are merged.
 constexpr double kMergedShare = 0.6;
-/// Fewest dots of a part of the page whose distortion is reported.
-constexpr int kLeastBinDots = 60;
-/// Ink is assumed to be as dark as this quantile of the dots if they are darker than expected.
+/// Minimum number of dots of a part of the page for which distortion is reported.
+constexpr int kMinBinDots = 60;
+/// Quantile of the darkness of the dots that is used as the darkness of ink if it exceeds the
+/// expected darkness.
 constexpr double kDarkest = 0.98;
 constexpr double kSigmaPerDeviation = 1.4826;
 
@@ -30,7 +31,7 @@ double quantile(std::vector<double>& values, double share) {
     return values[index];
 }
 
-/// Conversion between pixels and the units of the fit: mm of the scan, or px of a photo.
+/// Conversion between pixels and the units of the fit: mm of a scan, or px of a photo.
 struct Units {
     Vector2d per_px = Vector2d::Ones();
 
@@ -42,8 +43,8 @@ struct Units {
     Vector2d to_px(const Vector2d& value) const { return value.cwiseQuotient(per_px); }
 };
 
-/// Returns the nominal place of a cell's dot in mm from the first cell of the region, which keeps
-/// numbers small.
+/// Returns the nominal position of the dot of a cell in mm. It is relative to the first cell of the
+/// region to keep the numbers small.
 Vector2d nominal_mm(const CellGrid& grid, const Field& field, const Pattern& pattern,
                     const SeenCell& cell) {
     const Vector2d origin(grid.origin.x, grid.origin.y);
@@ -64,11 +65,11 @@ PrintScale scale_of(const Eigen::Matrix2d& linear) {
     return scale;
 }
 
-/// The fit of a field, which says where its dots should be seen.
+/// Fit of a field, which predicts the image positions of its dots.
 struct Fitted {
     PlaneFit fit;
     Units units;
-    bool is_photo = false;  ///< whether the scale depends on the place
+    bool is_photo = false;  ///< true if the scale depends on the place
 
     double mm_per_unit(const Vector2d& place_mm) const {
         return is_photo ? 1 / fit.units_per_mm(place_mm) : 1;
@@ -76,14 +77,14 @@ struct Fitted {
     double mm_per_px(const Vector2d& place_mm) const {
         return mm_per_unit(place_mm) * std::sqrt(units.per_px.x() * units.per_px.y());
     }
-    /// Returns the distance of a dot from its fitted place, in mm on the paper.
+    /// Returns the measured minus the fitted position of a dot, in mm on the paper.
     Vector2d off_mm(const Vector2d& place_mm, const Vector2d& seen_px) const {
         return mm_per_unit(place_mm) * (units.from_px(seen_px) - fit.seen(place_mm));
     }
 };
 
-/// Returns the scatter of single dots, from the differences of neighbours, which distortion moves
-/// together.
+/// Returns the scatter of single dots, from the differences between neighbouring dots. Distortion
+/// displaces neighbours equally and cancels.
 double measure_scatter_mm(const Measuring& m, const Fitted& fitted, const Pattern& pattern) {
     std::vector<double> steps_mm;
     const auto off_mm = [&](const SeenCell& cell) {
@@ -119,7 +120,7 @@ void measure_distortion(const Measuring& m, const Fitted& fitted, PrintField& re
         }
     }
     for (auto& [place, bin] : bins) {
-        if (bin.dots < kLeastBinDots) continue;
+        if (bin.dots < kMinBinDots) continue;
         for (double* sum : {&bin.u_px, &bin.v_px, &bin.du_mm, &bin.dv_mm})
             *sum /= bin.dots;
         result.largest_distortion_mm =
@@ -128,7 +129,7 @@ void measure_distortion(const Measuring& m, const Fitted& fitted, PrintField& re
     }
 }
 
-/// Whether it is dark between two dots, too.
+/// Returns true if two dots are merged: the point halfway between them is dark.
 bool have_merged(const Measuring& m, const SeenCell& a, const SeenCell& b) {
     if (!a.has_dot || !b.has_dot || a.is_covered || b.is_covered) return false;
     const double paper = 0.5 * (double(a.paper) + double(b.paper));
@@ -194,15 +195,17 @@ void measure_dots(const Measuring& m, const Fitted& fitted, PrintField& result) 
     result.dot_sigma_mm = kSigmaPerDeviation * quantile(diameters_mm, 0.5);
 }
 
-/// Sets whether a photo shows sizes and faults of dots despite noise, blur, and the tone curves of
-/// cameras.
+/// Sets whether sizes and faults of dots in a photo are reliable despite noise, blur and the tone
+/// curve of the camera.
 void judge_photo_of_dots(const Measuring& m, PrintField& result) {
-    // The edge of a dot is uncertain by about a pixel.
-    constexpr double kLeastDot_px = 6;
-    // A place without a dot must differ from one with a dot of a third of the usual darkness.
-    constexpr double kLargestSpread = 0.12;
+    // Minimum diameter of dots with a known size. The edge of a dot has an uncertainty of about one
+    // pixel.
+    constexpr double kMinDot_px = 6;
+    // Maximum relative scatter of the darkness, at which a cell without a dot is distinguishable
+    // from a dot with a third of the usual darkness.
+    constexpr double kMaxSpread = 0.12;
     const double mm_per_px = result.pattern.spacing_mm / result.spacing_px;
-    result.are_sizes_told = result.dot_mm / mm_per_px >= kLeastDot_px;
+    result.are_sizes_told = result.dot_mm / mm_per_px >= kMinDot_px;
     std::vector<double> strengths;
     for (const SeenCell& cell : m.grid.cells) {
         if (cell.has_dot && !cell.is_covered) strengths.push_back(double(cell.strength));
@@ -210,7 +213,7 @@ void judge_photo_of_dots(const Measuring& m, PrintField& result) {
     const double middle = quantile(strengths, 0.5);
     for (double& strength : strengths)
         strength = std::abs(strength - middle);
-    result.are_dots_told = kSigmaPerDeviation * quantile(strengths, 0.5) <= kLargestSpread * middle;
+    result.are_dots_told = kSigmaPerDeviation * quantile(strengths, 0.5) <= kMaxSpread * middle;
 }
 
 }  // namespace
@@ -224,9 +227,9 @@ std::vector<Match> matches_of(const CellGrid& grid, const Field& field, const Pa
     return matches;
 }
 
-bool measure_field(const Measuring& m, std::size_t least_dots, PrintField& result) {
+bool measure_field(const Measuring& m, std::size_t min_dots, PrintField& result) {
     std::vector<Match> matches = matches_of(m.grid, m.field, result.pattern);
-    if (m.grid.columns < 2 || m.grid.rows < 2 || matches.size() < least_dots) return false;
+    if (m.grid.columns < 2 || m.grid.rows < 2 || matches.size() < min_dots) return false;
     result.origin = m.grid.origin;
     result.columns = m.grid.columns;
     result.rows = m.grid.rows;

@@ -10,20 +10,21 @@
 
 namespace dotpose::calibrate {
 
-/// The inputs of the measurements of a field.
+/// Inputs of the measurements of a field.
 struct Measuring {
     const ImageView& scan;
     const Field& field;
     const CellGrid& grid;
-    std::optional<Resolution> resolution;  ///< resolution of a scan; none for photos
+    std::optional<Resolution> resolution;  ///< resolution of a scan; empty for photos
     double ink_reflectance = 0;
 };
 
-/// Returns the dots that read right: nominal places from the first cell on, and seen places in px.
+/// Returns the correctly read dots: the nominal position in mm from the first cell of the grid, and
+/// the measured position in px.
 std::vector<Match> matches_of(const CellGrid& grid, const Field& field, const Pattern& pattern);
 
-/// Measures a field: fills `result` except for its pattern. Returns false if fewer than
-/// `least_dots` dots read right.
-bool measure_field(const Measuring& measuring, std::size_t least_dots, PrintField& result);
+/// Measures a field and sets all members of `result` except the pattern. Returns false if fewer
+/// than `min_dots` dots were read correctly.
+bool measure_field(const Measuring& measuring, std::size_t min_dots, PrintField& result);
 
 }  // namespace dotpose::calibrate

@@ -9,21 +9,20 @@ namespace dotpose::calibrate {
 namespace {
 
 constexpr double kTileCells = 24;
-constexpr int kLargestTile_px = 2048;
-/// Spacing below which tiles are magnified, because `locate` needs 6 px from dot to dot.
+constexpr int kMaxTile_px = 2048;
+/// Spacing below which tiles are magnified, because `locate` needs a spacing of at least 6 px.
 constexpr double kSmallSpacing_px = 9;
-/// Number of crops from which the spacing, or the code, is known well enough.
+/// Number of crops that determine the spacing, or the code, accurately enough.
 constexpr std::size_t kEnoughProbes = 40;
-/// Number of pixels in the first crops of one kind, spread over the page.
-constexpr int kFirstLook_px = 8'000'000;
+/// Total number of pixels of the first crops of each size, which are spread over the page.
+constexpr int kSample_px = 8'000'000;
 
-/// Side of a crop that is tried, and its magnification; at least 8 cells must fit.
+/// Side and magnification of a crop. A crop must contain at least 8 x 8 cells.
 struct Probe {
     int side_px = 0;
     int zoom = 1;
 };
-constexpr std::array kProbes = {Probe{256, 1}, Probe{160, 2}, Probe{768, 1},
-                                Probe{kLargestTile_px, 1}};
+constexpr std::array kProbes = {Probe{256, 1}, Probe{160, 2}, Probe{768, 1}, Probe{kMaxTile_px, 1}};
 
 }  // namespace
 
@@ -50,7 +49,7 @@ std::optional<LocatedTiles> TileLocator::locate() {
     const auto tiles_of = [this](int side) {
         return LocatedTiles{Tiling(scan_.width_px, scan_.height_px, side), {}};
     };
-    LocatedTiles result = tiles_of(std::min(side_px, kLargestTile_px));
+    LocatedTiles result = tiles_of(std::min(side_px, kMaxTile_px));
     for (int tile = 0; tile < result.tiling.count(); ++tile) {
         auto located = locate_in(result.tiling.overlapping_rect(tile));
         if (!located) continue;
@@ -63,23 +62,24 @@ std::optional<LocatedTiles> TileLocator::locate() {
     return result;
 }
 
-/// Locates the whole scan as `locate` does, unless it is too large.
+/// Locates the whole scan in one call, unless it is too large for `locate`.
 std::optional<LocatedTile> TileLocator::locate_whole() {
     if (std::max(scan_.width_px, scan_.height_px) > kMaxFrameSide_px) return std::nullopt;
     return locate_in({0, 0, scan_.width_px, scan_.height_px});
 }
 
-/// Returns the spacing of the pattern in crops of the scan; 0 if none of them shows one.
+/// Returns the spacing of the pattern in crops of the scan; 0 if no crop shows the pattern.
 double TileLocator::find_spacing_px() {
     for (const bool thorough : {true, false}) {
-        // First some crops are located with full effort; if they show nothing, all crops with less.
+        // First, some crops are located with full effort. If none has a fix, all crops are located
+        // with less effort.
         use_effort(thorough ? Effort::twice : Effort::once);
         for (const Probe& probe : kProbes) {
             zoom_ = probe.zoom;
             const Tiling tiling(scan_.width_px, scan_.height_px, probe.side_px);
-            const int first_look =
-                kFirstLook_px / (probe.side_px * probe.side_px * probe.zoom * probe.zoom);
-            const int step = thorough ? std::max(tiling.count() / first_look, 1) : 1;
+            const int sample_count =
+                kSample_px / (probe.side_px * probe.side_px * probe.zoom * probe.zoom);
+            const int step = thorough ? std::max(tiling.count() / sample_count, 1) : 1;
             const double spacing_px = probe_spacing_px(tiling, step);
             if (spacing_px > 0 || is_mirrored_) return spacing_px;
         }
@@ -87,7 +87,7 @@ double TileLocator::find_spacing_px() {
     return 0;
 }
 
-/// Returns the median spacing in every `step`-th tile that shows a pattern; 0 if none does.
+/// Returns the median spacing in every `step`-th tile that shows the pattern; 0 if no tile does.
 double TileLocator::probe_spacing_px(const Tiling& tiling, int step) {
     std::vector<double> spacings_px;
     for (int tile = 0; tile < tiling.count() && spacings_px.size() < kEnoughProbes; tile += step) {
@@ -130,7 +130,7 @@ std::optional<LocatedTile> TileLocator::locate_in(const PixelRect& rect) {
     return located;
 }
 
-/// Returns the crop magnified by `zoom_`, with interpolated pixels.
+/// Returns a crop magnified by `zoom_`, with bilinear interpolation.
 ImageView TileLocator::magnified(const PixelRect& rect) {
     const int width = rect.u_end - rect.u_begin;
     const int height = rect.v_end - rect.v_begin;

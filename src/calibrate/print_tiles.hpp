@@ -1,4 +1,4 @@
-// Print tiles: what `locate` reads in the tiles of a scan.
+// Print tiles: runs `locate` on the tiles of a scan.
 #pragma once
 
 #include <functional>
@@ -13,15 +13,15 @@
 
 namespace dotpose::calibrate {
 
-/// A tile that was located.
+/// A tile with a fix.
 struct LocatedTile {
     int tile = 0;
     TileMap map;
     Section section;
-    PrintLevels levels;  ///< of the dots that were read
+    PrintLevels levels;  ///< levels of the dots that were read
 };
 
-/// The tiles that were located, in order.
+/// All tiles with a fix, in ascending order of their numbers.
 struct LocatedTiles {
     Tiling tiling;
     std::vector<LocatedTile> located;
@@ -30,22 +30,22 @@ struct LocatedTiles {
 /// Called after each call of `locate`.
 using TileDone = std::function<void()>;
 
-/// Runs `locate` on a scan as a whole and on tiles of it.
+/// Runs `locate` on the whole scan and on its tiles.
 class TileLocator {
   public:
-    /// Without a code variant, it is found from all that is located.
+    /// If `code` is empty, the variant is detected from all located images.
     TileLocator(const ImageView& scan, std::optional<CodeVariant> code, TileDone done);
 
-    /// Locates all tiles of about 24 x 24 cells, each with some of its surroundings. Returns none
-    /// if neither the scan as a whole nor a crop of any size shows a pattern.
+    /// Locates all tiles. A tile has about 24 x 24 cells and is located together with a margin.
+    /// Returns an empty optional if neither the whole scan nor a crop of any size shows a pattern.
     std::optional<LocatedTiles> locate();
 
-    /// Locates some of the tiles again as if the code were not known, and returns what they say of
-    /// it.
+    /// Locates a sample of the tiles again with an unknown code, and returns the evidence for each
+    /// code.
     CodeReader read_without_code(const LocatedTiles& tiles);
 
     const CodeReader& code() const { return reader_; }
-    /// Whether a crop shows the pattern as in a mirror.
+    /// Returns true if a crop shows the mirrored pattern.
     bool is_mirrored() const { return is_mirrored_; }
 
   private:

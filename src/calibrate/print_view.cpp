@@ -8,22 +8,23 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Relative change of lengths across the page from which a camera is assumed: a camera held
-/// straight by hand is off by about a degree, which gives 1 %; scanners bend a page by less than a
-/// tenth of that.
-constexpr double kLeastSign = 0.003;
-/// Greatest residual of a camera's fit, relative to that of a flat page, from which a camera is
-/// assumed. The carriage of a scanner that runs unevenly moves dots along one axis only.
-constexpr double kLargestResidual = 0.8;
+/// Minimum relative change of lengths across the page that indicates a camera. A camera held
+/// straight by hand is tilted by about a degree, which changes lengths by 1 %. Scanners distort a
+/// page by less than a tenth of that.
+constexpr double kMinSign = 0.003;
+/// Maximum residual of a camera's fit that indicates a camera, relative to that of a flat page.
+/// Uneven motion of a scanner's carriage displaces dots along one axis only.
+constexpr double kMaxResidual = 0.8;
 
-/// The plane that a camera with a given focal length and principal point sees.
+/// Plane of the paper as seen by a camera with a given focal length and principal point.
 struct Plane {
     double x_over_y = 1;   ///< ratio of lengths along the two axes of the paper
-    double cos_angle = 0;  ///< cosine of the angle between them
+    double cos_angle = 0;  ///< cosine of the angle between the axes
 };
 
-/// Returns the plane. With lengths in focal lengths, the homography's columns are the axes of the
-/// paper, turned and scaled; `principal` is the principal point in px from the middle of the image.
+/// Returns the plane of the paper. `principal` is the principal point in px from the middle of the
+/// image. If lengths are in units of the focal length, the columns of the homography are the axes
+/// of the paper, rotated and scaled.
 Plane plane_seen(const PlaneFit& fit, double focal_px, const Vector2d& principal) {
     const Vector2d& p = fit.perspective_per_mm;
     const Vector2d offset = fit.offset - principal;
@@ -39,30 +40,30 @@ Plane plane_seen(const PlaneFit& fit, double focal_px, const Vector2d& principal
 }  // namespace
 
 std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side_px) {
-    // Range of focal lengths, in image sides, from wide angles to the short telephoto lenses of
-    // phones.
-    constexpr double kShortestFocal = 0.5;
-    constexpr double kLongestFocal = 2;
+    // Range of focal lengths, in image sides: from wide-angle lenses to the short telephoto lenses
+    // of phones.
+    constexpr double kMinFocal = 0.5;
+    constexpr double kMaxFocal = 2;
     constexpr double kFocalStep = 1.02;
-    // Greatest distance of a principal point from the middle, in image sides, and greatest cosine
-    // of the angle between printed axes.
+    // Maximum distance of the principal point from the middle, in image sides, and maximum cosine
+    // of the angle between the printed axes.
     constexpr double kPrincipalShift = 0.01;
-    constexpr double kLargestCos = 0.002;
-    constexpr double kLargestUncertainty = 0.005;
+    constexpr double kMaxCos = 0.002;
+    constexpr double kMaxUncertainty = 0.005;
     double least = 1e9;
     double most = -1e9;
-    for (double focal = kShortestFocal; focal < kLongestFocal; focal *= kFocalStep) {
+    for (double focal = kMinFocal; focal < kMaxFocal; focal *= kFocalStep) {
         for (const Vector2d& shift :
              {Vector2d(0, 0), Vector2d(1, 0), Vector2d(-1, 0), Vector2d(0, 1), Vector2d(0, -1)}) {
             const Plane plane =
                 plane_seen(fit, focal * longer_side_px, kPrincipalShift * longer_side_px * shift);
-            if (std::abs(plane.cos_angle) > kLargestCos) continue;
+            if (std::abs(plane.cos_angle) > kMaxCos) continue;
             least = std::min(least, plane.x_over_y);
             most = std::max(most, plane.x_over_y);
         }
     }
-    if (least > most || most - least > 2 * kLargestUncertainty) return std::nullopt;
-    // Real lenses have more terms than the one that is fitted.
+    if (least > most || most - least > 2 * kMaxUncertainty) return std::nullopt;
+    // Uncertainty due to the lens. Real lenses have more distortion terms than the fitted one.
     constexpr double kLensUncertainty = 0.0005;
     return ScaleRatio{0.5 * (least + most), 0.5 * (most - least) + kLensUncertainty};
 }
@@ -82,8 +83,8 @@ std::optional<CameraSigns> signs_of_camera(const std::vector<Match>& matches,
     CameraSigns signs;
     signs.perspective = camera.perspective_per_mm.cwiseAbs().dot(high - low);
     signs.lens = camera.lens * farthest_px2;
-    const bool is_notable = std::max(signs.perspective, std::abs(signs.lens)) > kLeastSign;
-    if (is_notable && camera.residual < kLargestResidual * flat.residual) return signs;
+    const bool is_notable = std::max(signs.perspective, std::abs(signs.lens)) > kMinSign;
+    if (is_notable && camera.residual < kMaxResidual * flat.residual) return signs;
     return std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-// Print view: whether an image of a page was taken on a flatbed or by a camera.
+// Print view: decides whether a flatbed scanner or a camera took the image of a page.
 #pragma once
 
 #include <optional>
@@ -9,14 +9,14 @@
 
 namespace dotpose::calibrate {
 
-/// Returns perspective and lens if they are larger than on any scanner; none if the page lies as on
-/// a scanner.
+/// Returns perspective and lens distortion if they are larger than those of any scanner, otherwise
+/// an empty optional.
 std::optional<CameraSigns> signs_of_camera(const std::vector<Match>& matches,
                                            const Eigen::Vector2d& middle_px);
 
-/// Returns the ratio of the scales of a page in a photo with square pixels, from a fit of
-/// ViewModel::camera whose `lens_centre` is the middle of the image, with its longer side
-/// `longer_side_px`. None if it is too uncertain.
+/// Returns the ratio of the two scales of a page, from a photo with square pixels. `fit` is a fit
+/// of ViewModel::camera with the middle of the image as `lens_centre`. Returns an empty optional if
+/// the ratio is too uncertain.
 std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side_px);
 
 }  // namespace dotpose::calibrate

@@ -13,16 +13,16 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Greatest distance of a fix beyond the page whose dots it was read from: a frame.
+/// Maximum distance of the image centre from the page whose dots the frame shows, in mm.
 constexpr double kBeyondPage_mm = 400;
-/// Fewest dots of a view, so that the scale along both axes is meaningful.
-constexpr std::size_t kLeastViewDots = 30;
+/// Minimum number of dots of a view with a meaningful scale along both axes.
+constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// Number of fields with dots of located sheets from which on no further parts of a frame are
-/// located. The number of dots that a fix reports cannot decide this: it counts one sheet only.
+/// Minimum number of fields with dots of located sheets at which no further parts of a frame are
+/// located. The number of dots in a fix is not suitable, because it includes only one sheet.
 constexpr int kNearlyAllFields = 58;
 
-/// A part of the image along one axis: begin and length, as shares of the side.
+/// Part of the image along one axis: begin and length, as fractions of the side.
 struct Stretch {
     double begin;
     double length;
@@ -30,8 +30,8 @@ struct Stretch {
 constexpr std::array kStretches = {Stretch{0, 1}, Stretch{0, 0.5}, Stretch{0.5, 0.5},
                                    Stretch{0, 0.66}, Stretch{0.34, 0.66}};
 
-/// Returns the fix moved to another place, given in steps from where the pattern of the frame
-/// starts.
+/// Returns the fix with its place moved to `step`, relative to the start of the pattern of the
+/// frame.
 Fix moved_to(const Fix& fix, const Trace& trace, FixedVec step) {
     const Place place = moved(trace.options.code, trace.decoding.place, step.x, step.y);
     Fix result = fix;
@@ -50,7 +50,8 @@ FixedVec mean_step(const std::vector<LocatedDot>& dots) {
             static_cast<std::int32_t>(std::lround(sum.y()))};
 }
 
-/// Returns the fields of the image (`SheetView::fields`) that contain dots of a part.
+/// Returns the fields of the image (`SheetView::fields`) that contain the given dots. Pixels of the
+/// dots are relative to `part`.
 std::uint64_t fields_of(const GreyImage& image, const SeamLocator::Part& part,
                         const std::vector<LocatedDot>& dots) {
     const auto field = [](double pixel, int side_px) {
@@ -66,8 +67,8 @@ std::uint64_t fields_of(const GreyImage& image, const SeamLocator::Part& part,
     return fields;
 }
 
-/// Place of a fix on a sheet as it was meant to be printed, in mm from its first intersection; it
-/// may lie beyond the page.
+/// Place of a fix on a sheet, in nominal mm from its first intersection. The place may be outside
+/// the page.
 struct NominalPlace {
     Eigen::Vector2d mm;
     double theta_rad;
@@ -85,8 +86,8 @@ std::optional<NominalPlace> place_beyond(const SheetEntry& entry, CodeVariant co
                         place->theta_rad};
 }
 
-/// Sets the view from a camera whose view is known: an affine map fitted to the dots. `first` is
-/// the place where the steps start.
+/// Sets the view of a camera with a known view of the paper: fits an affine map to the dots.
+/// `first` is the place where the steps start.
 void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
                     const Eigen::Vector2d& first, double spacing_mm, SheetView& view) {
     std::vector<Eigen::Vector2d> points;
@@ -112,7 +113,7 @@ void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
     view.rows = 6;
 }
 
-/// Sets the view from the fix of any other camera: the place of its image centre, and its x axis.
+/// Sets the view of any other camera from the fix: the place of the image centre, and the x axis.
 void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacing_mm,
                        SheetView& view) {
     const double c = std::cos(centre.theta_rad);
@@ -129,7 +130,8 @@ void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacin
     }
     const Eigen::MatrixXd whitening = whitening_of(covariance);
     for (Eigen::Index i = 0; i < 3; ++i) {
-        // The place, and the x axis in the direction across it: the sine of the turn.
+        // The place, and the component of the x axis across its direction, which is the sine of the
+        // turn.
         view.whitening.row(i) << whitening(i, 0), whitening(i, 1), -s * whitening(i, 2),
             c * whitening(i, 2), 0, 0;
     }
@@ -146,7 +148,8 @@ SeamLocator::SeamLocator(const std::vector<SheetEntry>& sheets, const std::optio
     }
 }
 
-/// Returns the whole image, then halves and corners, then smaller and larger parts.
+/// Returns the whole image first, then halves and corners, then overlapping parts of two thirds of
+/// a side.
 std::vector<SeamLocator::Part> SeamLocator::parts_of(const GreyImage& image) {
     std::vector<Part> parts;
     const auto cut = [](const Stretch& stretch, int side, int& begin, int& length) {
@@ -191,8 +194,7 @@ std::vector<SheetView> SeamLocator::views_with(const GreyImage& image, Effort ef
     return views;
 }
 
-/// Returns the camera as if its sensor ended with the part; its reference point is the image
-/// centre.
+/// Returns the camera with its sensor cropped to the part. Its reference point is the image centre.
 Camera SeamLocator::camera_of(const GreyImage& image, const Part& part) const {
     Camera camera;
     if (camera_) {
@@ -242,7 +244,7 @@ std::optional<SheetView> SeamLocator::view_of(const GreyImage& image, const Part
     const double spacing_mm = entry.sheet.pattern.spacing_mm;
     SheetView view;
     view.sheet = static_cast<std::size_t>(&entry - sheets_.data());
-    // Dots beyond the sheet's edge belong to another sheet.
+    // Dots beyond the edge of the sheet belong to another sheet.
     std::erase_if(dots, [&](const LocatedDot& dot) {
         const Cell cell = moved(code, trace.decoding.place, dot.step.x, dot.step.y).cell;
         const bool is_on = cell.x - entry.sheet.origin.x < unsigned(entry.sheet.columns) &&
@@ -250,7 +252,7 @@ std::optional<SheetView> SeamLocator::view_of(const GreyImage& image, const Part
         if (is_on) view.dots.push_back(std::uint64_t{cell.x} << 32 | cell.y);
         return !is_on;
     });
-    if (dots.size() < kLeastViewDots) return std::nullopt;
+    if (dots.size() < kMinViewDots) return std::nullopt;
     view.fields = fields_of(image, part, dots);
     if (camera.paper) {
         const auto first = place_beyond(entry, code, moved_to(fix, trace, {0, 0}));

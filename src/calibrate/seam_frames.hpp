@@ -1,4 +1,4 @@
-// Seam frames: how frames that show parts of several sheets lie on each of them.
+// Seam frames: finds the poses of several sheets in one frame.
 #pragma once
 
 #include <cstdint>
@@ -13,38 +13,39 @@
 
 namespace dotpose::calibrate {
 
-/// How one frame's camera lies on one sheet: the point q of the camera frame is seen at p = place +
-/// axes (q - middle), in mm of the sheet as it was meant to be printed, from its first
-/// intersection. A camera whose view is known measures in mm of its own. Of any other camera, only
-/// the direction of its x axis and the place of its image centre are known, and `middle` is that
-/// centre.
+/// View of one sheet by the camera in one frame: the point q of the camera frame is at p = place +
+/// axes (q - middle) on the sheet. p is in nominal mm from the first intersection of the sheet. q
+/// is in mm of the camera frame if the view of the camera is known. Otherwise only the direction of
+/// the x axis and the place of the image centre are known, and `middle` is the image centre.
 struct SheetView {
     std::size_t sheet = 0;  ///< index of the sheet
     int frame = 0;
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     Eigen::Vector2d place = Eigen::Vector2d::Zero();
     Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
-    /// Scales the errors of place and axes (column by column) to standard deviation 1; rows from
-    /// `rows` on are 0, because these combinations are not known.
+    /// Transforms the errors of place and axes (column by column) to standard deviation 1. The rows
+    /// from `rows` on are 0, because these combinations are not known.
     Eigen::Matrix<double, 6, 6> whitening = Eigen::Matrix<double, 6, 6>::Zero();
     int rows = 0;
-    std::vector<std::uint64_t> dots;  ///< cells of the dots
-    /// The fields of the image that show dots of the sheet: bit 8 j + i is that of column i, row j
-    /// of 8 x 8 fields.
+    /// Cells of the dots: column in the upper 32 bits, row in the lower 32 bits.
+    std::vector<std::uint64_t> dots;
+    /// Fields of the image that show dots of the sheet: bit 8 j + i is the field in column i and
+    /// row j of 8 x 8 fields.
     std::uint64_t fields = 0;
 
     bool has_scale() const { return rows == 6; }
 };
 
-/// Locates parts of frames, because a frame that shows two patterns is refused as a whole.
+/// Locates parts of frames. A frame that shows two patterns cannot be located as a whole.
 class SeamLocator {
   public:
     SeamLocator(const std::vector<SheetEntry>& sheets, const std::optional<Camera>& camera);
 
-    /// Returns all sheets that are seen, each by the part that shows most of it. Throws Error.
+    /// Returns a view for each sheet in the frame, from the part that shows most of its dots.
+    /// Throws Error if the image does not have the size of the camera's images.
     std::vector<SheetView> views(const GreyImage& image);
 
-    /// A rectangle of the image, in px.
+    /// Rectangle of the image, in px.
     struct Part {
         int u = 0;
         int v = 0;

@@ -15,16 +15,17 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Size of the whitened residual of a view beyond which it counts less: one in 70 by chance.
+/// Whitened residual of a view above which its weight decreases. By chance, one in 70 exceeds it.
 constexpr double kRobust_sigmas = 4;
-/// Standard deviation of parameters that must not move.
+/// Standard deviation of parameters that must not change.
 constexpr double kPinned = 1e-7;
-/// Relative standard deviation of a camera's scale against the sheets', before the first frame.
+/// Prior relative standard deviation of the scale of a camera relative to the sheets.
 constexpr double kCameraPrior = 0.03;
-/// Standard deviation of a camera's aspect and skew if its file has none; pixels are square.
+/// Prior standard deviation of aspect and skew of a camera whose file does not contain them. Pixels
+/// are square.
 constexpr double kSquarePrior = 0.002;
 
-/// A vector in the plane; T is double or a type that carries derivatives.
+/// Vector in the plane. T is double or an automatic differentiation type.
 template <typename T>
 struct Vector {
     T x;
@@ -40,10 +41,11 @@ Vector<T> turned(const T& angle, const Vector<T>& v) {
     return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-/// The residual of a view, by camera, frame and sheet as parameters, in standard deviations.
+/// Residual of a view, in standard deviations. The parameters are camera, frame and sheet.
 struct ViewResidual {
     const SheetView& view;
-    Eigen::Vector2d first_mm;  ///< place of the sheet's first intersection, from the page's corner
+    /// Position of the sheet's first intersection relative to the corner of the page.
+    Eigen::Vector2d first_mm;
 
     template <typename T>
     bool operator()(const T* camera, const T* frame, const T* sheet, T* residual) const {
@@ -76,7 +78,7 @@ struct ViewResidual {
     }
 };
 
-/// The residual of a constraint: (sum of weights * parameters - expected) / sigma.
+/// Residual of a constraint: (sum of weights * parameters - expected) / sigma.
 template <int kSize>
 struct Pin {
     std::array<double, kSize> weights;
@@ -110,7 +112,8 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// Returns a point of the camera frame, with the camera's x axis, on the page of a view's sheet.
+/// Returns the pose of a point of the camera frame, with the direction of the camera's x axis, on
+/// the page of the sheet of a view.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
@@ -118,7 +121,8 @@ PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const
             std::atan2(scale.y * view.axes(1, 0), scale.x * view.axes(0, 0))};
 }
 
-/// Returns the relative standard deviation of a value of the camera file; 0 if the file has none.
+/// Returns the relative standard deviation of a value of the camera file; 0 if the file does not
+/// contain it.
 double relative_sigma(const Camera& camera, const char* key, double value) {
     const auto found = camera.sigma.find(key);
     return found == camera.sigma.end() ? 0 : found->second / value;
@@ -199,7 +203,8 @@ PlanePose SheetGraph::image_centre(const SheetView& view) const {
                                       print_scale(view.sheet));
 }
 
-/// Sets first poses of the sheets, seam by seam: each by the frame that shows most of both sheets.
+/// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. Each pose comes
+/// from the frame that shows most of both sheets.
 void SheetGraph::spread_from_fixed() {
     const auto start = [this](std::size_t sheet, const PlanePose& pose) {
         const AxisScale scale = sheets_[sheet].print_scale();
@@ -232,7 +237,7 @@ void SheetGraph::spread_from_fixed() {
     }
 }
 
-/// Sets first poses of the frames; removes views that do not help to place the sheets.
+/// Sets initial poses of the frames. Removes views that do not contribute to the poses of sheets.
 void SheetGraph::start_frames() {
     std::map<int, int> counts;
     std::erase_if(views_, [this](const SheetView& view) { return !is_connected(view.sheet); });
@@ -286,8 +291,8 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
                 pin_one(problem, node, k, 0, kPinned);
         }
         if (i == fixed_ && !has_scale()) {
-            // Views fitted to parts of frames would determine the aspect, but all have the same
-            // error.
+            // The views from parts of frames would determine the aspect, but all of them have the
+            // same error.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }
         if (i == fixed_ && reference_.by == By::fixed_sheet) {
@@ -309,7 +314,8 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     const Camera& camera = *camera_;
     const double x = relative_sigma(camera, "mm_per_px_x", camera.paper->mm_per_px_x);
     const double y = relative_sigma(camera, "mm_per_px_y", camera.paper->mm_per_px_y);
-    const double half = std::hypot(x, y) / 2;  // of the mean, and of half the difference
+    // Standard deviation of the mean, and of half the difference.
+    const double half = std::hypot(x, y) / 2;
     const double skew = relative_sigma(camera, "skew", 1);
     const bool is_true = reference_.by == ScaleReference::By::camera;
     pin_one(problem, camera_scale_, 0, 0, is_true ? std::max(half, kPinned) : kCameraPrior);
@@ -317,14 +323,15 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     pin_one(problem, camera_scale_, 2, 0, skew > 0 ? skew : kSquarePrior);
 }
 
-/// Returns the shares of an affine map fitted to the dots, scaled so that dots with errors of their
-/// standard deviation give whitened residuals of standard deviation 1.
+/// Returns the DotShare of each dot, for an affine map fitted to all dots. The derivatives are
+/// scaled to whitened residuals of standard deviation 1 for dots with errors of standard deviation
+/// 1.
 std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) const {
     const Pattern& pattern = sheets_[view.sheet].sheet.pattern;
     const Cell first = sheets_[view.sheet].sheet.origin;
     const Eigen::Matrix2d camera_from_sheet = view.axes.inverse();
     std::vector<std::array<double, 3>> places;  // 1, x, y in the camera frame
-    NormalEquations equations(3);               // of the map along one axis
+    NormalEquations equations(3);               // map along one axis
     for (const std::uint64_t dot : view.dots) {
         const Eigen::Vector2d steps(static_cast<double>((dot >> 32) - first.x),
                                     static_cast<double>((dot & 0xffffffff) - first.y));
@@ -332,7 +339,7 @@ std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) 
         equations.add(places.emplace_back(std::array{1.0, at.x(), at.y()}), 0);
     }
     const Eigen::MatrixXd along_axis = equations.unit_covariance();
-    // Of place, then axes column by column: the errors along both axes are independent.
+    // Covariance of place and axes, column by column. The errors along x and y are independent.
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(6, 6);
     for (Eigen::Index i = 0; i < 6; ++i) {
         for (Eigen::Index j = i % 2; j < 6; j += 2)
@@ -352,8 +359,8 @@ std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) 
     return shares;
 }
 
-/// Returns the variances of the shared parameters that come from printing: a dot has the same error
-/// in all frames that show it.
+/// Returns the variances of the shared parameters due to printing. A dot has the same printing
+/// error in all frames that show it.
 Eigen::VectorXd SheetGraph::print_variances(const Eigen::MatrixXd& gain) const {
     std::map<std::pair<std::size_t, std::uint64_t>, Eigen::MatrixX2d> of_dots;
     Eigen::Index row = 0;
@@ -383,8 +390,8 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
     const int parameters =
         problem.NumParameters() - (has_scale() ? 0 : static_cast<int>(camera_scale_.size()));
     if (has_scale()) shared.push_back(camera_scale_.data());
-    // Residuals within frames do not include how sheets bend, so the misfit between frames scales
-    // the errors.
+    // The residuals within frames do not include the bending of sheets, so the variances are scaled
+    // by the misfit between frames.
     const double misfit = std::max(2 * cost / std::max(residuals - parameters, 1), 1.0);
     const Eigen::MatrixXd gain = normal_gain(problem, shared);
     const auto pins = gain.rightCols(gain.cols() - 6 * static_cast<Eigen::Index>(views_.size()));
@@ -397,7 +404,7 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
             ++row;
         }
         if (has_scale()) continue;
-        for (const std::size_t scale : {3, 4})  // errors are against the fixed sheet
+        for (const std::size_t scale : {3, 4})  // errors are relative to the fixed sheet
             variances_[i][scale] += kUsualPrintError * kUsualPrintError;
     }
 }

@@ -1,5 +1,5 @@
-// Sheet graph: a graph of sheets and frames, linked where a frame shows a sheet. It finds how
-// sheets lie beside each other, and how long they were printed.
+// Sheet graph: a graph of sheets and frames, with an edge for each frame that shows a sheet.
+// Computes the relative poses and the print scales of the sheets.
 #pragma once
 
 #include <array>
@@ -14,46 +14,47 @@
 
 namespace dotpose::calibrate {
 
-/// Place and direction on a plane with x right, y DOWN: mm and radians, from +x towards +y.
+/// Pose in a plane with x right and y DOWN: x and y in mm, turn in radians from +x towards +y.
 struct PlanePose {
     double x = 0;
     double y = 0;
     double turn = 0;
 
-    /// Returns the pose of `inner`, which is given in the frame of this pose.
+    /// Returns the pose of `inner`, which is relative to this pose.
     PlanePose operator*(const PlanePose& inner) const;
     PlanePose inverse() const;
 };
 
-/// The graph, and its solution by least squares.
+/// Graph of sheets and frames, solved by least squares.
 class SheetGraph {
   public:
-    /// `fixed` is the index of the sheet whose page's corner and upper edge are the frame of all
-    /// poses.
+    /// `fixed` is the index of the fixed sheet. The corner and the upper edge of its page define
+    /// the frame of all poses.
     SheetGraph(const std::vector<SheetEntry>& sheets, const std::optional<Camera>& camera,
                std::vector<SheetView> views, std::size_t fixed, const ScaleReference& reference);
 
-    /// Finds the poses and print scales of all sheets that are connected to the fixed one.
+    /// Computes the poses and print scales of all sheets that are connected to the fixed sheet.
     void solve();
 
     bool is_connected(std::size_t sheet) const { return nodes_[sheet].has_value(); }
-    /// Returns the pose of the page's corner and upper edge. The sheet must be connected.
+    /// Returns the pose of the corner and the upper edge of the page. The sheet must be connected.
     PlanePose pose(std::size_t sheet) const;
     AxisScale print_scale(std::size_t sheet) const;
     double sigma_mm(std::size_t sheet) const;
     double sigma_rad(std::size_t sheet) const;
     AxisScale sigma_scale(std::size_t sheet) const;
-    /// Return the image centre by one view: in mm from the sheet's first intersection as it was
-    /// meant to be printed, and as a pose.
+    /// Return the position of the image centre according to one view: on the sheet, in nominal mm
+    /// from its first intersection; and as a pose in the frame of the fixed sheet.
     Eigen::Vector2d centre_on_sheet(const SheetView& view) const;
     PlanePose image_centre(const SheetView& view) const;
 
   private:
-    /// Place of the page's corner, direction of the upper edge, and logarithms of the print scales.
+    /// Position of the corner of the page in mm, direction of its upper edge in radians, and
+    /// logarithms of the two print scales.
     using Node = std::array<double, 5>;
     using FramePose = std::array<double, 3>;
-    /// Derivative of the whitened residuals of a view by the place of one of its dots, along x and
-    /// y of the sheet.
+    /// Derivative of the whitened residuals of a view with respect to the position of one of its
+    /// dots, along the x and y axis of the sheet.
     using DotShare = Eigen::Matrix<double, 6, 2>;
 
     Eigen::Vector2d centre_in_camera(const SheetView& view) const;
@@ -74,10 +75,10 @@ class SheetGraph {
     std::size_t fixed_;
     ScaleReference reference_;
 
-    std::vector<std::optional<Node>> nodes_;  ///< none if not connected
+    std::vector<std::optional<Node>> nodes_;  ///< empty for sheets that are not connected
     std::vector<Node> variances_;
-    std::map<int, FramePose> frames_;  ///< poses of the camera frame
-    /// The camera's mm relative to those of the fixed sheet: logarithm of the scale, aspect, skew.
+    std::map<int, FramePose> frames_;  ///< poses of the camera frame, by frame number
+    /// Scale of the camera relative to the fixed sheet: logarithm of the mean scale, aspect, skew.
     std::array<double, 3> camera_scale_{};
 };
 

@@ -1,4 +1,4 @@
-// Sheet spacing: the spacing of the sheet that calibration frames show.
+// Sheet spacing: the spacing of the sheet in calibration frames.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,9 @@
 
 namespace dotpose::calibrate {
 
-/// Returns the spacing, in mm, of the sheet of `options` that holds most of the places, as it was
-/// printed; without sheets that of the pattern of `options`. Throws Error if no sheet holds one.
+/// Returns the printed spacing, in mm, of the sheet of `options` that contains most of the places.
+/// If `options` has no sheets, returns the spacing of its pattern. Throws Error if no sheet
+/// contains any of the places.
 double printed_spacing_mm(const CalibrateOptions& options, CodeVariant code,
                           const std::vector<Place>& places);
 

@@ -1,5 +1,5 @@
-// Stitching: finds how sheets lie beside each other, and how long they were printed, from frames
-// that show two of them.
+// Stitching: computes the relative poses and print scales of sheets from frames that show two of
+// them.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -16,8 +16,8 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// Converts a pose to the world. The fixed sheet's y is down and its angles are clockwise; the
-/// world's are not.
+/// Converts a pose in the frame of the fixed sheet (y down, angles clockwise) to the world (y up,
+/// angles counter-clockwise).
 WorldPose world_of(const PlanePose& pose, const WorldPose& fixed) {
     const double c = std::cos(fixed.yaw_rad);
     const double s = std::sin(fixed.yaw_rad);
@@ -27,7 +27,7 @@ WorldPose world_of(const PlanePose& pose, const WorldPose& fixed) {
             std::remainder(fixed.yaw_rad - pose.turn, 2 * std::numbers::pi)};
 }
 
-/// Returns the views of all frames, frame by frame.
+/// Returns the views of all frames, ordered by frame.
 std::vector<SheetView> views_of(int frames, const FrameAt& frame_at,
                                 const std::vector<SheetEntry>& sheets,
                                 const std::optional<Camera>& camera,
@@ -48,7 +48,7 @@ std::vector<SheetView> views_of(int frames, const FrameAt& frame_at,
     return all;
 }
 
-/// Compares each view of a frame with the one that shows most.
+/// Compares each view of a frame with the view that shows the most dots.
 void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph,
                     Stitching& result) {
     struct Sums {
@@ -65,7 +65,7 @@ void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph
         });
         for (; first != last; ++first) {
             if (first == best || !graph.is_connected(first->sheet)) continue;
-            // The order of the sheets is always the same, so that disagreements can be compared.
+            // The order of the two sheets is always the same, to make disagreements comparable.
             const bool is_lower = first->sheet < best->sheet;
             const SheetView& a = is_lower ? *first : *best;
             const SheetView& b = is_lower ? *best : *first;
@@ -88,8 +88,9 @@ void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph
     }
 }
 
-/// Returns the sheet that stays, among those seen beside another one: the first with a world pose,
-/// otherwise the first.
+/// Returns the index of the fixed sheet. It is the first sheet with a world pose among the sheets
+/// seen beside another sheet, or the first of them if no sheet has a world pose. Throws Error if
+/// only other sheets have a world pose.
 std::size_t fixed_sheet(const std::vector<SheetEntry>& sheets,
                         const std::vector<SheetView>& views) {
     std::set<std::size_t> joined;
@@ -97,15 +98,15 @@ std::size_t fixed_sheet(const std::vector<SheetEntry>& sheets,
         if (views[i].frame == views[i - 1].frame)
             joined.insert({views[i].sheet, views[i - 1].sheet});
     }
-    const auto lies_in_world = [&](std::size_t i) { return sheets[i].world.has_value(); };
-    const auto fixed = std::ranges::find_if(joined, lies_in_world);
+    const auto has_world_pose = [&](std::size_t i) { return sheets[i].world.has_value(); };
+    const auto fixed = std::ranges::find_if(joined, has_world_pose);
     if (fixed != joined.end()) return *fixed;
     for (const SheetEntry& entry : sheets) {
         if (!entry.world) continue;
-        throw Error(fmt::format(
-            "no frame shows '{}', which lies in the world, beside another sheet: take frames over "
-            "its seams",
-            entry.name));
+        throw Error(
+            fmt::format("no frame shows '{}', which has a world pose, beside another sheet: take "
+                        "frames over its seams",
+                        entry.name));
     }
     return *joined.begin();
 }
@@ -115,24 +116,25 @@ void require_reference(const ScaleReference& reference, const std::vector<SheetE
     using By = ScaleReference::By;
     if (reference.by == By::camera && !(camera && camera->paper)) {
         throw BadArgument(
-            "the camera cannot tell the scale: its file has no mm_per_px, as a mounted camera's "
-            "has");
+            "the camera cannot define the scale: its file has no mm_per_px, unlike that of a "
+            "mounted camera");
     }
     if (reference.by != By::width) return;
     if (std::ranges::find(sheets, reference.sheet, &SheetEntry::name) == sheets.end()) {
-        throw BadArgument(fmt::format("there is no sheet '{}' to tell the scale", reference.sheet));
+        throw BadArgument(
+            fmt::format("there is no sheet '{}' to define the scale", reference.sheet));
     }
     if (!(reference.width_mm > 0 && std::isfinite(reference.width_mm))) {
         throw BadArgument("the true width of a sheet must be above 0");
     }
 }
 
-/// Throws Error for a scale by the camera file that no printer produces: then its view or the
-/// spacing in the sheet file is wrong.
-void require_believable(const AxisScale& scale, const SheetEntry& entry) {
-    constexpr double kFarthest = 0.25;
+/// Throws Error if the camera file gives a print scale that no printer produces. In that case the
+/// view in the camera file or the spacing in the sheet file is wrong.
+void require_plausible(const AxisScale& scale, const SheetEntry& entry) {
+    constexpr double kMaxScaleError = 0.25;
     const double mean = std::sqrt(scale.x * scale.y);
-    if (std::abs(mean - 1) <= kFarthest) return;
+    if (std::abs(mean - 1) <= kMaxScaleError) return;
     const double spacing_mm = entry.sheet.pattern.spacing_mm;
     throw Error(
         fmt::format("the camera file measures a spacing of {:.3f} mm on '{}', and the sheet file "
@@ -149,7 +151,7 @@ void describe_sheets(const SheetGraph& graph, std::size_t fixed, Stitching& resu
             if (result.reference.by == ScaleReference::By::width &&
                 entry.name == result.reference.sheet) {
                 throw Error(fmt::format(
-                    "no frame joins '{}', which is to tell the scale, to the other sheets",
+                    "no frame connects '{}', which defines the scale, to the other sheets",
                     entry.name));
             }
             result.unconnected.push_back(entry.name);
@@ -162,7 +164,7 @@ void describe_sheets(const SheetGraph& graph, std::size_t fixed, Stitching& resu
         entry.print_scale_y = scale.y;
         result.stitched.push_back(
             {entry.name, graph.sigma_mm(i), graph.sigma_rad(i), i == fixed, sigma.x, sigma.y});
-        if (result.reference.by == ScaleReference::By::camera) require_believable(scale, entry);
+        if (result.reference.by == ScaleReference::By::camera) require_plausible(scale, entry);
     }
 }
 
@@ -181,11 +183,10 @@ Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEn
     result.reference = reference;
     const auto views = views_of(frames, frame_at, sheets, camera, options, result);
     if (result.used == 0) {
-        throw Error(
-            fmt::format("none of the {} frames shows two sheets of the sheet file: drive "
-                        "over the seams, and see that each sheet fills a third of the image "
-                        "and shows 8 x 8 dots",
-                        frames));
+        throw Error(fmt::format(
+            "none of the {} frames shows two sheets of the sheet file: drive over the seams, and "
+            "make sure that each sheet fills a third of the image and shows 8 x 8 dots",
+            frames));
     }
     const std::size_t fixed = fixed_sheet(sheets, views);
     SheetGraph graph(sheets, camera, views, fixed, reference);

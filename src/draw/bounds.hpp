@@ -1,4 +1,4 @@
-// Bounding box of points of a drawing.
+// Bounding box of the points of a drawing.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,8 @@
 
 namespace dotpose::draw {
 
-/// The smallest axis-aligned box around all points added; `low` is above `high` while it is empty.
+/// Smallest axis-aligned box that contains all added points. `low` is above `high` while the box is
+/// empty.
 struct Bounds {
     Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
     Point high{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};

@@ -17,10 +17,10 @@ using namespace dotpose::draw;
 constexpr double kMargin = 30;
 constexpr double kHead = 74;
 constexpr double kMaxSide = 520;
-/// Number of parts into which the longer side of the image is divided; each part has one arrow.
+/// Number of parts along the longer side of the image. Each part has one arrow.
 constexpr int kParts = 22;
-/// Smallest residual that is drawn with the longest arrow; residuals of pure noise therefore look
-/// small.
+/// Residual of the longest arrow if all residuals are smaller. Residuals of pure noise therefore
+/// look small.
 constexpr double kMinFullScale_px = 0.05;
 
 struct Part {
@@ -75,7 +75,7 @@ class CalibrationPicture {
                  at.x, at.y, width(), height(), colour::kFrame);
     }
 
-    /// Calls `use(part, middle)` for all parts with dots; `middle` is the centre of the part on the
+    /// Calls `use(part, middle)` for all parts with dots. `middle` is the centre of the part on the
     /// drawing.
     template <typename Use>
     void visit(int panel, Use use) const {

@@ -16,7 +16,7 @@ constexpr double kSmallSize = 36;
 constexpr double kSecondRow_y = 190;
 constexpr double kSheetRow_y = 292;
 
-/// A value of the caption with its name, which is drawn above.
+/// A value of the caption. Its name is drawn above it.
 struct Entry {
     std::string label;
     std::string value;
@@ -28,7 +28,7 @@ double text_width(const std::string& text, double size) {
     return 0.72 * size * static_cast<double>(std::ranges::count_if(text, is_first_byte));
 }
 
-/// Draws entries in columns of equal width; wider entries have a smaller font.
+/// Draws entries in columns of equal width. Entries wider than a column have a smaller font.
 void draw_entries(const std::vector<Entry>& entries, double y, double column, double size,
                   Svg& svg) {
     double font = size;
@@ -62,15 +62,15 @@ std::string probability(const Fix& fix) {
     return "≤ 10" + exponent;
 }
 
-/// Replaces a leading hyphen by a minus sign, which has the width of a digit.
+/// Replaces a leading hyphen by a minus sign, which is as wide as a digit.
 std::string with_minus(std::string text) {
     if (text.starts_with('-')) text.replace(0, 1, "−");
     return text;
 }
 
-/// The pose in large numbers, and its standard deviations.
+/// The pose in large numbers, with its standard deviations.
 struct Shown {
-    const char* frame;  ///< suffix of the name of a coordinate
+    const char* frame;  ///< suffix of the names of the coordinates
     std::string x;
     std::string y;
     double angle_rad;
@@ -154,7 +154,7 @@ void draw_pose(const Fix& fix, const DrawOptions& options, double width, Svg& sv
              R"(class="place" fill="#17202a")");
 }
 
-/// Breaks a text between words into lines of at most `max_bytes` bytes; longer words are not split.
+/// Breaks a text between words into lines of at most `max_bytes` bytes. Longer words are not split.
 std::vector<std::string> wrapped(const std::string& text, std::size_t max_bytes) {
     std::vector<std::string> lines(1);
     std::istringstream words(text);

@@ -34,8 +34,9 @@ std::vector<std::uint8_t> encode_png(ImageView image) {
     return bytes;
 }
 
-/// Returns the means of blocks of `by` x `by` pixels; blocks at the right and lower edge are
-/// smaller. The grey levels are multiples of 4, because noise in the last bits does not compress.
+/// Returns the means of blocks of `by` x `by` pixels. Blocks at the right and lower edge are
+/// smaller. The grey levels are multiples of 4, because noise in the lowest bits is not
+/// compressible.
 GreyImage reduced(ImageView image, int by) {
     GreyImage result{{}, (image.width_px + by - 1) / by, (image.height_px + by - 1) / by};
     for (int v = 0; v < image.height_px; v += by) {

@@ -1,21 +1,21 @@
-// The parts of the picture of `draw_frame`. Each part has its own coordinate system, with (0, 0) at
-// the top left corner.
+// Parts of the picture of `draw_frame`. Each part has its own coordinate system with (0, 0) at the
+// top left corner.
 #pragma once
 
 #include "draw/frame_view.hpp"
 
 namespace dotpose::draw {
 
-/// Draws the dots and the edges between neighbours on the frame, like Fig. 2 and 3 of the paper.
+/// Draws the dots and the edges between neighbours on the frame, as in Fig. 2 and 3 of the paper.
 void draw_detection(const FrameView& view, Svg& svg);
 
-/// Draws all edges from a common origin in a square with side `side`, like Fig. 4 of the paper.
+/// Draws all edges from a common origin, in a square with side `side`, as in Fig. 4 of the paper.
 void draw_edges(const FrameView& view, double side, Svg& svg);
 
-/// Draws the grid and the symbols on a faded frame, like Fig. 9 of the paper.
+/// Draws the grid and the symbols on a faded frame, as in Fig. 9 of the paper.
 void draw_reading(const FrameView& view, Svg& svg);
 
-/// Writes the pose, or the reason why there is none.
+/// Writes the pose, or the reason why there is no pose.
 void draw_caption(const FrameView& view, const DrawOptions& draw_options, double width, Svg& svg);
 
 }  // namespace dotpose::draw

@@ -68,7 +68,7 @@ Point Plane::image_point(Point plane_point) const {
     const Point d = 1 / area_ * (plane_point - at_centre_);
     const Point affine{d.x * dv_.y - d.y * dv_.x, d.y * du_.x - d.x * du_.y};
     Point p = affine;
-    // Fixed-point iteration; it converges fast because the divisor changes little within a frame.
+    // Fixed-point iteration. It converges fast because the divisor varies little within a frame.
     for (int round = 0; round < 20; ++round)
         p = divisor(p) * affine;
     return centre_px_ + p;
@@ -112,11 +112,11 @@ double FrameView::estimate_spacing_px() const {
     if (areas_px.empty()) return 10;
     const auto middle = areas_px.begin() + static_cast<std::ptrdiff_t>(areas_px.size() / 2);
     std::nth_element(areas_px.begin(), middle, areas_px.end());
-    // Without a grid, the spacing is estimated as three times the width of a typical dot.
+    // Without a grid, the spacing is estimated as three times the diameter of a typical dot.
     return 3 * std::sqrt(*middle * 4 / std::numbers::pi);
 }
 
-/// Inverts the paper's eq. 2, |p_u - m| = r / (1 + k r^2), by solving it for r.
+/// Inverts eq. 2 of the paper, |p_u - m| = r / (1 + k r^2), by solving it for r.
 Point FrameView::image_from_ideal(Point ideal_px) const {
     const Point r_u = ideal_px - lens_centre_px_;
     const double squared = r_u.x * r_u.x + r_u.y * r_u.y;
@@ -141,7 +141,8 @@ Point FrameView::at_grid(double i, double j) const {
 
 Point FrameView::ahead_of_reference() const {
     const Plane pattern(trace_.pattern_from_image);
-    constexpr double kShort = 0.1;  // spacings; over a longer step the distortion would show
+    // Step in spacings. Over a longer step, the distortion would be visible.
+    constexpr double kShort = 0.1;
     const Point end_px = pattern.image_point(pattern.plane_point(reference_px_) + Point{kShort, 0});
     const Point ahead = at(end_px) - at(reference_px_);
     return 1 / std::max(length(ahead), 1e-9) * ahead;

@@ -6,14 +6,14 @@
 
 namespace dotpose::draw {
 
-/// The results in the trace after `locate`.
+/// Results that the trace contains after `locate`.
 struct Reached {
-    bool undistorted = false;  ///< dot centres are corrected for lens distortion
+    bool undistorted = false;  ///< dot centres, corrected for lens distortion
     bool edges = false;        ///< edges between neighbouring dots
-    bool axes = false;         ///< the grid vectors
-    bool cells = false;        ///< the likelihoods of the bits of each cell
-    bool window = false;       ///< the 8 x 8 clearest cells
-    bool place = false;        ///< a position and orientation, certain or not
+    bool axes = false;         ///< grid vectors
+    bool cells = false;        ///< likelihoods of the bits of each cell
+    bool window = false;       ///< window of the 8 x 8 clearest cells
+    bool place = false;        ///< position and orientation, certain or not
     bool pose = false;         ///< a fix
 };
 Reached reached(const Trace& trace);
@@ -25,7 +25,7 @@ class Plane {
 
     Point plane_point(Point image_px) const;
     Point image_point(Point plane_point) const;
-    /// The grid spacing at the image centre.
+    /// Returns the grid spacing at the image centre.
     double spacing_px() const;
 
   private:
@@ -50,25 +50,26 @@ class FrameView {
     const Reached& reached() const { return reached_; }
     double width() const { return width_px_ * scale_; }
     double height() const { return height_px_ * scale_; }
-    /// Size of a pixel on the drawing.
+    /// Returns the size of a pixel on the drawing.
     double scale() const { return scale_; }
-    /// Whether the dots are too close together on the drawing for legible letters and rings.
+    /// Returns true if the dots are too close together on the drawing for legible letters and
+    /// rings.
     bool is_dense() const;
-    /// Factor for the width of strokes: 1 if the grid spacing is at least 70 units on the drawing,
-    /// less for a smaller spacing.
+    /// Returns the factor for the width of strokes: 1 if the grid spacing is at least 70 units on
+    /// the drawing, less for a smaller spacing.
     double stroke() const { return stroke_; }
-    /// The grid spacing on the drawing, estimated from the dots if no grid was found.
+    /// Returns the grid spacing on the drawing. It is estimated from the dots if no grid was found.
     double spacing() const { return spacing_px_ * scale_; }
 
     /// Returns the point of the drawing that shows an ideal pixel.
     Point at(Point ideal_px) const;
     Point at_dot(const DetectedDot& dot) const;
-    /// Returns the point of the drawing that shows a point of the grid; needs `reached().cells`.
+    /// Returns the point of the drawing that shows a point of the grid. Requires `reached().cells`.
     Point at_grid(double i, double j) const;
-    /// The reference point of the pose, in ideal pixels.
+    /// Returns the reference point of the pose, in ideal pixels.
     Point reference_px() const { return reference_px_; }
-    /// The unit vector of the pattern's x axis on the drawing, at the reference point. Needs
-    /// `reached().pose`.
+    /// Returns the unit vector of the pattern's x axis on the drawing, at the reference point.
+    /// Requires `reached().pose`.
     Point ahead_of_reference() const;
 
   private:
@@ -88,9 +89,10 @@ class FrameView {
     Point reference_px_;
 };
 
-/// The grid cell of the top left symbol of the window on the pattern; needs `Reached::place`.
+/// Returns the grid cell of the top left symbol of the window on the pattern. Requires
+/// `Reached::place`.
 FixedVec window_corner(const Trace& trace);
-/// The position of a grid cell in the code; needs `Reached::place`.
+/// Returns the position of a grid cell in the code. Requires `Reached::place`.
 Place place_of(const Trace& trace, FixedVec grid_cell);
 
 /// Converts 1/256 pixels to pixels.

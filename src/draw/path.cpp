@@ -187,7 +187,7 @@ void PathSketch::draw_errors(double x, double y, double height) {
     const auto last = static_cast<double>(std::max<std::size_t>(path_.size(), 2) - 1);
     svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg", x, y);
     svg_.text({0, -16}, 24, "error of each frame", R"(fill="#6b7885")");
-    // With 4 or 5 divisions the steps are 1, 2 or 5 times a power of ten.
+    // With 4 or 5 divisions, the steps are 1, 2 or 5 times a power of ten.
     const int steps = std::fmod(std::round(std::log10(reach_um / 2) * 1e6), 1e6) == 0 ? 4 : 5;
     for (int step = 0; step <= steps; ++step) {
         const double line_y = height * (1 - static_cast<double>(step) / steps);

@@ -16,11 +16,11 @@ using namespace dotpose::draw;
 constexpr double kMapMargin = 40;
 constexpr double kMapHead = 110;
 constexpr double kMaxMapSide = 1000;
-/// Length of the longest arrow in units of the drawing; shorter if the spacing of the arrows is
-/// smaller.
+/// Maximum length of an arrow, in drawing units and relative to the distance between the arrows.
+/// The smaller limit applies.
 constexpr double kMaxArrow = 45;
 constexpr double kMaxStep = 0.95;
-/// Smallest distortion that is drawn with the longest arrow; noise therefore looks small.
+/// Distortion of the longest arrow if all distortions are smaller. Noise therefore looks small.
 constexpr double kMinMapScale_mm = 0.01;
 
 /// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `value`.
@@ -66,7 +66,7 @@ class PrintMap {
     void draw_head() {
         const double shown_mm = round_down(full_mm_);
         const double y = kMapMargin + 80;
-        svg_.text({kMapMargin, kMapMargin + 28}, 30, "Where dots stand, against the fitted page",
+        svg_.text({kMapMargin, kMapMargin + 28}, 30, "Dot places relative to the fitted page",
                   R"(font-weight="bold" fill="#17202a")");
         svg_.arrow({kMapMargin, y}, {kMapMargin + shown_mm * per_mm_, y}, 2.5, colour::kEdge);
         svg_.text({kMapMargin + shown_mm * per_mm_ + 14, y + 7}, 20,
@@ -80,7 +80,7 @@ class PrintMap {
                        kMapMargin + kMapHead + (bin.v_px + 0.5) * scale_};
         const Point tip = at + per_mm_ * Point{bin.du_mm, bin.dv_mm};
         const double share = std::min(std::hypot(bin.du_mm, bin.dv_mm) / full_mm_, 1.0);
-        // The colour goes from blue for small to red for large distortions.
+        // The colour ranges from blue for small to red for large distortions.
         const auto strength = [](double part) { return static_cast<int>(std::lround(210 * part)); };
         const std::string colour =
             fmt::format("#{:02x}40{:02x}", strength(share), strength(1 - share));

@@ -13,11 +13,11 @@
 namespace dotpose::draw {
 namespace {
 
-constexpr double kHighest = 127;  // the largest weight of a bit
+constexpr double kMaxWeight = 127;  // maximum weight of a bit
 
 /// Returns the likelihood of the symbol as in the paper, |Px Py|, from 0 to 1.
 double quality(const GridCell& cell) {
-    return std::abs(cell.x * cell.y) / (kHighest * kHighest);
+    return std::abs(cell.x * cell.y) / (kMaxWeight * kMaxWeight);
 }
 
 /// Returns a colour between red (0), amber and green (1).
@@ -67,7 +67,7 @@ class Reading {
     void draw_symbol(int i, int j, const GridCell& cell) const;
     void draw_points() const;
     /// Calls a function with column, row and cell of each dot that was read. Returns the centres of
-    /// the other dots: dots far from an intersection, or near one with a better dot.
+    /// the other dots: dots far from an intersection, or near an intersection with a better dot.
     std::vector<Point> for_each_read_dot(
         const std::function<void(int, int, const GridCell&)>& draw) const;
     /// Draws a line of the grid as several strokes, because lens distortion may bend it.
@@ -168,7 +168,7 @@ std::vector<Point> Reading::for_each_read_dot(
     return unread;
 }
 
-/// Draws dots without letters, with one element for dots of similar likelihood.
+/// Draws dots without letters. Dots of similar likelihood share one element.
 void Reading::draw_points() const {
     constexpr std::size_t kColours = 8;
     std::array<std::vector<Point>, kColours> points;
@@ -230,7 +230,7 @@ void Reading::draw_axes() const {
                           colour::kWindow, 4 * stroke, 11 * stroke));
     const double reach = 2.4 * view_.spacing();
     const Point ahead = reach * view_.ahead_of_reference();
-    const double arc = 0.6;  // radius of the arc as a fraction of the arrows' length
+    const double arc = 0.6;  // radius of the arc as a fraction of the length of the arrows
     svg_.add(R"(<path d="M{:.2f} {:.2f}A{:.2f} {:.2f} 0 0 {} {:.2f} {:.2f}" fill="none" )"
              R"(stroke="{}" stroke-width="{:.2f}"/>)",
              reference.x + arc * reach, reference.y, arc * reach, arc * reach, ahead.y > 0 ? 1 : 0,

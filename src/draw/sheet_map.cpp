@@ -22,16 +22,18 @@ constexpr double kSide = 900;
 constexpr double kSheetMargin = 50;
 constexpr double kSheetHead = 70;
 constexpr double kFoot = 60;
-constexpr double kBox = 190;  // the longest side of a sheet without a pose
+constexpr double kBox = 190;  // longest side of a sheet without a pose
 constexpr double kBoxPitch_x = 230;
 constexpr double kBoxPitch_y = 300;
 constexpr std::size_t kBoxRows = 3;
-/// Maximum extent; beyond it a page is smaller than the rounding of the numbers in the drawing.
+/// Maximum extent of the map. In a larger map, a page would be smaller than the rounding of the
+/// numbers in the drawing.
 constexpr double kMaxExtent_m = 1e7;
 constexpr const char* kCentred = R"(text-anchor="middle" fill="#17202a")";
 constexpr const char* kCentredQuiet = R"(text-anchor="middle" fill="#6b7885")";
 
-/// The corners of a page with a pose, in metres of the world, from the top left one clockwise.
+/// Returns the corners of a page with a pose, in metres in the world, clockwise from the top left
+/// corner.
 std::array<Point, 4> corners_m(const SheetEntry& entry) {
     const auto corner = [&entry](double x_mm, double y_mm) {
         const WorldPlace place = world_place({&entry, x_mm, y_mm, 0, {}}).value();
@@ -42,8 +44,8 @@ std::array<Point, 4> corners_m(const SheetEntry& entry) {
             corner(0, sheet.height_mm)};
 }
 
-/// The bounding box of all pages with a pose and of the world's origin. The origin is left out if
-/// the pages would become too small.
+/// Returns the bounding box of all pages with a pose and of the world's origin. The origin is
+/// omitted if it would make the pages too small.
 Bounds world_bounds(std::span<const SheetEntry> sheets) {
     constexpr double kMaxRatioForOrigin = 3;
     Bounds bounds;
@@ -57,8 +59,9 @@ Bounds world_bounds(std::span<const SheetEntry> sheets) {
     const bool is_near = with_origin.extent() <= kMaxRatioForOrigin * bounds.extent();
     const Bounds shown = is_near ? with_origin : bounds;
     if (!bounds.is_empty() && !(shown.extent() < kMaxExtent_m)) {
-        throw Error(fmt::format("the sheets lie over {:g} km of the world: too far apart to draw",
-                                shown.extent() / 1000));
+        throw Error(
+            fmt::format("the sheets extend over {:g} km of the world: too far apart to draw",
+                        shown.extent() / 1000));
     }
     return shown;
 }
@@ -121,7 +124,7 @@ class SheetMap {
         svg_.add(R"(<polygon class="sheet" points="{}" fill="{}" fill-opacity="0.07" )"
                  R"(stroke="{}" stroke-width="1.2"/>)",
                  points, colour::kEdge, colour::kInk);
-        // The pose refers to the top left corner and the upper edge.
+        // The pose refers to the top left corner and the upper edge of the page.
         svg_.circle(corners[0], 5, fmt::format(R"(fill="{}")", colour::kBad));
         svg_.arrow(corners[0], corners[0] + 0.4 * (corners[1] - corners[0]), 2, colour::kBad);
     }

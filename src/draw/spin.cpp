@@ -16,7 +16,7 @@ namespace {
 
 using namespace dotpose::draw;
 
-/// Smallest residual that fills the panel; noise therefore looks small.
+/// Residual that fills the panel if all residuals are smaller. Noise therefore looks small.
 constexpr double kMinFullScale_mm = 0.001;
 
 class SpinPicture {

@@ -19,18 +19,18 @@ namespace {
 using namespace dotpose::draw;
 
 constexpr double kMaxArrow = 70;
-/// Smallest difference that is drawn with the longest arrow; noise therefore looks small.
+/// Difference of the longest arrow if all differences are smaller. Noise therefore looks small.
 constexpr double kMinArrowScale_mm = 0.002;
 
-/// The image centre of one frame, in world mm with y DOWN, and the difference between its positions
-/// on the two sheets.
+/// Image centre of one frame, in world mm with y DOWN, and the difference between its positions on
+/// the two sheets.
 struct Disagreement {
     Point at;
     Point off;
 };
 
-/// Converts a point of a sheet to world mm, with y down as on the drawing. The sheet must have a
-/// place in the world.
+/// Converts a point of a sheet to world mm, with y down as in the drawing. The sheet must have a
+/// world pose.
 Point in_world(const SheetEntry& entry, double x_mm, double y_mm) {
     const WorldPlace place = world_place({&entry, x_mm, y_mm, 0, {}}).value();
     return {1000 * place.x_m, -1000 * place.y_m};
@@ -107,7 +107,7 @@ class StitchingPicture {
         draw_panel_head(
             panel, title,
             all.empty()
-                ? std::string("not all of these sheets lay in the world")
+                ? std::string("not all of these sheets had a world pose")
                 : fmt::format("{:.4f} mm rms per axis; longest arrow {:.4f} mm",
                               std::sqrt(squares / 2 / static_cast<double>(all.size())), full_mm),
             svg_);

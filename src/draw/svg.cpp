@@ -85,7 +85,7 @@ void Svg::circle(Point centre, double radius, std::string_view attributes) {
 }
 
 void Svg::discs(std::span<const Point> centres, double diameter, std::string_view attributes) {
-    // A line of length 0 with round ends is a disc.
+    // A line of length 0 with round ends is drawn as a disc.
     std::string path;
     for (const Point& centre : centres)
         path += fmt::format("M{:.1f} {:.1f}h0", centre.x, centre.y);

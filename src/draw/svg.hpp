@@ -14,7 +14,7 @@
 
 namespace dotpose::draw {
 
-/// A point or vector; the name of the variable contains the coordinate frame.
+/// A point or vector. The name of the variable contains the coordinate frame.
 struct Point {
     double x = 0;
     double y = 0;
@@ -45,7 +45,7 @@ inline constexpr const char* kPattern = "#8e24aa";
 
 class Svg {
   public:
-    /// Starts a drawing with a white background; the size is in user units.
+    /// Starts a drawing with a white background. The size is in user units.
     Svg(double width, double height, std::string_view title);
 
     /// Appends formatted markup, without escaping it, and a line break.
@@ -56,13 +56,13 @@ class Svg {
     }
     void line(Point from, Point to, std::string_view attributes);
     void circle(Point centre, double radius, std::string_view attributes);
-    /// Draws filled discs of one size in a single element; `attributes` must include the stroke
+    /// Draws filled discs of equal size as a single element. `attributes` must include the stroke
     /// colour.
     void discs(std::span<const Point> centres, double diameter, std::string_view attributes);
-    /// Draws a line with a head at its end; `width` is the width of the line.
+    /// Draws a line with an arrowhead at its end. `width` is the width of the line.
     void arrow(Point from, Point to, double width, std::string_view colour,
                std::string_view attributes = {});
-    /// Draws one line of text; `size` is the size of the font.
+    /// Draws one line of text. `size` is the font size.
     void text(Point at, double size, std::string_view content, std::string_view attributes = {});
 
     /// Returns the whole drawing.

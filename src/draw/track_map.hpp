@@ -1,4 +1,4 @@
-// Draws a map: the sheets of a plane from above, and the paths of robots over them.
+// Draws a map of the sheets in a plane, seen from above, and of the paths of robots.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace dotpose::draw {
 
-/// A page, given by its corners in order around it.
+/// A page, given by its four corners in order.
 struct MapSheet {
     std::string name;
     std::array<Point, 4> corners_mm;
@@ -19,7 +19,8 @@ struct MapSheet {
 
 struct MapRobot {
     std::string name;
-    std::vector<std::vector<Point>> strokes_mm;  ///< its path; a jump starts a new stroke
+    /// Path of the robot; a jump starts a new stroke.
+    std::vector<std::vector<Point>> strokes_mm;
     /// The last known position.
     Point place_mm;
     std::optional<double> heading_rad;  ///< from +x towards +y of the plane; none if not known
@@ -33,7 +34,7 @@ struct Map {
     std::vector<MapRobot> robots;
 };
 
-/// Returns the drawing, whose size is the bounding box of its contents.
+/// Returns the drawing. Its size is the bounding box of its contents.
 std::string draw_map(const Map& map);
 
 }  // namespace dotpose::draw

@@ -1,4 +1,4 @@
-// Layout of two square panels side by side, each below a title and a legend.
+// Layout of two square panels side by side, each with a title and a legend above it.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ inline Svg two_panels(const std::string& title) {
                title);
 }
 
-/// Returns the top left corner of a panel's square; `panel` is 0 or 1.
+/// Returns the top left corner of a panel's square. `panel` is 0 or 1.
 inline Point panel_corner(int panel) {
     return {kPanelMargin + panel * (kPanelSide + kPanelMargin), kPanelMargin + kPanelHead};
 }

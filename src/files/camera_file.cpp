@@ -34,9 +34,9 @@ PaperScale read_paper(const YamlMap& file) {
 }
 
 Camera read_native(const YamlMap& file) {
-    if (!file.has("format")) file.fail("format", "is missing: this is no camera file");
+    if (!file.has("format")) file.fail("format", "is missing: this is not a camera file");
     if (file.text("format") != kFormat) {
-        file.fail("format", fmt::format("is '{}': this is no camera file", file.text("format")));
+        file.fail("format", fmt::format("is '{}': this is not a camera file", file.text("format")));
     }
     if (file.integer("version") != kCameraFileVersion) {
         file.fail("version", fmt::format("is {}; this program reads version {}",
@@ -80,7 +80,7 @@ Camera camera_of(const YamlMap& file, const std::string& name) {
     return camera;
 }
 
-/// Formats a number with few digits, but far more exactly than any standard deviation.
+/// Formats a number with 10 significant digits, a rounding far below any standard deviation.
 std::string text_of(double value) {
     return fmt::format("{:.10g}", value);
 }

@@ -11,11 +11,12 @@
 namespace dotpose::files {
 namespace {
 
-/// Maximum undistorted coordinate; larger values come from an iteration that does not converge.
+/// Maximum undistorted coordinate. Larger values come from an iteration that does not converge.
 constexpr double kMaxUndistorted_px = 1e6;
 
-/// Number of parameters: k, the centre, and an affine map, because the fit of every pose contains
-/// an affine map. Lengths are in units of half the image diagonal.
+/// Number of parameters: k, the two coordinates of the centre, and an affine map. The affine map is
+/// fitted as well, because every fit of a pose includes one. Lengths are in units of half the image
+/// diagonal.
 constexpr std::size_t kParameters = 9;
 using Fit = LeastSquares<kParameters>;
 using Parameters = Fit::Vector;
@@ -26,11 +27,11 @@ struct Pair {
     PixelPoint wanted;
 };
 
-/// The residual of a pair, affine(eq. 2(seen)) - wanted, and its derivatives.
+/// Residual of a pair, affine(eq. 2(seen)) - wanted, and its derivatives.
 struct Misfit {
     double u = 0;
     double v = 0;
-    Parameters du{};  ///< derivative by the parameters
+    Parameters du{};  ///< derivatives with respect to the parameters
     Parameters dv{};
 
     Misfit(const Pair& pair, const Parameters& p) {
@@ -42,7 +43,7 @@ struct Misfit {
         const double y = shrink * b;
         u = p[3] + p[4] * x + p[5] * y - pair.wanted.u;
         v = p[6] + p[7] * x + p[8] * y - pair.wanted.v;
-        // Derivatives of x and y by k and by both coordinates of the centre.
+        // Derivatives of x and y with respect to k and to both coordinates of the centre.
         const double by_k = -shrink * r2;
         const double bend = 2 * p[0] * shrink;
         const std::array dx = {by_k * x, bend * x * a - shrink, bend * x * b};
@@ -85,7 +86,8 @@ Parameters step_of(const std::vector<Pair>& pairs, const Parameters& parameters,
     return fit.solve();
 }
 
-/// Improves the parameters until steps vanish in rounding; returns the sum of squares.
+/// Improves the parameters until the steps are below rounding errors. Returns the sum of squared
+/// residuals.
 double minimise(const std::vector<Pair>& pairs, Parameters& parameters) {
     constexpr int kMaxSteps = 500;
     constexpr double kMaxDamping = 1e9;
@@ -120,7 +122,7 @@ PixelPoint PlumbBob::undistorted(PixelPoint pixel) const {
     const double yd = (pixel.v - cy) / fy;
     double x = xd;
     double y = yd;
-    // Solved by fixed-point iteration, because there is no closed form.
+    // Fixed-point iteration, because there is no closed-form solution.
     constexpr int kIterations = 100;
     for (int i = 0; i < kIterations; ++i) {
         const double r2 = x * x + y * y;
@@ -136,7 +138,7 @@ PixelPoint PlumbBob::undistorted(PixelPoint pixel) const {
 double fit_division_model(const PlumbBob& lens, Camera& camera) {
     camera.k_per_px2 = 0;
     camera.centre_px = {lens.cx, lens.cy};
-    // Without distortion, its centre is not determined.
+    // Without distortion, the distortion centre is not determined.
     if (lens.is_straight()) return 0;
     constexpr int kSteps = 16;
     const double reach_px = std::hypot(camera.width_px, camera.height_px) / 2;

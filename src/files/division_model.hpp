@@ -1,12 +1,12 @@
-/// Converts the lens of ROS and OpenCV to the nearest division model (paper eq. 2).
+/// Converts the lens model of ROS and OpenCV to the nearest division model (paper eq. 2).
 #pragma once
 
 #include "dotpose/files/camera.hpp"
 
 namespace dotpose::files {
 
-/// The lens model of OpenCV, which maps the undistorted to the distorted image; plumb_bob in
-/// http://docs.ros.org/en/api/sensor_msgs/html/msg/CameraInfo.html.
+/// Lens model of OpenCV, which maps undistorted to distorted positions. It is the model plumb_bob
+/// in http://docs.ros.org/en/api/sensor_msgs/html/msg/CameraInfo.html.
 struct PlumbBob {
     double fx = 0;
     double fy = 0;
@@ -20,13 +20,14 @@ struct PlumbBob {
 
     bool is_straight() const { return k1 == 0 && k2 == 0 && t1 == 0 && t2 == 0 && k3 == 0; }
 
-    /// Returns the undistorted position of `pixel`, or a point far outside any image if it cannot
-    /// be computed.
+    /// Returns the undistorted position of `pixel`, or a point far outside any image if the
+    /// iteration does not converge.
     PixelPoint undistorted(PixelPoint pixel) const;
 };
 
-/// Sets `k_per_px2` and `centre_px` to the model nearest to `lens` over the image, whose size must
-/// be set. Returns the misfit in px, rms over the image; infinite if the lens cannot be inverted.
+/// Sets `k_per_px2` and `centre_px` to the division model nearest to `lens` over the image, whose
+/// size must be set. Returns the rms difference of the models over the image, in px; infinite if
+/// the lens cannot be inverted.
 double fit_division_model(const PlumbBob& lens, Camera& camera);
 
 }  // namespace dotpose::files

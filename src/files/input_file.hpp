@@ -14,21 +14,21 @@
 
 namespace dotpose::files {
 
-/// Returns the text of a file or pipe, or none if there is no such file. Throws Error if it cannot
-/// be read or has more than `max_bytes` bytes. Reading stops at the limit, because files may be
-/// endless.
+/// Returns the text of a file or pipe, or none if the file does not exist. Throws Error if the file
+/// cannot be read or has more than `max_bytes` bytes. Reading stops at the limit, because a pipe or
+/// device may be endless.
 std::optional<std::string> text_of(const std::filesystem::path& path, std::size_t max_bytes);
 
-/// Reads the next line, without its line break; returns false at the end of the file. Throws Error
-/// if the line has more than 64 KB, where reading stops, or if reading fails.
+/// Reads the next line without its line break. Returns false at the end of the file. Throws Error
+/// if the line has more than 64 KB, without reading the rest of the line, or if reading fails.
 bool next_line(std::istream& stream, std::string& line);
 
-/// Maximum nesting of JSON. Files of this project need less, and the stack is large enough for
-/// recursive functions.
+/// Maximum nesting depth of JSON. Files of this project need less, and the stack is large enough
+/// for recursive functions.
 inline constexpr int kMaxJsonDepth = 64;
 
-/// Parses JSON. Throws Error with the place where the text is not JSON, or if it is nested too
-/// deeply.
+/// Parses JSON. Throws Error, with the position of the fault, if the text is not JSON or is nested
+/// too deeply.
 nlohmann::json parse_json(const std::string& text);
 
 }  // namespace dotpose::files

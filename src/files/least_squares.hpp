@@ -1,4 +1,4 @@
-/// Linear least squares by orthogonal rotations of the rows: as exact as a QR decomposition of all
+/// Linear least squares by Givens rotations of the rows: as accurate as a QR decomposition of all
 /// rows, without storing the rows.
 #pragma once
 
@@ -17,7 +17,7 @@ class LeastSquares {
     void add(Vector row, double right) {
         for (std::size_t i = 0; i < kUnknowns; ++i) {
             if (row[i] == 0) continue;
-            // The Givens rotation that makes row[i] 0.
+            // Givens rotation that makes row[i] 0.
             const double radius = std::hypot(rows_[i][i], row[i]);
             const double c = rows_[i][i] / radius;
             const double s = row[i] / radius;
@@ -27,8 +27,8 @@ class LeastSquares {
         }
     }
 
-    /// Returns the unknowns with the minimum sum of squares. The added rows must determine all
-    /// unknowns.
+    /// Returns the unknowns with the minimum sum of squared residuals. The added rows must
+    /// determine all unknowns.
     Vector solve() const {
         Vector x{};
         for (std::size_t i = kUnknowns; i-- > 0;) {

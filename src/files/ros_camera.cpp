@@ -12,24 +12,24 @@
 namespace dotpose::files {
 namespace {
 
-/// Maximum difference, in px rms over the image, between eq. 2 and the plumb_bob lens that it
+/// Maximum rms difference over the image, in px, between eq. 2 and the plumb_bob lens that it
 /// replaces.
 constexpr double kMaxMisfit_px = 0.5;
 
-/// Maximum focal length, centre and distortion coefficients, far above those of cameras; a fit to
-/// larger values may overflow.
+/// Maximum focal length and centre in px, and maximum distortion coefficients. They are far above
+/// those of real cameras. A fit to larger values may overflow.
 constexpr double kMaxPx = 1e6;
 constexpr double kMaxDistortion = 1e3;
 
-/// Returns the list under a key, in the format of camera_calibration_parsers or of a printed
-/// message.
+/// Returns the list under a key. The key `nested` is that of camera_calibration_parsers; `lower`
+/// and `upper` are those of printed messages.
 std::vector<double> coefficients(const YamlMap& file, const char* nested, const char* lower,
                                  const char* upper, std::size_t count) {
     if (file.has(nested)) return file.map(nested).numbers("data", count);
     return file.numbers(file.has(lower) ? lower : file.has(upper) ? upper : nested, count);
 }
 
-/// The model plumb_bob with a divisor, k4 to k6; some drivers report it for every camera.
+/// The model plumb_bob with a divisor (k4 to k6). Some drivers report this model for every camera.
 constexpr const char* kRational = "rational_polynomial";
 
 /// Returns the plumb_bob coefficients of a rational polynomial. Throws Error unless the other
@@ -91,11 +91,10 @@ Camera camera_from_camera_info(const YamlMap& file) {
     camera.focal_px = std::sqrt(lens.fx * lens.fy);
     const double misfit_px = fit_division_model(lens, camera);
     if (!(misfit_px <= kMaxMisfit_px)) {
-        file.fail(
-            "distortion_coefficients",
-            fmt::format("describe a lens that one coefficient cannot follow (it would be {:.1f} "
-                        "px off): use 'dotpose calibrate'",
-                        misfit_px));
+        file.fail("distortion_coefficients",
+                  fmt::format("describe a lens that one coefficient cannot represent (the error "
+                              "would be {:.1f} px): use 'dotpose calibrate'",
+                              misfit_px));
     }
     return camera;
 }

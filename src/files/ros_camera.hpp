@@ -1,4 +1,4 @@
-// Reads cameras in the formats of ROS.
+// Reads camera files in the formats of ROS.
 #pragma once
 
 #include "dotpose/files/camera.hpp"
@@ -6,7 +6,7 @@
 
 namespace dotpose::files {
 
-/// Whether this is a camera_info file of camera_calibration_parsers, or a printed message.
+/// Returns true if this is a camera_info file of camera_calibration_parsers, or a printed message.
 bool is_camera_info(const YamlMap& file);
 
 /// Returns the camera of a camera_info file. Throws Error, naming the key, if a value is missing or

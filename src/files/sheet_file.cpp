@@ -23,22 +23,23 @@ namespace fs = std::filesystem;
 using base::throw_system;
 namespace {
 
-/// Maximum size of a sheet file: about 100,000 sheets.
+/// Maximum size of a sheet file, sufficient for about 100,000 sheets.
 constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
 std::optional<std::string> text_of(const fs::path& path) {
     return files::text_of(path, kMaxBytes);
 }
 
-/// Waits for locks on a file, with a common time limit for all locks.
-class Patience {
+/// Waits for locks on a file. All locks share one time limit.
+class LockWait {
   public:
-    Patience(const fs::path& path, const SheetFileWait& wait)
+    LockWait(const fs::path& path, const SheetFileWait& wait)
         : path_(path),
           wait_(wait),
           end_(Clock::now() + std::chrono::duration<double>(wait.most_s)) {}
 
-    /// Throws Error after the time limit, or if the file system has no locks.
+    /// Takes a lock. Throws Error after the time limit, or if the file system does not support
+    /// locks.
     void lock(int descriptor) {
         constexpr auto kPause = std::chrono::milliseconds(10);
         while (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
@@ -50,11 +51,11 @@ class Patience {
                                 "{:g} s",
                                 path_.string(), wait_.most_s));
             }
-            if (!is_told_) {
+            if (!is_reported_) {
                 wait_.tell(
                     fmt::format("waiting for another program that is changing {}", path_.string()));
             }
-            is_told_ = true;
+            is_reported_ = true;
             std::this_thread::sleep_for(kPause);
         }
     }
@@ -64,7 +65,7 @@ class Patience {
     const fs::path& path_;
     const SheetFileWait& wait_;
     std::chrono::time_point<Clock, std::chrono::duration<double>> end_;
-    bool is_told_ = false;
+    bool is_reported_ = false;
 };
 
 }  // namespace
@@ -73,8 +74,8 @@ std::vector<SheetEntry> read_sheets(const fs::path& path) {
     const auto text = text_of(path);
     if (!text) {
         throw Error(
-            fmt::format("cannot read {0}: no such file; 'dotpose print --sheets {0} --name "
-                        "NAME' prints a sheet and begins it",
+            fmt::format("cannot read {0}: no such file; 'dotpose print --sheets {0} --name NAME' "
+                        "prints a sheet and creates the file",
                         path.string()));
     }
     return files::sheets_from_json(*text, path.string());
@@ -82,12 +83,12 @@ std::vector<SheetEntry> read_sheets(const fs::path& path) {
 
 SheetFile::Lock::Lock(const fs::path& path, const SheetFileWait& wait) : path_(path) {
     path_.replace_filename(fmt::format(".{}.lock", path.filename().string()));
-    Patience patience(path, wait);
+    LockWait lock_wait(path, wait);
     while (true) {
         descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (descriptor_ < 0) throw_system("lock", path, errno);
         try {
-            patience.lock(descriptor_);
+            lock_wait.lock(descriptor_);
         } catch (const Error&) {
             close(descriptor_);
             throw;
@@ -109,7 +110,7 @@ SheetFile::Lock::~Lock() {
     close(descriptor_);
 }
 
-// Links are followed first, because all names of a file must lead to the same lock.
+// Symbolic links are resolved first, because all names of a file must use the same lock.
 SheetFile::SheetFile(const fs::path& path, const SheetFileWait& wait)
     : path_(base::without_links(path)), lock_(path_, wait), text_(text_of(path_)) {
     if (text_) sheets_ = files::sheets_from_json(*text_, path_.string());
@@ -171,8 +172,9 @@ void SheetFile::remove(const std::string& name) {
 
 void SheetFile::save() {
     if (text_of(path_) != text_) {
-        throw Error(fmt::format("{} was changed by somebody else meanwhile; nothing was written",
-                                path_.string()));
+        throw Error(
+            fmt::format("{} was changed by another program in the meantime; nothing was written",
+                        path_.string()));
     }
     std::string text = files::json_from_sheets(sheets_, text_, names_in_text_);
     base::OutputFile file(path_);

@@ -17,7 +17,7 @@ using nlohmann::json;
 
 constexpr const char* kFormat = "dotpose-sheets";
 
-/// A JSON object of the file with its path for error messages.
+/// A JSON object of the file, with its path for error messages.
 class Node {
   public:
     Node(const json& value, std::string file, std::string path)
@@ -51,7 +51,8 @@ class Node {
     std::int64_t whole(const char* key, std::int64_t min, std::int64_t max) const {
         const json& value = member(key);
         if (!value.is_number_integer()) fail(path_of(key), "must be a whole number");
-        // nlohmann-json stores numbers from 2^63 as unsigned; as signed integers they would wrap.
+        // nlohmann-json stores numbers of 2^63 and above as unsigned. As signed integers they would
+        // overflow.
         const bool is_huge =
             value.is_number_unsigned() &&
             value.get<std::uint64_t>() > std::uint64_t{std::numeric_limits<std::int64_t>::max()};
@@ -98,7 +99,7 @@ json parse(const std::string& text, const std::string& file) {
     try {
         return parse_json(text);
     } catch (const Error& error) {
-        throw Error(fmt::format("{} is no sheet file: {}", file, error.what()));
+        throw Error(fmt::format("{} is not a sheet file: {}", file, error.what()));
     }
 }
 
@@ -223,8 +224,7 @@ std::vector<SheetEntry> sheets_from_json(const std::string& text, const std::str
     const json document = parse(text, file);
     if (!document.is_object() || document.value("format", json()) != kFormat) {
         throw Error(
-            fmt::format("{} is no sheet file: it must be an object whose \"format\" is "
-                        "\"{}\"",
+            fmt::format("{} is not a sheet file: it must be an object whose \"format\" is \"{}\"",
                         file, kFormat));
     }
     const Node root(document, file, "");
@@ -268,7 +268,7 @@ std::string json_from_sheets(const std::vector<SheetEntry>& sheets,
         array.push_back(object);
     }
     document["sheets"] = std::move(array);
-    // A command line may have bytes that are not UTF-8, for example in file names.
+    // A command line may contain bytes that are not UTF-8, for example in file names.
     return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 

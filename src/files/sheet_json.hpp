@@ -11,11 +11,11 @@
 namespace dotpose::files {
 
 /// Parses the text of a sheet file. `file` is the name of the file in error messages. Throws Error
-/// like `read_sheets`.
+/// as `read_sheets`.
 std::vector<SheetEntry> sheets_from_json(const std::string& text, const std::string& file);
 
-/// Returns the text of a sheet file. Unknown keys of `old_text`, a valid sheet file, are kept.
-/// `old_names` has the names in `old_text` of renamed sheets.
+/// Returns the text of a sheet file. Keeps the unknown keys of `old_text`, a valid sheet file.
+/// `old_names` maps new names of renamed sheets to their names in `old_text`.
 std::string json_from_sheets(const std::vector<SheetEntry>& sheets,
                              const std::optional<std::string>& old_text,
                              const std::map<std::string, std::string>& old_names = {});

@@ -46,12 +46,12 @@ void validate_name(const std::string& name) {
     }
     if (base::printable(name) != name) {
         throw BadArgument(
-            "the name of a sheet may not contain control characters, nor such as break the line "
-            "or turn the direction of writing");
+            "the name of a sheet must not contain control characters, or characters that break the "
+            "line or change the writing direction");
     }
 }
 
-/// Finds the leftmost column where `columns` columns are free in these rows, or none.
+/// Returns the leftmost column at which `columns` columns are free in the given rows, or none.
 std::optional<std::uint32_t> free_column(const std::vector<SheetEntry>& sheets, Range rows,
                                          int columns) {
     std::vector<Range> taken;
@@ -117,12 +117,11 @@ void files::check_beside(const SheetEntry& entry, const std::vector<SheetEntry>&
     for (const SheetEntry& other : sheets) {
         if (&other == ignored) continue;
         if (other.name == entry.name) {
-            throw BadArgument(
-                fmt::format("there already is a sheet '{}'{}", entry.name,
-                            other.is_reserved
-                                ? ", reserved by a print that goes on or was stopped: its page may "
-                                  "exist, so take another name"
-                                : ""));
+            throw BadArgument(fmt::format("there already is a sheet '{}'{}", entry.name,
+                                          other.is_reserved
+                                              ? ", reserved by a print that is running or was "
+                                                "stopped: its page may exist, so take another name"
+                                              : ""));
         }
         if (overlap(entry.sheet, other.sheet)) {
             const Range columns = columns_of(other.sheet);
@@ -140,7 +139,7 @@ void files::append(const SheetEntry& entry, std::vector<SheetEntry>& sheets) {
 }
 
 Cell files::free_origin(const std::vector<SheetEntry>& sheets, int columns, int rows) {
-    // The topmost free region starts at the top of the plane or directly below another region.
+    // The topmost free region begins at the top of the plane or directly below another region.
     std::set<std::int64_t> tops = {kSheetGap_cells};
     for (const SheetEntry& entry : sheets)
         tops.insert(with_gap(rows_of(entry.sheet)).end);

@@ -16,7 +16,8 @@ const SheetEntry* find(const SheetFile& file, const std::string& name) {
     return found == file.sheets().end() ? nullptr : &*found;
 }
 
-/// Whether a sheet is still the reserved one, and not another sheet of the same name.
+/// Returns true if two sheets have the same region. Sheets with the same name may differ, if the
+/// name was reassigned.
 bool is_same_region(const Sheet& a, const Sheet& b) {
     return a.origin == b.origin && a.columns == b.columns && a.rows == b.rows &&
            a.pattern.code == b.pattern.code && a.pattern.section == b.pattern.section;
@@ -52,23 +53,24 @@ SheetReservation::~SheetReservation() {
     try {
         release();
     } catch (const Error& error) {
-        wait_.tell(
-            fmt::format("{}; what was reserved in {} stays so", error.what(), path_.string()));
+        wait_.tell(fmt::format("{}; the regions reserved in {} remain reserved", error.what(),
+                               path_.string()));
     }
 }
 
 void SheetReservation::confirm() {
-    // If this fails, the entries stay in the file with their mark, and no other sheet gets their
-    // regions.
+    // If removing fails, the entries remain in the file with their mark, and their regions are not
+    // assigned to other sheets.
     const std::vector<SheetEntry> entries = std::move(entries_);
     entries_.clear();
     SheetFile file(path_, wait_);
     for (SheetEntry entry : entries) {
-        // The entry is read again, because its place in the world may have been entered meanwhile.
+        // The entry is read again, because a world pose may have been added in the meantime.
         const SheetEntry* now = find(file, entry.name);
         if (now != nullptr && !is_same_region(now->sheet, entry.sheet)) {
-            throw Error(fmt::format("somebody gave the name '{}' in {} to another sheet meanwhile",
-                                    entry.name, path_.string()));
+            throw Error(
+                fmt::format("the name '{}' in {} was given to another sheet in the meantime",
+                            entry.name, path_.string()));
         }
         if (now != nullptr) entry = *now;
         entry.is_reserved = false;

@@ -33,7 +33,7 @@ YamlMap::YamlMap(const std::string& text, std::string name) : file_(std::move(na
         throw Error(
             fmt::format("{}: not YAML: line {}: {}", file_, error.mark.line + 1, error.msg));
     }
-    if (!node_.IsMap()) throw Error(fmt::format("{}: no camera file: it has no keys", file_));
+    if (!node_.IsMap()) throw Error(fmt::format("{}: not a camera file: it has no keys", file_));
 }
 
 void YamlMap::fail(const std::string& key, const std::string& what) const {
@@ -111,7 +111,7 @@ std::vector<std::string> YamlMap::keys() const {
 void YamlMap::allow_only(std::initializer_list<const char*> allowed) const {
     for (const std::string& key : keys()) {
         if (std::ranges::find(allowed, key) == allowed.end()) {
-            fail(key, "is no key of a camera file");
+            fail(key, "is not a key of a camera file");
         }
     }
 }

@@ -16,7 +16,7 @@ class YamlMap {
   public:
     /// Reads a file. Throws Error if it cannot be read, is not YAML, or is not a mapping.
     explicit YamlMap(const std::filesystem::path& path);
-    /// Reads a text; messages use `name` as its name.
+    /// Reads a text. `name` replaces the name of the file in messages.
     YamlMap(const std::string& text, std::string name);
 
     bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }
@@ -24,14 +24,14 @@ class YamlMap {
     int integer(const std::string& key) const;
     bool boolean(const std::string& key) const;
     double number(const std::string& key) const;
-    /// Returns a list of exactly `count` numbers; of any length if `count` is 0.
+    /// Returns a list of exactly `count` numbers, or of any length if `count` is 0.
     std::vector<double> numbers(const std::string& key, std::size_t count) const;
     YamlMap map(const std::string& key) const;
     std::vector<std::string> keys() const;
 
-    /// Throws Error if there is a key other than these.
+    /// Throws Error if the mapping contains a key that is not in `keys`.
     void allow_only(std::initializer_list<const char*> keys) const;
-    /// Throws Error that names the file and the key.
+    /// Throws Error with the names of the file and the key.
     [[noreturn]] void fail(const std::string& key, const std::string& what) const;
 
   private:
@@ -41,7 +41,7 @@ class YamlMap {
     double finite(const YAML::Node& node, const std::string& key) const;
 
     std::string file_;
-    std::string prefix_;  ///< prefix of keys in messages
+    std::string prefix_;  ///< prefix of the keys in messages
     YAML::Node node_;
 };
 

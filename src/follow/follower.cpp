@@ -1,4 +1,4 @@
-// The common part of single images and sequences: options, sheets, camera file.
+// Common functions for single images and sequences: options, sheets, camera file.
 #include "dotpose/tools/follower.hpp"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ Locator& Follower::locator(const Options& options) {
     return locator_;
 }
 
-/// Applies the camera file to the newest fix.
+/// Applies the camera file to the fix of the latest image.
 Fix Follower::by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place) const {
     if (!options_.camera) return seen;
     return with_camera(seen, *options_.camera, locator_.trace(),

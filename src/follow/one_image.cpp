@@ -10,7 +10,7 @@ using namespace follow_detail;
 Located Follower::locate(const GreyImage& image) {
     use_options_for(image.width_px, image.height_px);
     image_ = as_located(image.view());
-    // A camera file requires images of its size, so images are not reduced.
+    // A camera file requires images of its size, so images are not reduced if there is one.
     const int by = options_.camera ? 1 : reduction_of(image.width_px, image.height_px);
     if (by > 1) {
         used_ = reduced(used_, image_, by);
@@ -23,8 +23,8 @@ Located Follower::locate(const GreyImage& image) {
     return result;
 }
 
-/// Returns the first fix on a sheet with the fix's code variant. Otherwise returns the first fix,
-/// or, without any fix, the result for the first code variant.
+/// Returns the first fix on a sheet with the code variant of the fix. Otherwise returns the first
+/// fix or, without any fix, the result for the first code variant.
 Follower::Found Follower::read() {
     if (codes_.empty()) {
         const CodeReading reading = locator(used_).locate_in_any_code(image_, evidence_);
@@ -43,8 +43,8 @@ Follower::Found Follower::read() {
             is_found = true;
         }
     }
-    // The trace must match the fix, so the image is located again in the best code variant unless
-    // it was the last.
+    // The trace must belong to the fix. The image is therefore located again in the best variant,
+    // unless this variant was tried last.
     return used_.code == best ? found : read_in(best);
 }
 
@@ -56,8 +56,8 @@ Follower::Found Follower::read_in(CodeVariant code) {
     return {seen, by_camera_file(seen, place), place, reading};
 }
 
-/// Locates an image on a known sheet again without the area beside its dots, because labels and the
-/// table are not evidence against the fix.
+/// Locates an image on a known sheet again after masking the area beside its dots, because labels
+/// and the table are not evidence against the fix.
 Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
     if (fix.bit_errors == 0) return fix;
     const auto cut = cut_to_dots(image_, used_, fix, place.entry->sheet);
@@ -68,12 +68,12 @@ Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
                            again.bit_errors < fix.bit_errors &&
                            again.dots_used + fix.bit_errors >= fix.dots_used;
     if (!is_better) {
-        // The trace must match the returned fix.
+        // Restores the trace of the returned fix.
         (void)locator(used_).locate(image_);
         return fix;
     }
     if (again.attempt == Attempt::tracked) again.attempt = fix.attempt;
-    // The bound of the first fix takes all codes into account, so it is kept.
+    // The bound of the first fix is kept, because it includes all codes.
     again.p_wrong_log2 = fix.p_wrong_log2;
     return again;
 }

@@ -10,7 +10,8 @@
 namespace dotpose::follow_detail {
 namespace {
 
-/// Maps pixels to a page. Neglects tilt and lens distortion, so it has errors of some pixels.
+/// Maps pixels to a page. Ignores tilt and lens distortion, so positions have errors of a few
+/// pixels.
 class PixelsOnPage {
   public:
     PixelsOnPage(ImageView image, const Options& options, const Fix& fix, const SheetPlace& place)
@@ -37,7 +38,7 @@ class PixelsOnPage {
     double sine_mm_ = 0;
 };
 
-/// Returns the median grey level of the image, which is the level of the paper.
+/// Returns the median grey level of the image, an estimate of the level of the paper.
 std::uint8_t brightness_of(ImageView image) {
     std::array<std::int64_t, 256> counts{};
     for (int v = 0; v < image.height_px; ++v) {
@@ -53,8 +54,8 @@ std::uint8_t brightness_of(ImageView image) {
 
 /// Returns the image with all pixels outside `region` set to the grey level of the paper, or none
 /// if `region` contains all corners of the image.
-template <typename GridRegion>
-std::optional<GreyImage> cut_to(ImageView image, const GridRegion& region) {
+template <typename Region>
+std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
     const int right = image.width_px - 1;
     const int bottom = image.height_px - 1;
     if (region.holds(0, 0) && region.holds(right, 0) && region.holds(0, bottom) &&
@@ -72,7 +73,7 @@ std::optional<GreyImage> cut_to(ImageView image, const GridRegion& region) {
     return cut;
 }
 
-/// Maps pixels to the dots of a sheet, with the map of the fix.
+/// Maps pixels to the cells of a sheet, with the map of the fix.
 class PixelsAmongDots {
   public:
     PixelsAmongDots(ImageView image, const Options& options, const Fix& fix, const Sheet& sheet)
@@ -105,8 +106,9 @@ class PixelsAmongDots {
     }
 
   private:
-    /// Returns the signed distance in cells from a cell to the edge of the region, the shorter way
-    /// around the cyclic plane. The edge is half a cell before the first cell of the region.
+    /// Returns the signed distance from a cell to the edge of the region, in cells, in the shorter
+    /// direction around the cyclic plane. The edge is half a cell before the first cell of the
+    /// region.
     static double cells(std::uint32_t from, std::uint32_t first) {
         return std::remainder(double(first) - double(from), kPositionsPerAxis) - 0.5;
     }

@@ -1,5 +1,5 @@
-/// Masks the part of a frame beyond the edge of a page, where `locate` would confuse dots of the
-/// next sheet with dots of this sheet.
+/// Masks the part of a frame beyond the edge of a page. `locate` would otherwise confuse the dots
+/// of the next sheet with those of this sheet.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,13 @@
 namespace dotpose::follow_detail {
 
 /// Returns the image with everything outside the page masked, or none if the whole image shows the
-/// page. `fix` and `place` are the results for the image with `options`.
+/// page. `fix` and `place` are the results of locating the image with `options`.
 std::optional<GreyImage> cut_to_page(ImageView image, const Options& options, const Fix& fix,
                                      const SheetPlace& place);
 
-/// Returns the image with everything outside the sheet's dots masked, such as labels in its margins
-/// and the table beside it, or none if the whole image shows dots. `fix` must be on the sheet.
+/// Returns the image with everything outside the sheet's dots masked, such as labels in the margins
+/// and the table beside the sheet, or none if the whole image shows dots. `fix` must be on the
+/// sheet.
 std::optional<GreyImage> cut_to_dots(ImageView image, const Options& options, const Fix& fix,
                                      const Sheet& sheet);
 

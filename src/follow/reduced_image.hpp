@@ -8,15 +8,15 @@
 
 namespace dotpose::follow_detail {
 
-/// Returns the smallest factor by which an image of this size has to be reduced; 1 if the image can
-/// be located unchanged or would become too small.
+/// Returns the smallest integer factor by which an image of this size must be reduced. Returns 1 if
+/// the image need not be reduced or would become too small.
 int reduction_of(int width_px, int height_px);
 
-/// Returns the image whose pixels are the means of `by` x `by` pixels. Remaining pixels at the
-/// right and bottom edges are dropped.
+/// Returns the image reduced by `by`. Each pixel is the mean of `by` x `by` pixels. Remaining
+/// pixels at the right and bottom edges are dropped.
 GreyImage reduced(ImageView image, int by);
 
-/// Converts options for `image` to options for the image reduced by `by`: lens and reference point
+/// Converts options for `image` to options for the image reduced by `by`. Lens and reference point
 /// refer to the same points of the scene.
 Options reduced(const Options& options, ImageView image, int by);
 

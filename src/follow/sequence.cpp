@@ -28,8 +28,8 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     Found found = find(options_.track.max_p_wrong_log2, predict(time_us));
     const Fix strict = found.fix;
     if (strict.status == Status::not_certain && tracker_.has_prior()) {
-        // Without a prediction, because the tracker applies its prior to the result, which must not
-        // depend on the prior already.
+        // The image is located without a prediction. The tracker then applies its prior to the
+        // result, which must not already depend on the prior.
         found = find(options_.track.max_weak_p_wrong_log2, {});
     }
     const auto sighting = sighting_of(found, time_us);
@@ -66,8 +66,8 @@ std::optional<Prediction> Follower::predict(std::int64_t time_us) const {
     return tracker_.predict(time_us, seen_->fix, *seen_->sighting, used_);
 }
 
-/// Returns the first fix on a sheet with the fix's code variant. Otherwise returns the first fix,
-/// or, without any fix, the result for the last code variant.
+/// Returns the first fix on a sheet with the code variant of the fix. Otherwise returns the first
+/// fix or, without any fix, the result for the last code variant.
 Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Prediction>& expected) {
     used_.integrity.max_p_wrong_log2 = max_p_wrong_log2;
     if (codes_.empty()) return look_in_any_code(expected);
@@ -85,15 +85,15 @@ Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Predict
 
 Follower::Found Follower::look(ImageView image, const Options& options,
                                const std::optional<Prediction>& expected) {
-    // The given code may be wrong, so without a prediction the other codes are tried as well, for a
-    // warning.
+    // The given code may be wrong. Without a prediction, the other codes are therefore tried as
+    // well, which allows a warning.
     if (!expected && options_.sheets.empty()) {
         const CodeReading reading = locator(options).locate_in_code(image);
         return {reading.fix, by_camera_file(reading.fix, {}), {}, reading};
     }
     Fix fix = expected ? locator(options).locate(image, *expected) : locator(options).locate(image);
     auto place = find_sheet(options_.sheets, options.code, fix);
-    // The centre of a tracked image that has left the page may be on another page.
+    // The image centre of a tracked image that has left the page may be on another page.
     if (fix.status == Status::ok && fix.attempt == Attempt::tracked && !place &&
         !options_.sheets.empty()) {
         fix = locator(options).locate(image);
@@ -110,13 +110,13 @@ Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expe
     return {reading.fix, by_camera_file(reading.fix, {}), {}, reading};
 }
 
-/// Locates an image across the edge of a page again without the part beyond the edge, if enough
-/// dots remain.
+/// Locates an image that extends beyond the edge of a page again without the part beyond the edge,
+/// if enough dots remain.
 Follower::Found Follower::without_neighbours(const Found& found) {
     Found guess = found;
     if (found.seen.status == Status::not_certain) {
-        // If the image shows two patterns, the better one is accepted here, because it only
-        // determines the edge of its page.
+        // If the image shows two patterns, a fix of the better one is sufficient here, because it
+        // only determines the edge of the page.
         Options any = used_;
         any.integrity = {.max_p_wrong_log2 = 0, .max_bit_error_q8 = 128};
         guess = look(image_, any, {});
@@ -126,7 +126,7 @@ Follower::Found Follower::without_neighbours(const Found& found) {
     if (!cut) return found;
     Found again = look(cut->view(), used_, Prediction::like(guess.seen));
     if (!again.place || again.place->entry != guess.place->entry) return found;
-    // The prediction for the second call came from the same image, so the fix does not count as
+    // The prediction for the second call comes from the same image, so the fix does not count as
     // tracked.
     if (again.fix.attempt == Attempt::tracked) {
         again.seen.attempt = again.fix.attempt = guess.seen.attempt;

@@ -1,6 +1,6 @@
-// Encodes a fixed number of arbitrary bytes as bytes without zeros, protected by a CRC. The CRC is
-// computed over the encoded bytes, not the plain bytes: an error in a code byte of COBS shifts all
-// bytes after it, which a CRC of the plain bytes would not always detect.
+// Encodes a fixed number of arbitrary bytes as bytes without zeros, protected by a CRC. The CRC
+// covers the encoded bytes, not the plain bytes, because an error in a code byte of COBS shifts all
+// following bytes, which a CRC of the plain bytes would not always detect.
 #pragma once
 
 #include <array>
@@ -11,10 +11,11 @@
 namespace dotpose::link {
 
 inline constexpr std::size_t kPlainBytes = 27;
-/// Number of bytes after COBS (Cheshire and Baker, 1999), which adds one byte to up to 254 bytes.
+/// Number of bytes after COBS encoding (Cheshire and Baker, 1999), which adds one byte to up to 254
+/// bytes.
 inline constexpr std::size_t kCodedBytes = kPlainBytes + 1;
-/// Number of bytes of the CRC. Each byte has at most 7 of its bits, and the top bit set, so no byte
-/// is zero.
+/// Number of bytes of the CRC. Each byte contains at most 7 bits of the CRC, and its top bit is
+/// set, so it is never zero.
 inline constexpr std::size_t kCheckBytes = 3;
 inline constexpr std::size_t kFramedBytes = kCodedBytes + kCheckBytes;
 
@@ -22,14 +23,14 @@ using Plain = std::array<std::uint8_t, kPlainBytes>;
 using Framed = std::array<std::uint8_t, kFramedBytes>;
 
 /// Returns the CRC-16 with the polynomial 0x5935 and the initial value 0xFFFF, most significant bit
-/// first. Of all 16-bit polynomials it detects the most errors at this length: all errors of up to
-/// 4 bits in up to 241 bits of data (Koopman and Chakravarty, DSN 2004, where it is written
+/// first. Among all 16-bit polynomials, it detects the most errors at this length: all errors of up
+/// to 4 bits in up to 241 bits of data (Koopman and Chakravarty, DSN 2004, where it is written as
 /// 0xAC9A).
 std::uint16_t crc16(std::span<const std::uint8_t> bytes);
 
 Framed frame(const Plain& plain);
 
-/// Decodes framed bytes. Returns false if they are not the result of `frame` for any plain bytes.
+/// Decodes framed bytes. Returns false if they are not a result of `frame`.
 bool unframe(const Framed& framed, Plain& plain);
 
 }  // namespace dotpose::link

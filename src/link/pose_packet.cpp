@@ -93,7 +93,7 @@ bool unpack(const Plain& plain, PosePacket& packet) {
     return true;
 }
 
-/// Rounds an angle to the nearest step of 2^-16 turn; half a turn becomes minus half a turn.
+/// Rounds an angle to the nearest multiple of 2^-16 turn. Half a turn becomes minus half a turn.
 std::int16_t rounded_bam16(std::int32_t theta_bam) {
     const std::uint32_t bits = static_cast<std::uint32_t>(theta_bam) + 0x8000U;
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits >> 16));
@@ -102,7 +102,7 @@ std::int16_t rounded_bam16(std::int32_t theta_bam) {
 std::uint8_t deviation_q12(const Fix& fix) {
     const float variance = std::max(fix.covariance[0][0], fix.covariance[1][1]);
     const float deviation = std::sqrt(std::max(variance, 0.0F)) * 4096.0F;
-    // Without a covariance, the deviation is not known.
+    // The code 255 means that the deviation is not known, for example without a covariance.
     if (!(deviation > 0) || deviation >= 254) return 255;
     return static_cast<std::uint8_t>(static_cast<int>(deviation) + 1);
 }

@@ -7,7 +7,8 @@
 
 namespace dotpose::print {
 
-/// Returns the text with A to Z replaced by a to z, in every locale; other characters stay.
+/// Returns the text with A to Z replaced by a to z, independent of the locale. Other characters are
+/// not changed.
 inline std::string lower_case(std::string_view text) {
     std::string lower(text);
     std::ranges::transform(lower, lower.begin(), [](char c) {

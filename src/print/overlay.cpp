@@ -28,7 +28,7 @@ namespace dotpose {
 namespace fs = std::filesystem;
 namespace {
 
-/// Whether "%PDF-" stands among the first 1024 bytes, where readers look for it.
+/// Returns true if "%PDF-" is in the first 1024 bytes, where readers search for it.
 bool begins_like_pdf(const fs::path& path) {
     std::string head(1024, '\0');
     std::ifstream file(path, std::ios::binary);
@@ -38,10 +38,10 @@ bool begins_like_pdf(const fs::path& path) {
 
 [[noreturn]] void throw_damaged(const fs::path& path, const std::string& reason) {
     if (!begins_like_pdf(path)) {
-        throw Error(
-            fmt::format("{} is no PDF: save or print the document as a PDF first", path.string()));
+        throw Error(fmt::format("{} is not a PDF: save or print the document as a PDF first",
+                                path.string()));
     }
-    throw Error(fmt::format("{}: damaged PDF: {}; 'qpdf {} repaired.pdf' may mend it",
+    throw Error(fmt::format("{}: damaged PDF: {}; 'qpdf {} repaired.pdf' may repair it",
                             path.string(), reason, path.string()));
 }
 
@@ -49,9 +49,9 @@ bool begins_like_pdf(const fs::path& path) {
     throw Error(fmt::format("{}: its objects are nested too deeply", path.string()));
 }
 
-/// Returns the warnings of qpdf about faults that it repaired, which the new file no longer has.
-/// Throws Error for faults that it cannot repair: it would copy such content unchanged.
-std::set<std::string> small_faults(QPDF& pdf, const fs::path& path) {
+/// Returns the warnings of qpdf about repaired faults, which the new file does not contain. Throws
+/// Error for faults that qpdf does not repair: it would copy such content unchanged.
+std::set<std::string> repaired_faults(QPDF& pdf, const fs::path& path) {
     std::set<std::string> faults;
     for (const QPDFExc& warning : pdf.getWarnings()) {
         const std::string& detail = warning.getMessageDetail();
@@ -65,7 +65,7 @@ std::set<std::string> small_faults(QPDF& pdf, const fs::path& path) {
     return faults;
 }
 
-/// Runs `work` and puts `name` in front of the message of an Error that it throws.
+/// Runs `work` and prepends `name` to the message of an Error that `work` throws.
 template <typename Work>
 void with_name(const std::string& name, const Work& work) {
     try {
@@ -98,9 +98,9 @@ void open(QPDF& pdf, const fs::path& path, const std::string& password,
     }
 }
 
-/// Runs `work` and reports what qpdf throws as damage of the document.
+/// Runs `work` and reports exceptions of qpdf as damage of the document.
 template <typename Work>
-auto understood(const fs::path& path, const Work& work) {
+auto with_damage_errors(const fs::path& path, const Work& work) {
     try {
         return work();
     } catch (const Error&) {
@@ -114,16 +114,16 @@ auto understood(const fs::path& path, const Work& work) {
     }
 }
 
-/// Throws Error if the page is so large that it would get too many dots: a document may give its
-/// pages any size, through a user unit even kilometres.
+/// Throws Error if the page is so large that it would get too many dots. A document may have pages
+/// of any size; a user unit allows even kilometres.
 void require_few_dots(const Sheet& sheet) {
-    constexpr double kMostDots = 5e7;
+    constexpr double kMaxDots = 5e7;
     const double dots = double{1} * sheet.columns * sheet.rows;
-    if (dots <= kMostDots) return;
+    if (dots <= kMaxDots) return;
     throw Error(
         fmt::format("a page of {:.0f} x {:.0f} mm needs {:.0f} million dots; at most {:.0f} "
-                    "million are laid on a page",
-                    sheet.width_mm, sheet.height_mm, dots / 1e6, kMostDots / 1e6));
+                    "million are possible",
+                    sheet.width_mm, sheet.height_mm, dots / 1e6, kMaxDots / 1e6));
 }
 
 /// Adds dots to one document.
@@ -175,8 +175,8 @@ class Overlay {
     void write(const fs::path& out) {
         base::OutputFile file(out);
         print::write_document(pdf_, *rows_, file);
-        for (const std::string& fault : small_faults(pdf_, in_))
-            report_.warnings.push_back("the document had a fault that was mended: " + fault);
+        for (const std::string& fault : repaired_faults(pdf_, in_))
+            report_.warnings.push_back("the document had a fault that was repaired: " + fault);
         file.commit();
     }
 
@@ -185,11 +185,11 @@ class Overlay {
   private:
     std::vector<QPDFPageObjectHelper> all_pages() {
         std::vector<QPDFPageObjectHelper> pages = QPDFPageDocumentHelper(pdf_).getAllPages();
-        small_faults(pdf_, in_);
+        repaired_faults(pdf_, in_);
         return pages;
     }
 
-    /// Runs `work` and adds the number of the page to the message of an Error that it throws.
+    /// Runs `work` and prepends the page number to the message of an Error that `work` throws.
     template <typename Work>
     void on_page(int number, const Work& work) {
         with_name(fmt::format("{}, page {}", in_.string(), number), work);
@@ -210,7 +210,7 @@ class Overlay {
         report_.pages.push_back({number, sheet, document_page});
     }
 
-    /// Scans a page of the document and changes its colours.
+    /// Scans a page of the document and converts its colours.
     void prepare(int number) {
         QPDFPageObjectHelper original = page(number);
         if (print::has_dots(pdf_, original)) dotted_.push_back(number);
@@ -237,8 +237,8 @@ class Overlay {
         }
     }
 
-    /// Draws the dots over or under the page's own content, whose streams are kept. The operators q
-    /// and Q around them restore the graphics state in which the page starts.
+    /// Draws the dots over or under the page's own content, whose streams do not change. The
+    /// operators q and Q around the content restore the initial graphics state of the page.
     void draw(const OverlaidPage& laid_out) {
         const auto& [number, sheet, document_page] = laid_out;
         validate(sheet);
@@ -256,8 +256,8 @@ class Overlay {
         drawn.addPageContents(QPDFObjectHandle::newStream(&pdf_, after), false);
     }
 
-    /// Returns the dictionary of objects of a page. It becomes the page's own: pages may share it,
-    /// or the resources that it is in.
+    /// Returns the XObject dictionary of a page, after replacing it and the resources by copies.
+    /// The originals may be shared with other pages.
     static QPDFObjectHandle own_objects(QPDFPageObjectHelper drawn) {
         const auto copy = [](QPDFObjectHandle shared) {
             return shared.isDictionary() ? shared.shallowCopy() : QPDFObjectHandle::newDictionary();
@@ -269,7 +269,7 @@ class Overlay {
         return objects;
     }
 
-    /// Adds the dots to a dictionary of objects and returns the operators that draw them.
+    /// Adds the dots to an XObject dictionary and returns the operators that draw them.
     std::string draw_forms(QPDFObjectHandle objects, const Sheet& sheet) {
         std::string content;
         int suffix = 1;
@@ -302,7 +302,7 @@ class Overlay {
         }
     }
 
-    /// Returns the size of all cards.
+    /// Returns the common size of all cards. Throws BadArgument if the sizes differ.
     Paper card_size() const {
         constexpr double kTolerance_mm = 0.1;
         const Sheet& first = report_.pages.front().sheet;
@@ -343,15 +343,15 @@ class Overlay {
         };
         if (!change_.black_to_cmy) {
             add(black_,
-                "black text or drawings hide dots: black can be printed without black ink "
-                "(--cmy-black), or the document be lightened (--lighten 0.3)");
+                "black text or drawings hide dots: print black without black ink (--cmy-black), or "
+                "lighten the document (--lighten 0.3)");
             add(images_, "images may hide dots where they are dark");
         }
         add(dotted_,
-            "it has dots of dotpose already, and dots over dots cannot be read: lay them over the "
-            "document without dots");
+            "it already has dots of dotpose, and dots over dots cannot be read: use the document "
+            "without dots");
         if (options_.under) add(areas_, "filled areas and images cover the dots below them");
-        for (const std::string& kind : colours_.left_alone()) {
+        for (const std::string& kind : colours_.unconverted()) {
             report_.warnings.push_back(kind + " were not converted and may hide dots");
         }
         QPDFObjectHandle form = pdf_.getRoot().getKey("/AcroForm");
@@ -372,8 +372,10 @@ class Overlay {
     print::UnpackedBytes unpacked_;
     print::ColourConverter colours_;
     OverlayReport report_;
-    std::vector<QPDFPageObjectHelper> pages_;     ///< of the document, then those of its copies
-    std::map<int, print::PageContent> contents_;  ///< of the document's pages that get dots
+    /// Pages of the document, then pages of its copies.
+    std::vector<QPDFPageObjectHelper> pages_;
+    /// Contents of the document's pages with dots, by page number.
+    std::map<int, print::PageContent> contents_;
     std::vector<int> dotted_;
     std::vector<int> black_;
     std::vector<int> images_;
@@ -395,7 +397,7 @@ OverlayReport overlay_pdf(const fs::path& in, const fs::path& out, const Overlay
         throw BadArgument(
             fmt::format("{} is the document itself; give the result another name", out.string()));
     }
-    return understood(in, [&] {
+    return with_damage_errors(in, [&] {
         Overlay overlay(in, options);
         overlay.add_dots();
         overlay.write(out);

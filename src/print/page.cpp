@@ -17,7 +17,7 @@ namespace {
 constexpr int kGlyphColumns = 5;
 constexpr int kGlyphRows = 7;
 
-/// The pixels of a character: rows of 5 pixels, the leftmost in the highest bit.
+/// Pixels of a character: rows of 5 pixels, with the leftmost pixel in the highest bit.
 struct Glyph {
     char character = ' ';
     std::array<std::uint8_t, kGlyphRows> rows{};
@@ -40,7 +40,7 @@ constexpr std::array<Glyph, 15> kGlyphs = {{
     {'m', {0b00000, 0b00000, 0b11010, 0b10101, 0b10101, 0b10101, 0b10101}},
 }};
 
-/// The image of a whole page with 8 pixels per byte; a bit of 1 is ink.
+/// Image of a whole page with 8 pixels per byte. A set bit is ink.
 class Bitmap {
   public:
     explicit Bitmap(print::RasterSize size)

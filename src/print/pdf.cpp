@@ -35,7 +35,7 @@ void set_information(QPDF& pdf, const std::string& title) {
     QPDFObjectHandle info = QPDFObjectHandle::newDictionary();
     if (!title.empty()) info.replaceKey("/Title", QPDFObjectHandle::newUnicodeString(title));
     info.replaceKey("/Creator", QPDFObjectHandle::newString(kCreator));
-    // A viewer must not offer to fit the page to the paper.
+    // Prevents viewers from offering to fit the page to the paper.
     pdf.getRoot().replaceKey("/ViewerPreferences",
                              QPDFObjectHandle::parse("<< /PrintScaling /None >>"));
     pdf.getTrailer().replaceKey("/Info", pdf.makeIndirectObject(info));

@@ -13,13 +13,13 @@
 namespace dotpose::print {
 namespace {
 
-constexpr double kMarkGap_mm = 1;  // between the cards and a mark
+constexpr double kMarkGap_mm = 1;  // distance between the cards and a mark
 constexpr double kMark_mm = 4;     // length of a mark
 constexpr double kMargin_mm = kMarkGap_mm + kMark_mm;
 constexpr double kMarkWidth_mm = 0.1;
 
 CardGrid grid_on(Paper paper, Paper card) {
-    // Sizes in points are rounded, so ten cards of 21 mm must fit in 210 mm.
+    // Tolerance for rounding in points: ten cards of 21 mm must fit into 210 mm.
     constexpr double kTolerance_mm = 0.01;
     const auto fit = [](double paper_mm, double card_mm) {
         return static_cast<int>((paper_mm - 2 * kMargin_mm + kTolerance_mm) / card_mm);
@@ -32,7 +32,7 @@ CardGrid grid_on(Paper paper, Paper card) {
     return grid;
 }
 
-/// Top left corner of a card on the page.
+/// Position of the top left corner of a card on the page.
 struct Corner {
     double x_mm = 0;
     double y_mm = 0;
@@ -92,7 +92,7 @@ std::string cut_marks(const CardGrid& grid) {
 }
 
 QPDFObjectHandle card_form(QPDFPageObjectHelper page) {
-    // The form shows the trim box, which may be smaller than what viewers show.
+    // The form contains the trim box, which may be smaller than the displayed page.
     page.getObjectHandle().replaceKey("/TrimBox", QPDFObjectHandle::newArray(page_frame(page).box));
     return page.getFormXObjectForPage(true);
 }

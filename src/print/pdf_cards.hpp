@@ -1,4 +1,4 @@
-/// Pages of cards: several small pages side by side on a larger one, to be cut apart.
+/// Pages of cards: several small pages side by side on a larger page, to be cut apart.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace dotpose::print {
 
-/// A grid of cards in the middle of a page. Cards touch each other; the margin around them has
-/// room for cut marks.
+/// Grid of cards, centred on a page. Adjacent cards touch. The margin around the grid has space for
+/// cut marks.
 struct CardGrid {
-    Paper paper;  ///< turned if more cards fit that way
+    Paper paper;  ///< turned by 90 degrees if more cards fit that way
     Paper card;
     int columns = 0;
     int rows = 0;
@@ -23,29 +23,30 @@ struct CardGrid {
     int cards() const { return columns * rows; }
 };
 
-/// Lays out as many cards as fit. Throws BadArgument if none does.
+/// Lays out as many cards as fit on the paper. Throws BadArgument if no card fits.
 CardGrid card_grid(Paper paper, Paper card);
 
-/// Returns the sheet of a card in the frame of the page. `slot` counts the cards of a page from 0,
-/// row by row. The card is moved by less than a pixel at 300 dpi, so that its dots are where the
-/// printer has pixels, as on a page of their own.
+/// Returns the sheet of a card in the frame of the page. `slot` is the index of the card on the
+/// page, row by row. The position of the card is adjusted by less than a pixel at 300 dpi, to align
+/// its dots with the pixels of the printer as on a page of their own.
 Sheet on_page(const CardGrid& grid, int slot, Sheet card);
 
 /// Returns the cut marks as PDF content, in points from the bottom left corner of the page.
 std::string cut_marks(const CardGrid& grid);
 
-/// Returns a page as a form object, as it is shown.
+/// Returns a page, as viewers show it, as a form XObject.
 QPDFObjectHandle card_form(QPDFPageObjectHelper page);
 
-/// Returns the content that draws such a form as a card. `page` is the page of cards, which has it
-/// as `name`.
+/// Returns the content that draws a form returned by `card_form` as a card. `page` is the page of
+/// cards. Its resources contain the form under `name`.
 std::string place_card(QPDFPageObjectHelper page, const CardGrid& grid, int slot,
                        const QPDFObjectHandle& form, const std::string& name);
 
 /// Adds an empty page to a document.
 QPDFPageObjectHelper add_card_page(QPDF& pdf, const CardGrid& grid);
 
-/// Removes all pages of a document, and what refers to them: outlines, destinations, form fields.
+/// Removes all pages of a document and everything that refers to them: outlines, destinations, form
+/// fields.
 void remove_pages(QPDF& pdf);
 
 }  // namespace dotpose::print

@@ -11,7 +11,7 @@ namespace {
 
 using Token = QPDFTokenizer::Token;
 
-constexpr std::size_t kMostPending = 1000;
+constexpr std::size_t kMaxPending = 1000;
 
 bool is_blank(const Token& token) {
     return token.getType() == QPDFTokenizer::tt_space ||
@@ -43,9 +43,9 @@ void ColourFilter::handleToken(Token const& token) {
         write_colour(ColourKind::grey, {0}, true);
     }
     if (token.getType() != QPDFTokenizer::tt_word) {
-        // The operators that are rewritten have fewer operands, so these tokens belong to another
-        // one.
-        if (pending_.size() == kMostPending) flush();
+        // The rewritten operators have fewer operands, so the pending tokens belong to another
+        // operator.
+        if (pending_.size() == kMaxPending) flush();
         pending_.push_back(token);
         return;
     }

@@ -13,9 +13,9 @@ namespace dotpose::print {
 
 class ColourFilter : public QPDFObjectHandle::TokenFilter {
   public:
-    /// `spaces` maps the names that the operator `cs` may select to their kinds. Content that
-    /// `starts_black`, as pages do, begins with an operator that sets the changed black; other
-    /// content inherits its colour.
+    /// `spaces` maps the colour space names that the operator `cs` may select to their kinds. If
+    /// `starts_black` is true, as for pages, the content begins with an operator that sets the
+    /// converted black. Other content inherits its colour.
     ColourFilter(InkChange change, std::map<std::string, ColourKind> spaces, bool starts_black);
 
     void handleToken(QPDFTokenizer::Token const& token) override;
@@ -27,8 +27,8 @@ class ColourFilter : public QPDFObjectHandle::TokenFilter {
         ColourKind stroke = ColourKind::other;
     };
 
-    /// Writes the changed form of an operator and its operands. Returns false, and writes nothing,
-    /// if they stay as they are.
+    /// Writes the converted form of an operator and its operands. Returns false and writes nothing
+    /// if the operator need not be converted.
     bool rewrite(const std::string& name);
     bool select_space(ColourKind& kind, bool is_stroke);
     bool write_colour(ColourKind from, std::vector<double> colour, bool is_stroke);

@@ -24,8 +24,8 @@ std::map<std::string, ColourKind> named_spaces(QPDFObjectHandle resources) {
     return kinds;
 }
 
-/// Makes transparency groups blend in CMYK: blending in RGB would turn a mix of cyan, magenta and
-/// yellow back into black.
+/// Makes transparency groups blend in CMYK. Blending in RGB would convert a mix of cyan, magenta
+/// and yellow back to black.
 void blend_in_cmyk(QPDFObjectHandle holder, InkChange change) {
     QPDFObjectHandle group = holder.getKey("/Group");
     if (!change.black_to_cmy || !group.isDictionary() || !group.hasKey("/CS")) return;
@@ -42,8 +42,8 @@ std::string palette_bytes(QPDFObjectHandle table, UnpackedBytes& unpacked) {
     return {reinterpret_cast<const char*>(data->getBuffer()), data->getSize()};
 }
 
-/// Returns the colour space [/Indexed space last table] of `count` colours, whose components are
-/// `bytes`.
+/// Returns the converted colour space [/Indexed space last table] with `count` colours. `bytes`
+/// contains the components of the original colours.
 QPDFObjectHandle indexed(InkChange change, ColourKind from, const std::string& bytes,
                          std::size_t count) {
     const std::size_t size = components(from);
@@ -82,8 +82,8 @@ bool convert_palette(InkChange change, QPDFObjectHandle dict, QPDFObjectHandle s
     return true;
 }
 
-/// Turns the grey levels of an image into a palette, which leaves the pixels as they are, however
-/// they are compressed.
+/// Converts the grey levels of an image to a palette. The pixels do not change, independent of
+/// their compression.
 bool convert_grey(InkChange change, QPDFObjectHandle dict, ColourKind kind) {
     QPDFObjectHandle depth = dict.getKey("/BitsPerComponent");
     if (!depth.isInteger() || depth.getIntValue() > 8 || depth.getIntValue() < 1) return false;
@@ -102,7 +102,7 @@ bool convert_grey(InkChange change, QPDFObjectHandle dict, ColourKind kind) {
     return true;
 }
 
-/// Returns a colour space whose components are amounts of cyan, magenta and yellow.
+/// Returns a colour space whose components are the amounts of cyan, magenta and yellow.
 QPDFObjectHandle cmy_space(QPDF* pdf) {
     QPDFObjectHandle add_no_black = QPDFObjectHandle::newStream(pdf, "{ 0 }");
     add_no_black.replaceDict(QPDFObjectHandle::parse(
@@ -113,8 +113,8 @@ QPDFObjectHandle cmy_space(QPDF* pdf) {
     return space;
 }
 
-/// Changes the colours of an image through its /Decode array, which maps samples to colour values;
-/// the pixels stay as they are.
+/// Converts the colours of an image through its /Decode array, which maps samples to colour values.
+/// The pixels do not change.
 bool convert_decode(InkChange change, QPDFObjectHandle dict, ColourKind kind, QPDF* pdf) {
     if (kind == ColourKind::cmyk && change.black_to_cmy) return false;
     const std::size_t count = 2 * components(kind);
@@ -168,8 +168,8 @@ void ColourConverter::convert(QPDFPageObjectHelper page) {
 
 QPDFObjectHandle ColourConverter::appearance(QPDFObjectHandle original) {
     if (!original.isDictionary()) return content(original, true);
-    // An appearance may have one stream per state, such as /On and /Off. Dictionaries nested deeper
-    // are not followed, so references that form a loop do no harm.
+    // An appearance may have one stream per state, such as /On and /Off. Dictionaries at a deeper
+    // level are ignored, so cyclic references are harmless.
     QPDFObjectHandle copy = original.shallowCopy();
     for (const std::string& state : copy.getKeys())
         copy.replaceKey(state, content(copy.getKey(state), true));
@@ -204,9 +204,9 @@ QPDFObjectHandle ColourConverter::resources(QPDFObjectHandle original) {
     });
     replace_all(copy, "/Pattern", [&](QPDFObjectHandle object) { return pattern(object); });
     replace_all(copy, "/Font", [&](QPDFObjectHandle object) { return font(object); });
-    if (original.getKey("/Shading").isDictionary()) left_alone_.insert("shadings");
+    if (original.getKey("/Shading").isDictionary()) unconverted_.insert("shadings");
     for (const auto& [name, kind] : named_spaces(original)) {
-        if (kind == ColourKind::other) left_alone_.insert("colours of special colour spaces");
+        if (kind == ColourKind::other) unconverted_.insert("colours of special colour spaces");
     }
     --level_;
     return copy;
@@ -234,13 +234,13 @@ QPDFObjectHandle ColourConverter::content(QPDFObjectHandle original, bool starts
 
 QPDFObjectHandle ColourConverter::pattern(QPDFObjectHandle original) {
     if (!original.isStream()) {
-        left_alone_.insert("shadings");
+        unconverted_.insert("shadings");
         return original;
     }
-    // An uncoloured tiling pattern has no colour of its own: the content that uses it sets one.
+    // An uncoloured tiling pattern has the colour that the using content sets.
     const bool is_coloured = original.getDict().getKey("/PaintType").isInteger() &&
                              original.getDict().getKey("/PaintType").getIntValue() == 1;
-    if (!is_coloured) left_alone_.insert("uncoloured patterns");
+    if (!is_coloured) unconverted_.insert("uncoloured patterns");
     return is_coloured ? content(original, true) : original;
 }
 
@@ -266,7 +266,7 @@ QPDFObjectHandle ColourConverter::image(QPDFObjectHandle original, QPDFObjectHan
     const QPDFObjGen id = original.getObjGen();
     if (converted_.contains(id)) return converted_.at(id);
     QPDFObjectHandle mask = original.getDict().getKey("/ImageMask");
-    if (mask.isBool() && mask.getBoolValue()) return original;  // a stencil has no own colours
+    if (mask.isBool() && mask.getBoolValue()) return original;  // a stencil mask has no colours
     QPDFObjectHandle copy = original.copyStream();
     QPDFObjectHandle dict = copy.getDict();
     QPDFObjectHandle space = dict.getKey("/ColorSpace");
@@ -279,7 +279,7 @@ QPDFObjectHandle ColourConverter::image(QPDFObjectHandle original, QPDFObjectHan
                           ? convert_palette(change_, dict, space, spaces, unpacked_)
                       : is_single ? convert_grey(change_, dict, kind)
                                   : convert_decode(change_, dict, kind, original.getOwningQPDF());
-    if (!done) left_alone_.insert(kind == ColourKind::cmyk ? "CMYK images" : "some images");
+    if (!done) unconverted_.insert(kind == ColourKind::cmyk ? "CMYK images" : "some images");
     converted_[id] = done ? copy : original;
     return converted_.at(id);
 }

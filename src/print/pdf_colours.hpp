@@ -1,4 +1,4 @@
-/// Rewrites the colours of a page: its content, and copies of everything it draws from.
+/// Rewrites the colours of a page: its content, and copies of all objects that the content draws.
 #pragma once
 
 #include <map>
@@ -13,19 +13,20 @@
 
 namespace dotpose::print {
 
-/// Changed objects are copies, shared by all pages that go through one converter; other pages keep
-/// the originals. Content is rewritten only while the file is written.
+/// Converts the colours of pages. Converted objects are copies that all pages of one converter
+/// share. Other pages keep the originals. Content is rewritten only while the file is written.
 class ColourConverter {
   public:
-    /// `unpacked` counts the bytes of all content that is changed; it must outlive this object.
+    /// `unpacked` counts the bytes of all converted content. It must outlive this object.
     ColourConverter(InkChange change, UnpackedBytes& unpacked)
         : change_(change), unpacked_(unpacked) {}
 
-    /// Throws Error if the page draws from resources that are nested too deeply.
+    /// Converts a page. Throws Error if its resources are nested too deeply.
     void convert(QPDFPageObjectHelper page);
 
-    /// Kinds of content that were found but not converted, in words, for example "shadings".
-    const std::set<std::string>& left_alone() const { return left_alone_; }
+    /// Returns the kinds of content that were found but not converted, in words, for example
+    /// "shadings".
+    const std::set<std::string>& unconverted() const { return unconverted_; }
 
   private:
     QPDFObjectHandle resources(QPDFObjectHandle original);
@@ -40,9 +41,9 @@ class ColourConverter {
 
     InkChange change_;
     UnpackedBytes& unpacked_;
-    int level_ = 0;  ///< how deep the resources that are being converted are nested
+    int level_ = 0;  ///< nesting depth of the resources that are being converted
     std::map<QPDFObjGen, QPDFObjectHandle> converted_;
-    std::set<std::string> left_alone_;
+    std::set<std::string> unconverted_;
 };
 
 }  // namespace dotpose::print

@@ -19,8 +19,8 @@ namespace {
 
 using Token = QPDFTokenizer::Token;
 
-/// Reads the cross-reference tables and streams of a document from its end. `startxref` is the
-/// offset of the newest section. /Prev and /XRefStm are the offsets of the other sections.
+/// Reads the cross-reference tables and streams of a document, beginning at its end. `startxref` is
+/// the offset of the newest section. /Prev and /XRefStm are the offsets of the other sections.
 class CrossReferences {
   public:
     CrossReferences(const std::filesystem::path& path, UnpackedBytes& unpacked)
@@ -33,7 +33,8 @@ class CrossReferences {
     }
 
     void count() {
-        // Some files have other data before and after the document.
+        // Number of bytes searched at the beginning and at the end. Some files contain other data
+        // before and after the document.
         constexpr qpdf_offset_t kNear = 1100;
         const std::string begin = text(0, kNear);
         std::smatch header;
@@ -62,8 +63,8 @@ class CrossReferences {
 
     Token next() {
         constexpr bool kBadToo = true;
-        constexpr std::size_t kLongest = 1 << 16;
-        return tokenizer_.readToken(file_, "cross references", kBadToo, kLongest);
+        constexpr std::size_t kMaxTokenBytes = 1 << 16;
+        return tokenizer_.readToken(file_, "cross references", kBadToo, kMaxTokenBytes);
     }
 
     /// Reads one cross-reference table with its trailer, or one cross-reference stream, at
@@ -84,7 +85,8 @@ class CrossReferences {
         if (!is_table && next().isWord("stream")) count_stream(*dictionary);
     }
 
-    /// Counts the unpacked size of the stream whose `dictionary` was just read; its data follow.
+    /// Adds the unpacked size of the stream whose `dictionary` was just read. The file is
+    /// positioned at the data of the stream.
     void count_stream(QPDFObjectHandle dictionary) {
         QPDFObjectHandle length = dictionary.getKey("/Length");
         if (!length.isInteger() || length.getIntValue() < 0) {
@@ -102,7 +104,7 @@ class CrossReferences {
         unpacked_.count(stream);
     }
 
-    /// Reads the dictionary at the current position, or returns none if there is no dictionary.
+    /// Reads the dictionary at the current position. Returns none if there is no dictionary.
     std::optional<QPDFObjectHandle> read_dictionary() {
         const qpdf_offset_t begin = file_->tell();
         int level = 0;
@@ -120,7 +122,7 @@ class CrossReferences {
 
     std::shared_ptr<InputSource> file_;
     QPDFTokenizer tokenizer_;
-    QPDF stray_;  ///< an empty document: qpdf requires that streams belong to one
+    QPDF stray_;  ///< empty document, because qpdf requires that a stream belongs to a document
     UnpackedBytes& unpacked_;
     qpdf_offset_t size_ = 0;
     qpdf_offset_t start_ = 0;

@@ -7,10 +7,10 @@
 
 namespace dotpose::print {
 
-/// Counts the unpacked bytes of the cross-reference streams of a document. qpdf unpacks them as
-/// soon as it opens the document, without a limit, so call this first. References that make no
-/// sense are not followed; qpdf refuses them later. Throws Error like `UnpackedBytes::count`, and
-/// what `FileInputSource` throws.
+/// Counts the unpacked bytes of the cross-reference streams of a document. Must be called before
+/// qpdf opens the document, because qpdf then unpacks the streams without a limit. Ignores invalid
+/// references, which qpdf rejects later. Throws Error as `UnpackedBytes::count`, and the exceptions
+/// of `FileInputSource`.
 void count_cross_references(const std::filesystem::path& path, UnpackedBytes& unpacked);
 
 }  // namespace dotpose::print

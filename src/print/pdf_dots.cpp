@@ -21,11 +21,12 @@ constexpr int kDotsPerStream = 250'000;
 
 // --- glyphs -------------------------------------------------------------------------------------
 
-/// One em of the font is one spacing of the grid: the width of every glyph is then a whole number,
-/// and the text advances without rounding error.
+/// Number of font units per em. One em is one spacing of the grid, so the width of every glyph is a
+/// whole number and the text advances without rounding errors.
 constexpr double kUnitsPerEm = 1000;
 
-/// Draws a circle as four Bezier curves; with the factor 0.5523 the radius is right to 0.03 %.
+/// Returns a circle as four Bezier curves. With the factor 0.5523, the error of the radius is 0.03
+/// %.
 std::string circle(double x, double y, double r) {
     const double k = 0.5522847498 * r;
     return fmt::format(
@@ -36,9 +37,9 @@ std::string circle(double x, double y, double r) {
         y - k, x - k, y - r, x, y - r, x + k, y - r, x + r, y - k, x + r, y);
 }
 
-/// Returns the glyph that draws the dot of one symbol. The square around an undisplaced dot has its
-/// lower left corner at the glyph's origin: if the origin is the corner of a pixel, the dot fills
-/// whole pixels.
+/// Returns the glyph that draws the dot of one symbol. The lower left corner of the square around
+/// an undisplaced dot is the origin of the glyph. If the origin is at the corner of a pixel, the
+/// dot fills whole pixels.
 std::string glyph(const Pattern& pattern, Symbol symbol) {
     const double per_mm = kUnitsPerEm / pattern.spacing_mm;
     const double r = pattern.dot_mm / 2 * per_mm;
@@ -49,7 +50,7 @@ std::string glyph(const Pattern& pattern, Symbol symbol) {
            circle(x, y, r);
 }
 
-/// Returns the smallest shift, to the right or down, for which all renderers round the origin of a
+/// Returns the smallest shift, to the right or down, with which all renderers round the origin of a
 /// glyph to the same pixel.
 ///
 /// Renderers count pixels from the top left or from the bottom left corner of the page, and either
@@ -82,7 +83,7 @@ void write_glyph_rows(const Sheet& sheet, double dpi, int first_row, int end_row
     const double px_per_mm = dpi / kInch_mm;
     const double half_mm = sheet.pattern.dot_mm / 2;
     const double left_mm = sheet.origin_x_mm - half_mm;
-    const double top_mm = sheet.origin_y_mm + half_mm;  // the baseline of the first row
+    const double top_mm = sheet.origin_y_mm + half_mm;  // baseline of the first row
     const auto shift_mm = [&](double from_mm, double size_mm) {
         return clear_shift_px(from_mm * px_per_mm, (size_mm - from_mm) * px_per_mm) / px_per_mm;
     };
@@ -109,8 +110,8 @@ void write_glyph_rows(const Sheet& sheet, double dpi, int first_row, int end_row
 
 // --- strokes ------------------------------------------------------------------------------------
 
-/// A unit of length of which spacing and displacement are whole multiples. Renderers read whole
-/// numbers without rounding, and short numbers make small files.
+/// Unit of length that divides spacing and displacement without a remainder. Renderers read
+/// integers without rounding, and short numbers make small files.
 struct WholeUnits {
     int spacing = 0;
     int displacement = 0;
@@ -119,9 +120,9 @@ struct WholeUnits {
 
 WholeUnits whole_units(const Pattern& pattern) {
     constexpr double kTolerance_mm = 5e-5;
-    constexpr int kFinest = 10'000;
+    constexpr int kMaxUnitsPerSpacing = 10'000;
     WholeUnits units;
-    for (int spacing = 1; spacing <= kFinest; ++spacing) {
+    for (int spacing = 1; spacing <= kMaxUnitsPerSpacing; ++spacing) {
         units.spacing = spacing;
         units.unit_mm = pattern.spacing_mm / spacing;
         units.displacement = static_cast<int>(std::lround(pattern.displacement_mm / units.unit_mm));
@@ -131,14 +132,14 @@ WholeUnits whole_units(const Pattern& pattern) {
     return units;
 }
 
-// Deflate compresses small tiles well if all are written alike: it finds their dots in earlier
-// rows.
+// Number of columns of a tile. Deflate compresses small, identically written tiles well, because it
+// finds their dots in earlier rows.
 constexpr int kTileColumns = 8;
-// A renderer's rounding errors add up from tile to tile, so after this many columns the position
-// is given anew.
+// Number of columns after which the absolute position is written again, because a renderer's
+// rounding errors accumulate from tile to tile.
 constexpr int kRunColumns = 16 * kTileColumns;
 
-/// The operators that draw each of the four symbols in each column of a tile.
+/// Operators that draw each of the four symbols in each column of a tile.
 using TileDots = std::array<std::array<std::string, 4>, kTileColumns>;
 
 TileDots tile_dots(const WholeUnits& units) {
@@ -189,7 +190,7 @@ void write_stroke_rows(const Sheet& sheet, int first_row, int end_row, RowCount&
 
 // ------------------------------------------------------------------------------------------------
 
-/// Provides the data of one content stream when qpdf asks for it.
+/// Provides the data of one content stream on request of qpdf.
 class DotRows : public QPDFObjectHandle::StreamDataProvider {
   public:
     DotRows(const Sheet& sheet, DotDrawing drawing, double dpi, int first_row, int end_row,
@@ -240,7 +241,7 @@ bool is_whole_pixels(const Pattern& pattern, double dpi) {
         const double px = mm * dpi / kInch_mm;
         return std::round(px) >= 1 && std::abs(px - std::round(px)) < tolerance_px;
     };
-    // The tolerance of the spacing is smaller because its error adds up over the page.
+    // The tolerance of the spacing is smaller because its error accumulates over the page.
     return is_whole(pattern.spacing_mm, 1e-6) && is_whole(pattern.displacement_mm, 0.01) &&
            is_whole(pattern.dot_mm, 0.01);
 }
@@ -309,7 +310,7 @@ QPDFObjectHandle DotContent::font(const Pattern& pattern) {
         glyphs.replaceKey(std::string("/") + letter(symbol),
                           QPDFObjectHandle::newStream(&pdf_, glyph(pattern, symbol)));
     }
-    // The font's bounding box has to contain all glyphs; a larger one does no harm.
+    // The bounding box of the font must contain all glyphs. A larger box is harmless.
     const auto reach =
         static_cast<int>(std::ceil(kUnitsPerEm * (reach_mm(pattern) * 2) / pattern.spacing_mm));
     std::string widths;

@@ -17,13 +17,13 @@ namespace dotpose::print {
 
 inline constexpr double kPointsPerMm = 72 / 25.4;
 
-/// The program that a document names as its creator, if dotpose printed it.
+/// Name of the creator in the documents that dotpose prints.
 inline constexpr const char* kCreator = "dotpose";
-/// Beginning of the names under which the resources of a page have its dots.
+/// Prefix of the resource names of the dots on a page.
 inline constexpr const char* kDotsName = "/Dots";
 
-/// Counts the rows that have been written, over all pages, and keeps the first exception: qpdf asks
-/// for the rows while it writes the file, and would replace the exception's message by its own.
+/// Number of rows written, over all pages, and the first exception of `progress`. qpdf requests the
+/// rows while it writes the file, and would replace the message of the exception by its own.
 struct RowCount {
     Progress progress;
     std::int64_t done = 0;
@@ -31,28 +31,29 @@ struct RowCount {
     std::exception_ptr stopped;
 };
 
-/// Whether glyphs show the pattern exactly: spacing, displacement and dot are whole pixels.
+/// Returns true if glyphs show the pattern exactly: spacing, displacement and dot are whole pixels.
 bool is_whole_pixels(const Pattern& pattern, double dpi);
 
 /// Replaces `DotDrawing::automatic` by the best choice for this pattern. Throws BadArgument if
-/// glyphs were asked for and would not be exact.
+/// glyphs are requested but would not be exact.
 DotDrawing resolve_drawing(DotDrawing asked, const Pattern& pattern, double dpi);
 
-/// Makes content streams whose data is computed only while the file is written, a band of rows per
-/// stream: qpdf holds one compressed stream at a time, so memory does not grow with the page.
+/// Makes content streams with the dots of sheets, one stream per band of rows. The data of a stream
+/// is computed only while the file is written. qpdf keeps one compressed stream at a time in
+/// memory, so the memory does not grow with the page.
 class DotContent {
   public:
-    /// `pdf` must outlive this object; `rows` counts the rows that all streams write.
+    /// `pdf` must outlive this object. `rows` counts the rows that all streams write.
     DotContent(QPDF& pdf, double dpi, DotDrawing asked, std::shared_ptr<RowCount> rows);
 
-    /// Returns the sheet as content streams that can be drawn independently of each other. Throws
-    /// BadArgument like `resolve_drawing`.
+    /// Returns the dots of the sheet as content streams, which may be drawn independently of each
+    /// other. Throws BadArgument as `resolve_drawing`.
     std::vector<QPDFObjectHandle> streams(const Sheet& sheet);
 
-    /// Returns the resource dictionary that these streams need; it may be empty.
+    /// Returns the resource dictionary of the content streams. It may be empty.
     QPDFObjectHandle resources(const Sheet& sheet);
 
-    /// Returns the streams of `streams` as form objects with their own resources.
+    /// Returns the content streams as form XObjects with their own resources.
     std::vector<QPDFObjectHandle> forms(const Sheet& sheet);
 
   private:

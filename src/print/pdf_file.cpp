@@ -6,8 +6,8 @@
 namespace dotpose::print {
 namespace {
 
-/// Leaves streams of the document compressed as they are: unpacking them could take any amount of
-/// time and memory.
+/// Makes the writer copy the streams of the document in compressed form. Unpacking them could take
+/// unlimited time and memory.
 void keep_packed(QPDF& pdf) {
     for (QPDFObjectHandle object : pdf.getAllObjects()) {
         if (object.isStream() && object.getDict().hasKey("/Filter") && !object.isDataModified()) {
@@ -25,8 +25,8 @@ void write_document(QPDF& pdf, const RowCount& rows, base::OutputFile& file) {
         QPDFWriter writer(pdf);
         writer.setOutputPipeline(&out);
         writer.setObjectStreamMode(qpdf_o_generate);
-        // With this, the same input gives the same file. It is not possible for an encrypted file,
-        // whose key depends on its random identifier.
+        // With a deterministic identifier, the same input gives the same file. Encrypted files
+        // cannot have one, because their key depends on the random identifier.
         if (!pdf.isEncrypted()) writer.setDeterministicID(true);
         writer.write();
     } catch (const Error&) {

@@ -1,4 +1,5 @@
-/// Writes a qpdf document through an OutputFile, so that it appears complete or not at all.
+/// Writes a qpdf document through an OutputFile, which makes the file appear complete or not at
+/// all.
 #pragma once
 
 #include <qpdf/Pipeline.hh>
@@ -23,8 +24,8 @@ class FilePipeline : public Pipeline {
     base::OutputFile& file_;
 };
 
-/// Writes `pdf` into `file` and leaves the commit to the caller. Throws the exception that `rows`
-/// keeps, or Error if the file cannot be written or qpdf fails.
+/// Writes `pdf` into `file` without committing it. Throws the exception stored in `rows`, or Error
+/// if the file cannot be written or qpdf fails.
 void write_document(QPDF& pdf, const RowCount& rows, base::OutputFile& file);
 
 }  // namespace dotpose::print

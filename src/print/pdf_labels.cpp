@@ -18,24 +18,27 @@
 namespace dotpose::print {
 namespace {
 
-constexpr double kGap_mm = 0.8;   // between ink of the pattern and any label
+constexpr double kGap_mm = 0.8;   // between ink of the pattern and a label
 constexpr double kEdge_mm = 0.3;  // between a label and the edge of the page
 constexpr double kText_pt = 6;
 constexpr double kLine_mm = 2.5;
-constexpr std::size_t kLongestName = 60;
+constexpr std::size_t kMaxNameCharacters = 60;
 
 constexpr double kNumber_pt = 4.5;
-constexpr double kNumberHeight_mm = 0.718 * kNumber_pt / kPointsPerMm;  // a digit in Helvetica
+// Height of a digit in Helvetica.
+constexpr double kNumberHeight_mm = 0.718 * kNumber_pt / kPointsPerMm;
 constexpr double kLongTick_mm = 1.8;
 constexpr double kNumberAway_mm = kGap_mm + kLongTick_mm + 0.3;
 constexpr double kRulerRoom_mm = kNumberAway_mm + kNumberHeight_mm + kEdge_mm;
 
-constexpr double kArrowGap_mm = 0.9;  // between the numbers of a ruler and the arrow beside it
-constexpr double kArrow_mm = 6;       // of an arrow beyond the other arrow
+// Distance between the numbers of a ruler and the arrow beside them.
+constexpr double kArrowGap_mm = 0.9;
+constexpr double kArrow_mm = 6;  // length of an arrow beyond the other arrow
 constexpr double kArrowHead_mm = 1.3;
-constexpr double kNoteAway_mm = 3;  // from the x arrow
+constexpr double kNoteAway_mm = 3;  // distance of the note from the x arrow
 
-// Adobe font metrics of Helvetica, in thousandths of the font size, from the space to '~'.
+// Widths of the characters from the space to '~', in thousandths of the font size, from the Adobe
+// font metrics of Helvetica.
 constexpr std::array<int, 95> kHelveticaWidths = {
     278,  278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278,  //
     556,  556, 556, 556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556,  //
@@ -54,28 +57,29 @@ double width_mm(const std::string& text, double size_pt) {
     return thousandths * size_pt / 1000 / kPointsPerMm;
 }
 
-/// Returns the number of bytes of the UTF-8 character that begins with this byte.
+/// Returns the number of bytes of the UTF-8 character with the first byte `first`.
 std::size_t length_of(char first) {
     const auto byte = static_cast<unsigned char>(first);
     return byte < 0xC0 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
 }
 
-/// Returns the first `most_characters` characters of a UTF-8 text. Never splits a character.
-std::string beginning(const std::string& utf8, std::size_t most_characters) {
+/// Returns the first `max_characters` characters of a UTF-8 text. Never splits a character.
+std::string beginning(const std::string& utf8, std::size_t max_characters) {
     std::size_t end = 0;
-    for (std::size_t i = 0; i < most_characters && end < utf8.size(); ++i)
+    for (std::size_t i = 0; i < max_characters && end < utf8.size(); ++i)
         end += length_of(utf8[end]);
     return utf8.substr(0, end);
 }
 
-/// Returns the text in the encoding of Helvetica, or none if Helvetica lacks some letter.
+/// Returns the text in the encoding of Helvetica, or none if Helvetica lacks one of the letters.
 std::optional<std::string> in_helvetica(const std::string& utf8) {
     std::string text;
     if (QUtil::utf8_to_win_ansi(utf8, text)) return text;
     return std::nullopt;
 }
 
-/// Breaks text between words into lines that `fits` accepts. Cuts wider words.
+/// Breaks text between words into lines that `fits` accepts. Splits words that are wider than a
+/// line.
 template <typename Fits>
 std::vector<std::string> wrap(const std::string& text, const Fits& fits) {
     std::vector<std::string> lines = {""};
@@ -102,7 +106,7 @@ std::vector<std::string> wrap(const std::string& text, const Fits& fits) {
     return lines;
 }
 
-/// The free paper above or beside the dots.
+/// Sides of the dots with a ruler.
 enum class Side { top, left };
 double free_margin_mm(const Sheet& sheet, Side side) {
     return (side == Side::top ? sheet.origin_y_mm : sheet.origin_x_mm) - reach_mm(sheet.pattern);
@@ -112,7 +116,7 @@ bool has_ruler(const Sheet& sheet, Side side) {
     return free_margin_mm(sheet, side) >= kRulerRoom_mm;
 }
 
-/// Positions of the arrows that show x and y of the page, outside both rulers.
+/// Positions of the x arrow and the y arrow of the page, which are outside the two rulers.
 struct Arrows {
     double x_of_y_arrow_mm = 0;
     double y_of_x_arrow_mm = 0;
@@ -120,7 +124,7 @@ struct Arrows {
     double y_end_mm() const { return y_of_x_arrow_mm + kArrow_mm; }
 };
 
-/// Returns the positions of the arrows, or none if there is no room.
+/// Returns the positions of the arrows, or none if they do not fit.
 std::optional<Arrows> arrows_of(const Sheet& sheet) {
     const double x_mm = free_margin_mm(sheet, Side::left) - kRulerRoom_mm - kArrowGap_mm;
     const double y_mm = free_margin_mm(sheet, Side::top) - kRulerRoom_mm - kArrowGap_mm;
@@ -128,7 +132,8 @@ std::optional<Arrows> arrows_of(const Sheet& sheet) {
     return Arrows{x_mm, y_mm};
 }
 
-/// Returns the pattern coordinates of the corner that is the origin of the sheet's coordinates.
+/// Returns the pattern coordinates of the top left corner of the page, the origin of the sheet
+/// frame.
 std::string corner_text(const Sheet& sheet) {
     const double spacing_mm = sheet.pattern.spacing_mm;
     return fmt::format("x_mm {:.3f}, y_mm {:.3f}", sheet.origin.x * spacing_mm - sheet.origin_x_mm,
@@ -148,7 +153,7 @@ bool has_note_at_origin(const Sheet& sheet) {
 
 std::string description(const Sheet& sheet, PageNumber page, const PrintOptions& options) {
     const Pattern& pattern = sheet.pattern;
-    std::string text = beginning(options.name, kLongestName);
+    std::string text = beginning(options.name, kMaxNameCharacters);
     if (!text.empty()) text += ", ";
     return text + fmt::format(
                       "page {} of {}, cells {},{} to {},{}, section {},{}, spacing {:.6g} mm, for "
@@ -163,13 +168,13 @@ std::string shown(const std::string& win_ansi) {
     return QPDFObjectHandle::newString(win_ansi).unparse();
 }
 
-/// Returns the PDF content of the text below the dots; the line nearest to the dots comes first.
+/// Returns the PDF content of the text below the dots. The first line is nearest to the dots.
 std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions& options,
                          ScriptText& script) {
     const double reach = reach_mm(sheet.pattern);
     const double ink_end_mm = dot_y_mm(sheet, sheet.rows - 1, 0) + reach;
     const double room_mm = sheet.height_mm - ink_end_mm - kGap_mm - kEdge_mm;
-    const auto most_lines = static_cast<std::size_t>(std::max(0.0, room_mm / kLine_mm));
+    const auto max_lines = static_cast<std::size_t>(std::max(0.0, room_mm / kLine_mm));
     const double widest_mm = (sheet.columns - 1) * sheet.pattern.spacing_mm + 2 * reach;
 
     const auto fits = [&](const std::string& utf8) {
@@ -183,12 +188,12 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     }
     std::vector<std::string> lines = wrap(base::printable(text), fits);
     const std::vector<std::string> command = wrap(base::printable(options.command), fits);
-    // The command is omitted unless it fits completely: a part of the command would print another
-    // sheet.
-    if (!options.command.empty() && lines.size() + command.size() <= most_lines) {
+    // The command is omitted unless it fits completely, because an incomplete command would print
+    // another sheet.
+    if (!options.command.empty() && lines.size() + command.size() <= max_lines) {
         lines.insert(lines.end(), command.begin(), command.end());
     }
-    lines.resize(std::min(lines.size(), most_lines));
+    lines.resize(std::min(lines.size(), max_lines));
 
     std::string content = fmt::format("BT /Label {} Tf\n", kText_pt);
     std::string forms;
@@ -196,7 +201,8 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     for (const std::string& line : lines) {
         bottom_mm -= kLine_mm;
         const double x_pt = (sheet.origin_x_mm - reach) * kPointsPerMm;
-        // The baseline: a quarter of the line stays below it for g, p and commas.
+        // The baseline is a quarter of the line height above the bottom, which leaves room for
+        // descenders.
         const double y_pt = (bottom_mm + kLine_mm / 4) * kPointsPerMm;
         if (const auto plain = in_helvetica(line)) {
             fmt::format_to(std::back_inserter(content), "1 0 0 1 {:.3f} {:.3f} Tm {} Tj\n", x_pt,
@@ -208,20 +214,21 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     return content + "ET\n" + forms;
 }
 
-/// Returns a point of the page as operands of PDF.
+/// Returns a point of the page as PDF operands.
 std::string point(const Sheet& sheet, double x_mm, double y_mm) {
     return fmt::format("{:.3f} {:.3f}", x_mm * kPointsPerMm,
                        (sheet.height_mm - y_mm) * kPointsPerMm);
 }
 
-/// Returns the PDF content of a ruler that counts from the corner of the page to the last
-/// intersection, with a tick every millimetre and a number every ten. The edge of the paper is its
-/// zero. There are no ticks where the other ruler and its arrow cross it.
+/// Returns the PDF content of a ruler. It has a tick for every millimetre and a number for every
+/// ten, from the edge of the paper, which is zero, to the last intersection. Ticks that would cross
+/// the other ruler or its arrow are omitted.
 std::string ruler_content(const Sheet& sheet, Side side) {
     if (!has_ruler(sheet, side)) return {};
     const bool is_top = side == Side::top;
     const double away_from_mm = free_margin_mm(sheet, side);
-    // A position along the ruler and a distance from the dots. The ruler on the left runs down.
+    // Returns the point at a position along the ruler and a distance from the dots. The left ruler
+    // runs downwards.
     const auto at = [&](double along_mm, double away_mm) {
         return is_top ? point(sheet, along_mm, away_from_mm - away_mm)
                       : point(sheet, away_from_mm - away_mm, along_mm);
@@ -234,7 +241,8 @@ std::string ruler_content(const Sheet& sheet, Side side) {
             (is_top ? arrows->x_of_y_arrow_mm : arrows->y_of_x_arrow_mm) - kArrowGap_mm / 2;
     }
     const double dots_begin_mm = has_ruler(sheet, other) ? free_margin_mm(sheet, other) : 0;
-    // The other ruler has ticks to `nearest_mm` from the dots, beside the numbers only numbers.
+    // Returns true if a tick or number would cross the other ruler, whose marks are at least
+    // `nearest_mm` from the dots.
     const auto is_crossed = [&](double from_mm, double to_mm, double nearest_mm) {
         return to_mm > crossing_mm && from_mm < dots_begin_mm - nearest_mm;
     };
@@ -254,7 +262,7 @@ std::string ruler_content(const Sheet& sheet, Side side) {
         const double length_mm = width_mm(number, kNumber_pt);
         const double from_mm = mm == 0 ? kEdge_mm : mm - length_mm / 2;
         if (is_crossed(from_mm, from_mm + length_mm, kNumberAway_mm)) continue;
-        // Beside the dots the text runs upwards, so that its top faces away from them.
+        // Numbers of the left ruler run upwards, with their tops facing away from the dots.
         numbers +=
             fmt::format("{} {} Tm {} Tj\n", is_top ? "1 0 0 1" : "0 1 -1 0",
                         at(is_top ? from_mm : from_mm + length_mm, kNumberAway_mm), shown(number));
@@ -262,7 +270,7 @@ std::string ruler_content(const Sheet& sheet, Side side) {
     return ticks + "S\n" + numbers + "ET\n";
 }
 
-/// Returns the PDF content of an arrow along x or y, from the edge of the page.
+/// Returns the PDF content of an arrow along x or y that begins at the edge of the page.
 std::string arrow_content(const Sheet& sheet, Side side, double away_mm, double end_mm) {
     const auto at = [&](double along_mm, double aside_mm) {
         return side == Side::top ? point(sheet, along_mm, away_mm + aside_mm)
@@ -278,8 +286,8 @@ std::string label_at(const Sheet& sheet, double x_mm, double baseline_mm, const 
     return fmt::format("1 0 0 1 {} Tm {} Tj\n", point(sheet, x_mm, baseline_mm), shown(text));
 }
 
-/// Returns the PDF content of an x and a y arrow at the corner of the page, with the note if there
-/// is room beside it.
+/// Returns the PDF content of the x arrow and the y arrow at the corner of the page, with the note
+/// if it fits beside the x arrow.
 std::string origin_content(const Sheet& sheet) {
     const auto arrows = arrows_of(sheet);
     if (!arrows) return {};

@@ -1,4 +1,5 @@
-/// The labels in the margins of a PDF page: text below the dots, rulers above and beside them.
+/// Labels in the margins of a PDF page: text below the dots, rulers above and to the left of the
+/// dots.
 #pragma once
 
 #include <string>
@@ -14,10 +15,10 @@ struct PageNumber {
     int count = 1;
 };
 
-/// Returns the labels as PDF content, in points from the bottom left corner of the page; it needs
-/// the font resource /Label, which is Helvetica. Labels for which the margins have no room are left
-/// out, the command first, so that no label touches a dot. Lines with letters that Helvetica lacks
-/// are drawn by `script`, whose forms the page needs too.
+/// Returns the labels as PDF content, in points from the bottom left corner of the page. The
+/// content requires the font resource /Label, which is Helvetica, and the forms of `script`, which
+/// draws lines with letters that Helvetica lacks. Labels that do not fit into the margins are
+/// omitted, the command first, so no label touches a dot.
 std::string label_content(const Sheet& sheet, PageNumber page, const PrintOptions& options,
                           ScriptText& script);
 

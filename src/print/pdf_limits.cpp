@@ -20,11 +20,11 @@
 namespace dotpose::print {
 namespace {
 
-constexpr const char* kTooDeep = "streams whose lengths stand in other streams";
+constexpr const char* kTooDeep = "streams whose lengths are in other streams";
 
-/// Stack that qpdf may use: valid documents need far less, and the first thread of a program has
-/// more.
-constexpr std::ptrdiff_t kMostStack_bytes = 2 << 20;
+/// Maximum stack usage of qpdf. Valid documents need far less, and the main thread of a program has
+/// a larger stack.
+constexpr std::ptrdiff_t kMaxStack_bytes = 2 << 20;
 
 class ShallowFile : public FileInputSource {
   public:
@@ -32,7 +32,7 @@ class ShallowFile : public FileInputSource {
         : FileInputSource(path.c_str()), start_(stack_place()) {}
 
     std::size_t read(char* bytes, std::size_t length) override {
-        if (std::abs(stack_place() - start_) > kMostStack_bytes) throw std::runtime_error(kTooDeep);
+        if (std::abs(stack_place() - start_) > kMaxStack_bytes) throw std::runtime_error(kTooDeep);
         return FileInputSource::read(bytes, length);
     }
 
@@ -44,28 +44,27 @@ class ShallowFile : public FileInputSource {
     std::ptrdiff_t start_;
 };
 
-/// Counts the bytes that pass through and discards them. Throws after `most` bytes.
+/// Counts the bytes that pass through and discards them. Throws after `max` bytes.
 class ByteCount : public Pipeline {
   public:
-    explicit ByteCount(std::uint64_t most) : Pipeline("byte count", nullptr), most_(most) {}
+    explicit ByteCount(std::uint64_t max) : Pipeline("byte count", nullptr), max_(max) {}
 
     void write(unsigned char const* /*data*/, std::size_t size) override {
         bytes_ += size;
-        // qpdf may turn this exception into a warning, so the caller has to check the count as
-        // well.
-        if (bytes_ > most_) throw std::runtime_error("too many bytes");
+        // qpdf may convert this exception to a warning, so the caller must also check the count.
+        if (bytes_ > max_) throw std::runtime_error("too many bytes");
     }
     void finish() override {}
 
     std::uint64_t bytes() const { return bytes_; }
 
   private:
-    std::uint64_t most_;
+    std::uint64_t max_;
     std::uint64_t bytes_ = 0;
 };
 
-/// Number of bytes that the predictor of a compression filter allocates for a row; 0 if there is no
-/// predictor.
+/// Returns the number of bytes that the predictor of a compression filter allocates for a row; 0
+/// without a predictor.
 double predictor_row_bytes(QPDFObjectHandle parameters) {
     if (!parameters.isDictionary()) return 0;
     double bytes = 1.0 / 8;
@@ -76,15 +75,16 @@ double predictor_row_bytes(QPDFObjectHandle parameters) {
     return bytes;
 }
 
-/// Throws Error if a stream has many filters in sequence: each can multiply the size of the data
-/// and needs memory of its own.
+/// Throws Error if a stream has many filters in sequence. Each filter can multiply the size of the
+/// data and needs its own memory.
 void require_few_filters(QPDFObjectHandle dict) {
-    constexpr int kMostFilters = 8;
-    constexpr double kMostRowBytes = 1 << 24;
+    constexpr int kMaxFilters = 8;
+    constexpr double kMaxRowBytes = 1 << 24;
     QPDFObjectHandle filters = dict.getKey("/Filter");
-    if (filters.isArray() && filters.getArrayNItems() > kMostFilters) {
-        throw Error(fmt::format("it has content packed {} times; at most {} are unpacked",
-                                filters.getArrayNItems(), kMostFilters));
+    if (filters.isArray() && filters.getArrayNItems() > kMaxFilters) {
+        throw Error(
+            fmt::format("it has content compressed {} times; at most {} times are supported",
+                        filters.getArrayNItems(), kMaxFilters));
     }
     QPDFObjectHandle parameters = dict.getKey("/DecodeParms");
     double row_bytes = predictor_row_bytes(parameters);
@@ -92,15 +92,14 @@ void require_few_filters(QPDFObjectHandle dict) {
         for (const QPDFObjectHandle& one : parameters.getArrayAsVector())
             row_bytes = std::max(row_bytes, predictor_row_bytes(one));
     }
-    if (row_bytes > kMostRowBytes) {
-        throw Error(
-            fmt::format("it has content packed in rows of {:.3g} bytes; at most {:.0f} "
-                        "are unpacked",
-                        row_bytes, kMostRowBytes));
+    if (row_bytes > kMaxRowBytes) {
+        throw Error(fmt::format(
+            "it has content compressed in rows of {:.3g} bytes; at most {:.0f} are supported",
+            row_bytes, kMaxRowBytes));
     }
 }
 
-/// Follows /Parent from the node of the page tree that the catalogue names to the root of the tree.
+/// Returns the root of the page tree: follows /Parent from the node in the document catalogue.
 QPDFObjectHandle page_tree(QPDF& pdf) {
     QPDFObjectHandle node = pdf.getRoot().getKey("/Pages");
     std::set<QPDFObjGen> seen;
@@ -114,8 +113,8 @@ QPDFObjectHandle page_tree(QPDF& pdf) {
 }  // namespace
 
 void require_pdf_level(const char* what, int level) {
-    if (level <= kMostPdfLevels) return;
-    throw Error(fmt::format("its {} are nested deeper than {} levels", what, kMostPdfLevels));
+    if (level <= kMaxPdfLevels) return;
+    throw Error(fmt::format("its {} are nested deeper than {} levels", what, kMaxPdfLevels));
 }
 
 void require_shallow_page_tree(QPDF& pdf) {
@@ -124,8 +123,8 @@ void require_shallow_page_tree(QPDF& pdf) {
     while (!nodes.empty()) {
         auto [node, level] = nodes.back();
         nodes.pop_back();
-        // A node that is met again is part of a loop or a page that is shown twice; qpdf checks
-        // these.
+        // A node that was visited before is part of a cycle, or a page that occurs twice. qpdf
+        // checks for both.
         if (!node.isDictionary() || (node.isIndirect() && !seen.insert(node.getObjGen()).second)) {
             continue;
         }
@@ -158,25 +157,26 @@ bool is_too_deep(const std::string& warning) {
 void UnpackedBytes::count(QPDFObjectHandle stream) {
     if (!stream.isStream()) return;
     require_few_filters(stream.getDict());
-    const std::uint64_t most = static_cast<std::uint64_t>(most_mb_) << 20;
-    const std::uint64_t most_of_document = 8 * most;
-    ByteCount bytes(std::min(most - page_, most_of_document - document_));
+    const std::uint64_t max = static_cast<std::uint64_t>(max_mb_) << 20;
+    const std::uint64_t max_of_document = 8 * max;
+    ByteCount bytes(std::min(max - page_, max_of_document - document_));
     bool attempted = false;
     constexpr bool kSuppressWarnings = true;
     try {
         stream.pipeStreamData(&bytes, &attempted, 0, qpdf_dl_specialized, kSuppressWarnings);
     } catch (const std::runtime_error&) {
-        // Either there are too many bytes, which the count below shows, or the stream is damaged,
-        // which is reported when it is read.
+        // Either the limit is exceeded, which the count below detects, or the stream is damaged,
+        // which is reported when the stream is read.
     }
     page_ += bytes.bytes();
     document_ += bytes.bytes();
-    if (page_ > most) {
-        throw Error(fmt::format("its content takes more than {} MB when it is unpacked", most_mb_));
+    if (page_ > max) {
+        throw Error(fmt::format("its content takes more than {} MB when it is unpacked", max_mb_));
     }
-    if (document_ > most_of_document) {
-        throw Error(fmt::format("the content up to here takes more than {} MB when it is unpacked",
-                                most_of_document >> 20));
+    if (document_ > max_of_document) {
+        throw Error(
+            fmt::format("the content of the pages so far takes more than {} MB when it is unpacked",
+                        max_of_document >> 20));
     }
 }
 

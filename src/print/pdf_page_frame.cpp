@@ -19,7 +19,7 @@ Rectangle rectangle(QPDFObjectHandle box) {
             std::max(given.llx, given.urx), std::max(given.lly, given.ury)};
 }
 
-/// Returns the part of the page that viewers show: the crop box, as far as it is in the media box.
+/// Returns the part of the page that viewers show: the intersection of crop box and media box.
 Rectangle shown_box(QPDFPageObjectHelper& page) {
     const Rectangle media = rectangle(page.getMediaBox());
     const Rectangle crop = rectangle(page.getCropBox());
@@ -35,7 +35,7 @@ double user_unit(QPDFPageObjectHelper& page) {
 int quarter_turns(QPDFPageObjectHelper& page) {
     QPDFObjectHandle rotate = page.getAttribute("/Rotate", false);
     if (!rotate.isNumber()) return 0;
-    // Documents write it as an integer or as a real number.
+    // The rotation may be an integer or a real number.
     const double degrees = rotate.getNumericValue();
     const double turns = std::fmod(degrees / 90, 4);
     if (turns != std::floor(turns)) {
@@ -59,7 +59,8 @@ PageFrame page_frame(QPDFPageObjectHelper page) {
     frame.box = box;
     frame.paper.width_mm = (turns % 2 == 0 ? width : height) * unit / kPointsPerMm;
     frame.paper.height_mm = (turns % 2 == 0 ? height : width) * unit / kPointsPerMm;
-    // PDF 32000-1, 8.3.3: the page is turned clockwise when it is shown.
+    // Rotations by 0 to 3 quarter turns. A page is rotated clockwise when it is displayed (PDF
+    // 32000-1, 8.3.3).
     constexpr int kTurned[4][4] = {{1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0}};
     const auto& [a, b, c, d] = kTurned[turns];
     const double x = turns == 1 || turns == 2 ? box.urx : box.llx;

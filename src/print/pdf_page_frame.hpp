@@ -1,4 +1,4 @@
-/// Relation between the page as it is shown and the coordinates of its content.
+/// Relation between the displayed page and the coordinates of its content.
 #pragma once
 
 #include <string>
@@ -9,21 +9,23 @@
 
 namespace dotpose::print {
 
-/// The crop box of a page, turned as it is shown.
+/// Crop box of a page, in the displayed orientation.
 struct PageFrame {
-    Paper paper;                      ///< size as shown
-    QPDFObjectHandle::Rectangle box;  ///< crop box in the media box, in units of the content
-    std::string matrix;  ///< operands of `cm`: from points, counted from the bottom left as shown,
-                         ///< to content
+    Paper paper;  ///< displayed size
+    /// Crop box within the media box, in units of the content.
+    QPDFObjectHandle::Rectangle box;
+    /// Operands of the operator `cm` that converts points from the bottom left corner of the
+    /// displayed page to the coordinates of the content.
+    std::string matrix;
 };
 
 /// Computes the frame from /Rotate, /UserUnit and the boxes, which may be inherited. Throws Error
-/// if the page has no area, or if it is turned by an angle that is not a multiple of 90 degrees,
-/// which viewers show in different ways.
+/// if the area of the page is 0, or if its rotation is not a multiple of 90 degrees, which viewers
+/// show in different ways.
 PageFrame page_frame(QPDFPageObjectHelper page);
 
-/// Replaces a /Rotate that is a real number, such as 90.0, by an integer: some viewers ignore a
-/// real.
+/// Replaces a /Rotate that is a real number, such as 90.0, by an integer, because some viewers
+/// ignore a real number.
 void write_turn_as_integer(QPDFPageObjectHelper page);
 
 }  // namespace dotpose::print

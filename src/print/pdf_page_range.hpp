@@ -1,4 +1,4 @@
-/// Numbers of pages as users write and read them.
+/// Parses and formats lists of page numbers.
 #pragma once
 
 #include <set>
@@ -7,11 +7,11 @@
 
 namespace dotpose::print {
 
-/// Parses page numbers such as "1-3,7"; "z" is the last of `count` pages, and an empty text means
-/// all. Throws BadArgument.
+/// Parses page numbers such as "1-3,7". "z" is the last of `count` pages. An empty text means all
+/// pages. Throws BadArgument.
 std::set<int> page_numbers(const std::string& range, int count);
 
-/// Lists page numbers as in "pages 1, 2, 5", but no more than the first few.
+/// Returns a list of page numbers such as "pages 1, 2, 5". Long lists are shortened.
 std::string page_list(const std::vector<int>& numbers);
 
 }  // namespace dotpose::print

@@ -18,10 +18,10 @@
 namespace dotpose::print {
 namespace {
 
-// Where the page has less than this share of black ink, a black dot still has contrast.
+// Amount of black ink below which a black dot has enough contrast.
 constexpr double kHidingBlack = 0.1;
 
-/// The current colour; content starts with device grey 0, which is black.
+/// The current colour. Content starts with device grey 0, which is black.
 struct Colour {
     ColourKind kind = ColourKind::grey;
     bool is_black = true;
@@ -32,22 +32,24 @@ struct Colours {
     Colour stroke;
 };
 
-/// State that the scans of a page and of its forms share.
+/// State that is common to the scans of a page and of its forms.
 struct PageScan {
     UnpackedBytes& unpacked;
     std::set<QPDFObjGen> seen;
     PageContent found;
 };
 
-/// Operands that are kept: operators have at most 33, the components of a colour and a name.
-constexpr std::size_t kMostOperands = 64;
+/// Maximum number of stored operands. Operators have at most 33: the components of a colour and a
+/// name.
+constexpr std::size_t kMaxOperands = 64;
 
 struct Operand {
     QPDFTokenizer::token_type_e type;
-    std::string text;  ///< the characters of a name or number
+    std::string text;  ///< characters of a name or number
 };
 
-/// Scans content token by token: parsed objects would take many times the memory of the bytes.
+/// Scans content token by token, because parsed objects would need many times the memory of the
+/// bytes.
 class Scan : public QPDFObjectHandle::TokenFilter {
   public:
     Scan(QPDFObjectHandle resources, Colours start, PageScan& page, int level)
@@ -109,7 +111,7 @@ class Scan : public QPDFObjectHandle::TokenFilter {
             throw_damaged("unexpected " + token.getValue());
         }
         if (!open_brackets_.empty()) return;
-        if (operands_.size() == kMostOperands) operands_.pop_front();
+        if (operands_.size() == kMaxOperands) operands_.pop_front();
         const bool has_text = type == QPDFTokenizer::tt_name || is_number(type);
         operands_.push_back({type, has_text ? token.getValue() : std::string()});
     }
@@ -226,8 +228,8 @@ class Scan : public QPDFObjectHandle::TokenFilter {
 
 void Scan::read(const std::vector<QPDFObjectHandle>& streams) {
     Pl_QPDFTokenizer tokens("content", this);
-    // Tokens are handled in manualFinish, after all streams are unpacked: qpdf would turn an
-    // exception during unpacking into a warning.
+    // Tokens are processed in manualFinish, after all streams have been unpacked. qpdf would
+    // convert an exception during unpacking to a warning.
     Pl_Concatenate all("content", &tokens);
     for (QPDFObjectHandle stream : streams) {
         page_.unpacked.count(stream);

@@ -1,4 +1,4 @@
-/// Finds out what a page paints, before dots are laid over or under it.
+/// Determines what a page paints, before dots are added above or below its content.
 #pragma once
 
 #include <string>
@@ -11,23 +11,24 @@
 namespace dotpose::print {
 
 struct PageContent {
-    bool paints_black = false;   ///< text or drawings that need black ink
-    bool paints_images = false;  ///< images, whose colours are not examined
-    bool paints_areas = false;   ///< filled shapes, shadings or images: they cover what is below
-    int unclosed_saves = 0;      ///< q without Q at the end
-    int extra_restores = 0;      ///< Q without q before it
+    bool paints_black = false;   ///< true for text or drawings that need black ink
+    bool paints_images = false;  ///< true for images, whose colours are not examined
+    /// True for filled shapes, shadings or images, which cover the dots below them.
+    bool paints_areas = false;
+    int unclosed_saves = 0;  ///< number of operators q without Q at the end
+    int extra_restores = 0;  ///< number of operators Q without a preceding q
 
-    /// Return the operators that begin and end a graphics state of its own for the content.
+    /// Return the operators that enclose the content in a graphics state of its own.
     std::string before() const;
     std::string after() const;
 };
 
-/// Scans the content of a page and of the forms that it uses, without changing them, and counts the
-/// bytes in `unpacked`. Throws Error if the content cannot be read to its end, because a viewer
-/// would not show the dots after it.
+/// Scans the content of a page and of its forms without changing them, and counts their bytes in
+/// `unpacked`. Throws Error if the content cannot be read completely, because a viewer would not
+/// show dots after the damaged part.
 PageContent scan_page(QPDFPageObjectHelper page, UnpackedBytes& unpacked);
 
-/// Whether dotpose printed the document or laid dots over the page before.
+/// Returns true if dotpose printed the document, or added dots to the page earlier.
 bool has_dots(QPDF& pdf, QPDFPageObjectHelper page);
 
 }  // namespace dotpose::print

@@ -1,5 +1,5 @@
-/// Text in any script for the labels of a PDF page, set with the fonts of the computer. Helvetica,
-/// which is not embedded, has Latin letters only.
+/// Text in any script for the labels of a PDF page, set in fonts of the computer. Helvetica, which
+/// is not embedded, has only Latin letters.
 #pragma once
 
 #include <map>
@@ -12,20 +12,21 @@
 
 namespace dotpose::print {
 
-/// Lines of text as form objects with embedded fonts. A line that occurs on many pages is one
+/// Lines of text as form XObjects with embedded fonts. Equal lines on several pages share one
 /// object.
 class ScriptText {
   public:
-    /// `pdf` must outlive this object, which must live until `pdf` is written.
+    /// `pdf` must outlive this object, and this object must exist until `pdf` has been written.
     explicit ScriptText(QPDF& pdf) : pdf_(pdf) {}
 
-    /// Returns the width of a line, in points. Throws Error if it cannot be set.
+    /// Returns the width of a line, in points. Throws Error if the line cannot be set.
     double width_pt(const std::string& utf8, double size_pt);
 
-    /// Returns the content that draws a line with its baseline at (x_pt, y_pt). Throws Error.
+    /// Returns the content that draws a line with its baseline at (x_pt, y_pt). Throws Error if the
+    /// line cannot be set.
     std::string draw(const std::string& utf8, double size_pt, double x_pt, double y_pt);
 
-    /// Adds the lines that were drawn since the last call to the resources of their page.
+    /// Adds the lines drawn since the last call to the resources of their page.
     void add_to(QPDFObjectHandle resources);
 
   private:
@@ -33,9 +34,11 @@ class ScriptText {
 
     QPDF& pdf_;
     std::map<std::string, double> widths_pt_;
-    std::map<std::string, QPDFObjectHandle> forms_;  ///< by size and text
-    std::map<std::string, QPDFObjectHandle> drawn_;  ///< on this page, by name
-    std::vector<std::unique_ptr<QPDF>> sources_;     ///< documents that the forms come from
+    /// Forms of the lines, by font size and text.
+    std::map<std::string, QPDFObjectHandle> forms_;
+    /// Drawn lines of the current page, by name.
+    std::map<std::string, QPDFObjectHandle> drawn_;
+    std::vector<std::unique_ptr<QPDF>> sources_;  ///< documents that contain the original forms
 };
 
 }  // namespace dotpose::print

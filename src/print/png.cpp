@@ -11,11 +11,12 @@
 namespace dotpose::print {
 namespace {
 
-// Pages are nearly empty: the default level takes 3.5 times as long for a file 20 % smaller.
+// Compression level of zlib. Pages are nearly empty, and the default level takes 3.5 times as long
+// for files that are 20 % smaller.
 constexpr int kCompressionLevel = 4;
 
-/// Writes PNG. libpng leaves its functions by longjmp on an error, so only `guarded` calls them,
-/// with no object in its scope that has a destructor.
+/// Writes PNG. libpng exits its functions by longjmp after an error. Therefore only `guarded` calls
+/// them, without objects in its scope that have a destructor.
 class PngWriter {
   public:
     explicit PngWriter(base::OutputFile& file) {
@@ -42,7 +43,7 @@ class PngWriter {
             png_set_compression_level(png_, kCompressionLevel);
             png_set_filter(png_, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
             png_write_info(png_, info_);
-            png_set_invert_mono(png_);  // rows have 1 for ink, PNG has 0 for black
+            png_set_invert_mono(png_);  // a set bit is ink in a row, but white in PNG
         });
     }
     void row(std::span<const std::uint8_t> bits) {

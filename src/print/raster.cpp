@@ -15,33 +15,33 @@ namespace dotpose {
 namespace print {
 namespace {
 
-// Centres in the middle between two pixels must all be rounded the same way; without this, the
-// rounding error of the double would decide.
+// Offset that rounds all centres halfway between two pixels in the same direction. Without the
+// offset, rounding errors of the double would determine the direction.
 constexpr double kTie_px = 1e-6;
 
 int diameter_px(const Sheet& sheet, double dpi) {
     return std::max(1, static_cast<int>(std::lround(sheet.pattern.dot_mm * dpi / kInch_mm)));
 }
 
-/// Returns the first pixel of a dot such that the dot's centre is nearest to `centre_mm`. Pixel k
-/// covers k to k + 1. A dot that rounding pushed over the edge of the page is moved back by a
+/// Returns the first pixel of a dot whose centre is nearest to `centre_mm`. Pixel k extends from k
+/// to k + 1. If rounding would move the dot beyond the edge of the page, it is moved back by one
 /// pixel.
 int first_px(double centre_mm, double dpi, int dot_px, int page_px) {
     const double first = centre_mm * dpi / kInch_mm - 0.5 * dot_px;
     return std::clamp(static_cast<int>(std::floor(first + 0.5 + kTie_px)), 0, page_px - dot_px);
 }
 
-/// The first pixels of a dot for the displacements -1, 0 and 1 along one axis.
+/// First pixels of a dot for the displacements -1, 0 and 1 along one axis.
 using Firsts = std::array<int, 3>;
 
-/// Pixels `first` to `end` - 1 of one row of a dot, counted from the dot's left edge.
+/// Pixels `first` to `end` - 1 of one row of a dot, relative to the left edge of the dot.
 struct Run {
     int first = 0;
     int end = 0;
 };
 
-/// Returns the rows of a disc: the pixels of a square whose centres are in the circle inscribed in
-/// it. Discs of 1, 2 and 3 px are full squares; that of 4 px lacks its corners.
+/// Returns the rows of a disc: the pixels of a square whose centres are in the inscribed circle.
+/// Discs of 1, 2 and 3 px are full squares. A disc of 4 px lacks the four corners.
 std::vector<Run> disc(int dot_px) {
     std::vector<Run> runs;
     const double radius = 0.5 * dot_px;
@@ -54,7 +54,7 @@ std::vector<Run> disc(int dot_px) {
     return runs;
 }
 
-/// The pixel rows that one row of dots can touch.
+/// The pixel rows that one row of dots can cover.
 class Band {
   public:
     Band(const Sheet& sheet, double dpi, RasterSize size)
@@ -126,7 +126,8 @@ void rasterize(const Sheet& sheet, double dpi, const Progress& progress, const R
                 first_px(dot_y_mm(sheet, j, shift), dpi, band.dot_px(), size.height_px);
         }
         band.draw(symbols.row(j), tops);
-        // Bands do not overlap: validate_resolution keeps a white pixel between any two dots.
+        // Bands do not overlap, because validate_resolution requires a white pixel between any two
+        // dots.
         for (; next_row < tops[0]; ++next_row)
             sink(blank);
         for (int v = 0; v < band.height_px(); ++v, ++next_row)
@@ -150,12 +151,13 @@ void validate_resolution(const Sheet& sheet, double dpi) {
     const double displacement_px = sheet.pattern.displacement_mm * px_per_mm;
     if (displacement_px < 1 - print::kTie_px) {
         throw BadArgument(fmt::format(
-            "{:g} dpi is too low: the displacement of {:.4g} mm is {:.3g} printer pixels, at least "
-            "one is needed, from {:.0f} dpi on",
+            "{:g} dpi is too low: the displacement of {:.4g} mm is {:.3g} printer pixels, and at "
+            "least one is needed ({:.0f} dpi or more)",
             dpi, sheet.pattern.displacement_mm, displacement_px,
             std::ceil(print::kInch_mm / sheet.pattern.displacement_mm - print::kTie_px)));
     }
-    // Each dot is rounded on its own, so two of them may come closer by up to one pixel.
+    // Each dot is rounded independently, so the distance between two dots may decrease by up to one
+    // pixel.
     const int dot_px = print::diameter_px(sheet, dpi);
     const double closest_px = sheet.pattern.spacing_mm * px_per_mm - 2 * displacement_px;
     if (closest_px < dot_px + 1 - print::kTie_px) {

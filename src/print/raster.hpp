@@ -14,14 +14,15 @@ struct RasterSize {
     int height_px = 0;
 };
 
-/// Size of the page in printer pixels, rounded to whole pixels.
+/// Returns the size of the page in printer pixels, rounded to whole pixels.
 RasterSize raster_size(const Sheet& sheet, double dpi);
 
-/// Receives one pixel row: 8 pixels per byte, the leftmost in the highest bit; a bit of 1 is ink.
+/// Receives one pixel row: 8 pixels per byte, with the leftmost pixel in the highest bit. A set bit
+/// is ink.
 using RowSink = std::function<void(std::span<const std::uint8_t>)>;
 
-/// Calls `sink` for all pixel rows from top to bottom. The sheet and resolution must be validated.
-/// Keeps only the pixel rows that one row of dots covers in memory.
+/// Calls `sink` for all pixel rows from top to bottom. The sheet and the resolution must be valid.
+/// Only the pixel rows of one row of dots are in memory at a time.
 void rasterize(const Sheet& sheet, double dpi, const Progress& progress, const RowSink& sink);
 
 }  // namespace dotpose::print

@@ -7,14 +7,14 @@
 
 namespace dotpose::print {
 
-/// Places regions side by side to the right of `start`. A region that would run past the right end
-/// of the plane begins a new row, below all regions of the previous row.
+/// Allocates regions side by side, from `start` to the right. A region that would extend past the
+/// right end of the plane begins a new row, below all regions of the previous row.
 class Regions {
   public:
     explicit Regions(Cell start) : start_(start), next_(start) {}
 
-    /// Returns the top left cell of a new region. If the region fits nowhere, it would run past the
-    /// end of the plane from this cell, and `validate` refuses it.
+    /// Returns the top left cell of a new region. If no free space is large enough, the region at
+    /// this cell extends past the end of the plane, and `validate` rejects it.
     Cell take(int columns, int rows);
 
   private:

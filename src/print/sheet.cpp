@@ -19,7 +19,7 @@ double snap_up_mm(double mm) {
            print::kPixelAt300Dpi_mm;
 }
 
-/// Number of intersections from `first_mm` to `last_mm`, both included.
+/// Returns the number of intersections from `first_mm` to `last_mm`, inclusive.
 double count_between(double first_mm, double last_mm, double spacing_mm) {
     return std::floor((last_mm - first_mm + base::kTolerance_mm) / spacing_mm) + 1;
 }

@@ -12,16 +12,16 @@
 namespace dotpose::print {
 namespace {
 
-// Coordinates are whole numbers of a tenth of a micrometre, which are short to write and finer than
-// any printer. Positions are rounded before the steps between them are computed, so that rounding
-// errors do not add up.
+// Drawing units per mm. Coordinates are integers in units of 0.1 µm, which are short and finer than
+// any printer. Positions are rounded before their differences are computed, so rounding errors do
+// not accumulate.
 constexpr double kUnitsPer_mm = 10'000;
 
 std::int64_t to_units(double mm) {
     return std::llround(mm * kUnitsPer_mm);
 }
 
-/// Returns the first lines of a drawing of the size of the page.
+/// Returns the first lines of a drawing with the size of the page.
 std::string head(double width_mm, double height_mm, const std::string& title) {
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -31,8 +31,8 @@ std::string head(double width_mm, double height_mm, const std::string& title) {
         width_mm, height_mm, to_units(width_mm), to_units(height_mm), title);
 }
 
-/// Writes one path per row of dots. A dot is a line of length zero with round ends, which draws a
-/// circle and takes a dozen bytes.
+/// Writes one path per row of dots. A dot is a line of length zero with round ends, which is drawn
+/// as a circle and takes a dozen bytes.
 void write_dots(const Sheet& sheet, const std::function<void(int)>& row_done,
                 base::ByteSink& file) {
     SymbolRows symbols(sheet);

@@ -8,13 +8,15 @@
 
 namespace dotpose::print {
 
-/// Keeps the offset of the main sequence (its roll) of each column, so that a symbol takes two
-/// table look-ups instead of the formula for any cell.
+/// Computes the symbols of a sheet row by row. Stores the offset of the main sequence (the roll) of
+/// each column. A symbol then requires two table look-ups instead of the formula for arbitrary
+/// cells.
 class SymbolRows {
   public:
     explicit SymbolRows(const Sheet& sheet);
 
-    /// Symbols of row `j` (0 is the sheet's first), left to right; valid until the next call.
+    /// Returns the symbols of row `j` of the sheet, from left to right. Row 0 is the first row.
+    /// Valid until the next call.
     const std::vector<Symbol>& row(int j);
 
   private:

@@ -9,16 +9,16 @@
 namespace dotpose {
 namespace {
 
-constexpr int kLargestSetting = 80;
+constexpr int kMaxSetting = 80;
 constexpr double kLabelHeight_mm = 2.5;
 /// Width of the blank paper around a label and between patches.
 constexpr double kGap_mm = 2;
 void validate(const std::vector<int>& settings) {
     if (settings.empty()) throw BadArgument("a test page needs spacings and dot sizes");
     for (const int setting : settings) {
-        if (setting >= 1 && setting <= kLargestSetting) continue;
+        if (setting >= 1 && setting <= kMaxSetting) continue;
         throw BadArgument(
-            fmt::format("a setting of {}/1200 inch: it must be 1 to {}", setting, kLargestSetting));
+            fmt::format("a setting of {}/1200 inch: it must be 1 to {}", setting, kMaxSetting));
     }
 }
 
@@ -42,16 +42,17 @@ Cell first_cell(int spacing, int dot) {
     return {at(spacing), at(dot)};
 }
 
-/// Returns the number of the setting whose patch contains a coordinate, or 0 for none. Coordinates
-/// a little outside of a patch count too, because the maps that `check_print` fits extend that far.
+/// Returns the setting of the patch that contains a coordinate; 0 if there is none. Coordinates
+/// slightly outside a patch are included, because the maps that `check_print` fits extend beyond
+/// the patch.
 int setting_at(std::uint32_t coordinate) {
     constexpr std::uint32_t kHalf = kTestPatchCells / 2;
     if (coordinate < kTestPageCell + kHalf) return 0;
     const auto setting = static_cast<int>((coordinate - kTestPageCell + kHalf) / kTestPatchCells);
-    return setting <= kLargestSetting ? setting : 0;
+    return setting <= kMaxSetting ? setting : 0;
 }
 
-/// Rounds a length to whole printer pixels, so that the dots of every patch have the same position
+/// Rounds a length to whole printer pixels, which gives the dots of all patches the same position
 /// relative to the printer's pixels.
 double snapped_mm(double mm) {
     return std::round(mm / print::kPixelAt300Dpi_mm) * print::kPixelAt300Dpi_mm;

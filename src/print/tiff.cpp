@@ -8,11 +8,11 @@
 namespace dotpose::print {
 namespace {
 
-// Offsets in a classic TIFF have 32 bits; BigTIFF is written for files from 2 GB on.
+// File size above which BigTIFF is written. Offsets in a classic TIFF have 32 bits.
 constexpr std::int64_t kBigTiff_bytes = std::int64_t{1} << 31;
 constexpr std::uint32_t kRowsPerStrip = 64;
 
-// Every write succeeds for libtiff: OutputFile keeps the first failure and its reason.
+// Reports success to libtiff for every write. OutputFile stores the first failure and its reason.
 tmsize_t on_write(thandle_t handle, void* data, tmsize_t size_bytes) {
     static_cast<base::OutputFile*>(handle)->write(data, static_cast<std::size_t>(size_bytes));
     return size_bytes;
@@ -60,7 +60,7 @@ void write_tiff(RasterSize size, double dpi, const RowSource& rows, base::Output
     std::vector<std::uint8_t> row;
     std::uint32_t row_index = 0;
     rows([&](std::span<const std::uint8_t> bits) {
-        row.assign(bits.begin(), bits.end());  // a copy, because libtiff may change the row
+        row.assign(bits.begin(), bits.end());  // a copy, because libtiff may modify the row
         if (TIFFWriteScanline(tiff.get(), row.data(), row_index++, 0) != 1) {
             throw Error("cannot write TIFF: libtiff refused a row");
         }

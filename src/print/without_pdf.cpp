@@ -1,4 +1,4 @@
-// Stands in for the PDF writer in a build without qpdf.
+// Replaces the PDF writer in a build without qpdf.
 #include "writers.hpp"
 
 namespace dotpose::print {

@@ -1,4 +1,4 @@
-// Stands in for the TIFF writer in a build without libtiff.
+// Replaces the TIFF writer in a build without libtiff.
 #include "writers.hpp"
 
 namespace dotpose::print {

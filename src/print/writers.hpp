@@ -1,5 +1,6 @@
-/// One writer per file format. Each takes a validated sheet, writes all of it into `file` and
-/// leaves the commit to the caller. All throw Error if writing fails or `progress` returns false.
+/// One writer per file format. Each writer takes a validated sheet and writes all of it into
+/// `file`; the caller commits the file. All writers throw Error if writing fails or `progress`
+/// returns false.
 #pragma once
 
 #include <span>
@@ -22,7 +23,7 @@ void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, base:
 void write_pdf_page(const PrintPage& page, const PrintOptions& options, base::OutputFile& file);
 void write_svg_page(const PrintPage& page, const Progress& progress, base::ByteSink& file);
 
-/// Reports another finished row; throws Error if `progress` returns false.
+/// Reports the number of finished rows. Throws Error if `progress` returns false.
 void report(const Progress& progress, int rows_done, int rows);
 
 }  // namespace dotpose::print

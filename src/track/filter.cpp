@@ -9,26 +9,27 @@ namespace {
 /// Time constant of the decay of the acceleration.
 constexpr float kHold_s = 0.5F;
 
-/// Factor by which the agility, the variance of new acceleration, changes per sighting. The agility
-/// rises and falls by the same factor: in equilibrium the innovations keep their sign as often as
-/// they change it, as in a matched filter.
+/// Factor by which the agility (the variance of new acceleration) changes per sighting. Increases
+/// and decreases use the same factor. In equilibrium, consecutive innovations therefore have equal
+/// and opposite signs equally often, as in a matched filter.
 constexpr float kAgility_step = 1.5F;
 constexpr float kMinAgility = 1e-6F;
-/// Innovations above this number of standard deviations do not count as noise.
+/// Number of standard deviations above which an innovation is not considered noise.
 constexpr float kSurprise = 4;
 /// Number of sightings over which the scatter is averaged.
 constexpr float kScatter_sightings = 32;
 constexpr float kMinScatter = 0.01F;
 constexpr float kMaxScatter = 9;
 
-/// Bound of the rounding error of the difference of two variances, relative to the larger one.
+/// Upper bound of the rounding error of the difference of two variances, relative to the larger
+/// one.
 constexpr float kRounding = 4e-6F;
 
 float squared(float value) {
     return value * value;
 }
 
-/// Returns the covariance of a sighting's pose plus the minimum errors of the options.
+/// Returns the covariance of a sighting's pose plus the minimum variances of the options.
 Matrix3 noise_of(const Sighting& sighting, const TrackOptions& options) {
     Matrix3 noise = sighting.covariance;
     noise[0][0] += squared(options.least_sigma_mm);
@@ -56,13 +57,13 @@ void move(MotionEstimate& motion, const Vector9& step) {
         motion.acceleration[i] += step[i + 6];
 }
 
-/// Returns the fraction of the acceleration that remains after a time.
+/// Returns the fraction of the acceleration that remains after `dt_s`.
 float kept(float dt_s) {
     return kHold_s / (kHold_s + dt_s);
 }
 
-/// Advances a state, or a row or column of its covariance, by a time; `at(i)` is a reference to its
-/// part i. The acceleration is assumed to be constant over the interval.
+/// Advances a state, or a row or column of its covariance, by `dt_s`. `at(i)` is a reference to its
+/// element i. The acceleration is assumed to be constant over the interval.
 template <typename State>
 void advance(const State& at, float dt_s) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -72,17 +73,17 @@ void advance(const State& at, float dt_s) {
     }
 }
 
-/// Returns the standard deviation of the acceleration along an axis, at an agility of 1.
+/// Returns the standard deviation of the acceleration along an axis, for an agility of 1.
 float spread(std::size_t axis, const TrackOptions& options) {
     return axis < 2 ? options.acceleration_mm_s2 : options.angular_acceleration_rad_s2;
 }
 
-/// Returns the variance of the new acceleration after a time, at an agility of 1.
+/// Returns the variance of the new acceleration after `dt_s`, for an agility of 1.
 float push(std::size_t axis, float dt_s, const TrackOptions& options) {
     return squared(spread(axis, options)) * (1 - squared(kept(dt_s)));
 }
 
-/// Adds process noise to the covariance: a random variable with variance `variance`, which changes
+/// Adds process noise to the covariance: a random variable with variance `variance` that changes
 /// position, velocity and acceleration along an axis in proportion to `effect`.
 void add_noise(Covariance9& covariance, std::size_t axis, float variance, const Vector3& effect) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -103,8 +104,8 @@ void set_pose_covariance(MotionEstimate& motion) {
     }
 }
 
-/// Returns the inverse of a covariance matrix, which is symmetric and positive definite, computed
-/// from cofactors.
+/// Returns the inverse of a covariance matrix, computed from cofactors. The matrix is symmetric and
+/// positive definite.
 Matrix3 inverse(const Matrix3& m) {
     Matrix3 cofactors{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -125,7 +126,7 @@ Matrix3 inverse(const Matrix3& m) {
     return cofactors;
 }
 
-/// Returns left * right; `right` may have any number of columns.
+/// Returns left * right. `right` may have any number of columns.
 template <typename Left, typename Right>
 Right product(const Left& left, const Right& right) {
     Right result{};
@@ -138,7 +139,7 @@ Right product(const Left& left, const Right& right) {
     return result;
 }
 
-/// Replaces P by (I - K H) P; `weighted` is S^-1 H P, the transposed gain.
+/// Replaces P by (I - K H) P. `weighted` is S^-1 H P, the transposed gain.
 void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, const Matrix3& noise) {
     const Covariance9 before = p;
     for (std::size_t i = 3; i < 9; ++i) {
@@ -150,8 +151,9 @@ void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, cons
         p[i][i] += kRounding * before[i][i];
     }
     // The upper rows equal R S^-1 H P, a product without cancellation. In single precision, the
-    // difference of nearly equal numbers would have no correct digit after a long gap. Above, where
-    // the difference cannot be avoided, the bound of its rounding error is added.
+    // difference of nearly equal numbers would have no correct digit after a long gap. For the
+    // elements computed above, the difference cannot be avoided, so the bound of its rounding error
+    // is added.
     const auto upper = product(noise, weighted);
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 9; ++j)
@@ -248,15 +250,15 @@ MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting,
         const float pushed = push(i, dt_s, options);
         const float possible = squared(moved / kSurprise) / motion.scatter;
         const auto surprise = [&] { return possible - motion.covariance[i][i] - noise[i][i]; };
-        // If the filter lags behind the robot, successive innovations have the same sign; if it
+        // If the filter lags behind the robot, successive innovations have the same sign. If it
         // follows the noise, they alternate.
         const float agility = repeated > 0 ? old * kAgility_step : old / kAgility_step;
         const float needed = old + surprise() / (pushed * squared(effect[0]));
         motion.agility[i] = std::clamp(std::max(agility, needed), kMinAgility, 1.0F);
         add_noise(motion.covariance, i, (motion.agility[i] - old) * pushed, effect);
-        // An innovation that the agility does not explain may come from a collision, which changes
-        // the velocity abruptly, or from an outlier. The first such innovation therefore changes
-        // only the position; a second one in the same direction also changes the velocity.
+        // An innovation that the agility does not explain may be due to a collision, which changes
+        // the velocity abruptly, or to an outlier. Therefore the first such innovation changes only
+        // the position. A second one in the same direction also changes the velocity.
         if (surprise() > 0) {
             const bool is_hit = repeated > squared(moved) / 2;
             add_noise(motion.covariance, i, surprise(), {1, is_hit ? 1 / dt_s : 0, 0});
@@ -271,11 +273,12 @@ MotionEstimate corrected(const MotionEstimate& predicted, const Sighting& sighti
     const Matrix3 inverse_s = inverse(found.covariance);
     std::array<Vector9, 3> pose_rows{};
     std::copy_n(predicted.covariance.begin(), 3, pose_rows.begin());
-    const auto weighted = product(inverse_s, pose_rows);  // S^-1 H P, the transpose of the gain K
+    // S^-1 H P, the transpose of the gain K.
+    const auto weighted = product(inverse_s, pose_rows);
 
     MotionEstimate motion = predicted;
     Vector9 step{};
-    float distance = 0;  // squared Mahalanobis distance, which is 3 in the mean
+    float distance = 0;  // squared Mahalanobis distance, with expected value 3
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t i = 0; i < 9; ++i)
             step[i] += weighted[k][i] * found.difference[k];

@@ -1,6 +1,6 @@
 // A Kalman filter whose state is (x, y, theta) with velocities and accelerations. The accelerations
-// decay towards zero and are driven by white noise (Singer 1970), whose variance, the agility, is
-// adapted to the motion of the robot.
+// decay towards zero and are driven by white noise (Singer 1970). The variance of the noise, the
+// agility, is adapted to the motion of the robot.
 //
 // Bar-Shalom, Li, Kirubarajan: Estimation with Applications to Tracking and Navigation, 8.2 (the
 // model) and 11.2 (fitting it).
@@ -12,13 +12,13 @@ namespace dotpose::track {
 
 inline constexpr float kRad_per_bam = 1.46291808e-9F;  // pi / 2^31
 
-/// Returns the pose of a sighting; velocities and covariance are zero.
+/// Returns the pose of a sighting. The velocities and the covariance are zero.
 TrackedPose pose_of(const Sighting& sighting);
 
-/// Returns the state after the first sighting, in which the velocities are not known.
+/// Returns the state after the first sighting. Its velocities are not known.
 MotionEstimate started_at(const Sighting& sighting, const TrackOptions& options);
 
-/// Returns the state that is expected at a later time.
+/// Returns the state predicted for a later time.
 MotionEstimate predicted(const MotionEstimate& motion, std::int64_t time_us,
                          const TrackOptions& options);
 
@@ -33,8 +33,8 @@ struct Innovation {
 Innovation innovation(const MotionEstimate& predicted, const Sighting& sighting,
                       const TrackOptions& options);
 
-/// Returns the prediction with its agility, and its covariance accordingly, adapted to the
-/// sighting. The sighting before this one was `dt_s` earlier.
+/// Returns the prediction with agility and covariance adapted to the sighting. `dt_s` is the time
+/// since the previous sighting.
 MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting, float dt_s,
                       const TrackOptions& options);
 

@@ -11,7 +11,7 @@ bool is_beyond(std::int64_t difference, std::int64_t limit) {
     return difference > limit || difference < -limit;
 }
 
-/// Returns b - a, the shorter way around.
+/// Returns b - a, in the shorter direction.
 std::int32_t turn_bam(std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(b) - static_cast<std::uint32_t>(a));
 }
@@ -21,8 +21,8 @@ std::int32_t turn_bam(std::int32_t a, std::int32_t b) {
 bool FramePacer::has_moved(const Fix& fix) const {
     const bool was_seen = rest_.status == Status::ok;
     if (fix.status != Status::ok) {
-        // A frame without a fix is not informative for a moving device. A stationary device that
-        // had a fix should have one again; without one, it may have been moved.
+        // For a moving device, a frame without a fix is not informative. A stationary device that
+        // had a fix should have one again. If it does not, it may have been moved.
         return options_.lost_is_moved && was_seen && motion_ == Motion::stationary;
     }
     if (!was_seen) return true;

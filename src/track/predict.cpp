@@ -9,19 +9,19 @@ namespace {
 
 using namespace dotpose::track;
 
-/// Minimum standard deviation of a prediction. The search for dots covers three standard
-/// deviations, that is, at least a tenth of a spacing and half a degree. The minimum is needed
-/// because the covariance of the filter is too small after a long rest of the robot.
+/// Minimum standard deviations of a prediction. The search for dots covers three standard
+/// deviations, at least a tenth of a spacing and half a degree. The minimum is needed because the
+/// covariance of the filter is too small after a long rest of the robot.
 constexpr std::int32_t kMinSigma_q16 = 65536 / 32;
 constexpr std::int32_t kMinSigma_theta_bam = 1 << 21;
 constexpr float kDeviations = 3;
 
-/// Maximum predicted motion between two frames, in spacings. Robots do not move further, and sums
-/// of integers must not overflow.
+/// Maximum predicted motion between two frames, in spacings. Robots do not move further, and the
+/// limit prevents overflow of integer sums.
 constexpr float kMaxMotion = 2048;
 
-/// Converts a vector from the plane of the sighting to the pattern frame. The rotation between them
-/// follows from the angle of the image x axis, which is known in both.
+/// Converts a vector from the plane of the sighting to the pattern frame. The rotation between the
+/// two follows from the angle of the image x axis, which is known in both.
 std::array<float, 2> in_pattern(float x, float y, const Fix& fix, const Sighting& seen) {
     const auto pattern_bam = static_cast<std::uint32_t>(fix.theta_bam);
     const auto plane_bam = static_cast<std::uint32_t>(seen.theta_bam);
@@ -33,7 +33,7 @@ std::array<float, 2> in_pattern(float x, float y, const Fix& fix, const Sighting
     return {c * x - s * y, s * x + c * y};
 }
 
-/// Returns a standard deviation as an integer multiple of a unit, clamped to limits; NaN gives the
+/// Returns a standard deviation as an integer multiple of a unit, clamped to limits. NaN gives the
 /// upper limit.
 std::int32_t bounded(float sigma, float unit, std::int32_t min, std::int32_t max) {
     const float value = sigma / unit;
@@ -42,8 +42,8 @@ std::int32_t bounded(float sigma, float unit, std::int32_t min, std::int32_t max
 }
 
 /// Returns the standard deviation of the predicted pose. It combines the standard deviations of the
-/// filter and of the fix, and `unforeseen`, a motion that the filter cannot predict and that three
-/// standard deviations must cover.
+/// filter and of the fix with `unforeseen`, a motion that the filter cannot predict. Three standard
+/// deviations must cover this motion.
 float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis,
             float unforeseen) {
     return std::sqrt(predicted[axis][axis] + seen.covariance[axis][axis]) +

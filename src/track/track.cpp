@@ -10,14 +10,14 @@ namespace {
 
 using namespace dotpose::track;
 
-/// log2 of the number of hypotheses along one axis (positions, sections and turns):
-/// floor(log2(kPositionsPerAxis * 63 * 4)).
+/// Base-2 logarithm, rounded down, of the number of hypotheses along one axis: positions, sections
+/// and turns, kPositionsPerAxis * 63 * 4.
 constexpr int kHypotheses_log2 = 36;
 static_assert((std::uint64_t{kPositionsPerAxis} * kSections * 4) >> kHypotheses_log2 == 1,
               "the number of hypotheses is rounded down to a power of two");
 
-/// Period of the shortest sequence that encodes the position. Positions that differ by fewer cells
-/// have different places in all sequences, so they resemble each other only by chance
+/// Period of the shortest sequence that encodes the position. Positions with a distance below this
+/// period have different places in all sequences, so they resemble each other only by chance
 /// (docs/tracking.md).
 constexpr int kMinSequencePeriod = 31;
 
@@ -45,8 +45,8 @@ bool is_within(const Vector3& difference, const Vector3& limits) {
     return true;
 }
 
-/// Whether a robot can have moved from `from` to `sighting` within the limits of speed and turn
-/// rate.
+/// Returns true if the limits of speed and turn rate allow a robot to move from `from` to
+/// `sighting`.
 bool is_reachable(const MotionEstimate& from, const Sighting& sighting,
                   const TrackOptions& options) {
     if (from.pose.plane != sighting.plane) return false;
@@ -61,8 +61,8 @@ bool is_reachable(const MotionEstimate& from, const Sighting& sighting,
            std::fabs(found.difference[2]) <= options.max_turn_rad_s * dt + slack_rad;
 }
 
-/// Returns log2 of an upper bound of the probability that a sighting within the gate is wrong, or 0
-/// if the prediction does not help.
+/// Returns log2 of an upper bound of the probability that a sighting within the gate is wrong.
+/// Returns 0 if the prediction does not help.
 int p_wrong_with_prior(const Sighting& sighting, const Vector3& limits,
                        const TrackOptions& options) {
     const float half = std::max(limits[0], limits[1]) / options.spacing_mm;
@@ -180,7 +180,7 @@ bool Tracker::is_confirmed(const Sighting& sighting) {
 void Tracker::restart(const MotionEstimate& motion) {
     track_.events.fix = track_.is_lost;
     track_.is_lost = false;
-    // A robot that was lifted and put elsewhere has moved, even if it rests now.
+    // A robot that was lifted and put down elsewhere has moved, even if it is at rest now.
     track_.events.moving = track_.is_stationary;
     track_.is_stationary = false;
     was_seen_ = true;

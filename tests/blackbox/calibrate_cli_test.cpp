@@ -139,7 +139,7 @@ TEST_F(CalibrateCommand, ASpacingThatTheCameraFileContradictsIsReported) {
     }
     EXPECT_EQ(run("calibrate --camera camera.yaml -o camera.yaml --spacing 0.3 --spin" + turn), 1);
     EXPECT_THAT(errors_, HasSubstr("measures a spacing of 0.50"));
-    EXPECT_THAT(errors_, HasSubstr("is said to have 0.3 mm"));
+    EXPECT_THAT(errors_, HasSubstr("the spacing of the sheet is 0.3 mm"));
     EXPECT_EQ(file("camera.yaml"), before);
 }
 

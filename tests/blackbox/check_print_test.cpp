@@ -169,7 +169,7 @@ TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     EXPECT_EQ(file("sheets.json"), before);
     EXPECT_EQ(run("check-print photo.jpg"), 0) << output_;
     EXPECT_THAT(output_, HasSubstr("note:  scale was not checked, because this is a photo, which "
-                                   "has none of its own: its EXIF data"));
+                                   "has no scale of its own: its EXIF data"));
     EXPECT_THAT(output_, Not(HasSubstr("FAULT")));
     EXPECT_EQ(run("check-print photo.jpg --format json"), 0);
     EXPECT_EQ(json::parse(output_)["exif_of_camera"], true);

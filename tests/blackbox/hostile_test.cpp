@@ -168,7 +168,7 @@ TEST_F(Hostile, AbsurdCamerasAreRefused) {
         {ros + "300,0,93,0,300,59,0,0,1]}\ndistortion_coefficients: {data: [1e300,0,0,0,0]}\n",
          "distortion_coefficients are larger than those of any lens"},
         {ros + "300,0,93,0,300,59,0,0,1]}\ndistortion_coefficients: {data: [-900,0,0,0,900]}\n",
-         "distortion_coefficients describe a lens that one coefficient cannot follow"},
+         "distortion_coefficients describe a lens that one coefficient cannot represent"},
     };
     for (const auto& [text, message] : kCases) {
         put("camera.yaml", text);

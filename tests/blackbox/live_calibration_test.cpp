@@ -158,8 +158,8 @@ TEST_F(LiveCalibration, AnInterruptUsesWhatWasTaken) {
     put_raw("resting.raw");
     ASSERT_EQ(shell(interrupted_after(7)), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("frames      7 of 7 located"));
-    EXPECT_THAT(errors_, HasSubstr("the calibration can be used, but would gain: go on to new "
-                                   "places (corner known to "));
+    EXPECT_THAT(errors_, HasSubstr("the calibration can be used, but would gain: move to new "
+                                   "places (uncertainty in the corner "));
     expect_paper_lens();
 }
 

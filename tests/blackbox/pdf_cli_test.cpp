@@ -134,7 +134,7 @@ TEST_F(PdfCommands, a_refused_or_stopped_overlay_leaves_the_sheet_file_alone) {
         {"in.pdf --name b", 2, "--name requires --sheets"},
         {"in.pdf --sheets sheets.json --name b --pages 3", 2, "give numbers from 1 to 2"},
         {"missing.pdf --sheets sheets.json --name b", 1, "cannot read missing.pdf"},
-        {"in.pdf --sheets in.pdf --name b", 1, "in.pdf is no sheet file"},
+        {"in.pdf --sheets in.pdf --name b", 1, "in.pdf is not a sheet file"},
         {"in.pdf --sheets no/sheets.json --name b", 1, "cannot lock no/sheets.json"},
     };
     for (const auto& [arguments, exit_code, message] : refused) {
@@ -164,7 +164,7 @@ TEST_F(PdfCommands, overlay_refuses_and_writes_nothing) {
         {"in.pdf", 2, "--out"},
         {"-o out.pdf", 2, "pdf"},
         {"missing.pdf -o out.pdf", 1, "cannot read missing.pdf: No such file"},
-        {"no.pdf -o out.pdf", 1, "no.pdf is no PDF"},
+        {"no.pdf -o out.pdf", 1, "no.pdf is not a PDF"},
         {"cut.pdf -o out.pdf", 1, "cut.pdf: damaged PDF"},
         {"locked.pdf -o out.pdf", 1, "a password is needed"},
         {"locked.pdf -o out.pdf --password x", 1, "wrong password"},
@@ -216,7 +216,7 @@ TEST_F(PdfCommands, copies_of_a_document_get_cells_of_their_own) {
 }
 
 TEST_F(PdfCommands, dots_over_dots_are_noticed) {
-    const std::string warning = "it has dots of dotpose already";
+    const std::string warning = "it already has dots of dotpose";
     run("$T print -o in.pdf --paper 80x60 && printf '.pl 8c\\nText.\\n' > page.roff && "
         "groff -P-p8c,6c -Tpdf page.roff > text.pdf && $T overlay text.pdf -o once.pdf");
     ASSERT_EQ(exit_code_, 0) << output_;

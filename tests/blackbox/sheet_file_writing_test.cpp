@@ -38,7 +38,7 @@ TEST_F(SheetFileWriting, a_refused_or_failed_print_changes_nothing) {
         {"-o b.png --dpi 100 --sheets sheets.json --name b", 2, "100 dpi is too low"},
         {"-o missing/b.svg --sheets sheets.json --name b", 1, "cannot create missing/b.svg"},
         {"-o b.svg --sheets missing/sheets.json --name b", 1, "cannot lock missing/sheets.json"},
-        {"-o b.svg --sheets a.svg --name b", 1, "a.svg is no sheet file"},
+        {"-o b.svg --sheets a.svg --name b", 1, "a.svg is not a sheet file"},
     };
     for (const auto& [arguments, exit_code, problem] : wrong) {
         EXPECT_EQ(print(arguments), exit_code) << arguments;

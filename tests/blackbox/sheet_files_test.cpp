@@ -315,7 +315,7 @@ TEST_F(SheetFiles, locate_refuses_wrong_usage_and_bad_files) {
     } bad[] = {
         {"missing.json",
          "dotpose: cannot read missing.json: no such file; 'dotpose print --sheets missing.json "
-         "--name NAME' prints a sheet and begins it\n"},
+         "--name NAME' prints a sheet and creates the file\n"},
         {"sheets.json", "dotpose: sheets.json: sheets[0].rows is missing\n"},
         {"empty.json", "dotpose: empty.json has no sheets\n"},
     };

@@ -183,7 +183,7 @@ TEST_F(SheetsTool, what_cannot_be_done_is_said_and_changes_nothing) {
         {"map -out map.svg", 2, "did you mean '--out'?"},
         {"list --sheets none.json", 1, "there is no sheet file none.json"},
         {"place table --x 1 --y 2 --yaw 3 --sheets none.json", 1, "there is no sheet file"},
-        {"list --sheets wrong.json", 1, "wrong.json is no sheet file"},
+        {"list --sheets wrong.json", 1, "wrong.json is not a sheet file"},
         {"list --sheets ''", 2, "the name of the sheet file is empty"},
         {"show", 2, "name is required"},
         {"show tabel", 2, "sheets.json has no sheet 'tabel'; it has table, shelf"},

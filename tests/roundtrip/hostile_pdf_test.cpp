@@ -169,10 +169,11 @@ TEST_F(HostileDocument, the_content_of_all_pages_is_bounded) {
     objects.emplace_back("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 200 100] /Contents 3 0 R >>");
     OverlayOptions options;
     options.max_content_mb = 1;
-    expect_refused(objects,
-                   "in.pdf, page 9: the content up to here takes more than 8 MB when it is "
-                   "unpacked",
-                   options);
+    expect_refused(
+        objects,
+        "in.pdf, page 9: the content of the pages so far takes more than 8 MB when it is "
+        "unpacked",
+        options);
 }
 
 /// A document whose objects are listed by a stream with these keys and data.
@@ -227,11 +228,11 @@ TEST_F(HostileDocument, filters_and_their_rows_are_bounded) {
     for (int i = 0; i < 1000; ++i)
         filters += "/FlateDecode ";
     expect_refused(page_with("", stream_with("/Filter [" + filters + "]", "x")),
-                   "page 1: it has content packed 1000 times; at most 8 are unpacked");
+                   "page 1: it has content compressed 1000 times; at most 8 times are supported");
     expect_refused(page_with("", stream_with("/Filter /FlateDecode /DecodeParms "
                                              "<< /Predictor 12 /Columns 500000000 /Colors 4 >>",
                                              packed("x"))),
-                   "page 1: it has content packed in rows of 2.5e+08 bytes");
+                   "page 1: it has content compressed in rows of 2.5e+08 bytes");
 }
 
 TEST_F(HostileDocument, what_is_not_drawn_stays_packed) {

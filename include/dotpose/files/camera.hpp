@@ -29,18 +29,19 @@ struct PixelPoint {
 struct PaperScale {
     double mm_per_px_x = 0;
     double mm_per_px_y = 0;
-    double skew = 0;           ///< shift of rows against each other, px per px
-    double perspective_u = 0;  ///< per px; 0 for a camera looking straight down
+    double skew = 0;           ///< relative shift of adjacent rows, px per px
+    double perspective_u = 0;  ///< in 1/px; 0 for a camera perpendicular to the paper
     double perspective_v = 0;
 };
 
-/// Tilt of the paper against the image plane, with the signs of tools/simulate.hpp.
+/// Tilt of the paper relative to the image plane, with the signs of tools/simulate.hpp.
 struct Tilt {
     double x_rad = 0;  ///< about the image x axis; above 0, the paper recedes towards the bottom
-    double y_rad = 0;  ///< about the image y axis; above 0, it comes closer towards the right
+    /// About the image y axis; above 0, the paper comes closer towards the right.
+    double y_rad = 0;
 };
 
-/// The content of a camera file: one camera and its place on a robot.
+/// Contents of a camera file: one camera and its place on a robot.
 struct Camera {
     int width_px = 0;
     int height_px = 0;
@@ -49,17 +50,17 @@ struct Camera {
     PixelPoint centre_px;
     std::optional<PaperScale> paper;  ///< none if the camera is hand-held, or its view is not known
     std::optional<double> focal_px;   ///< none if the calibration did not determine it
-    std::optional<Tilt>
-        tilt;  ///< tilt of a mounted camera; none if the calibration did not determine it
+    /// Tilt of a mounted camera; none if the calibration did not determine it.
+    std::optional<Tilt> tilt;
 
-    /// The reference point of the pose, an undistorted pixel, possibly outside the image. None: the
+    /// Reference point of the pose: an undistorted pixel, which may be outside the image. None: the
     /// image centre.
     std::optional<PixelPoint> reference_px;
     /// Heading of the robot minus the angle of the image x axis at the image centre.
     double theta_offset_rad = 0;
 
-    /// Whether frames are mirrored. They are then flipped left to right before they are located,
-    /// and all pixels here are pixels of flipped frames.
+    /// True if frames are mirrored. They are then flipped left to right before they are located,
+    /// and all pixels of this struct refer to flipped frames.
     bool flip = false;
 
     /// Settings of the sensor, for information; dotpose does not use them.
@@ -70,15 +71,16 @@ struct Camera {
     std::map<std::string, double> sigma;
 };
 
-/// Checks all values. Throws BadArgument: a size that `locate` does not accept, a lens that folds
-/// the image (1 + k r^2 must be in [0.5, 2]), a centre more than 1000 px from the image centre,
-/// values that are not finite, lengths of 0 or less, a reference point more than 10,000 px away.
+/// Checks all values. Throws BadArgument for a size that `locate` does not accept, a lens that
+/// folds the image (1 + k r^2 must be in [0.5, 2]), a centre more than 1000 px from the image
+/// centre, values that are not finite, lengths of 0 or less, and a reference point more than 10,000
+/// px away.
 void validate(const Camera& camera);
 
 /// Returns the undistorted pixel of `pixel` (paper eq. 1-2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
-/// Returns the pixel of an undistorted pixel. A point that the camera cannot see is returned at
-/// twice its radius.
+/// Returns the distorted pixel of an undistorted pixel. A point that the camera cannot see is
+/// returned at twice its radius.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
 /// A point in the camera frame.
@@ -86,33 +88,35 @@ struct CameraPoint {
     double x_mm = 0;
     double y_mm = 0;
 };
-/// Returns the point in the camera frame of an undistorted pixel; `camera.paper` must be known.
+/// Returns the point in the camera frame of an undistorted pixel. `camera.paper` must be known.
 CameraPoint on_paper(const Camera& camera, PixelPoint undistorted);
-/// Returns the undistorted pixel of a point in the camera frame; `camera.paper` must be known.
+/// Returns the undistorted pixel of a point in the camera frame. `camera.paper` must be known.
 PixelPoint on_image(const Camera& camera, CameraPoint point);
 
 /// Returns the direction of the image x axis at an undistorted pixel, in the camera frame.
 double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
-/// Returns the point of an undistorted pixel in mm from the point under the image centre, with x
-/// along the image x axis there; `camera.paper` must be known. Two calibrations of one camera agree
-/// in this frame to microns, but not in the pixels of points far outside the image.
+/// Returns the position on the paper of an undistorted pixel, in mm from the point under the image
+/// centre, with x along the image x axis at this point. `camera.paper` must be known. In this
+/// frame, two calibrations of one camera agree to microns; the pixels of points far outside the
+/// image differ more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point returned by `from_image_centre`.
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 
 /// Returns the reference point of `camera` as an undistorted pixel of `other`, another calibration
-/// of the same camera. If the view of either is not known, returns the same pixel.
+/// of the same camera. If one of the views is not known, returns the same pixel.
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
 
-/// Returns the camera of a part of its images: the rectangle of `width_px` x `height_px` whose top
-/// left pixel is (`left_px`, `top_px`). Reference point and heading do not change, also if the
-/// camera has none. Throws BadArgument as `validate`, and if the part exceeds the image.
+/// Returns the camera of a part of its images. The part is the rectangle of `width_px` x
+/// `height_px` whose top left pixel is (`left_px`, `top_px`). Reference point and heading do not
+/// change, even if they are the defaults of `camera`. Throws BadArgument as `validate`, and if the
+/// part exceeds the image.
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
-/// Sets lens and reference point for images of this size and, if the camera's view is known, keeps
-/// the dots in the trace for `with_camera`. Throws BadArgument if the camera's images have another
-/// size.
+/// Sets lens and reference point for images of this size. If the view of the camera is known, the
+/// trace keeps the dots for `with_camera`. Throws BadArgument if the images of the camera have
+/// another size.
 void use_camera(const Camera& camera, int width_px, int height_px, Options& options);
 
 }  // namespace dotpose

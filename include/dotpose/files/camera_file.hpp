@@ -19,21 +19,21 @@ namespace dotpose {
 /// Version of the format, for writing and reading.
 inline constexpr int kCameraFileVersion = 1;
 
-/// Reads a camera file, or a camera_info file of ROS. Throws Error with the names of the file and
-/// the key: the file cannot be read, is neither of these, or has another version; a key is missing,
-/// unknown, of the wrong type or out of range; the distortion model is not plumb_bob, or eq. 2
-/// cannot approximate it to 0.5 px rms.
+/// Reads a camera file, or a camera_info file of ROS. Throws Error, with the names of the file and
+/// the key, if the file cannot be read, is neither of the two or has another version; if a key is
+/// missing, unknown, of the wrong type or out of range; or if the distortion model is not
+/// plumb_bob, or eq. 2 cannot approximate it to 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 
-/// Reads a camera from the text of such a file. `name` is the name of the file in messages.
+/// Reads a camera from the text of a camera file. `name` is the name of the file in messages.
 Camera parse_camera(const std::string& text, const std::string& name);
 
-/// Whether the file is a camera_info file of ROS, which `write_camera` would replace by a file in
-/// another format. Throws Error if the file cannot be read.
+/// Returns true if the file is a camera_info file of ROS, which `write_camera` would replace by a
+/// file in another format. Throws Error if the file cannot be read.
 bool is_camera_info(const std::filesystem::path& path);
 
-/// Writes the file completely or not at all. Throws Error if it cannot be written, and BadArgument
-/// as `validate` does.
+/// Writes the file completely or not at all. Throws Error if the file cannot be written, and
+/// BadArgument as `validate`.
 void write_camera(const std::filesystem::path& path, const Camera& camera);
 
 }  // namespace dotpose

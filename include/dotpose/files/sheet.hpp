@@ -15,7 +15,7 @@ inline constexpr double kDefaultSpacing_mm = 0.508;
 
 /// Maximum width and height of a page, in mm.
 inline constexpr double kMaxPage_mm = 100'000;
-/// Minimum number of columns and rows of a sheet: smaller regions cannot be read (paper section
+/// Minimum number of columns and rows of a sheet. Smaller regions cannot be read (paper section
 /// III-A.3).
 inline constexpr int kMinSheetCells = 8;
 
@@ -33,7 +33,7 @@ inline double reach_mm(const Pattern& pattern) {
     return pattern.displacement_mm + pattern.dot_mm / 2;
 }
 
-/// Printed length of a unit length, per axis. Printers differ, and they scale the directions of
+/// Printed length over nominal length, per axis. Printers differ, and they scale the directions of
 /// paper feed and of the scan differently.
 struct AxisScale {
     double x = 1;
@@ -48,13 +48,14 @@ struct Sheet {
     int rows = 0;
     double width_mm = 0;
     double height_mm = 0;
-    double origin_x_mm = 0;  ///< sheet coordinates of the intersection `origin`
+    double origin_x_mm = 0;  ///< sheet coordinates of the intersection of cell `origin`
     double origin_y_mm = 0;
 };
 
-/// Checks a sheet from any source: lengths positive and finite, dots that do not touch, section
-/// below kSections, at least kMinSheetCells columns and rows, region inside the code plane, all ink
-/// on the page. Throws BadArgument for the first wrong value.
+/// Checks a sheet from any source. Throws BadArgument for the first invalid value: lengths must be
+/// positive and finite, dots must not touch, the section must be below kSections, the sheet must
+/// have at least kMinSheetCells columns and rows, the region must be inside the code plane, and all
+/// ink on the page.
 void validate(const Sheet& sheet);
 
 }  // namespace dotpose

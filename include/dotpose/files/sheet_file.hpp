@@ -38,8 +38,8 @@ namespace dotpose {
 inline constexpr int kSheetFileVersion = 1;
 
 /// Number of free cells around every allocated region. It exceeds the diagonal of the largest frame
-/// (4096 x 4096 px, 6 px per spacing: 966 cells): a frame that shows two sheets and is located by
-/// the dots of one is therefore never on the other.
+/// (4096 x 4096 px, 6 px per spacing: 966 cells). A frame that shows two sheets and is located by
+/// the dots of one sheet is therefore never placed on the other sheet.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
 /// Place and direction of a page in the world.
@@ -54,19 +54,19 @@ struct SheetPrint {
     std::string title;          ///< title of the page and its document
     int pages = 1;              ///< number of pages of the document with dots
     double dpi = 600;           ///< resolution of the printer
-    std::string dots = "auto";  ///< how a PDF draws dots: "auto", "glyphs" or "strokes"
-    bool has_labels = true;     ///< whether a PDF has text and rulers in the margins
-    std::string command;        ///< command that makes the same page again
+    std::string dots = "auto";  ///< drawing of dots in a PDF: "auto", "glyphs" or "strokes"
+    bool has_labels = true;     ///< true if a PDF has text and rulers in the margins
+    std::string command;        ///< command that prints the same page again
     std::string document;       ///< PDF under the dots; empty if there is none
 };
 
 /// One page of a sheet file.
 struct SheetEntry {
     std::string name;  ///< unique in the file
-    int page = 1;      ///< number among the pages printed together, from 1
+    int page = 1;      ///< number of the page among those printed together, from 1
     Sheet sheet;
-    /// Printed length of a unit length, 0.5 to 2. The scale is about the first intersection, which
-    /// is at (sheet.origin_x_mm, sheet.origin_y_mm) at any scale.
+    /// Printed length over nominal length, 0.5 to 2. The first intersection is the centre of
+    /// scaling: it is at (sheet.origin_x_mm, sheet.origin_y_mm) for any scale.
     double print_scale_x = 1;
     double print_scale_y = 1;
     AxisScale print_scale() const { return {print_scale_x, print_scale_y}; }
@@ -75,23 +75,24 @@ struct SheetEntry {
     std::optional<WorldPose> world;
     /// Print parameters; none if the entry was made by an earlier version, or not by printing.
     std::optional<SheetPrint> print;
-    /// Whether the region is reserved for a page that may not exist: it is being written, or the
-    /// program was stopped while it wrote the page.
+    /// True if the region is reserved for a page that may not exist: the page is being written, or
+    /// the program was stopped while it wrote the page.
     bool is_reserved = false;
 };
 
-/// Checks one entry: a non-empty name in UTF-8 without terminal control characters; page at least
-/// 1; scales in their range; world finite; for `print`, pages at least 1, a resolution above 0 and
-/// a known drawing of dots; and `validate(sheet)`. Throws BadArgument.
+/// Checks one entry. Throws BadArgument unless the name is not empty and is UTF-8 without terminal
+/// control characters, the page is at least 1, the scales are in their range, the world pose is
+/// finite, and `sheet` is valid (as `validate(sheet)`). `print` must have at least 1 page, a
+/// resolution above 0 and a known drawing of dots.
 void validate(const SheetEntry& entry);
 
-/// Whether two sheets share cells. Different sections never overlap. The code variants anoto and
-/// libdots agree on most of the plane, so they count as one; microdots is separate.
+/// Returns true if two sheets share cells. Different sections never overlap. The code variants
+/// anoto and libdots agree on most of the plane, so they are treated as one. microdots is separate.
 bool overlap(const Sheet& a, const Sheet& b);
 
-/// Reads a sheet file. Throws Error with the names of the file and the key: the file cannot be
-/// read, is not a sheet file or has another version; a key is missing, has the wrong type or a
-/// value out of range; a name occurs twice; two regions overlap.
+/// Reads a sheet file. Throws Error, with the names of the file and the key, if the file cannot be
+/// read, is not a sheet file or has another version; if a key is missing, has the wrong type or a
+/// value out of range; or if a name occurs twice or two regions overlap.
 std::vector<SheetEntry> read_sheets(const std::filesystem::path& path);
 
 /// Options for waiting while another program changes a sheet file.
@@ -100,17 +101,17 @@ struct SheetFileWait {
     double most_s = 60;
     /// Called once with a message if the program has to wait.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
-    /// Called now and then; true ends the wait.
+    /// Called repeatedly during the wait. Returning true ends the wait.
     std::function<bool()> stop = [] { return false; };
 };
 
 /// Exclusive access to a sheet file for changing it. Other writers wait until the object is
-/// destroyed; readers do not wait. Not thread-safe.
+/// destroyed. Readers do not wait. Not thread-safe.
 class SheetFile {
   public:
-    /// Waits for exclusive access, then reads the file; a missing file has no sheets. Throws Error
-    /// as `read_sheets`, or if the file cannot be locked, for example because another program holds
-    /// the lock for longer than `wait` allows.
+    /// Waits for exclusive access, then reads the file. A missing file is read as a file without
+    /// sheets. Throws Error as `read_sheets`, or if the file cannot be locked, for example because
+    /// another program holds the lock for longer than `wait` allows.
     explicit SheetFile(const std::filesystem::path& path, const SheetFileWait& wait = {});
     ~SheetFile();
     SheetFile(const SheetFile&) = delete;
@@ -118,38 +119,39 @@ class SheetFile {
 
     const std::vector<SheetEntry>& sheets() const { return sheets_; }
 
-    /// Adds `count` pages like `sheet`, each in the next free region; `sheet.origin` is ignored. A
-    /// single page gets the given name, several pages get "name-1", "name-2" and so on.
+    /// Adds `count` pages with the layout of `sheet`, each in the next free region. `sheet.origin`
+    /// is ignored. A single page gets the given name. Several pages get the names "name-1",
+    /// "name-2" and so on.
     ///
     /// The next free region is the topmost, then leftmost region with a distance of kSheetGap_cells
     /// from the ends of the plane and from the regions of all other sheets, whatever their code
-    /// variant and section. Allocated sheets therefore differ in their cells alone.
+    /// variant and section. Allocated sheets can therefore be distinguished by their cells alone.
     ///
-    /// Returns the added entries. Throws BadArgument: as `validate`, a name that is taken, a full
-    /// plane, a count below 1.
+    /// Returns the added entries. Throws BadArgument as `validate`, if the name is taken, the plane
+    /// is full, or the count is below 1.
     std::vector<SheetEntry> allocate(const std::string& name, const Sheet& sheet, int count = 1);
 
-    /// Adds one page, with its own name and number, in the next free region, as above.
+    /// Adds one page, with its own name and number, in the next free region as above.
     SheetEntry allocate(SheetEntry entry);
 
-    /// Adds a sheet with a given region, which may touch other regions but not overlap them. Throws
-    /// BadArgument: as `validate`, and if the name or the region is taken (with the name of the
-    /// other sheet).
+    /// Adds a sheet with a given region. The region may touch other regions but must not overlap
+    /// them. Throws BadArgument as `validate`, and if the name or the region is taken, with the
+    /// name of the other sheet.
     void add(const SheetEntry& entry);
 
     /// Replaces the sheet with the name of `entry`. Throws BadArgument as `add`, or if there is no
     /// such sheet.
     void replace(const SheetEntry& entry);
 
-    /// Renames the sheet `name` and keeps its unknown keys. Throws BadArgument: there is no such
-    /// sheet, the new name is taken or invalid.
+    /// Renames the sheet `name` and keeps its unknown keys. Throws BadArgument if the sheet does
+    /// not exist, or if the new name is taken or invalid.
     void rename(const std::string& name, const std::string& new_name);
 
     /// Removes the sheet with this name if it exists.
     void remove(const std::string& name);
 
-    /// Writes the file completely or not at all. Unknown keys of the old file are kept. Throws
-    /// Error: the file cannot be written, or an editor has changed it meanwhile.
+    /// Writes the file completely or not at all. Keeps the unknown keys of the old file. Throws
+    /// Error if the file cannot be written, or if it was changed by an editor after it was read.
     void save();
 
   private:
@@ -172,25 +174,28 @@ class SheetFile {
     Lock lock_;
     std::optional<std::string> text_;  ///< the file as read or saved; none if it did not exist
     std::vector<SheetEntry> sheets_;
-    std::map<std::string, std::string>
-        names_in_text_;  ///< names of renamed sheets in `text_`, by the new name
+    /// Names of renamed sheets in `text_`, by the new name.
+    std::map<std::string, std::string> names_in_text_;
 };
 
-/// Enters sheets before their pages are written. They are marked as reserved: their regions stay
-/// taken even if this program is killed. `confirm` removes the mark. Other programs may change the
-/// file in between.
+/// Adds sheets to a sheet file before their pages are written. The sheets are marked as reserved:
+/// their regions remain taken even if this program is killed. `confirm` removes the mark. Other
+/// programs may change the file in the meantime.
 class SheetReservation {
   public:
-    /// Calls `enter` to add the sheets. Throws Error as SheetFile; nothing is reserved then.
+    /// Calls `enter` to add the sheets. Throws Error as SheetFile; in this case nothing is
+    /// reserved.
     SheetReservation(const std::filesystem::path& path,
                      const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});
-    /// Removes unconfirmed entries if possible; an otherwise unchanged file is restored.
+    /// Removes unconfirmed entries if possible. If the file was not changed otherwise, the previous
+    /// file is restored.
     ~SheetReservation();
     SheetReservation(const SheetReservation&) = delete;
     SheetReservation& operator=(const SheetReservation&) = delete;
 
-    /// Removes the marks, because the pages exist. Throws Error: the file cannot be changed, and
-    /// the sheets stay reserved; or another program has removed them and assigned their cells.
+    /// Removes the marks, because the pages exist. Throws Error if the file cannot be changed, in
+    /// which case the sheets remain reserved, or if another program has removed the sheets and
+    /// assigned their cells.
     void confirm();
 
   private:
@@ -199,8 +204,8 @@ class SheetReservation {
     std::filesystem::path path_;
     SheetFileWait wait_;
     std::vector<SheetEntry> entries_;  ///< reserved and unconfirmed entries
-    std::optional<std::string>
-        text_before_;  ///< the file before the reservation; none if it did not exist
+    /// The file before the reservation; none if it did not exist.
+    std::optional<std::string> text_before_;
     std::optional<std::string> text_reserved_;
 };
 

@@ -25,10 +25,10 @@ namespace dotpose {
 /// Covariance of a pose (x, y, angle), in squares and products of the units of that pose.
 using PoseCovariance = std::array<std::array<float, 3>, 3>;
 
-/// The place of a fix on a page of a sheet file.
+/// Place of a fix on a page of a sheet file.
 struct SheetPlace {
     const SheetEntry* entry = nullptr;  ///< entry of the page, in the searched entries
-    double x_mm = 0;                    ///< sheet frame, with the print scale applied
+    double x_mm = 0;                    ///< in the sheet frame, with the print scale applied
     double y_mm = 0;
     double theta_rad = 0;  ///< angle of the image x axis, from the sheet's +x towards +y, in (-pi,
                            ///< pi]
@@ -37,28 +37,29 @@ struct SheetPlace {
     PoseCovariance covariance{};
 };
 
-/// Returns the place of `fix`, read in the given code variant: on the sheet whose region contains
-/// it, otherwise on a sheet whose margins contain it. None if the fix is not ok or is on no sheet.
+/// Returns the place of `fix`, which was read in the given code variant. It is on the sheet whose
+/// region contains the fix, otherwise on a sheet whose margins contain the fix. None if the fix is
+/// not ok or is on no sheet.
 std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, CodeVariant code,
                                      const Fix& fix);
 
-/// The place of a fix in the world.
+/// Place of a fix in the world.
 struct WorldPlace {
     double x_m = 0;
     double y_m = 0;
-    double yaw_rad = 0;  ///< angle of the image x axis, counter-clockwise from the world's, in
-                         ///< (-pi, pi]
-    /// Covariance of (x_m, y_m, yaw_rad), from the covariance of the fix; the pose of the page
-    /// counts as exact.
+    /// Angle of the image x axis, counter-clockwise from the x axis of the world, in (-pi, pi].
+    double yaw_rad = 0;
+    /// Covariance of (x_m, y_m, yaw_rad), from the covariance of the fix. The pose of the page is
+    /// assumed to be exact.
     PoseCovariance covariance{};
 };
 
 /// Converts a place on a sheet to the world. None if the world pose of the sheet is not known.
 std::optional<WorldPlace> world_place(const SheetPlace& place);
 
-/// Converts the covariance of a pose from the sheet to the world, where the upper edge of the page
-/// has the direction `sheet_yaw_rad`: the covariance is rotated by this angle, with y and the angle
-/// negated. The unit of length does not change.
+/// Converts the covariance of a pose from the sheet to the world. `sheet_yaw_rad` is the direction
+/// of the upper edge of the page in the world. The covariance is rotated by this angle, with y and
+/// the angle negated. The unit of length does not change.
 PoseCovariance world_covariance(const PoseCovariance& on_sheet, double sheet_yaw_rad);
 
 }  // namespace dotpose

@@ -34,31 +34,31 @@ using FrameAt = std::function<GreyImage(int index)>;
 
 /// The common options of all calibrations.
 struct CalibrateOptions {
-    /// The printed pattern; only code variant and spacing are used. Lengths are true if the spacing
-    /// is true.
+    /// The printed pattern. Only its code variant and spacing are used. All measured lengths are
+    /// proportional to the spacing, so an error of the spacing is an error of the lengths.
     Pattern pattern;
-    /// Whether to detect the code variant from the frames instead of using that of `pattern`.
-    /// Ignored when stitching, because sheets have their code variant.
+    /// True to detect the code variant from the frames instead of using that of `pattern`. Ignored
+    /// by `stitch_sheets`, because each sheet has its own code variant.
     bool any_code = false;
-    /// Sheets that the frames may show, such as those of a sheet file: the spacing is then the
-    /// printed spacing of the sheet in most frames. Ignored when stitching.
+    /// Sheets that the frames may show, for example those of a sheet file. If there are any, the
+    /// spacing is the printed spacing of the sheet in most frames. Ignored by `stitch_sheets`.
     std::vector<SheetEntry> sheets;
-    /// Called after each part of the work; return false to stop (throws Error).
+    /// Called after each part of the work. Returning false stops the work with an Error.
     std::function<bool(int done, int total)> progress;
 };
 
-/// Returns the given code variant; none if it is detected.
+/// Returns the given code variant, or none if it is to be detected.
 std::optional<CodeVariant> given_code(const CalibrateOptions& options);
 
-/// Required number of frames; with fewer the verdict is `too_few_frames`.
+/// Required number of frames. With fewer frames, the verdict is `too_few_frames`.
 inline constexpr int kWantedFrames = 5;
 
-/// Whether a lens calibration is reliable, or the reason why not.
+/// Verdict on a lens calibration: `good`, or the reason why it is not reliable.
 enum class CalibrationVerdict {
     good,
-    too_few_frames,  ///< under kWantedFrames
+    too_few_frames,  ///< fewer than kWantedFrames frames
     same_place,      ///< all frames show the same dots, so printing errors look like lens errors
-    out_of_focus,    ///< dots are blurred to a third of the spacing
+    out_of_focus,    ///< the dots are blurred to about a third of the spacing or more
     corners_unseen,  ///< too few dots near the image corners
 };
 /// Returns the identifier, such as "out_of_focus".
@@ -68,35 +68,37 @@ const char* name(CalibrationVerdict verdict);
 struct CalibrationDot {
     int frame = 0;      ///< index of the frame
     PixelPoint pixel;   ///< measured pixel of the dot
-    PixelPoint before;  ///< residual of a camera without distortion, skew and tilt
-    PixelPoint after;   ///< residual of the calibrated camera
+    PixelPoint before;  ///< residual for a camera without distortion, skew and tilt
+    PixelPoint after;   ///< residual for the calibrated camera
 };
 
-/// The calibrated camera, with the evidence for it.
+/// The calibrated camera, with measures of its reliability.
 struct LensCalibration {
     Camera camera;
-    /// Whether the camera is mounted and all frames share height and tilt. A hand-held camera has
-    /// its own height and tilt in each frame; `camera.paper` and `camera.tilt` are then not known.
+    /// True if the camera is mounted: all frames have the same height and tilt. A hand-held camera
+    /// has an individual height and tilt in each frame, so `camera.paper` and `camera.tilt` are not
+    /// known.
     bool is_mounted = true;
     CodeVariant code = CodeVariant::anoto;  ///< given or detected code variant
     double spacing_mm = 0;                  ///< given spacing, or spacing of the sheet
     int frames = 0;                         ///< number of frames given
     int located = 0;                        ///< number of different frames with a fix
-    int duplicates = 0;             ///< number of frames that repeat an earlier image; not used
-    int dots = 0;                   ///< number of dots used
-    int outliers = 0;               ///< number of dots not used
+    int duplicates = 0;  ///< number of frames that repeat an earlier image; they are not used
+    int dots = 0;        ///< number of dots used
+    int outliers = 0;    ///< number of dots not used
     double residual_before_px = 0;  ///< rms per axis for a camera without distortion, skew and tilt
     double residual_px = 0;         ///< rms per axis
     double px_per_spacing = 0;      ///< mean over the frames, at the image centre
-    double dot_width = 0;           ///< width at half depth, in spacings; 1/6 for a sharp dot
+    double dot_width = 0;           ///< width at half darkness, in spacings; 1/6 for a sharp dot
     double coverage = 0;            ///< fraction of the 12 x 8 parts of the image that show dots
     CalibrationVerdict verdict = CalibrationVerdict::good;
     std::string advice;  ///< one or two sentences for the user
     std::vector<CalibrationDot> seen;
 };
 
-/// Finds lens and scale and, if the frames determine them, tilt and focal length. Throws Error: no
-/// pattern in any frame, a single frame, frames of different sizes, all frames the same image.
+/// Finds lens and scale and, if the frames determine them, tilt and focal length. Throws Error if
+/// there is only one frame, no frame shows a pattern, the frames differ in size, or all frames are
+/// the same image.
 LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
                                const CalibrateOptions& options);
 
@@ -106,11 +108,12 @@ struct SpinStation {
     double x_mm = 0;
     double y_mm = 0;
     double theta_rad = 0;
-    double off_x_mm = 0;  ///< centre of rotation from this frame alone minus that from all frames
+    /// Centre of rotation from this frame alone minus the centre from all frames.
+    double off_x_mm = 0;
     double off_y_mm = 0;
 };
 
-/// Whether the calibration of a turn is reliable, or the reason why not.
+/// Verdict on the calibration of a turn: `good`, or the reason why it is not reliable.
 enum class MountVerdict {
     good,
     drifted,  ///< the robot drifted while it turned, by more than noise explains
@@ -118,34 +121,38 @@ enum class MountVerdict {
 /// Returns the identifier, such as "drifted".
 const char* name(MountVerdict verdict);
 
-/// The position of the camera on a robot, from the centre of rotation of a turn on the spot.
+/// Position of the camera on a robot, from a turn on the spot: the centre of rotation is the
+/// reference point.
 struct SpinCalibration {
     Camera camera;  ///< the given camera with `reference_px` set
-    /// The reference point in mm from the point under the image centre, along the image axes there.
+    /// Reference point in mm, relative to the point under the image centre and along the image axes
+    /// at that point.
     CameraPoint offset_mm;
     int frames = 0;
     int located = 0;
     double sigma_mm = 0;     ///< standard deviation of the centre of rotation, per axis
     double residual_mm = 0;  ///< rms of the frames about the centre of rotation, per axis
     double turn_rad = 0;     ///< smallest arc that contains all angles
-    /// Error of the centre of rotation, per axis, from a drift of the robot while it turned; part
-    /// of `sigma_mm`. 0 if noise explains the drift.
+    /// Error of the centre of rotation, per axis, due to a drift of the robot while it turned. 0 if
+    /// noise explains the drift. Included in `sigma_mm`.
     double drift_mm = 0;
     MountVerdict verdict = MountVerdict::good;
     std::vector<SpinStation> stations;
 };
 
-/// Finds the position of the camera on the robot from at least 3 frames over more than 30 degrees;
-/// a full turn in 12 frames is recommended. `camera` has lens and view; none means a camera without
-/// distortion. Throws Error: too few frames with a fix, too small a turn, frames of other sizes, a
-/// spacing that contradicts the camera's view, a reference point beyond the range of a camera file,
-/// a centre of rotation that varies by more than one spacing (rms per axis) or is uncertain by more
-/// than half a spacing.
+/// Finds the position of the camera on the robot from at least 3 frames over more than 30 degrees.
+/// A full turn in 12 frames is recommended. `camera` contains the lens and the view of the paper.
+/// Without `camera`, the lens is assumed to have no distortion. Throws Error if too few frames have
+/// a fix, the turn is too small, a frame has another size than the camera file or the first frame,
+/// the spacing contradicts the view of the camera, the reference point is beyond the range of a
+/// camera file, or the centre of rotation varies by more than one spacing (rms per axis) or is
+/// uncertain by more than half a spacing.
 SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
                                const CalibrateOptions& options);
 
-/// The direction of the camera on the robot, from frames of a straight drive forwards, in order.
+/// Direction of the camera on the robot, from the frames of a straight drive forwards, in the order
+/// of the drive.
 struct DriveCalibration {
     Camera camera;  ///< the given camera with `theta_offset_rad` set
     int frames = 0;
@@ -155,23 +162,24 @@ struct DriveCalibration {
     double length_mm = 0;    ///< length of the drive
 };
 
-/// Finds the camera's direction from at least 2 frames over more than 5 mm. Throws Error: too few
-/// frames with a fix, frames of other sizes, a spacing that contradicts the camera's view, too
-/// short a drive, or a robot that turned by more than 5 degrees from its mean direction, left the
-/// straight line by more than that, or went back.
+/// Finds the direction of the camera from at least 2 frames over more than 5 mm. Throws Error if
+/// too few frames have a fix, a frame has another size than the camera file or the first frame, the
+/// spacing contradicts the view of the camera, the drive is too short, or the robot turned by more
+/// than 5 degrees from its mean direction, left the straight line by more than this angle, or went
+/// back.
 DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
                                  const CalibrateOptions& options);
 
-/// The reference of print scales. Frames determine the ratios between the scales of sheets and
+/// Reference of the print scales. Frames determine the ratios between the scales of sheets and
 /// axes, but not the length of a millimetre.
 struct ScaleReference {
     enum class By {
-        fixed_sheet,  ///< no measurement: the mean of both print scales of the fixed sheet does not
-                      ///< change
-        camera,       ///< the camera's mm per px are true because they were calibrated with a true
-                      ///< spacing
-        width         ///< the true width of a sheet was measured
+        /// No measurement: the mean of the two print scales of the fixed sheet does not change.
+        fixed_sheet,
+        /// The mm per px of the camera are true, because they were calibrated with a true spacing.
+        camera,
+        width  ///< the true width of a sheet was measured
     };
     By by = By::fixed_sheet;
     std::string sheet;    ///< name of the sheet whose width was measured
@@ -180,19 +188,20 @@ struct ScaleReference {
 
 /// Prior standard deviation of a print scale, relative to the value in the sheet file.
 inline constexpr double kUsualPrintError = 0.003;
-/// Whether the frames determined a print scale, beyond the value in the sheet file.
+/// Returns true if the frames determined a print scale, in addition to the value in the sheet file.
+/// `sigma_scale` is the standard deviation of the scale.
 inline constexpr bool is_scale_known(double sigma_scale) {
     return sigma_scale < kUsualPrintError / 2;
 }
 
-/// The accuracy of one sheet after stitching.
+/// Accuracy of one sheet after stitching.
 struct StitchedSheet {
     std::string name;
-    double sigma_mm = 0;   ///< standard deviation of the position of its corner relative to the
-                           ///< fixed sheet, per axis
-    double sigma_rad = 0;  ///< standard deviation of its yaw
+    /// Standard deviation, per axis, of the position of the corner relative to the fixed sheet.
+    double sigma_mm = 0;
+    double sigma_rad = 0;  ///< standard deviation of the yaw
     bool is_fixed = false;
-    double sigma_scale_x = 0;  ///< standard deviations of its print scales
+    double sigma_scale_x = 0;  ///< standard deviations of the print scales
     double sigma_scale_y = 0;
 };
 /// Two sheets that appear together in some frames.
@@ -200,8 +209,8 @@ struct Seam {
     std::string first;
     std::string second;
     int frames = 0;
-    double residual_mm = 0;   ///< rms over the frames, per axis
-    double residual_rad = 0;  ///< rms over the frames
+    double residual_mm = 0;   ///< rms difference of the two positions over the frames, per axis
+    double residual_rad = 0;  ///< rms difference of the two directions over the frames
 };
 /// Position of one frame's image centre on both sheets, relative to the first intersection of each
 /// sheet, in nominal mm.
@@ -213,28 +222,32 @@ struct SeamSighting {
     double second_x_mm = 0;
     double second_y_mm = 0;
 };
-/// The world poses of sheets, with their evidence.
+/// World poses of sheets, with measures of their accuracy.
 struct Stitching {
-    /// The given sheets in order; stitched sheets have new world poses and print scales.
+    /// The given sheets in the given order. Stitched sheets have new world poses and print scales.
     std::vector<SheetEntry> sheets;
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
     std::vector<SeamSighting> sightings;  ///< sightings of connected sheets
-    std::vector<std::string>
-        unconnected;  ///< names of sheets without a connection to the fixed sheet
+    /// Names of sheets without a connection to the fixed sheet.
+    std::vector<std::string> unconnected;
     int frames = 0;
     int used = 0;              ///< number of frames that show two sheets
     ScaleReference reference;  ///< reference of the print scales
 };
 
-/// Finds the world poses and print scales of sheets from frames that show parts of two sheets. Of
-/// the stitched sheets, the first with a world pose keeps it; if none has one, the first sheet
-/// defines the world: its corner is the origin, its upper edge the x axis. `camera` has lens and
-/// view. Without a view, which only mounted cameras have, the view is fitted to each part of a
-/// frame: poses are then less exact, and correct only if the fixed sheet has the print scales in
-/// the sheet file. Throws Error: no sheets; no frame shows two of them; no sheet in view has a
-/// world pose although others have; the sheet of the reference is not stitched; a print scale from
-/// the camera with an error above 25 %. Throws BadArgument: the reference does not exist.
+/// Finds the world poses and print scales of sheets from frames that show parts of two sheets. The
+/// first stitched sheet with a world pose keeps it. If none has a world pose, the first sheet
+/// defines the world: its corner is the origin, and its upper edge is the x axis.
+///
+/// `camera` contains the lens and, for mounted cameras, the view of the paper. Without a view, the
+/// view is fitted to each part of a frame. The poses are then less accurate, and correct only if
+/// the fixed sheet has the print scales in the sheet file.
+///
+/// Throws Error if there are fewer than two sheets, no frame shows two sheets, no sheet in view has
+/// a world pose although others have, the sheet of the reference is not stitched, or the camera
+/// gives a print scale with an error above 25 %. Throws BadArgument if the reference does not
+/// exist.
 Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
                         const std::optional<Camera>& camera, const CalibrateOptions& options,
                         const ScaleReference& reference = {});

@@ -1,5 +1,5 @@
-/// The coverage of a lens calibration by the frames so far, and what is missing: for programs that
-/// take frames while the camera moves, like `dotpose calibrate --live`.
+/// Coverage of a lens calibration by the frames so far, and the missing requirements. Intended for
+/// programs that take frames while the camera moves, like `dotpose calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
 ///     coverage.add(view);  // for each frame taken
@@ -21,15 +21,15 @@
 
 namespace dotpose {
 
-/// Minimum fraction of the parts of the image that must show dots; below it the verdict of a
+/// Minimum fraction of the parts of the image that must show dots. Below it, the verdict of a
 /// calibration is `corners_unseen`.
 inline constexpr double kLeastCoverage = 0.85;
-/// Maximum width of dots in focus, in spacings; at twice their printed width dots begin to touch.
+/// Maximum width of dots in focus, in spacings. Dots of twice their printed width begin to touch.
 inline constexpr double kWidestDot = 0.32;
 /// Required number of places on the sheet.
 inline constexpr int kWantedPlaces = 4;
-/// Required number of directions of frames, of `CalibrationCoverage::kDirections`; they distinguish
-/// a lens from a printer that stretches one axis of the paper.
+/// Required number of directions of frames, among `CalibrationCoverage::kDirections` sectors.
+/// Different directions distinguish a lens from a printer that stretches one axis of the paper.
 inline constexpr int kWantedDirections = 3;
 /// Maximum uncertainty of the lens in the corner of the image; see `corner_sigma_px`.
 inline constexpr double kWantedCornerSigma_px = 0.1;
@@ -43,17 +43,17 @@ PixelPoint farthest_corner(const Camera& camera);
 /// standard deviations.
 double corner_sigma_px(const Camera& camera);
 
-/// The parts of the image that have shown dots.
+/// Parts of the image that have shown dots.
 class ImageCoverage {
   public:
     static constexpr int kColumns = 12;
     static constexpr int kRows = 8;
 
-    /// For images of the given size, which must not be empty.
+    /// Creates the parts of images of the given size, which must be positive.
     ImageCoverage(int width_px, int height_px) : width_px_(width_px), height_px_(height_px) {}
 
-    /// Marks the part of the image that contains a pixel; ignores pixels outside the image. Returns
-    /// whether the part was not marked before.
+    /// Marks the part of the image that contains a pixel. Ignores pixels outside the image. Returns
+    /// true if the part was not marked before.
     bool add(PixelPoint pixel);
 
     bool is_covered(int column, int row) const {
@@ -88,31 +88,32 @@ struct CalibrationNeed {
 /// The combined coverage of the frames taken.
 class CalibrationCoverage {
   public:
-    /// Number of sectors of the full turn, for counting directions.
+    /// Number of sectors of a full turn in which directions are counted.
     static constexpr int kDirections = 8;
 
-    /// For images of the given size, which must not be empty.
+    /// Creates an empty coverage for images of the given size, which must be positive.
     CalibrationCoverage(int width_px, int height_px);
 
-    /// Returns the number of parts of the image that only this frame would cover.
+    /// Returns the number of parts of the image that the frame would add to the coverage.
     int parts_added_by(const CalibrationView& view) const;
     /// Adds a frame.
     void add(const CalibrationView& view);
 
     int frames() const { return frames_; }
     const ImageCoverage& image() const { return image_; }
-    /// Returns the number of places, at least a quarter of the shorter side of the image apart.
+    /// Returns the number of places on the sheet with a distance of at least a quarter of the
+    /// shorter side of the image.
     int places() const { return static_cast<int>(places_.size()); }
-    /// Returns the number of directions.
+    /// Returns the number of sectors with a frame.
     int directions() const;
-    /// Whether a frame has its image x axis in sector `direction` of the full turn, from the
-    /// pattern's x axis towards its y axis.
+    /// Returns true if the image x axis of a frame is in sector `direction` of the full turn.
+    /// Sectors are counted from the pattern's x axis towards its y axis.
     bool has_direction(int direction) const {
         return directions_[static_cast<std::size_t>(direction)];
     }
 
-    /// Returns the missing requirements, the most urgent first; empty if the frames are sufficient.
-    /// `lens` is the calibration by the frames so far, if there is one.
+    /// Returns the requirements that are not met, the most urgent first, or an empty list if the
+    /// frames are sufficient. `lens` is the calibration by the frames so far, if there is one.
     std::vector<CalibrationNeed> missing(const std::optional<Camera>& lens) const;
 
   private:

@@ -32,34 +32,36 @@ struct SpinCalibration;
 struct Stitching;
 struct Sweep;
 
-/// The content of the caption of `draw_frame`, besides the fix.
+/// Contents of the caption of `draw_frame`, in addition to the fix.
 struct DrawOptions {
-    /// Spacing of the printed grid, for the pose in mm. If not a number, the pose is in spacings.
+    /// Spacing of the printed grid in mm, for the pose in mm. If it is not a number, the pose is in
+    /// spacings.
     double spacing_mm = kDefaultSpacing_mm;
-    /// The fix as corrected by a camera file or refused afterwards; default: the fix of the trace.
+    /// The fix after correction by a camera file, or after it was refused. Default: the fix of the
+    /// trace.
     std::optional<Fix> fix{};
     std::string title{};  ///< for example the name of the file; default: none
-    /// Place of the fix on a sheet. The large numbers of the caption are then the pose in the
-    /// world, or on the sheet if its pose in the world is not known; default: the pose in the
-    /// pattern.
+    /// Place of the fix on a sheet. If it is given, the large numbers of the caption are the pose
+    /// in the world, or on the sheet if the pose in the world is not known. Default: the pose in
+    /// the pattern.
     std::optional<SheetPlace> place{};
-    /// Reason and remedy if there is no fix, for the caption; default: the message of the status.
+    /// Reason and remedy for the caption if there is no fix. Default: the message of the status.
     std::string reason{};
 };
 
 /// Draws the last frame of a Locator, whatever stage it reached. `image` must be the located image,
 /// and `Options::show_stages` must be set.
 ///
-/// On the left, over the image (paper Fig. 2 and 3): a ring around each dot, the symmetric
-/// connections of the neighbour search, the centre of the intact neighbourhood. Below it the same
-/// connections from one origin, with the grid vectors (Fig. 4). On the right (Fig. 9): the grid,
-/// each dot's symbol as read on the pattern, coloured by its likelihood, the window that was
-/// decoded and its corner, the reference point and the angle theta. Below: the pose, or the reason
-/// why there is none.
+/// The left panel shows, over the image (paper Fig. 2 and 3), a ring around each dot, the symmetric
+/// connections of the neighbour search, and the centre of the intact neighbourhood. Below the
+/// panel, the same connections are drawn from one origin, with the grid vectors (Fig. 4). The right
+/// panel (Fig. 9) shows the grid, the symbol of each dot as read on the pattern and coloured by its
+/// likelihood, the decoded window and its corner, the reference point and the angle theta. Below
+/// the panel is the pose, or the reason why there is none.
 ///
-/// With lens distortion everything is drawn at its place in the image, so grid lines are curved.
+/// With lens distortion, everything is drawn at its place in the image, so grid lines are curved.
 /// Large images are embedded at a lower resolution, and dots too close together for letters are
-/// drawn as points; the picture of a photo is therefore below 1 MB.
+/// drawn as points. The picture of a photo is therefore below 1 MB.
 void draw_frame(std::ostream& out, ImageView image, const Trace& trace,
                 const DrawOptions& draw_options = {});
 void draw_frame(const std::filesystem::path& path, ImageView image, const Trace& trace,
@@ -74,14 +76,14 @@ struct PathPoint {
     double measured_y_mm = 0;
 };
 
-/// Draws the true path on the page with the measured points, and the errors, which are too small to
-/// be visible there, as a scatter plot and over the frame number.
+/// Draws the true path on the page with the measured points. The errors are too small to be visible
+/// on the page, so they are also drawn as a scatter plot and over the frame number.
 void draw_path(std::ostream& out, const Sheet& sheet, std::span<const PathPoint> path,
                const std::string& title = {});
 void draw_path(const std::filesystem::path& file, const Sheet& sheet,
                std::span<const PathPoint> path, const std::string& title = {});
 
-/// Draws the residual fields before and after calibration, and the dots' coverage of the image.
+/// Draws the residual fields before and after calibration, and the coverage of the image by dots.
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
 
 /// Draws the positions of the camera while the robot turned, and the centre of rotation from each
@@ -96,7 +98,7 @@ void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntr
 /// sheets without a known pose. Throws Error if the sheets are too far apart to be drawn.
 void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets);
 
-/// Draws the deviations of all fields of a printed page over the outline of its scan, enlarged.
+/// Draws the deviations of all fields of a printed page, enlarged, over the outline of its scan.
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 

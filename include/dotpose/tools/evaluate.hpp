@@ -37,8 +37,8 @@ namespace dotpose {
 struct KnownFrame {
     GreyImage image;
     Truth truth;
-    std::optional<CodeVariant>
-        code;             ///< code variant of this frame, instead of that of the options
+    /// Code variant of this frame, instead of that of the options.
+    std::optional<CodeVariant> code;
     std::string problem;  ///< reason why there is no image; empty if there is one
 };
 
@@ -49,29 +49,29 @@ using FrameSource = std::function<KnownFrame(int index)>;
 /// `problem`.
 FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<TruthRow> rows);
 
-/// Returns the frames of `draw_shot(setup, index)`, rendered.
+/// Returns the rendered frames of `draw_shot(setup, index)`.
 FrameSource frames_of_setup(const Setup& setup);
 
-/// Called regularly from the calling thread; returning false stops the work with an Error.
+/// Called regularly from the calling thread. Returning false stops the work with an Error.
 using Progress = std::function<bool(int done, int total)>;
 
-/// The frames to locate, and the options.
+/// The frames to locate, and the options of `locate`.
 struct FrameRun {
     int frames = 0;
     FrameSource frame_at;
     /// Every frame is located with each of these options.
     std::vector<Options> options = {Options{}};
-    /// Whether the code variant of frames without a known code variant is detected, independently
-    /// for each frame.
+    /// True to detect the code variant of frames without a known code variant, independently for
+    /// each frame.
     bool any_code = false;
-    /// Refines a new fix with the trace of its frame, like `with_camera`; none if fixes are not
-    /// refined. Called from several threads; its time does not count.
+    /// Refines a fix with the trace of its frame, for example by `with_camera`. None: fixes are not
+    /// refined. Called from several threads. Its time is not measured.
     std::function<Fix(const Fix&, const Trace&)> refine;
-    int threads = 0;  ///< 0: one per core
+    int threads = 0;  ///< number of threads; 0 for one per core
     Progress progress;
 };
 
-/// Locates all frames; outcomes[k][i] is that of frame i with options[k].
+/// Locates all frames. Element [k][i] of the result is the outcome of frame i with options[k].
 std::vector<std::vector<Outcome>> evaluate(const FrameRun& run);
 
 }  // namespace dotpose

@@ -32,15 +32,15 @@ struct FollowerOptions {
     Options locate;
     /// The sheets that may be in view. If empty, poses are in the pattern frame.
     std::vector<SheetEntry> sheets;
-    /// The code variant of the code; none to detect it from all images together. Sheets have their
-    /// own code variants.
+    /// The code variant; none to detect it from all images together. Not used if there are sheets,
+    /// which have their own code variants.
     std::optional<CodeVariant> code;
-    /// Spacing of the pattern if there are no sheets.
+    /// Spacing of the pattern, in mm, if there are no sheets.
     double spacing_mm = kDefaultSpacing_mm;
-    /// Lens, view and mount of the camera. Images must have its size.
+    /// Lens, view and mount of the camera. Images must have the size in the camera file.
     std::optional<Camera> camera;
-    /// Whether images are flipped left to right before they are located, as with `flip` of a camera
-    /// file. All pixels are then pixels of flipped images.
+    /// True if images are flipped left to right before they are located, as with `flip` in a camera
+    /// file. All pixels then refer to the flipped images.
     bool flip = false;
     /// The reference pixel of the pose, instead of the image centre or the reference point of the
     /// camera file.
@@ -53,22 +53,22 @@ struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
     std::optional<SheetPlace> place;  ///< place of the fix; none if it is on no sheet
-    /// The code variant, and other places that explain the image. Its fix does not include the
-    /// camera file.
+    /// The code variant, and other places that explain the image. After `locate`, its fix does not
+    /// include the correction by the camera file.
     CodeReading reading;
-    /// Spacing of the sheet, or the common spacing of all sheets; not a number if spacings differ
-    /// and the fix is on no sheet.
+    /// Spacing of the sheet, or the common spacing of all sheets, in mm. Not a number if spacings
+    /// differ and the fix is on no sheet.
     double spacing_mm = 0;
-    /// Spacing measured by the camera file; `contradicts` (mounted_pose.hpp) compares it with
-    /// `spacing_mm`. Not a number if it is not known.
+    /// Spacing measured with the camera file, in mm. `contradicts` (mounted_pose.hpp) compares it
+    /// with `spacing_mm`. Not a number if it is not known.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
-    bool code_is_given = false;  ///< whether options or sheets gave the code variant
+    bool code_is_given = false;  ///< true if options or sheets gave the code variant
     int reduced_by = 1;          ///< factor by which the image was reduced
 };
 
-/// The result of an image of a sequence, given the previous images.
+/// The result for one image of a sequence, given the previous images.
 struct Followed {
-    Located located;  ///< its `p_wrong` includes the prior if the fix needed it
+    Located located;  ///< its `p_wrong` includes the prior if the fix needed the prior
     Track track;
 };
 
@@ -77,22 +77,22 @@ class Follower {
   public:
     explicit Follower(const FollowerOptions& options);
 
-    /// Locates an image independently of others. Reduces images larger than `kMaxFrameSide_px`,
-    /// unless there is a camera file. Accumulates the evidence for the code variant over all
-    /// images.
+    /// Locates an image independently of other images. Reduces images larger than
+    /// `kMaxFrameSide_px`, unless there is a camera file. Accumulates the evidence for the code
+    /// variant over all images.
     Located locate(const GreyImage& image);
 
     /// Locates the next image of a sequence, taken at `time_us`. The previous images predict the
     /// place of the pattern, and a weak fix is accepted at the predicted place.
     Followed follow(ImageView image, std::int64_t time_us);
 
-    /// Whether the robot is tracked in the world of the sheet file (m, y up) instead of the pattern
-    /// frame.
+    /// Returns true if the robot is tracked in the world of the sheet file (m, y up) instead of the
+    /// pattern frame.
     bool is_in_world() const { return is_in_world_; }
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
 
-    /// Return, for the newest image, the image as located (possibly flipped and reduced), the
-    /// options used and the trace of the stages.
+    /// Return data of the latest image: the image as located (possibly flipped and reduced), the
+    /// options used, and the trace of the stages.
     ImageView image() const { return image_; }
     const Options& used_options() const { return used_; }
     Trace trace() const { return locator_.trace(); }
@@ -104,7 +104,7 @@ class Follower {
         std::optional<SheetPlace> place;  ///< place of `seen`
         CodeReading reading;
     };
-    /// The result of the newest image with a fix.
+    /// The result of the latest image with a fix.
     struct Seen {
         Fix fix;
         CodeVariant code;
@@ -119,12 +119,12 @@ class Follower {
     double spacing_mm(const std::optional<SheetPlace>& place) const;
     Located located(const Found& found, const Fix& fix) const;
 
-    // One image by itself.
+    // Functions for single images.
     Found read();
     Found read_in(CodeVariant code);
     Fix without_surroundings(const Fix& fix, const SheetPlace& place);
 
-    // Images of a sequence.
+    // Functions for sequences of images.
     std::optional<Prediction> predict(std::int64_t time_us) const;
     Found find(int max_p_wrong_log2, const std::optional<Prediction>& expected);
     Found look(ImageView image, const Options& options, const std::optional<Prediction>& expected);
@@ -134,8 +134,8 @@ class Follower {
     void remember(const Found& found, const std::optional<Sighting>& sighting);
 
     FollowerOptions options_;
-    /// The code variants to try in order, starting with the code variant of the last fix. Empty:
-    /// all.
+    /// Code variants in the order in which they are tried, starting with that of the last fix.
+    /// Empty: all code variants.
     std::vector<CodeVariant> codes_;
     CodeEvidence evidence_;       ///< evidence of the previous images
     double unplaced_spacing_mm_;  ///< spacing for a fix on no sheet

@@ -5,14 +5,16 @@
 /// even if part of the picture could be decoded, because interpolated pixels are not measurements.
 /// A JPEG that lacks only its end marker is read.
 ///
-/// Every pixel becomes one grey level, 0 black to 255 white: - colour: luma 0.299 R + 0.587 G +
-/// 0.114 B (Rec. 601) of the stored values; palettes are
-///    expanded; CMYK is converted without profiles; gamma and colour profiles are ignored
-/// - 16 bits, and maximum values other than 255: scaled to 0..255 and rounded. Opaque images of 16
-/// bits without a value above 4095 are interpreted as 8 to 12 bits in the lower bits, as sensors
-/// deliver them - transparency: composited on white - several pages in one TIFF file: the first, or
-/// the requested page EXIF orientation is ignored, because the calibration and mount of a camera
-/// refer to the pixels of the sensor.
+/// Every pixel is converted to one grey level, from 0 (black) to 255 (white). Colour is converted
+/// to luma 0.299 R + 0.587 G + 0.114 B (Rec. 601) of the stored values. Palettes are expanded. CMYK
+/// is converted without profiles. Gamma and colour profiles are ignored. Samples of 16 bits, and
+/// samples with a maximum value other than 255, are scaled to 0..255 and rounded. Opaque images of
+/// 16 bits without a value above 4095 are interpreted as 8 to 12 bits in the lower bits, as sensors
+/// deliver them. Transparent pixels are composited on white. Of a TIFF file with several pages, the
+/// first page or the requested page is read.
+///
+/// EXIF orientation is ignored, because the calibration and mount of a camera refer to the pixels
+/// of the sensor.
 #pragma once
 
 #include <cstdint>
@@ -28,13 +30,13 @@
 
 namespace dotpose {
 
-/// Maximum side and number of pixels of an image that can be read, and the default limit of pixels.
+/// Maximum side and maximum number of pixels of an image that can be read, and the default limit of
+/// the number of pixels.
 inline constexpr int kMaxImageSide_px = 100'000;
 inline constexpr int kMaxImagePixels = 1 << 28;
 inline constexpr int kDefaultImagePixels = 100'000'000;
 
-/// Thrown for an image with more pixels than the limit according to its header; the pixels are not
-/// decoded.
+/// Thrown if the header of an image states more pixels than the limit. The pixels are not decoded.
 struct ImageTooLarge : Error {
     ImageTooLarge(const std::string& what, int width, int height)
         : Error(what), width_px(width), height_px(height) {}
@@ -51,7 +53,7 @@ struct ImageTooLarge : Error {
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
 
-/// Reads one image in the same way. Sets `note` to a sentence about the file for the user, such as
+/// Reads one image as above. Sets `note` to a sentence about the file for the user, for example
 /// that its end marker is missing, or to an empty text.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
                      int page = 1);
@@ -66,9 +68,9 @@ struct Resolution {
     double y_dpi = 0;
 };
 
-/// The origin of an image according to its file.
+/// Origin of an image according to its file.
 struct ImageOrigin {
-    /// Whether the image is from a camera: its EXIF data (JPEG, PNG, TIFF) have the exposure time,
+    /// True if the image is from a camera: its EXIF data (JPEG, PNG, TIFF) contain exposure time,
     /// f-number, sensitivity or focal length.
     bool is_photo = false;
     /// Resolution of a scan: PNG pHYs, JPEG density, TIFF and BMP resolution. None if it is
@@ -93,7 +95,7 @@ std::vector<std::uint8_t> encode_image(ImageEncoding encoding, ImageView image);
 /// cannot be written.
 void write_pgm(const std::filesystem::path& path, ImageView image);
 
-/// Writes 8-bit grey PNG, replacing the file; equal images give equal files. Throws Error as
+/// Writes 8-bit grey PNG, replacing the file. Equal images give equal files. Throws Error as
 /// `write_pgm`.
 void write_png(const std::filesystem::path& path, ImageView image);
 

@@ -26,27 +26,27 @@ namespace dotpose {
 /// The number of a channel in its file.
 enum class McapChannel : std::uint16_t {};
 
-/// The quality of service with which `ros2 bag play` offers the messages of a channel. The default
-/// suits all topics except /tf_static, which needs `depth` 1 and the newest message kept for later
-/// subscribers.
+/// Quality of service with which `ros2 bag play` offers the messages of a channel. The default
+/// suits all topics except /tf_static, which needs a `depth` of 1 and keeps the latest message for
+/// later subscribers.
 struct McapQuality {
     int depth = 100;
     bool is_transient_local = false;
 };
 
-/// Limits of a chunk.
+/// Maximum size of a chunk.
 struct McapOptions {
-    /// A chunk ends with the message that exceeds these limits. Longer chunks lose more of a killed
-    /// run; shorter chunks make the index larger.
+    /// A chunk ends with the message that exceeds one of these limits. With longer chunks, a killed
+    /// program loses more messages. Shorter chunks make the index larger.
     std::int64_t chunk_ns = 1'000'000'000;
     std::size_t chunk_bytes = 4 << 20;
 };
 
 class McapFile {
   public:
-    /// Creates or replaces the file. Throws Error.
+    /// Creates or replaces the file. Throws Error if the file cannot be created.
     explicit McapFile(const std::filesystem::path& path, const McapOptions& options = {});
-    /// Writes the rest and ignores errors; call `finish` to check for errors.
+    /// Writes the remaining messages and ignores errors. Call `finish` to detect errors.
     ~McapFile();
     McapFile(const McapFile&) = delete;
     McapFile& operator=(const McapFile&) = delete;
@@ -55,10 +55,10 @@ class McapFile {
     McapChannel add_channel(const std::string& topic, const ros::MessageType& type,
                             const McapQuality& quality = {});
 
-    /// Appends a message. `time_ns` should not be below 0. Throws Error.
+    /// Appends a message. `time_ns` should not be negative. Throws Error if writing fails.
     void write(McapChannel channel, std::int64_t time_ns, std::span<const std::uint8_t> cdr);
 
-    /// Writes the rest and closes the file. Throws Error.
+    /// Writes the remaining messages and closes the file. Throws Error if writing fails.
     void finish();
 
   private:

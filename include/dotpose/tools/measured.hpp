@@ -35,13 +35,13 @@ struct FoundPlace {
     double angle_rad = 0;
 };
 
-/// One frame with its true and its found place.
+/// One frame with its true place and the found place.
 struct MeasuredFrame {
     std::string file;
     std::optional<TruePlace> truth;  ///< none if the frame has no readable pattern
     Status status = Status::ok;
-    std::optional<FoundPlace>
-        found;  ///< none if there is no fix, or a fix outside the frame of the truth
+    /// None if there is no fix, or if the fix is outside the frame of the truth.
+    std::optional<FoundPlace> found;
     double spacing_mm = kDefaultSpacing_mm;
 };
 
@@ -49,27 +49,27 @@ struct MeasuredFrame {
 struct Similarity {
     double middle_x_mm = 0;  ///< mean of the found places
     double middle_y_mm = 0;
-    double shift_x_mm = 0;  ///< at the middle
+    double shift_x_mm = 0;  ///< translation of the middle
     double shift_y_mm = 0;
-    double turn_rad = 0;  ///< in the sense of the frame's angles
+    double turn_rad = 0;  ///< positive in the direction of the frame's angles
     double scale = 1;
-    /// Mean of true minus found angles after the turn: the direction of the measured heading in the
-    /// image.
+    /// Mean difference between true and found angles after the turn. It is the direction of the
+    /// measured heading in the image.
     double angle_offset_rad = 0;
 };
 
-/// Returns the least-squares similarity over the frames, without outliers. If all true places are
-/// equal, only the shift and the angle offset are determined. Throws Error if no frame has a true
-/// and a found place.
+/// Returns the least-squares similarity over the frames, with outliers excluded. If all true places
+/// are equal, only the shift and the angle offset are determined. Throws Error if no frame has a
+/// true and a found place.
 Similarity align(std::span<const MeasuredFrame> frames);
 
-/// Found minus true, after the alignment.
+/// Difference between the found and the true place of a frame, after the alignment.
 struct MeasuredError {
     double x_mm = 0;
     double y_mm = 0;
     std::optional<double> angle_rad;  ///< none if the true angle is not known
-    /// Whether the fix is wrong: on another sheet, without a true place, or with an error above
-    /// half a spacing or 2 degrees and above ten times the median.
+    /// True if the fix is wrong: it is on another sheet, there is no true place, or its error is
+    /// above half a spacing or 2 degrees and above ten times the median.
     bool is_wrong = false;
 };
 
@@ -80,7 +80,7 @@ struct Measurement {
     std::optional<Similarity> alignment;  ///< none if places were compared without alignment
     bool is_in_world = false;
 
-    // Number and errors of fixes, without wrong fixes.
+    // Numbers of correct and wrong fixes, and statistics of the errors of correct fixes.
     int located = 0;
     int wrong = 0;
     Quantiles position_um;
@@ -92,15 +92,15 @@ struct Measurement {
 /// Compares found and true places, after the alignment if there is one.
 Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Similarity>& alignment);
 
-/// Returns the result in words and numbers, for tables: (name, value).
+/// Returns the result as pairs (name, value) for tables.
 std::vector<std::pair<std::string, std::string>> described(const Measurement& measurement);
 
-/// Writes one line for each frame: true and found place, and the error.
+/// Writes one line for each frame: true place, found place and error.
 void write_errors_csv(std::ostream& out, const Measurement& measurement);
 
-/// Writes positions.csv, figure-13 and figure-14, and if true angles differ angles.csv and
-/// figure-15: the figures of the paper, each as .svg and .png. Frames at the same true place are
-/// samples of one position.
+/// Writes positions.csv, figure-13 and figure-14 and, if the true angles differ, angles.csv and
+/// figure-15. The figures are those of the paper, each as .svg and .png. Frames with the same true
+/// place are samples of one position.
 void write_measurement(const std::filesystem::path& folder, const Measurement& measurement);
 
 }  // namespace dotpose

@@ -1,4 +1,4 @@
-/// Mounted pose: the fix of a camera with a fixed view of the paper, for example on a robot.
+/// Mounted pose: the fix of a camera with a constant view of the paper, for example on a robot.
 ///
 ///     use_camera(camera, image.width_px, image.height_px, options);
 ///     locator.set_options(options);
@@ -15,16 +15,16 @@
 
 namespace dotpose {
 
-/// Refines a fix by the camera file, from the trace of its frame. The view of a mounted camera is
-/// constant and comes from the file. Only place, angle and one scale (print scales differ) are
-/// fitted to the dots, which is more exact, especially far from the image centre. Theta becomes the
-/// heading of the robot. `print` is the print scale of the sheet of the fix, if it is known; the
-/// fix stays in nominal units of the pattern.
+/// Refines a fix with the camera file, from the trace of its frame. The view of a mounted camera is
+/// constant and is read from the file. Only place, angle and one scale (print scales differ) are
+/// fitted to the dots, which is more accurate, especially far from the image centre. Theta becomes
+/// the heading of the robot. `print` is the print scale of the sheet of the fix, if it is known.
+/// The fix remains in nominal units of the pattern.
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
                 const AxisScale& print = {});
 
-/// Returns the spacing of the pattern measured with the view of the camera file, divided by the
-/// print scale of the sheet (nominal mm). Not a number without a fix or a view.
+/// Returns the spacing of the pattern in mm, measured with the view of the camera file and divided
+/// by the print scale of the sheet (nominal mm). Not a number without a fix or a view.
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
 
 /// Maximum relative difference between the nominal and the measured spacing of a sheet. It is
@@ -32,8 +32,8 @@ double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale
 /// smaller than the 3 % of a page that a printer driver scaled to 97 %.
 inline constexpr double kMaxSpacingDifference = 0.025;
 
-/// Whether a measured spacing contradicts the spacing of the sheet. False if either is not a
-/// number.
+/// Returns true if a measured spacing contradicts the spacing of the sheet. Returns false if either
+/// is not a number.
 bool contradicts(double measured_mm, double spacing_mm);
 
 }  // namespace dotpose

@@ -18,7 +18,7 @@
 
 namespace dotpose {
 
-/// The parts of a device. All lengths must be above 0.
+/// Parts of a device. All lengths must be above 0.
 struct Optics {
     int width_px = 188;
     int height_px = 120;
@@ -29,28 +29,28 @@ struct Optics {
     double dot_mm = kDefaultSpacing_mm / 6;
     double f_number = 2.8;  ///< focal length over aperture
     double exposure_s = 1.0 / 7684;
-    double speed_mm_s = 100;     ///< fastest straight motion, image x or y axis
-    double turn_rpm = 60;        ///< fastest turn, about the image centre
+    double speed_mm_s = 100;     ///< maximum speed of straight motion along the image x or y axis
+    double turn_rpm = 60;        ///< maximum turn rate about the image centre
     double largest_blur_px = 1;  ///< maximum motion during the exposure
 
-    /// Measured values, which replace those of the thin lens: size of a pixel on the paper, and the
-    /// field of view after correction of distortion.
+    /// Measured values, which replace the values of the thin lens: size of a pixel on the paper,
+    /// and field of view after correction of distortion.
     std::optional<double> mm_per_px;
     std::optional<double> field_width_mm;
     std::optional<double> field_height_mm;
 };
 
-/// Returns the paper's device: MT9V034 with pixels of 6 um binned 4 x 4, a lens of 5.5 mm, 0.046 mm
-/// per px, 8.59 x 5.48 mm.
+/// Returns the device of the paper: an MT9V034 with pixels of 6 um binned 4 x 4, a lens of 5.5 mm,
+/// 0.046 mm per px, and a field of 8.59 x 5.48 mm.
 Optics paper_optics();
 
 /// One fault or remark about a device.
 struct OpticsAdvice {
-    bool is_fault = false;  ///< true: a fault of the device; false: a remark
+    bool is_fault = false;  ///< true for a fault of the device, false for a remark
     std::string text;       ///< one sentence: the fault and the remedy
 };
 
-/// The view of the pattern by the camera of a device.
+/// View of the pattern by the camera of a device.
 struct OpticsReport {
     double magnification = 0;
     double mm_per_px = 0;
@@ -60,26 +60,27 @@ struct OpticsReport {
     double field_height_mm = 0;
     double field_diagonal_mm = 0;
     double field_angle_rad = 0;  ///< along the diagonal
-    double dots_in_view = 0;     ///< mean
+    double dots_in_view = 0;     ///< mean number
 
-    /// Diagonal of 8 x 8 dots in the worst case: sqrt(2) spacing (7 + 3/6) for dots a sixth of the
-    /// spacing wide and displaced by a sixth each way.
+    /// Diagonal of 8 x 8 dots in the worst case: sqrt(2) spacing (7 + 3/6) for dots with a diameter
+    /// of a sixth of the spacing and a displacement of a sixth in each direction.
     double block_diagonal_mm = 0;
-    bool block_fits = false;  ///< whether the field's shorter side is at least that diagonal: paper
-                              ///< III-A.3
-    /// Side of a field that contains 8 x 8 dots at any position of the grid: at 45 degrees the
+    /// True if the shorter side of the field is at least `block_diagonal_mm` (paper III-A.3).
+    bool block_fits = false;
+    /// Side of a field that contains 8 x 8 dots at any position of the grid. At 45 degrees, the
     /// nearest block may be half a diagonal step from the middle.
     double block_anywhere_mm = 0;
     bool block_fits_anywhere = false;
 
-    double fastest_mm_s = 0;        ///< fastest straight motion for the exposure, without a turn
-    double fastest_turn_rpm = 0;    ///< fastest turn on the spot for the exposure, by the middle of
-                                    ///< the far edge
-    double longest_exposure_s = 0;  ///< longest exposure for the speed and turn rate together
+    double fastest_mm_s = 0;  ///< maximum speed for the exposure, without a turn
+    /// Maximum turn rate on the spot for the exposure, due to the middle of the far edge.
+    double fastest_turn_rpm = 0;
+    double longest_exposure_s = 0;  ///< maximum exposure for speed and turn rate together
     double blur_px = 0;             ///< blur at the given speed, turn rate and exposure
 
-    double near_mm = 0;  ///< nearest sharp distance from the lens, where the blur is one pixel
-    double far_mm = 0;   ///< farthest sharp distance from the lens
+    /// Nearest sharp distance from the lens, at which the blur is one pixel.
+    double near_mm = 0;
+    double far_mm = 0;  ///< farthest sharp distance from the lens
     double depth_mm() const { return far_mm - near_mm; }
 
     std::vector<OpticsAdvice> advice;

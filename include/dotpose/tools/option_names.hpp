@@ -13,11 +13,12 @@ namespace dotpose {
 /// All values of Decoder and of Effort, for tables.
 inline constexpr std::array kDecoders = {Decoder::window, Decoder::all};
 inline constexpr std::array kEfforts = {Effort::device, Effort::once, Effort::twice};
-/// Return the name of an option value, such as "window" and "twice".
+/// Return the name of an option value, for example "window" or "twice".
 const char* name(Decoder decoder);
 const char* name(Effort effort);
 
-/// Returns a sentence with the option outside its range, and the range; empty if there is none.
+/// Returns a sentence that names the option outside its range, and the range. Returns an empty text
+/// if all options are valid.
 std::string fault_text(const Options& options);
 
 }  // namespace dotpose

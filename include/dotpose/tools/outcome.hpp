@@ -10,11 +10,11 @@
 
 namespace dotpose {
 
-/// Deviations above which a fix is wrong: it counts as a failure, not as an error.
+/// Deviations above which a fix is wrong. A wrong fix counts as a failure, not as an error.
 inline constexpr double kWrongFrom_grid = 0.5;
 inline constexpr double kWrongFrom_deg = 2;
 
-/// Difference of the fix from the truth.
+/// Difference between a fix and the truth.
 struct Deviation {
     double x_grid = 0;
     double y_grid = 0;
@@ -28,12 +28,12 @@ struct Outcome {
     Fix fix;
     Truth truth;
     double elapsed_us = 0;  ///< time of `locate` alone
-    std::string problem;    ///< error of the file; if not empty, the rest is not valid
+    std::string problem;    ///< error of the file; if not empty, all other members are not valid
 
-    /// Whether the frame was read and located, correctly or not.
+    /// Returns true if the frame was read and located, correctly or not.
     bool is_fix() const { return problem.empty() && fix.status == Status::ok; }
-    /// Whether there is a fix with a deviation above kWrongFrom_grid or kWrongFrom_deg, in another
-    /// section, or for a frame without a pose.
+    /// Returns true if there is a wrong fix: its deviation is above kWrongFrom_grid or
+    /// kWrongFrom_deg, it is in another section, or the frame has no pose.
     bool is_wrong() const;
 };
 

@@ -1,5 +1,5 @@
-/// Printing: lays a part of the code plane out on a page and writes it as text, SVG, PNG, TIFF or
-/// PDF.
+/// Printing: lays out a part of the code plane on a page, and writes the page as text, SVG, PNG,
+/// TIFF or PDF.
 ///
 ///     dotpose::SheetOptions options;                      // A4, 5 mm margin, 0.508 mm spacing
 ///     options.origin = {.x = 1000, .y = 2000};
@@ -47,30 +47,31 @@ Paper landscape(Paper paper);
 /// The options of `make_sheet`.
 struct SheetOptions {
     Pattern pattern;       ///< code, section and measures of the dots
-    Cell origin;           ///< cell of the top left dot; should be different for each sheet
+    Cell origin;           ///< cell of the top left dot; each sheet should have its own cells
     Paper paper;           ///< the page; default A4 portrait
-    double margin_mm = 5;  ///< margin without ink on all sides; 0 for printers that reach the edge
+    double margin_mm = 5;  ///< margin without ink on all sides; 0 for printers without margins
 };
 
 /// Lays out a sheet: fills the page inside its margins with whole cells, from the top left.
 ///
-/// The first intersection is the first one with its dot inside the margins and with coordinates
-/// that are odd multiples of half a 300 dpi printer pixel. With the default pattern every dot then
+/// The first intersection is the first one whose dot is inside the margins and whose coordinates
+/// are odd multiples of half a 300 dpi printer pixel. With the default pattern, every dot then
 /// covers whole printer pixels at 300, 600 and 1200 dpi (paper section III-A.1, Fig. 11).
 ///
-/// Throws BadArgument: as `validate`; also if the margins leave no room for kMinSheetCells columns
-/// and rows, and if the region would run past the end of the code plane.
+/// Throws BadArgument as `validate`, if the margins leave less space than kMinSheetCells columns
+/// and rows, and if the region would extend past the end of the code plane.
 Sheet make_sheet(const SheetOptions& options);
 
 /// Lays out `pages` sheets with adjacent regions that share no cell. Each region begins to the
-/// right of the previous one; past the end of the plane a new line of regions begins below, at
+/// right of the previous one. At the end of the plane, a new line of regions begins below, at
 /// `options.origin.x`.
 ///
-/// Throws BadArgument: as `make_sheet`; also if `pages` is not 1 to kMaxPages.
+/// Throws BadArgument as `make_sheet`, and if `pages` is not 1 to kMaxPages.
 std::vector<Sheet> make_sheets(const SheetOptions& options, int pages);
 
-/// Checks that a printer of this resolution can print the pattern: the displacement is at least one
-/// printer pixel, and at least one white pixel is between any two dots. Throws BadArgument.
+/// Checks that a printer of this resolution can print the pattern. The displacement must be at
+/// least one printer pixel, and at least one white pixel must be between any two dots. Throws
+/// BadArgument otherwise.
 void validate_resolution(const Sheet& sheet, double dpi);
 
 /// File formats of printed sheets.
@@ -83,57 +84,60 @@ enum class PrintFormat {
 };
 
 /// Returns the format for a file ending: .txt .svg .png .tif .tiff .pdf, in upper or lower case.
-/// Throws BadArgument for others.
+/// Throws BadArgument for other endings.
 PrintFormat print_format(const std::filesystem::path& path);
 
-/// Called after each row of the pattern; return false to stop.
+/// Called after each row of the pattern. Returning false stops the work.
 using Progress = std::function<bool(int rows_done, int rows)>;
 
-/// Drawing of dots in a PDF.
+/// Methods of drawing dots in a PDF.
 enum class DotDrawing {
     automatic,  ///< `glyphs` where they are exact, otherwise `strokes`
-    glyphs,  ///< text in a font of four glyphs: small and fast, but renderers round the position of
-             ///< every glyph to whole pixels, so spacing, displacement and dot must be whole pixels
+    /// Text in a font of four glyphs: small and fast, but renderers round the position of every
+    /// glyph to whole pixels, so spacing, displacement and dot must be whole pixels.
+    glyphs,
     strokes,  ///< lines of length 0 with round ends: exact at any spacing
 };
 
 /// Options of `write_sheet`.
 struct PrintOptions {
-    /// Resolution in dots per inch of PNG, TIFF and PDF; it should be the resolution of the
+    /// Resolution in dots per inch of PNG, TIFF and PDF. It should be the resolution of the
     /// printer. A PDF has no pixels, but its dots are drawn for this resolution. Not used for text
     /// and SVG.
     double dpi = 600;
     DotDrawing drawing = DotDrawing::automatic;  ///< PDF only
-    /// PDF only: whether there are labels with name, page, region and spacing, and rulers, in the
-    /// margins where they fit.
+    /// PDF only: true to add labels (name, page, region and spacing) and rulers in the margins
+    /// where they fit.
     bool labels = true;
-    std::string name;     ///< PDF only: the first label, and the document's title
+    std::string name;     ///< PDF only: the first label, and the title of the document
     std::string command;  ///< PDF only: label with the command that reprints the sheet
-    /// PDF only: commands of the pages, if pages have different commands; they replace `command`.
+    /// PDF only: individual commands of the pages, which replace `command` if there are any.
     std::vector<std::string> page_commands;
     int first_page = 1;  ///< PDF only: number of the first sheet in the labels
-    int page_count = 0;  ///< PDF only: number of pages in the labels; 0 for the number of sheets
+    /// PDF only: number of pages in the labels; 0 for the number of sheets.
+    int page_count = 0;
     /// Called often, so it must be fast. Default: none.
     Progress progress;
 };
 
 /// Writes the sheet in the format of the file's ending.
 ///
-/// In PNG and TIFF the centre of every dot is rounded to the nearest printer pixel, so the error is
+/// In PNG and TIFF, the centre of every dot is rounded to the nearest printer pixel. The error is
 /// at most half a printer pixel per axis and does not accumulate.
 ///
-/// The file appears complete or not at all: it is written under a temporary name in the same
-/// directory and renamed at the end. After any error, and if `progress` returned false, an existing
+/// The file appears completely or not at all: it is written under a temporary name in the same
+/// directory and renamed at the end. After an error, and if `progress` returned false, an existing
 /// file is unchanged and no temporary file remains.
 ///
-/// Throws BadArgument: as `print_format`, `validate` and `validate_resolution`; DotDrawing::glyphs
-/// where lengths are not whole pixels. Throws Error: the file cannot be created or written (with
-/// the system's reason), or `progress` returned false.
+/// Throws BadArgument as `print_format`, `validate` and `validate_resolution`, and for
+/// DotDrawing::glyphs if lengths are not whole pixels. Throws Error if the file cannot be created
+/// or written (with the system's reason), or if `progress` returned false.
 void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
                  const PrintOptions& options = {});
 
-/// Writes a document of several pages as `write_sheet` does; more than one page needs a PDF. Throws
-/// as `write_sheet`, and BadArgument if there is no sheet or the format has only one page.
+/// Writes a document of several pages as `write_sheet` does. More than one page requires a PDF.
+/// Throws as `write_sheet`, and BadArgument if there is no sheet or the format supports only one
+/// page.
 void write_sheets(std::span<const Sheet> sheets, const std::filesystem::path& path,
                   const PrintOptions& options = {});
 
@@ -154,14 +158,14 @@ struct PrintPage {
     std::vector<InkRectangle> marks;
 };
 
-/// Returns rectangles that show a text of digits, '.', '/', '-', 'x', 'm' and spaces; other
-/// characters stay blank. (`x_mm`, `y_mm`) is the upper left corner of the text.
+/// Returns rectangles that show a text of digits, '.', '/', '-', 'x', 'm' and spaces. Other
+/// characters remain blank. (`x_mm`, `y_mm`) is the upper left corner of the text.
 std::vector<InkRectangle> ink_text(std::string_view text, double x_mm, double y_mm,
                                    double height_mm);
 
-/// Writes a page as `write_sheet` does, as PDF, SVG, PNG or TIFF; BadArgument for text. Overlapping
-/// regions are both printed. For PNG and TIFF, the page is stored in memory at one bit per pixel. A
-/// PDF has the marks but no labels.
+/// Writes a page as `write_sheet` does, as PDF, SVG, PNG or TIFF. Throws BadArgument for the text
+/// format. If regions overlap, both are printed. For PNG and TIFF, the whole page is stored in
+/// memory with one bit per pixel. A PDF contains the marks but no labels.
 void write_page(const PrintPage& page, const std::filesystem::path& path,
                 const PrintOptions& options = {});
 

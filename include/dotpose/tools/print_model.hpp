@@ -1,4 +1,4 @@
-/// Print model: the distance of printed ink from its intended place.
+/// Print model: the displacement of printed ink from its intended place.
 #pragma once
 
 #include "dotpose/tools/simulate.hpp"
@@ -12,9 +12,11 @@ namespace dotpose {
 /// larger along y, the direction of paper feed.
 class PrintModel {
   public:
-    static constexpr double kSide_mm = 200;  ///< side of the area of the maximum errors
+    /// Side of the square area to which the maximum errors apply.
+    static constexpr double kSide_mm = 200;
 
-    /// The maximum errors on the area, along x and y, in mm; by default those of Table III.
+    /// `worst_x_mm` and `worst_y_mm` are the maximum errors in the area, along x and y. The
+    /// defaults are those of Table III.
     PrintModel(double worst_x_mm = 0.15, double worst_y_mm = 0.27);
 
     /// Returns printed minus intended position, at a position relative to the middle of the area.

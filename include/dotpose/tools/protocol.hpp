@@ -19,7 +19,8 @@ namespace dotpose {
 /// Options of the simulated experiment.
 struct ProtocolOptions {
     int samples = 20;  ///< number of samples at each position and angle
-    /// Light, blur and noise of the device, drawn once; the page determines the positions of dots.
+    /// Light, blur and noise of the device, which are drawn once. The positions of the dots come
+    /// from the page of the experiment.
     Setup setup;
     Options locate;
     int threads = 0;
@@ -34,11 +35,11 @@ struct Spread {
 
 /// The results at one position or angle of the device.
 struct Station {
-    Vec2 place_mm;  ///< from the middle of the area, y down
+    Vec2 place_mm;  ///< position relative to the middle of the area, y down
     double theta_deg = 0;
-    Spread x_mm;  ///< error of the correct fixes
+    Spread x_mm;  ///< error in x of the correct fixes
     Spread y_mm;
-    Spread theta;  ///< degrees
+    Spread theta;  ///< error in theta of the correct fixes, in degrees
     int samples = 0;
     int located = 0;
     int wrong = 0;
@@ -46,15 +47,17 @@ struct Station {
 
 /// The results of the experiment on one page.
 struct ProtocolResult {
-    std::vector<Station> positions;  ///< 11 x 11 on 200 x 200 mm, in a spiral from the middle
-    std::vector<Station> angles;     ///< 36 angles, at the middle
+    /// 11 x 11 positions on 200 x 200 mm, in a spiral from the middle.
+    std::vector<Station> positions;
+    std::vector<Station> angles;  ///< 36 angles in the middle
 };
 
 /// The experiment on a perfect page and on a printed page.
 struct Protocol {
     int samples = 0;
-    ProtocolResult perfect;  ///< every dot at its intended position, except for jitter
-    ProtocolResult printed;  ///< with the errors of `PrintModel`
+    /// Page with every dot at its intended position, except for jitter.
+    ProtocolResult perfect;
+    ProtocolResult printed;  ///< page with the errors of `PrintModel`
 };
 
 /// Simulates the experiment. Throws Error if interrupted.

@@ -10,7 +10,7 @@
 
 namespace dotpose {
 
-/// Scrambles 64 bits so that every input bit affects every output bit: the finalizer of splitmix64
+/// Scrambles 64 bits: every input bit affects every output bit. This is the finalizer of splitmix64
 /// (Steele, Lea, Flood, OOPSLA 2014).
 constexpr std::uint64_t scramble(std::uint64_t bits) noexcept {
     bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -18,13 +18,14 @@ constexpr std::uint64_t scramble(std::uint64_t bits) noexcept {
     return bits ^ (bits >> 31);
 }
 
-/// The generator splitmix64. It is cheap to seed, so every frame and every printed dot has its own.
+/// The generator splitmix64. It is cheap to seed, so every frame and every printed dot has its own
+/// generator.
 class Rng {
   public:
-    /// Starts the stream of a seed.
+    /// Starts the stream of numbers that belongs to a seed.
     explicit constexpr Rng(std::uint64_t seed) noexcept : state_(seed) {}
 
-    /// Starts an independent stream for item `index` of a run, whatever was drawn before.
+    /// Starts an independent stream for item `index` of a run.
     constexpr Rng(std::uint64_t seed, std::uint64_t index) noexcept
         : state_(scramble(scramble(seed + kStep) + kStep * (index + 1))) {}
 
@@ -37,21 +38,23 @@ class Rng {
     /// Returns a uniform number in [0, 1), a multiple of 2^-53.
     constexpr double uniform() noexcept { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
-    /// Returns a uniform number in [low, high); `low` if they are equal.
+    /// Returns a uniform number in [low, high), or `low` if the limits are equal.
     constexpr double uniform(double low, double high) noexcept {
         return low + (high - low) * uniform();
     }
 
-    /// Returns a uniform number in [0, limit); 0 < limit < 2^32. The bias is below limit / 2^64.
+    /// Returns a uniform number in [0, limit), where 0 < limit < 2^32. The bias is below limit /
+    /// 2^64.
     constexpr std::uint32_t below(std::uint32_t limit) noexcept {
         const std::uint64_t high = bits() >> 32;
         const std::uint64_t low = bits() >> 32;
         return static_cast<std::uint32_t>((high * limit + ((low * limit) >> 32)) >> 32);
     }
 
-    /// Returns a normal number with mean 0 and deviation 1: the count of ones among 128 random
-    /// bits, smoothed by a uniform step. Excess kurtosis -0.016, never beyond 11.4; needs no
-    /// logarithm, whose last digit differs between machines.
+    /// Returns a normal number with mean 0 and standard deviation 1: the number of ones among 128
+    /// random bits, smoothed by a uniform number. The excess kurtosis is -0.016, and the absolute
+    /// value is at most 11.4. No logarithm is used, because its last digit differs between
+    /// machines.
     constexpr double normal() noexcept {
         constexpr double kInverseDeviation = 0.1765469659009499;  // 1 / sqrt(128 / 4 + 1 / 12)
         const int ones = ones_in(bits(), bits());
@@ -68,7 +71,7 @@ class Rng {
             x -= (x >> 1) & 0x5555555555555555u;
             return (x & kOdd2) + ((x >> 2) & kOdd2);
         };
-        const std::uint64_t fours = in_fours(a) + in_fours(b);  // up to 8 in each
+        const std::uint64_t fours = in_fours(a) + in_fours(b);  // at most 8 in each field
         const std::uint64_t eights = (fours & kOdd4) + ((fours >> 4) & kOdd4);
         return static_cast<int>((eights * 0x0101010101010101u) >> 56);
     }

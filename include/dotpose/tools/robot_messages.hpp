@@ -8,12 +8,12 @@
 ///     if (messages.pose) publish(to_cdr(*messages.pose));
 ///
 /// Frames (ROS REP 103: metres, x forward, y left, z up, counter-clockwise; REP 105): `map` is the
-/// world of the sheet file, or without one the pattern with y up and the same origin. `odom` begins
-/// at the first pose of the robot. While the robot is followed, `map` to `odom` does not change;
-/// when it is found again after it was lost, or was put elsewhere, `map` to `odom` jumps, and
-/// `odom` to `base_link` continues. `base_link` is the reference point of the camera file on the
-/// paper, with the robot's heading; without a camera file it is the point under the image centre,
-/// with x along the image x axis.
+/// world of the sheet file. Without a sheet file, it is the pattern frame with y up and the same
+/// origin. `odom` begins at the first pose of the robot. While the robot is followed, the transform
+/// from `map` to `odom` does not change. When the robot is found again after it was lost or put
+/// elsewhere, `map` to `odom` jumps, and `odom` to `base_link` continues. `base_link` is the
+/// reference point of the camera file on the paper, with the robot's heading; without a camera file
+/// it is the point under the image centre, with x along the image x axis.
 #pragma once
 
 #include <array>
@@ -46,16 +46,17 @@ using PlanarCovariance = std::array<std::array<double, 3>, 3>;
 /// The pose from a single frame.
 struct PlanarFix {
     PlanarPose pose;
-    std::optional<PlanarCovariance> covariance;  ///< of (x, y, yaw)
+    std::optional<PlanarCovariance> covariance;  ///< covariance of (x, y, yaw)
 };
 
 /// Pose and velocities of a tracked robot.
 struct PlanarMotion {
     PlanarPose pose;
-    double vx_m_s = 0;  ///< along the x axis of the plane
+    double vx_m_s = 0;  ///< velocity along the x axis of the plane
     double vy_m_s = 0;
     double turn_rad_s = 0;
-    std::array<std::array<double, 6>, 6> covariance{};  ///< of all six values, in their order
+    /// Covariance of all six values, in their order.
+    std::array<std::array<double, 6>, 6> covariance{};
 };
 
 /// The results of a frame, in the frame `map`.
@@ -64,7 +65,7 @@ struct RobotUpdate {
     std::optional<PlanarFix> fix;        ///< none without a fix, or if its place is not known
     std::optional<PlanarMotion> motion;  ///< none while the robot is lost
     std::uint32_t plane = 0;             ///< poses in different planes are unrelated
-    bool is_found_again = false;         ///< whether the motion does not continue the previous one
+    bool is_found_again = false;         ///< true if the motion does not continue the previous one
     std::string state;                   ///< "lost", "moving" or "stationary"
     std::string problem;                 ///< reason why there is no fix; empty if there is one
     std::vector<KeyValue> facts;         ///< further values of the frame
@@ -87,7 +88,7 @@ struct RobotFrames {
 /// a space or a control character.
 RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 
-/// The messages of one frame. `odometry` and `tf` are missing while the robot is lost.
+/// Messages of one frame. There are no `odometry` and `tf` while the robot is lost.
 struct RobotMessages {
     std::optional<PoseWithCovarianceStamped> pose;  ///< of the fix, in `map`
     std::optional<Odometry> odometry;  ///< of the track: pose in `odom`, twist in `base_link`
@@ -116,9 +117,9 @@ class RobotMessenger {
     std::optional<std::uint32_t> plane_;  ///< none before the first pose
 };
 
-/// Returns the mount of the camera: the optical frame (z towards the paper, x and y along the axes
-/// of the image) in `base_link`, above the point under the image centre. The height is 0 if the
-/// camera file has no focal length. None if it has no view of the paper.
+/// Returns the mount of the camera: the pose of the optical frame (z towards the paper, x and y
+/// along the axes of the image) in `base_link`, above the point under the image centre. The height
+/// is 0 if the camera file has no focal length. None if the camera file has no view of the paper.
 std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFrames& frames = {});
 
 }  // namespace dotpose::ros

@@ -26,7 +26,8 @@ struct Time {
     std::uint32_t nanosec = 0;
 };
 
-/// Converts nanoseconds since 1970, or since any other start; times out of range are clamped.
+/// Converts nanoseconds since 1970, or since any other start, to a message. Times out of range are
+/// clamped.
 Time ros_time(std::int64_t time_ns);
 
 /// std_msgs/Header
@@ -137,8 +138,8 @@ struct CompressedImage {
     std::vector<std::uint8_t> data;
 };
 
-/// Serialises a message as ROS 2 does: CDR (XCDR1), little endian, after the four bytes of the
-/// encapsulation header.
+/// Serialises a message in the format of ROS 2: CDR (XCDR1), little endian, after the four bytes of
+/// the encapsulation header.
 std::vector<std::uint8_t> to_cdr(const PoseWithCovarianceStamped& message);
 std::vector<std::uint8_t> to_cdr(const Odometry& message);
 std::vector<std::uint8_t> to_cdr(const TFMessage& message);

@@ -15,8 +15,8 @@
 
 namespace dotpose {
 
-/// Quantiles by nearest rank: the smallest value that is at least as large as a given fraction of
-/// all values. Not a number if there are no values.
+/// Quantiles by the nearest-rank method: the smallest value that is at least as large as a given
+/// fraction of all values. Not a number if there are no values.
 struct Quantiles {
     double median = std::numeric_limits<double>::quiet_NaN();
     double p95 = std::numeric_limits<double>::quiet_NaN();
@@ -25,23 +25,24 @@ struct Quantiles {
 /// Returns the quantiles of some values, in any order.
 Quantiles quantiles_of(std::vector<double> values);
 
-/// Counts and errors of many frames.
+/// Numbers and errors of many frames.
 struct Score {
-    int frames = 0;  ///< readable frames; each is located, wrong, or has another status than ok
+    /// Number of readable frames; each is located, wrong, or has a status other than ok.
+    int frames = 0;
     int unreadable = 0;
-    int located = 0;                               ///< correct fixes
-    int wrong = 0;                                 ///< wrong fixes
+    int located = 0;                               ///< number of correct fixes
+    int wrong = 0;                                 ///< number of wrong fixes
     std::array<int, kStatusCount> by_status = {};  ///< `ok` counts correct and wrong fixes
 
     // The following statistics are those of correct fixes.
     Quantiles position_um;  ///< distance in the plane
     Quantiles angle_deg;
     /// Mean of error^2 / variance, for x, y and theta: 1 if the covariance is correct, above 1 if
-    /// the errors are larger.
+    /// the errors are larger than the covariance predicts.
     std::array<double, 3> normalised = {};
 
-    double largest_p_wrong = 0;  ///< largest value of any fix
-    Quantiles elapsed_us;        ///< time of all readable frames
+    double largest_p_wrong = 0;  ///< maximum of all fixes
+    Quantiles elapsed_us;        ///< time for each readable frame
 
     double located_share() const { return frames > 0 ? 1.0 * located / frames : 0; }
 };

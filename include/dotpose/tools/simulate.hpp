@@ -34,13 +34,13 @@
 
 namespace dotpose {
 
-/// A point or vector; the name of the variable contains unit and frame.
+/// A point or vector. The name of the variable contains unit and frame.
 struct Vec2 {
     double x = 0;
     double y = 0;
 };
 
-/// Size and optics of the simulated camera. The defaults are the paper's device (III-A).
+/// Size and optics of the simulated camera. The defaults are those of the paper's device (III-A).
 struct CameraModel {
     int width_px = 188;   ///< 1 to 16384
     int height_px = 120;  ///< 1 to 16384
@@ -56,7 +56,7 @@ struct CameraModel {
     Vec2 readout_px;
 };
 
-/// The pose of the camera: the pattern point under the image centre is cell + fraction.
+/// Pose of the camera. The pattern point under the image centre is cell + fraction.
 struct CameraPose {
     Cell cell;
     double fraction_x = 0;  ///< grid units, from `cell`; usually in [0, 1)
@@ -70,7 +70,7 @@ struct CameraPose {
     double tilt_y_rad = 0;
 };
 
-/// Return the position in spacings, cell and fraction together.
+/// Return the position in spacings: the sum of cell and fraction.
 double x_grid(const CameraPose& pose);
 double y_grid(const CameraPose& pose);
 
@@ -78,7 +78,7 @@ double y_grid(const CameraPose& pose);
 /// `clean`. Fractions and reflectances are in [0, 1]; sigmas, lengths and counts are not negative.
 struct Imperfections {
     double paper_level = 200;       ///< grey level of bare paper at the image centre, 0 to 255
-    double ink_reflectance = 0.15;  ///< relative to paper
+    double ink_reflectance = 0.15;  ///< reflectance relative to paper
     double ink_variation = 0;  ///< standard deviation of a dot's reflectance, relative to paper
     /// Contrast of the palest ink relative to the darkest. Each direction of displacement may have
     /// its own ink: the darkest has `ink_reflectance`, and the other two are evenly in between.
@@ -90,18 +90,18 @@ struct Imperfections {
     double blur_sigma_px = 0;
     Vec2 motion_px;  ///< motion of the scene in the image during the exposure; the pose is that of
                      ///< the middle of the exposure
-    double noise_sigma = 0;      ///< grey levels
-    double salt_and_pepper = 0;  ///< fraction of the pixels
+    double noise_sigma = 0;      ///< standard deviation in grey levels
+    double salt_and_pepper = 0;  ///< fraction of the pixels that are black or white
     double jitter_mm = 0;        ///< standard deviation of a printed dot's place, per axis
-    double missing = 0;          ///< fraction of the dots
-    int dirt_blobs = 0;          ///< dark specks in the frame
-    int graphics = 0;            ///< thick strokes or words in the frame
+    double missing = 0;          ///< fraction of the dots that are not printed
+    int dirt_blobs = 0;          ///< number of dark specks in the frame
+    int graphics = 0;            ///< number of thick strokes or words in the frame
     double texture = 0;          ///< standard deviation of the paper's reflectance
     static constexpr double kGrain_px = 3;  ///< size of the texture's grains
     double tilt_x_rad = 0;  ///< added to the pose by `draw_shot`; `render` ignores it
     double tilt_y_rad = 0;
-    /// Number of sub-pixels per pixel and axis, at most 8; 0 for enough that no dot has an error
-    /// above 0.003 px. More take longer.
+    /// Number of sub-pixels per pixel along each axis, at most 8. 0 selects a number with which no
+    /// dot has an error above 0.003 px. Larger numbers take longer.
     int sub_pixels = 0;
 };
 
@@ -133,35 +133,36 @@ struct Page {
     /// Seed of the printing errors. Together with the cell it determines the jitter, ink and
     /// absence of a dot, which are therefore the same in every frame.
     std::uint64_t seed = 1;
-    /// Printed intersections: `columns` x `rows` from `origin`; the whole plane if `columns` is 0.
+    /// Printed intersections: `columns` x `rows`, starting at `origin`. The whole plane if
+    /// `columns` is 0.
     Cell origin;
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
-    /// Printed length of a unit length, above 0. Pose and `displacement_mm` are nominal; offsets
+    /// Printed length over nominal length, above 0. Pose and `displacement_mm` are nominal. Offsets
     /// and theta are on the paper.
     AxisScale print_scale;
-    /// Areas with printed dots, by the places of their intersections; the whole page if empty.
+    /// Areas with printed dots, by the places of their intersections. The whole page if empty.
     std::vector<PageArea> areas;
-    /// Extent of the paper (none if unlimited), and reflectance of the table around it, relative to
+    /// Extent of the paper (none if unlimited), and reflectance of the table around it relative to
     /// paper.
     std::optional<PageArea> paper;
     double table_reflectance = 0.2;
-    /// Returns the displacement of a dot from its intended place (in grid units) by printing errors
-    /// or bent paper; empty for no displacement. Called from several threads.
+    /// Returns the displacement of a dot from its intended place (in grid units), due to printing
+    /// errors or bent paper. Empty for no displacement. Called from several threads.
     std::function<Vec2(Vec2 place_grid)> shift_mm;
 };
 
 /// Returns the page of a printed sheet. Throws BadArgument if the sheet has no intersections.
 Page page_of(const Sheet& sheet, std::uint64_t seed = 1);
 
-/// Camera geometry between pixels and offsets from the pose point; the two functions are each
-/// other's inverse.
+/// Camera geometry: converts between pixels and offsets from the pose point. The two conversions
+/// are inverse to each other.
 class Projection {
   public:
     Projection(const CameraModel& camera, const CameraPose& pose);
 
-    /// Returns the pixel of an offset. For a point that the camera cannot see, returns a pixel 1e9
-    /// away.
+    /// Returns the pixel of an offset. For a point that the camera cannot see, returns a pixel at a
+    /// distance of 1e9.
     Vec2 pixel_from_offset(Vec2 offset_mm) const;
     /// Returns the offset of a pixel, in mm.
     Vec2 offset_from_pixel(Vec2 pixel) const;
@@ -175,8 +176,8 @@ class Projection {
     double k_;
     double focal_px_;
     double distance_mm_;
-    // camera_mm = x_axis * offset.x + y_axis * offset.y + (0, 0, distance): the pattern's axes in
-    // the frame of the camera (x right, y down, z ahead).
+    // Axes of the pattern in the frame of the camera (x right, y down, z ahead): camera_mm = x_axis
+    // * offset.x + y_axis * offset.y + (0, 0, distance).
     std::array<double, 3> x_axis_;
     std::array<double, 3> y_axis_;
 };
@@ -189,12 +190,13 @@ GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& 
 GreyImage render(const Pattern& pattern, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// A page given as an image, for example a PDF rendered at 1200 dpi. Between pixels, its darkness
-/// is interpolated linearly.
+/// A page given as an image, for example a PDF rendered at 1200 dpi. The darkness is interpolated
+/// linearly between pixels.
 struct PageImage {
     ImageView image;  ///< 255 is bare paper, 0 is solid ink; surrounded by unlimited paper
     double mm_per_px = 25.4 / 1200;
-    /// Point under the image centre, from the upper left corner of the image: x right, y down.
+    /// Point under the image centre, relative to the upper left corner of the image: x right, y
+    /// down.
     Vec2 centre_mm;
 };
 
@@ -206,8 +208,8 @@ GreyImage render(const PageImage& page, const CameraModel& camera, const CameraP
 /// The common parameters of all frames of a run.
 struct Setup {
     Preset preset = Preset::nominal;
-    Pattern pattern;             ///< its section is used only if `random_section` is false
-    bool random_section = true;  ///< whether each frame has a random section
+    Pattern pattern;             ///< the section is used only if `random_section` is false
+    bool random_section = true;  ///< true if each frame has a random section
     CameraModel camera;
     std::uint64_t seed = 1;
 };
@@ -221,22 +223,22 @@ struct Shot {
     std::uint64_t seed = 0;
 };
 
-/// Draws frame `index` of a run: uniform angle, position anywhere on the plane with the whole frame
-/// on it, imperfections from the preset.
+/// Draws frame `index` of a run: a uniform angle, a position anywhere on the plane with the whole
+/// frame on it, and imperfections from the preset.
 Shot draw_shot(const Setup& setup, std::uint64_t index);
 
 /// A view that is only partly covered by the pattern.
 struct PartialView {
     /// Number of separate rectangles anywhere in the image, each with at least `kFewestIslandDots`
-    /// dots; 0 for one area along a border or in a corner of the image.
+    /// dots. 0 for one area along a border or in a corner of the image.
     int islands = 0;
     static constexpr int kFewestIslandDots = 60;
-    /// Range of the fraction of the image that the single area covers; the area has at least
+    /// Range of the fraction of the image that the single area covers. The area has at least
     /// `fewest_dots`.
     double least_share = 0.15;
     double most_share = 0.45;
     int fewest_dots = 150;
-    /// Whether the single area is the corner or side of a sheet on a table.
+    /// True if the single area is the corner or side of a sheet on a table.
     bool on_table = false;
 };
 
@@ -249,11 +251,11 @@ void cover_partly(Shot& shot, const PartialView& view);
 GreyImage render(const Shot& shot);
 
 /// Frames without a single valid position, which a locator must refuse. At a seam, the position and
-/// section of either side are also correct.
+/// section of either side are correct.
 enum class Scene : std::uint8_t {
     black,
     white,
-    noise,            ///< each pixel dark with probability `density`, nothing else
+    noise,            ///< each pixel is dark with probability `density`; nothing else
     text,             ///< a page of words
     plain_grid,       ///< dots on the intersections, not displaced
     random_symbols,   ///< a perfect grid with random symbols
@@ -271,8 +273,8 @@ inline constexpr std::array kScenes = {
 /// Returns the identifier, such as "seam_vertical".
 const char* name(Scene scene);
 
-/// Renders `scene` with the shot's camera, pose and imperfections instead of its page. `density` is
-/// 0 to 1 and used only for `noise` and `scattered_dots`.
+/// Renders `scene` with the shot's camera, pose and imperfections instead of its page. `density`, 0
+/// to 1, is used only for `noise` and `scattered_dots`.
 GreyImage render_scene(Scene scene, const Shot& shot, double density = 0.5);
 
 }  // namespace dotpose

@@ -32,13 +32,15 @@ inline constexpr std::array kSweepKinds = {SweepKind::noise,   SweepKind::blur,
 /// Returns the identifier, such as "occlusion".
 const char* name(SweepKind kind);
 
-/// Options for all values of the condition.
+/// Options of a sweep, for all values of the condition.
 struct SweepOptions {
     Setup setup;                 ///< all other conditions
-    int frames_per_value = 200;  ///< the same frames for each value
-    Options locate;  ///< options of `locate`; `decoder` is ignored, because both are run
+    int frames_per_value = 200;  ///< number of frames, which are the same for each value
+    /// Options of `locate`; `decoder` is ignored, because both decoders are run.
+    Options locate;
     int threads = 0;
-    /// If it returns false, the sweep ends with the complete values.
+    /// Called with the progress. If it returns false, the sweep ends with the values completed so
+    /// far.
     Progress progress;
 };
 
@@ -49,7 +51,7 @@ struct SweepPoint {
     Score all;
 };
 
-/// The scores over one condition.
+/// Scores over one condition.
 struct Sweep {
     SweepKind kind = SweepKind::noise;
     Preset preset = Preset::nominal;

@@ -30,19 +30,19 @@ inline constexpr std::uint32_t kTestPatchCells = 10'000;
 /// Unit of spacings and diameters on a test page.
 inline constexpr double kTestUnit_mm = 25.4 / 1200;
 
-/// The contents of a test page.
+/// Contents of a test page.
 struct TestPageOptions {
     CodeVariant code = CodeVariant::anoto;
     Paper paper;
     double margin_mm = 10;
-    /// Spacings of the columns and dot diameters of the rows of the page, in 1/1200 inch; each 1 to
-    /// 80.
+    /// Spacings of the columns and dot diameters of the rows of the page, in 1/1200 inch. Each is 1
+    /// to 80.
     std::vector<int> spacings = {18, 24, 30, 36};  ///< 0.381, 0.508, 0.635, 0.762 mm
     std::vector<int> dots = {2, 3, 4, 6, 8};       ///< 0.042, 0.064, 0.085, 0.127, 0.169 mm
 };
 
-/// Lays out the patches, with a label "spacing/dot" in mm above each. Combinations with touching
-/// dots are omitted. Throws BadArgument: as `make_sheet`, and for settings outside 1 to 80.
+/// Lays out the patches, with a label "spacing/dot" in mm above each patch. Combinations with
+/// touching dots are omitted. Throws BadArgument as `make_sheet`, and for settings outside 1 to 80.
 PrintPage make_test_page(const TestPageOptions& options);
 
 /// Returns the settings of the patch with this cell; none for cells outside test pages.

@@ -30,8 +30,9 @@ Truth truth_of(const Shot& shot);
 
 /// The true pose of a frame in the frame of a sheet or of the world of a sheet file.
 struct TruePlace {
-    bool is_in_world =
-        false;          ///< y up and angles counter-clockwise; otherwise y down and clockwise
+    /// True for the world: y points up, and angles are counter-clockwise. False for a sheet: y
+    /// points down, and angles are clockwise.
+    bool is_in_world = false;
     std::string sheet;  ///< name of the sheet; empty if not known
     double x_mm = 0;
     double y_mm = 0;
@@ -42,17 +43,18 @@ struct TruePlace {
 struct TruthRow {
     std::string file;
     Truth truth;                      ///< valid if `is_in_pattern`
-    bool is_in_pattern = true;        ///< whether the file has poses in the pattern frame
-    std::optional<CodeVariant> code;  ///< printed code variant, if the file has it
-    std::optional<TruePlace> place;   ///< place on a sheet or in the world, if the file has it
+    bool is_in_pattern = true;        ///< true if the file contains poses in the pattern frame
+    std::optional<CodeVariant> code;  ///< printed code variant, if the file contains it
+    /// Place on a sheet or in the world, if the file contains it.
+    std::optional<TruePlace> place;
 };
 
 /// Reads a truth.csv of `dotpose simulate`, or poses measured on a sheet or in the world. Columns
 /// are identified by name and may be in any order. Required: file, and one of
-///   - x_grid, y_grid or x_mm, y_mm (grid units win), and theta_deg;
+///   - x_grid, y_grid or x_mm, y_mm (grid units take precedence), and theta_deg;
 ///   - x_sheet_mm, y_sheet_mm; optional theta_sheet_deg, sheet;
-///   - x_m, y_m (they win over places on sheets); optional yaw_rad or yaw_deg, sheet.
-/// Optional are section_u, section_v, code variant, spacing_mm. A row with an empty pose is a frame
+///   - x_m, y_m (they take precedence over places on sheets); optional yaw_rad or yaw_deg, sheet.
+/// Optional are section_u, section_v, code, spacing_mm. A row with an empty pose is a frame
 /// without a pose. `spacing_mm`, if given, replaces that of the file. Throws Error with the names
 /// of file and line if the file cannot be read or has invalid content.
 std::vector<TruthRow> read_truth(const std::filesystem::path& path,

@@ -171,7 +171,7 @@ std::string refusal(int frames, const FrameAt& frame_at) {
 
 TEST(CalibrateLens, RefusesUselessFramesWithAdvice) {
     const auto usual = [](int i) { return nominal_frame(paper_camera(), 36, i); };
-    EXPECT_THAT(refusal(1, usual), HasSubstr("take 5 to 50 at different places"));
+    EXPECT_THAT(refusal(1, usual), HasSubstr("take 5 to 50 frames at different places"));
     EXPECT_THAT(refusal(3,
                         [](int i) {
                             GreyImage blank{{}, 188, 120};

@@ -208,9 +208,9 @@ TEST(CalibrateSpin, RefusesADrive) {
     const CameraModel model;
     EXPECT_THAT(
         refusal([&] { calibrate_spin(12, turning(model, 4, 4), {}, {}); }),
-        HasSubstr("no frames of a turn on the spot: the point that stays put best moved by"));
+        HasSubstr("the frames do not show a turn on the spot: the centre of rotation moved by"));
     EXPECT_THAT(refusal([&] { calibrate_spin(12, turning(model, 30, 4), {}, {}); }),
-                HasSubstr("no frames of a turn on the spot"));
+                HasSubstr("do not show a turn on the spot"));
     // The robot moves by half a millimetre in all over 40 degrees: the residual is small, and the
     // point far off.
     EXPECT_THAT(refusal([&] { calibrate_spin(12, turning(model, 3.6, 0.05), {}, {}); }),
@@ -265,7 +265,7 @@ TEST(CalibrateMount, RefusesUselessFramesWithAdvice) {
         return robot_frame(model, 57, i, kPivot_x_mm + 10 * i, kPivot_y_mm, 8 * i * kDegree_rad);
     };
     EXPECT_THAT(refusal([&] { calibrate_drive(3, curve, {}, {}); }),
-                HasSubstr("the robot turned by 8 degrees off its mean direction"));
+                HasSubstr("the robot turned by 8 degrees from its mean direction"));
     const auto camera = true_camera(paper_camera());
     CameraModel other;
     other.width_px = 200;

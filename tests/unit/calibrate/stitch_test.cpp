@@ -185,7 +185,7 @@ TEST(DrawStitching, ShowsSheetsBeforeAndAfter) {
         EXPECT_EQ(test::XmlCheck(text.str()).problem(), "");
         return text.str();
     };
-    EXPECT_THAT(picture(), HasSubstr("not all of these sheets lay in the world"));
+    EXPECT_THAT(picture(), HasSubstr("not all of these sheets had a world pose"));
     // The sheet file has the sheet 1 mm to the right of its true place: 0.71 mm rms per axis.
     before[1].world =
         WorldPose{(kTable[1].x_mm + 1) / 1000, -kTable[1].y_mm / 1000, -kTable[1].turn_rad};
@@ -266,7 +266,7 @@ TEST(StitchSheets, FramesMustShowASheetThatLiesInTheWorld) {
         stitch_sheets(1, c_beside_d, entries, true_camera(model), {});
         FAIL() << "not refused";
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("no frame shows 'a', which lies in the world"));
+        EXPECT_THAT(error.what(), HasSubstr("no frame shows 'a', which has a world pose"));
     }
     entries[3].world = WorldPose{1, 2, 0};
     const auto stitching = stitch_sheets(6, c_beside_d, entries, true_camera(model), {});

@@ -118,17 +118,18 @@ TEST_F(CameraFile, WrongFilesAreRefusedByKey) {
     EXPECT_THAT(refusal_with("width_px: 188", "width_px: 8"), HasSubstr("width_px must be 64"));
     EXPECT_THAT(refusal_with("[0.046, 0.0461]", "[0, 0.0461]"), HasSubstr("mm_per_px must be"));
     EXPECT_THAT(refusal_with("reference_px", "refrence_px"),
-                HasSubstr("refrence_px is no key of a camera file"));
+                HasSubstr("refrence_px is not a key of a camera file"));
     EXPECT_THAT(refusal_with("  k_per_px2: 2e-08", "  k_per_px2: [1]"),
                 HasSubstr("sigma.k_per_px2 must be a number"));
     EXPECT_THAT(refusal_with("gain: 2", "gain: -2"), HasSubstr("gain must be above 0"));
 }
 
 TEST_F(CameraFile, ForeignFilesAreRefused) {
-    EXPECT_THAT(refusal("name: a robot\n"), HasSubstr("format is missing: this is no camera file"));
-    EXPECT_THAT(refusal("just words"), HasSubstr("no camera file"));
+    EXPECT_THAT(refusal("name: a robot\n"),
+                HasSubstr("format is missing: this is not a camera file"));
+    EXPECT_THAT(refusal("just words"), HasSubstr("not a camera file"));
     EXPECT_THAT(refusal("a: [1, 2"), HasSubstr("not YAML: line"));
-    EXPECT_THAT(refusal(""), HasSubstr("no camera file"));
+    EXPECT_THAT(refusal(""), HasSubstr("not a camera file"));
     std::filesystem::remove(path_);
     EXPECT_THROW(read_camera(path_), Error);
     try {

@@ -289,7 +289,8 @@ TEST(SheetFile, does_not_overwrite_what_an_editor_saved_meanwhile) {
     SheetFile file(directory / "s.json");
     file.allocate("a", page());
     write_file(directory / "s.json", hand_written().dump());
-    EXPECT_THAT([&] { file.save(); }, ThrowsMessage<Error>(HasSubstr("was changed by somebody")));
+    EXPECT_THAT([&] { file.save(); },
+                ThrowsMessage<Error>(HasSubstr("was changed by another program")));
     EXPECT_EQ(read_file(directory / "s.json"), hand_written().dump());
 }
 

@@ -104,16 +104,16 @@ void expect_refused(const std::string& text, const std::string& problem) {
 }
 
 TEST(read_sheets, refuses_other_files) {
-    expect_refused("", "is no sheet file");
-    expect_refused("<svg/>", "is no sheet file: parse error at line 1, column 1");
-    expect_refused("{\"format\": \"dotpose-sheets\", ", "is no sheet file: parse error");
-    expect_refused(std::string(100'000, '['), "is no sheet file");
-    expect_refused("\xff\xfe", "is no sheet file");
-    expect_refused("[]", "is no sheet file");
-    expect_refused("null", "is no sheet file");
-    expect_refused("{}", "is no sheet file");
-    expect_refused(R"({"format": "other", "version": 1, "sheets": []})", "is no sheet file");
-    expect_refused(R"({"format": 1, "version": 1, "sheets": []})", "is no sheet file");
+    expect_refused("", "is not a sheet file");
+    expect_refused("<svg/>", "is not a sheet file: parse error at line 1, column 1");
+    expect_refused("{\"format\": \"dotpose-sheets\", ", "is not a sheet file: parse error");
+    expect_refused(std::string(100'000, '['), "is not a sheet file");
+    expect_refused("\xff\xfe", "is not a sheet file");
+    expect_refused("[]", "is not a sheet file");
+    expect_refused("null", "is not a sheet file");
+    expect_refused("{}", "is not a sheet file");
+    expect_refused(R"({"format": "other", "version": 1, "sheets": []})", "is not a sheet file");
+    expect_refused(R"({"format": 1, "version": 1, "sheets": []})", "is not a sheet file");
     expect_refused(R"({"format": "dotpose-sheets", "sheets": []})", "version is missing");
     expect_refused(R"({"format": "dotpose-sheets", "version": 2, "sheets": []})",
                    "version is 2; this dotpose reads version 1");
@@ -161,7 +161,7 @@ TEST(read_sheets, refuses_values_out_of_range) {
         {"name",
          "a\xE2\x80\xAE"
          "b",
-         "turn the direction of writing"},
+         "change the writing direction"},
         {"page", 0, "sheets[0].page is 0"},
         {"page", 1.5, "sheets[0].page must be a whole number"},
         {"code", "Anoto", "sheets[0].code is 'Anoto'; it must be anoto, libdots or microdots"},
@@ -172,11 +172,11 @@ TEST(read_sheets, refuses_values_out_of_range) {
         {"origin_y", 410'815'340, "run past the end of the code plane"},
         {"columns", 7, "sheets[0].columns is 7; it must be 8 to"},
         {"rows", 1e3, "sheets[0].rows must be a whole number"},
-        {"columns", 1000, "do not lie on a page"},
+        {"columns", 1000, "do not fit on a page"},
         {"spacing_mm", 0, "the spacing must be more than 0 mm"},
         {"dot_mm", 1, "dots of 1 mm would touch"},
         {"width_mm", -1, "a page of -1 x 30 mm"},
-        {"first_x_mm", -2, "do not lie on a page"},
+        {"first_x_mm", -2, "do not fit on a page"},
         {"print_scale_x", 101, "a print scale of 101: it must be 0.5 to 2"},
         {"print_scale_y", 0.4, "a print scale of 0.4"},
     };
@@ -187,7 +187,7 @@ TEST(read_sheets, refuses_values_out_of_range) {
     }
     std::string text = hand_written().dump();
     text.replace(text.find("0.6"), 3, "1e999");
-    expect_refused(text, "is no sheet file: number overflow");
+    expect_refused(text, "is not a sheet file: number overflow");
 }
 
 TEST(read_sheets, refuses_equal_names_and_shared_cells) {

@@ -113,7 +113,7 @@ TEST_F(SheetReservations, stay_where_they_cannot_be_confirmed_or_taken_out) {
         fs::rename(path_, directory_ / "aside");
         fs::create_directory(path_);
     }
-    EXPECT_THAT(told, ElementsAre(HasSubstr("what was reserved in")));
+    EXPECT_THAT(told, ElementsAre(HasSubstr("the regions reserved in")));
     EXPECT_THAT(read_file(directory_ / "aside"), HasSubstr("\"reserved\": true"));
 }
 
@@ -123,7 +123,8 @@ TEST_F(SheetReservations, of_somebody_who_was_stopped_are_named_as_such) {
     write_file(path_, stopped.dump());
     EXPECT_THAT(
         [&] { SheetReservation(path_, [](SheetFile& file) { file.allocate("table", page()); }); },
-        ThrowsMessage<BadArgument>(HasSubstr("reserved by a print that goes on or was stopped")));
+        ThrowsMessage<BadArgument>(
+            HasSubstr("reserved by a print that is running or was stopped")));
     stopped["sheets"][0]["reserved"] = 1;
     write_file(path_, stopped.dump());
     EXPECT_THAT([&] { read_sheets(path_); },

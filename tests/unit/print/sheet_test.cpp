@@ -162,7 +162,7 @@ TEST(validate, refuses_ink_off_the_page) {
     unknown.origin_x_mm = kNaN;
     for (const Sheet& sheet : {left, right, top, bottom, unknown}) {
         EXPECT_THAT([&] { validate(sheet); },
-                    ThrowsMessage<BadArgument>(HasSubstr("do not lie on a page of")));
+                    ThrowsMessage<BadArgument>(HasSubstr("do not fit on a page of")));
     }
     Sheet empty = good;
     empty.rows = -5;
@@ -178,7 +178,7 @@ TEST(validate_resolution, wants_a_displacement_of_a_printer_pixel) {
     for (const double dpi : {72.0, 299.0}) {
         EXPECT_THAT(
             [&] { validate_resolution(sheet, dpi); },
-            ThrowsMessage<BadArgument>(HasSubstr("at least one is needed, from 300 dpi on")))
+            ThrowsMessage<BadArgument>(HasSubstr("at least one is needed (300 dpi or more)")))
             << dpi;
     }
     for (const double dpi : {0.0, -300.0, kNaN, kInfinity, 19201.0}) {
