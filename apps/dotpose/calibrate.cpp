@@ -57,18 +57,18 @@ struct CalibrateArguments {
     CameraArgument camera;
     std::string out;
     std::string picture;
-    std::optional<CodeVariant> code;  ///< none if it is found out from the frames
+    std::optional<CodeVariant> code;  ///< none: the code is detected from the frames
     CalibrateOptions options;
 };
 
-/// The sources of the frames for each part of the work, if they were given.
+/// Sources of the frames for each part of the calibration. A part without frames has none.
 struct Series {
     std::optional<Sources> lens;
     std::optional<Sources> spin;
     std::optional<Sources> drive;
 };
 
-/// Returns the arguments with other sources and without a list.
+/// Returns the arguments with `names` as the sources and without a list.
 SourceArguments with_names(SourceArguments arguments, const std::vector<std::string>& names) {
     arguments.names = names;
     arguments.list.clear();
@@ -90,7 +90,7 @@ Series series_of(const CalibrateArguments& arguments) {
     return series;
 }
 
-/// Runs `work(frames, frame_at, options)` and shows its progress.
+/// Runs `work(number of frames, frame_at, options)` and shows its progress.
 template <typename Work>
 auto with_progress(const CalibrateArguments& arguments, Sources& sources, const std::string& what,
                    Work work) {
@@ -112,8 +112,8 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources, const 
     }
 }
 
-/// Returns the picture of the turn: that of --draw, or if it shows the lens, one beside it, with
-/// "-spin" in its name.
+/// Returns the path of the picture of the turn. It is the path of --draw. If that path is used for
+/// the picture of the lens, "-spin" is inserted before its extension.
 std::string spin_picture_of(const CalibrateArguments& arguments) {
     const bool is_only_picture = arguments.spin.empty() || !arguments.sources.is_given();
     if (arguments.picture.empty() || is_only_picture) return arguments.picture;
@@ -122,7 +122,7 @@ std::string spin_picture_of(const CalibrateArguments& arguments) {
     return (lens.parent_path() / name).string();
 }
 
-/// Writes the camera file to the file of -o or to standard output.
+/// Writes the camera file to the path of -o or to standard output.
 void write_result(const std::string& out, const Camera& camera) {
     if (out.empty()) return;
     const DocumentOutput output(out, ".yaml");
@@ -130,7 +130,7 @@ void write_result(const std::string& out, const Camera& camera) {
     output.finish();
 }
 
-/// Throws Error unless the frames have the size of the images of the camera file.
+/// Throws Error unless the frames and the camera file have the same image size.
 void require_size(const Camera& file, const Camera& frames, const std::string& path) {
     if (file.width_px == frames.width_px && file.height_px == frames.height_px) return;
     throw Error(
@@ -151,7 +151,7 @@ void keep_mount(const Camera& from, Camera& to) {
     }
 }
 
-/// Calibrates the lens and then the mount, if frames for them are given. Returns a report.
+/// Calibrates the lens, then the mount, each only if frames for it are given. Returns a report.
 std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
     std::string report;
     std::optional<Camera> camera = arguments.camera.camera;
@@ -206,8 +206,8 @@ ScaleReference parse_scale_reference(const std::string& text) {
     return reference;
 }
 
-/// Finds the world poses and print scales of sheets and writes them into the sheet file. Returns a
-/// report.
+/// Computes the world poses and print scales of sheets and writes them into the sheet file. Returns
+/// a report.
 std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     SheetFile file(arguments.sheets, {.tell = tell, .stop = interrupted});
     const Stitching stitching = with_progress(
@@ -223,8 +223,8 @@ std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     return stitching_report(stitching);
 }
 
-/// Without --camera, starts from the camera file that -o replaces: what is not calibrated now, such
-/// as the mount, is kept. Throws Error if that file is not a camera file.
+/// Without --camera, reads the camera file that -o replaces, to keep the values that this
+/// calibration does not change, such as the mount. Throws Error if the file is not a camera file.
 void keep_camera_of(const std::string& out, CameraArgument& camera) {
     std::error_code failed;
     if (!camera.path.empty() || !std::filesystem::is_regular_file(out, failed) ||
@@ -241,7 +241,7 @@ void keep_camera_of(const std::string& out, CameraArgument& camera) {
     tell(fmt::format("{} exists: what is not calibrated now, such as the mount, is kept", out));
 }
 
-/// Takes code and spacing of the frames from the sheets of --sheets.
+/// Takes the code and the spacing of the frames from the sheets of --sheets.
 void use_sheets(CalibrateArguments& arguments) {
     if (arguments.sheets.empty() || arguments.stitch) return;
     arguments.spacing = SpacingSource::sheets;
@@ -261,8 +261,7 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
     } else {
         files.reads("--sheets", arguments.sheets);
     }
-    // The output may be the camera file that is read: it keeps the values that are not calibrated
-    // now.
+    // -o may name the camera file of --camera: the values that are not calibrated are kept.
     const auto camera = identity_of(arguments.camera.path);
     if (camera && camera == identity_of(arguments.out) && !is_camera_info(arguments.camera.path)) {
         files.updates("-o", arguments.out, Content::yaml);
@@ -288,7 +287,7 @@ int run(CalibrateArguments& arguments) {
     require_apart(arguments, series);
     keep_camera_of(arguments.out, arguments.camera);
     use_sheets(arguments);
-    // Checked before the user moves the camera for minutes.
+    // Checks the output before the user spends minutes moving the camera.
     if (arguments.is_live && !arguments.out.empty()) base::require_writable(arguments.out);
     catch_interrupts();
     const std::string report =

@@ -18,7 +18,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum number of frames of one source. More take longer and add nothing.
+/// Maximum number of frames from one source. More frames take longer and do not improve the result.
 constexpr std::size_t kMaxChosen = 50;
 
 Follower follower_for(const CalibrateOptions& calibration) {

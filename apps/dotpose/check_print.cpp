@@ -62,14 +62,14 @@ void require_svg(const std::string& path) {
     throw BadArgument(fmt::format("'{}': the name of the map must end in .svg", path));
 }
 
-/// Whether a print scale is one that printer drivers produce. If not, the resolution of the scan is
-/// probably wrong.
+/// Returns true if a printer driver can produce this print scale. If not, the resolution of the
+/// scan is probably wrong.
 bool is_believable(const PrintScale& scale) {
     constexpr double kFarthest = 0.25;
     return std::abs(scale.scale_x - 1) <= kFarthest && std::abs(scale.scale_y - 1) <= kFarthest;
 }
 
-/// Throws Error if the scan gives no scale that can be written into a sheet file.
+/// Throws Error if the scan yields no scale that can be written into a sheet file.
 void require_scan(const std::string& scan, const PrintCheck& check) {
     constexpr const char* kRemedy = "; nothing was written: --fit needs a scan from a flatbed";
     if (check.camera) {
@@ -100,11 +100,11 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
     }
 }
 
-/// Returns a remark on the place of the dots on the page, which a scan does not show as long as the
+/// Returns a remark on the position of the dots on the page, which the scan does not show: the
 /// edges of the paper are not visible.
 std::string offset_remark(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
-    // Usual drivers scale a page about its corner or its middle.
+    // Printer drivers usually scale a page about its corner or its centre.
     const auto shift_mm = [](double scale, double first_mm, double side_mm) {
         return std::abs(1 - scale) * std::max(first_mm, std::abs(side_mm / 2 - first_mm));
     };
@@ -116,8 +116,8 @@ std::string offset_remark(const SheetEntry& entry) {
         shift_mm(entry.print_scale_y, sheet.origin_y_mm, sheet.height_mm));
 }
 
-/// Writes the scale of every field of dots to the sheet that it belongs to, and returns a report.
-/// The fields refer to `sheets` by index.
+/// Writes the scale of each field of dots into the entry of its sheet, and returns a report.
+/// `field.sheet` is an index into `sheets`.
 std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& sheets,
                        const PrintCheck& check) {
     SheetFile file(path, {.tell = tell, .stop = interrupted});
@@ -126,7 +126,7 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
     for (const PrintField& field : check.fields) {
         // A sheet may be visible in several parts; the first one is the largest.
         if (!field.scale || !field.sheet || !fitted.insert(*field.sheet).second) continue;
-        // The entry is read anew, because it may have been changed during the check.
+        // Read the entry again, because another process may have changed it during the check.
         const std::string& name = sheets[*field.sheet].name;
         const auto found = std::ranges::find(file.sheets(), name, &SheetEntry::name);
         if (found == file.sheets().end()) {
@@ -186,7 +186,7 @@ void require_apart(const CheckPrintArguments& arguments) {
     files.writes("--draw", arguments.picture, Content::svg);
 }
 
-/// Returns what lets a scan be checked that has too many pixels.
+/// Returns the part of the error message that explains how to check a scan with too many pixels.
 std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution>& resolution,
                        int max_megapixels) {
     const double megapixels = 1e-6 * scan.width_px * scan.height_px;
@@ -206,7 +206,7 @@ std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution
     return remedy + "; or scan the page in parts";
 }
 
-/// Reads the scan, and flips it if that is asked for. Throws Error.
+/// Reads the scan, and flips it if --flip is given. Throws Error.
 GreyImage read_scan(const CheckPrintArguments& arguments, const CheckPrintOptions& options) {
     std::string note;
     try {

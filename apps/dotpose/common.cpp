@@ -26,7 +26,7 @@ const std::map<std::string, DotDrawing> kDrawings = {
     {"strokes", DotDrawing::strokes},
 };
 
-/// The values of --code, besides auto.
+/// The values of --code except auto.
 const std::vector<std::string> kCodes = {"anoto", "libdots", "microdots"};
 
 std::vector<std::string> g_arguments;
@@ -53,16 +53,17 @@ std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, cons
     return {(*numbers)[0], (*numbers)[1]};
 }
 
-/// Checks that a number is positive. CLI11's own check prints a limit of 309 digits in its message.
+/// Checks that a number is positive. The check of CLI11 is not used: its message contains an upper
+/// limit of 309 digits.
 std::string require_positive(const std::string& text) {
     double value = 0;
     if (parse_number(text, value) && value > 0 && std::isfinite(value)) return {};
     return "'" + text + "' is not a length in mm above 0";
 }
 
-/// Refuses a spacing that was probably given in micrometres or metres. The smallest one is ten dots
-/// of a printer of 25,000 dpi. With the largest one, 8 x 8 dots, the smallest number that
-/// determines a position, fill most of an A0 poster.
+/// Rejects a spacing that was probably given in micrometres or metres. The minimum is ten dots of a
+/// printer with 25,000 dpi. At the maximum, 8 x 8 dots, the minimum that determines a position,
+/// fill most of an A0 poster.
 std::string require_spacing(const std::string& text) {
     constexpr double kMin_mm = 0.01;
     constexpr double kMax_mm = 100;
@@ -251,7 +252,7 @@ FrameSize parse_frame_size(const std::string& flag, const std::string& text) {
 }
 
 void refuse_non_finite_numbers(Command& app) {
-    // Values of these types are text: a file may be called "nan".
+    // Options of these types are not numbers: a file may be called "nan".
     const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "FILE|-|DIR", "NAME", "PART",
                                          "RANGE", "SCAN", "SOURCE", "TEXT",       "URL"};
     const auto is_finite = [](const std::string& text) -> std::string {

@@ -16,7 +16,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns where the reference point is in the frame of the true places; none outside of it.
+/// Returns the place of the reference point in the frame of the true places, or none if the point
+/// is not in that frame.
 std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPlace>& place) {
     if (!place) return std::nullopt;
     const std::string& sheet = place->entry->name;
@@ -26,8 +27,8 @@ std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPl
     return FoundPlace{sheet, 1000 * world->x_m, 1000 * world->y_m, world->yaw_rad};
 }
 
-/// Checks that all true places are in one frame, in which the sheets lie. Returns whether it is the
-/// world.
+/// Throws Error unless all true places are in one frame that contains the sheets. Returns true if
+/// the frame is the world.
 bool require_one_frame(const std::vector<TruthRow>& rows, const std::vector<SheetEntry>& sheets,
                        bool is_aligned) {
     bool is_in_world = false;

@@ -7,8 +7,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Largest distance of a reference point from the image centre: far outside of any image, but well
-/// within the range of the fixed-point pose.
+/// Maximum distance of a reference point from the image centre, in px: far outside of any image,
+/// but well within the range of the fixed-point pose.
 constexpr double kFarthestReference_px = 10'000;
 
 PixelPoint parse_reference_px(const std::string& text) {

@@ -21,7 +21,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// The pose in the pattern, which is a brief column only without sheets.
+/// The pose in the pattern frame: columns of the brief format only without sheets.
 constexpr std::array<std::string_view, 6> kPatternPose = {
     "x_mm", "y_mm", "theta_deg", "x_pattern_m", "y_pattern_m", "yaw_pattern_rad"};
 constexpr std::array<std::string_view, 18> kBriefColumns = {
@@ -33,12 +33,12 @@ double sigma(const Fix& fix, std::size_t axis) {
     return std::sqrt(static_cast<double>(fix.covariance[axis][axis]));
 }
 
-/// Returns a pose of the paper, whose y points down, in the frame of these units.
+/// Converts a pose of the paper, whose y points down, into the frame of `units`.
 std::optional<PlanePose> in_frame_of(Units units, const std::optional<PlanePose>& pose) {
     return pose && units == Units::ros ? std::optional(with_other_y(*pose)) : pose;
 }
 
-/// The fields that `--sheets` adds.
+/// Returns the fields that `--sheets` adds.
 std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place, Units units) {
     std::optional<PlanePose> pose;
     if (place) pose = PlanePose{place->x_mm, place->y_mm, place->theta_rad, place->covariance};
@@ -51,7 +51,7 @@ std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place, Units un
     return fields;
 }
 
-/// Explains in words and numbers why a position is refused as not certain.
+/// Explains, with numbers, why a position is rejected as not certain.
 std::string doubt(const Record& record) {
     const Fix& fix = record.fix;
     if (fix.p_wrong_log2 <= record.max_p_wrong_log2) {
@@ -64,7 +64,8 @@ std::string doubt(const Record& record) {
         fix.p_wrong_log2 >= 0 ? "others are as likely"
                               : fmt::format("{} instead of at most {}", p_wrong_text(fix.p_wrong()),
                                             p_wrong_text(std::ldexp(1.0, record.max_p_wrong_log2)));
-    // Bits are read in all cells, also in those where no dot was found: not two for each dot seen.
+    // The number of bits is not two per visible dot: bits are also read in cells without a detected
+    // dot.
     if (fix.bit_errors > 0) {
         return fmt::format("{}; {} of the bits read contradict it", odds, fix.bit_errors);
     }
@@ -88,7 +89,7 @@ std::string in_one_line(const std::array<std::string, kWarnings>& warnings) {
     return line;
 }
 
-/// The fields of the code variant and, if two code variants are possible, of the positions in both.
+/// Returns the fields of the code and, if two codes are possible, of the positions in both codes.
 std::vector<Field> code_fields(const Record& record, Units units) {
     const CodeReading& reading = record.reading;
     const Fix& fix = reading.fix;
@@ -122,7 +123,7 @@ std::vector<Field> code_fields(const Record& record, Units units) {
     };
 }
 
-/// Returns the text if the fix has what the covariance is estimated from, else an empty one.
+/// Returns `text` if the fix is valid and has a covariance, otherwise an empty text.
 std::string if_judged(const Fix& fix, std::string text) {
     return fix.status == Status::ok && fix.has_covariance() ? std::move(text) : std::string();
 }
@@ -140,7 +141,7 @@ Field evidence(bool is_known, const char* key, Value value) {
     return {key, is_known ? text : "", kIsName};
 }
 
-/// The fields of the place in the code and of the evidence for it.
+/// Returns the fields of the place in the code and of its evidence.
 std::vector<Field> evidence_fields(const Fix& fix) {
     const bool ok = fix.status == Status::ok;
     const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
@@ -155,7 +156,7 @@ std::vector<Field> evidence_fields(const Fix& fix) {
     };
 }
 
-/// The fields of the standard deviations, in mm and degrees.
+/// Returns the fields of the standard deviations, in mm and degrees.
 std::vector<Field> deviation_fields(const Record& record) {
     const Fix& fix = record.fix;
     const auto text = [&fix](double value) { return if_judged(fix, decimal(value, 6)); };
@@ -166,7 +167,7 @@ std::vector<Field> deviation_fields(const Record& record) {
     };
 }
 
-/// The fields of residual, scale and time.
+/// Returns the fields of residual, scale and time.
 std::vector<Field> image_fields(const Record& record) {
     const Fix& fix = record.fix;
     const bool ok = fix.status == Status::ok;
@@ -176,7 +177,7 @@ std::vector<Field> image_fields(const Record& record) {
     };
 }
 
-/// Explains why there is no fix, without advice; empty if there is one.
+/// Explains why there is no fix, without advice. Empty if there is a fix.
 std::string plain_reason(const Record& record) {
     const Fix& fix = record.fix;
     switch (fix.status) {

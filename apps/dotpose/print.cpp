@@ -25,7 +25,7 @@ namespace {
 
 struct PrintArguments {
     std::string out;
-    std::string ending;  ///< of the format that was asked for, such as ".pdf"; empty for none
+    std::string ending;  ///< file extension of --format, such as ".pdf"; empty without --format
     std::string paper = "A4";
     bool landscape = false;
     SheetOptions sheet;
@@ -49,11 +49,11 @@ constexpr const char* kPrintExamples =
     "Print at 100 %, without \"fit to page\". Give each sheet an origin of its own, or let a\n"
     "sheet file do so: it is made if missing, and 'dotpose locate --sheets' reads it.\n";
 
-/// The formats, named after the endings of their files.
+/// The formats, named after their file extensions.
 const std::vector<std::string> kFormats = {"pdf", "svg", "png", "tif", "txt"};
 
-/// Returns the format of the output. Throws BadArgument if it is not known, or if the name of the
-/// file is that of another one.
+/// Returns the format of the output. Throws BadArgument if the format is unknown or contradicts the
+/// name of the file.
 PrintFormat format_of(const PrintArguments& arguments) {
     if (arguments.out == kStandardOutput) {
         if (arguments.ending.empty()) {
@@ -73,8 +73,8 @@ bool has_resolution(PrintFormat format) {
     return format != PrintFormat::text && format != PrintFormat::svg;
 }
 
-/// Returns the default margin: labels and rulers of a PDF need more than the margin that printers
-/// cannot print.
+/// Returns the default margin in mm. The labels and rulers of a PDF need a wider margin than the
+/// one that printers cannot print.
 double default_margin_mm(PrintFormat format, const Paper& paper) {
     constexpr double kWithLabels_mm = 10;
     constexpr double kSmallPage_mm = 60;
@@ -89,7 +89,7 @@ std::string title_of(const PrintArguments& arguments) {
     return std::filesystem::path(arguments.out).stem().string();
 }
 
-/// Returns how a page of the document is printed, for its entry in the sheet file.
+/// Returns the print settings of a page for its entry in the sheet file.
 SheetPrint print_of(const PrintArguments& arguments) {
     SheetPrint print;
     print.title = title_of(arguments);

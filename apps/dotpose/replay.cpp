@@ -37,7 +37,7 @@ struct ReplayArguments {
     ReportArguments report;
 };
 
-/// Whether -o names a recording instead of a file for the report.
+/// Returns true if -o names a recording and not a file for the report.
 bool is_recording(const std::string& out) {
     return print::lower_case(std::filesystem::path(out).extension().string()) == ".mcap";
 }
@@ -53,7 +53,7 @@ double share(std::int64_t part, std::int64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
-/// Returns the frames of the poses in words, with the remedy if they are not in the world.
+/// Describes the frames of the poses, with a remedy if the poses are not in the world.
 std::string frames_of_poses(const RunStatistics& run) {
     std::string text;
     for (const std::string& plane : run.planes)

@@ -12,7 +12,7 @@ void add_robot_option(Command& command, std::string& robot, const std::string& h
         ->type_name("NAME")
         ->capture_default_str()
         ->check([](const std::string& name) {
-            constexpr std::size_t kLongest_bytes = 128;  // `fleet` ignores longer ones
+            constexpr std::size_t kLongest_bytes = 128;  // `fleet` ignores longer names
             const bool is_bad = name.empty() || name.find_first_of("/+#") != std::string::npos ||
                                 name.size() > kLongest_bytes || printable(name) != name;
             return is_bad ? "a robot's name is not empty, holds none of / + #, and can be printed"

@@ -58,7 +58,7 @@ std::string label_of(const std::string& option, const std::string& path) {
     return option.empty() ? path : option + " " + path;
 }
 
-/// Returns the path of an input; "-" is standard input.
+/// Returns the path of an input. "-" is standard input.
 std::string input_path(const std::string& path) {
     return path == "-" ? "/dev/stdin" : path;
 }

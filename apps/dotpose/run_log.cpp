@@ -20,7 +20,8 @@ namespace {
 
 using csv::cells_of;
 
-/// Converts an integer below 2^53, which a double represents exactly. Throws Error otherwise.
+/// Converts a whole number below 2^53, which a double represents exactly. Throws Error for other
+/// numbers.
 std::int64_t whole(double value, const char* column) {
     if (!(value >= 0 && value < 9007199254740992.0) || value != std::floor(value)) {
         throw Error(fmt::format("{} is no whole number from 0 on", column));
@@ -28,8 +29,8 @@ std::int64_t whole(double value, const char* column) {
     return static_cast<std::int64_t>(value);
 }
 
-/// Maximum number of rows: at 100 frames per second the log of half a day, which takes about a
-/// gigabyte of memory.
+/// Maximum number of rows: half a day at 100 frames per second. The rows then use about 1 GB of
+/// memory.
 constexpr std::size_t kMaxLogRows = 5'000'000;
 
 LogRow log_row(const LogCells& row) {
@@ -114,7 +115,7 @@ std::optional<LogCells> LogReader::next_row() {
     std::string line;
     if (!files::next_line(file_, line)) return std::nullopt;
     ++line_;
-    if (file_.eof()) return std::nullopt;  // a last line without a line break was cut off
+    if (file_.eof()) return std::nullopt;  // a last line without a line break is incomplete
     if (is_json_) return row_of_json(line);
     auto cells = cells_of(line);
     if (cells.size() != width_) {
@@ -123,8 +124,8 @@ std::optional<LogCells> LogReader::next_row() {
     return LogCells(columns_, std::move(cells));
 }
 
-/// Returns the values of a JSON line as the cells of a CSV row. Elements of a matrix of 3 x 3
-/// become cells whose names end with row and column.
+/// Converts a JSON line into the cells of a CSV row. The elements of a 3 x 3 matrix become cells
+/// whose names end with row and column.
 LogCells LogReader::row_of_json(const std::string& line) {
     const nlohmann::json object = files::parse_json(line);
     if (!object.is_object()) throw Error("it is not an object");
@@ -196,7 +197,7 @@ RunStatistics statistics_of(const std::vector<LogRow>& rows) {
         const double step_s = row.t_s - before.t_s;
         if (row.state == "stationary") {
             run.stationary_s += step_s;
-            continue;  // motion below the noise is not counted as distance
+            continue;  // motion of a stationary robot is noise, not distance
         }
         moving_s += step_s;
         run.distance_mm += std::hypot(*row.x_mm - *before.x_mm, *row.y_mm - *before.y_mm);

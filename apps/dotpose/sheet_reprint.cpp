@@ -21,7 +21,7 @@ PrintOptions options_of(const SheetPrint& print) {
     return options;
 }
 
-/// Returns what is most likely for a page whose entry does not say how it was printed.
+/// Returns the most likely print options of a page whose entry does not contain them.
 PrintOptions likely_options(const SheetEntry& entry) {
     PrintOptions options;
     options.name = entry.name;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMmPerM = 1000;
 
-/// Returns a number of at most `decimals` decimals, without zeros at its end and without -0.
+/// Formats a number with at most `decimals` decimals, without trailing zeros. -0 becomes 0.
 std::string short_number(double value, int decimals) {
     std::string text = fmt::format("{:.{}f}", value, decimals);
     text.erase(text.find_last_not_of('0') + 1);

@@ -39,7 +39,7 @@ constexpr const char* kSimulateExamples =
     "  dotpose simulate -o foreign --scene plain_grid\n"
     "  dotpose simulate -o drive.mp4 --drive --sheets sheets.json --speed 200 --size 320x240\n";
 
-// An imperfection that is a single number and has an option of its own.
+// An imperfection that is a single number and has its own option.
 struct NumberOption {
     const char* flag;
     const char* unit;
@@ -64,7 +64,7 @@ constexpr NumberOption kNumberOptions[] = {
     {"--texture", "FRACTION", "Deviation of the paper's reflectance", &Imperfections::texture},
 };
 
-// Two numbers in one argument, as "A,B".
+// Two numbers in one argument, "A,B".
 struct Pair {
     std::vector<double> values;
     bool given() const { return values.size() == 2; }
@@ -97,7 +97,7 @@ Vec2 to_vec(const Pair& pair) {
     return {pair.values[0], pair.values[1]};
 }
 
-// Returns the shot of a frame, in which the values that the user gave replace random ones.
+// Returns the shot of a frame. Values that the user gave replace the random ones.
 Shot shot_of(const SimulateArguments& arguments, int index) {
     Shot shot = draw_shot(arguments.setup, static_cast<std::uint64_t>(index));
     Imperfections& seen = shot.imperfections;
@@ -111,7 +111,7 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
 
     CameraPose& pose = shot.pose;
     if (arguments.angle_deg) {
-        // The result is in (-180, 180] degrees.
+        // Normalizes the angle to (-180, 180] degrees.
         pose.theta_rad = -std::remainder(-*arguments.angle_deg, 360) / kDegrees;
     }
     if (arguments.tilt_deg.given()) {
@@ -138,13 +138,13 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
     return shot;
 }
 
-/// The true pose and the pattern of a simulated frame.
+/// True pose and pattern of a simulated frame.
 struct Truth {
     std::optional<CameraPose> pose;  ///< none for scenes and the table, which have no pose
     Pattern pattern;
 };
 
-/// Returns a row of the true poses. A frame without a pose leaves its columns empty.
+/// Returns a row of truth.csv. The pose columns are empty for a frame without a pose.
 std::string truth_row(const SimulateArguments& arguments, const std::string& file,
                       const Truth& truth) {
     const Pattern& pattern = truth.pattern;
@@ -208,8 +208,8 @@ std::vector<MadeFrame> make_frames(const SimulateArguments& arguments,
     return frames;
 }
 
-/// Returns the drive over the sheets of a file, or none if it is not asked for. The imperfections
-/// of all its frames are those of one shot.
+/// Returns the drive over the sheets of the file, or none without --drive. All frames have the
+/// imperfections of one shot.
 std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_length) {
     if (!arguments.drives) return std::nullopt;
     const std::vector<SheetEntry> sheets = read_sheets(arguments.sheets);
@@ -246,8 +246,7 @@ void run(SimulateArguments& arguments, const Command& command, int& exit_code) {
     int done = 0;
     {
         ProgressLine line("simulating " + arguments.out);
-        // Frames are written in short batches, so that Ctrl-C works soon and the true poses are up
-        // to date.
+        // Short batches, to react quickly to Ctrl-C and to keep the true poses up to date.
         const int batch = 4 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
         while (done < arguments.frames && truth && !interrupted()) {
             const int end = std::min(arguments.frames, done + batch);
@@ -292,7 +291,7 @@ void add_camera_options(Command& command, CameraModel& camera) {
         ->capture_default_str();
 }
 
-// Adds options for everything that is otherwise random in each frame.
+// Adds options for all values that are random in each frame by default.
 void add_overrides(Command& command, SimulateArguments& arguments) {
     command.add_option("--angle", arguments.angle_deg, "Angle of the camera on the page")
         ->type_name("DEG");
