@@ -38,11 +38,11 @@ struct FleetArguments {
     std::string sheets;
     std::string map;
     std::string log;
-    double seconds = 0;  ///< how long to run; 0 until interrupted
+    double seconds = 0;  ///< run time; 0: until interrupted
     double every_s = 1;
 };
 
-/// Takes the messages of the broker, in its thread, and logs them.
+/// Receives the messages of the broker in the thread of the subscriber, and logs them.
 class FleetInput {
   public:
     FleetInput(const FleetArguments& arguments, const publish::MqttOptions& options)
@@ -56,12 +56,12 @@ class FleetInput {
 
     const FleetState& fleet() const { return fleet_; }
 
-    /// Writes the log so far. Throws Error.
+    /// Writes the buffered lines of the log. Throws Error.
     void flush() {
         if (log_) log_->flush();
     }
 
-    /// Ends the connection and completes the log. Throws Error if the log cannot be written.
+    /// Disconnects and completes the log. Throws Error if the log cannot be written.
     void finish() {
         subscriber_->disconnect();
         flush();
@@ -82,7 +82,7 @@ class FleetInput {
     }
 
     Shard shard_;
-    std::int64_t now_us_ = 0;  ///< when the message came that is being taken
+    std::int64_t now_us_ = 0;  ///< arrival time of the current message
     std::optional<FleetLog> log_;
     FleetState fleet_;
     std::optional<publish::MqttSubscriber> subscriber_;

@@ -33,7 +33,7 @@ void FleetState::take(std::string_view topic, std::string_view payload, std::int
 void FleetState::take_connection(std::string_view name, const RobotConnection& connection,
                                  std::int64_t now_us) {
     Robot& robot = heard(name);
-    // The broker may have retained the message for days.
+    // The message may be days old, because the broker retains it: its own time limits `heard_us`.
     FleetRobot& shown = robot.shown;
     shown.heard_us = std::max(shown.heard_us, std::min(now_us, connection.sent_us));
     if (connection.presence == publish::Presence::online) return;
@@ -76,7 +76,7 @@ void FleetState::remove_oldest() {
 }
 
 void FleetState::extend_path(Robot& robot) const {
-    constexpr double kStep_mm = 0.1;  // a robot at rest adds no points to its path
+    constexpr double kStep_mm = 0.1;  // minimum step, so a robot at rest adds no points to its path
     const std::size_t most = std::min(kPath, kAllPaths / robots_.size());
     const RobotState& newest = robot.shown.newest;
     const draw::Point place{newest.x_m * 1000, newest.y_m * 1000};

@@ -27,7 +27,7 @@ void FleetView::refresh(const FleetState& fleet) {
     if (on_terminal_) show_table(fleet);
     const auto begun = Clock::now();
     if (map_path_.empty() || begun < next_map_) return;
-    // A failure is only reported, because the next attempt may succeed.
+    // Reports a failure and continues, because the next attempt may succeed.
     try {
         draw(fleet);
         is_failing_ = false;
@@ -56,8 +56,8 @@ void FleetView::draw(const FleetState& fleet) {
     file.commit();
 }
 
-/// Returns the name of the map to draw: the world of the sheets, or else the plane of the first
-/// robot that has one.
+/// Returns the name of the map to draw: the world of the sheets, or without sheets the plane of the
+/// first robot that has one.
 std::string FleetView::map_shown(const FleetState& fleet) const {
     if (!map_id_.empty()) return map_id_;
     for (const auto& [name, robot] : fleet.robots()) {

@@ -52,7 +52,7 @@ constexpr const char* kWatchExamples =
     "One line per frame with the raw and the tracked pose (docs/live.md). Of a camera the newest\n"
     "frame is taken and those in between are counted; of all else every frame. Ctrl-C ends.\n";
 
-/// The largest domain of DDS: higher ones have no ports.
+/// Maximum DDS domain. Higher domains have no ports.
 constexpr int kLastDomain = 232;
 
 struct DdsArguments {
@@ -60,7 +60,7 @@ struct DdsArguments {
     bool is_reliable = false;
     std::optional<int> domain;
 
-    /// Returns none if nothing is published. Throws BadArgument if the environment names no domain.
+    /// Returns none without --dds. Throws BadArgument if ROS_DOMAIN_ID is not a valid domain.
     std::optional<dds::PublisherOptions> publisher() const {
         if (!is_wanted) return std::nullopt;
         const char* range = std::getenv("ROS_AUTOMATIC_DISCOVERY_RANGE");
@@ -97,7 +97,7 @@ struct WatchArguments {
     bool lists_cameras = false;
     bool has_no_window = false;
     bool is_realtime = false;
-    std::int64_t frames = 0;  ///< number of frames to take; 0 for no limit
+    std::int64_t frames = 0;  ///< number of frames to take; 0: no limit
 };
 
 void report(const WatchOutputs& outputs, std::int64_t dropped) {
@@ -123,7 +123,7 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
     return files;
 }
 
-/// Writes to standard error why most frames fail, and the first warning of each kind.
+/// Reports on standard error why most frames fail, and the first warning of each kind.
 void tell_once_in_a_while(const Reading& reading, ImageView image, const Follower& follower,
                           double bits_per_px, FailureHint& hint,
                           std::array<bool, kWarnings>& was_told) {
@@ -138,12 +138,12 @@ void tell_once_in_a_while(const Reading& reading, ImageView image, const Followe
 
 FollowerOptions options_of(const WatchArguments& arguments) {
     FollowerOptions options = arguments.follower.read();
-    options.locate.show_stages = true;  // for window and recording
+    options.locate.show_stages = true;  // stages for the window and the recording
     options.track.spacing_mm = static_cast<float>(options.spacing_mm);
     return options;
 }
 
-/// Saves a frame as it came from its source.
+/// Saves a frame in its original form, without inversion and flip.
 void save(FrameSaver& saver, GreyImage& image, const Fix& fix, const WatchArguments& arguments) {
     const auto undo_or_redo = [&] {
         if (arguments.follower.is_inverted) invert(image);
@@ -154,12 +154,12 @@ void save(FrameSaver& saver, GreyImage& image, const Fix& fix, const WatchArgume
     undo_or_redo();
 }
 
-/// Waits until recorded frames are due, by their times.
+/// Waits until the time of a recorded frame.
 class Pace {
   public:
     void wait_for(const capture::Frame& frame) {
         using namespace std::chrono;
-        // The first frame is due now. Live frames are due when they come.
+        // Live frames are due on arrival. The first recorded frame is due immediately.
         if (frame.is_live) return;
         if (!begun_) begun_ = steady_clock::now() - microseconds(frame.time_us);
         const auto due = *begun_ + microseconds(frame.time_us);
@@ -170,7 +170,8 @@ class Pace {
     }
 
   private:
-    std::optional<std::chrono::steady_clock::time_point> begun_;  ///< when time 0 was due
+    /// Clock time at which the source time is 0.
+    std::optional<std::chrono::steady_clock::time_point> begun_;
 };
 
 /// Warns on standard error if the tracked poses are not in the world.
@@ -196,7 +197,7 @@ void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follow
     tell(follower.is_in_world() ? fmt::format(kPartly, unplaced->name) : kPattern);
 }
 
-/// Returns the number of frames that will be followed, or 0 if it is not known.
+/// Returns the number of frames to follow, or 0 if unknown.
 std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
                        const capture::FrameSource& source) {
     if (arguments.frames > 0) return arguments.frames;
@@ -204,8 +205,8 @@ std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
     return images > 0 ? images : source.length();
 }
 
-/// Follows the robot over all frames, of which there are `length`, or 0 if that is not known.
-/// Returns the exit status. Throws BadArgument if frames cannot be located with the arguments.
+/// Follows the robot over all frames. `length` is the number of frames, or 0 if unknown. Returns
+/// the exit status. Throws BadArgument if the arguments do not fit the frames.
 int follow(const WatchArguments& arguments, capture::FrameSource& source, std::int64_t length,
            Follower& follower, std::optional<FrameSaver>& saver, WatchOutputs& outputs,
            FailureHint& hint) {
@@ -229,7 +230,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
     } catch (const BadArgument&) {
         throw;
     } catch (const Error& error) {
-        // The map and the counts of the frames before the failure are still written.
+        // The map and the report on the frames before the failure are still written.
         tell(error.what());
         return kExitFailed;
     }
@@ -309,7 +310,7 @@ int run(WatchArguments& arguments) {
     report(outputs, source->dropped());
     if (saver) tell(fmt::format("{} frames saved in {}", saver->saved(), arguments.save.folder));
     if (const std::string why = hint.at_end(); !why.empty()) tell(why);
-    // Images that cannot be read are skipped, but it is a failure if none was read.
+    // Images that cannot be read are skipped, but the run fails if no image was read.
     return is_unreadable && outputs.tally().frames == 0 ? kExitFailed : exit_code;
 }
 
