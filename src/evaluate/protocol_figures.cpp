@@ -1,5 +1,5 @@
-// Draws figures 13, 14 and 15 of the paper: simulated for a perfect page on the left and for the
-// printer model on the right, or measured.
+// Draws figures 13, 14 and 15 of the paper. Simulated figures show a perfect page on the left and
+// the printer model on the right. Measured figures show one page.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,7 +21,7 @@ constexpr double kLeft = 80;
 constexpr double kTop = 150;
 constexpr double kHeight = kTop + kPanel + 150;
 
-/// One page of a figure, with the spread of its stations in the unit of the figure.
+/// One page of a figure, and the spread of its stations in the unit of the figure.
 struct FigurePage {
     std::string name;
     std::span<const Station> stations;
@@ -36,7 +36,7 @@ struct Coordinate {
     const char* unit;
 };
 
-/// The texts of a figure.
+/// The labels of a figure.
 struct Words {
     const char* how;       ///< origin of the poses
     std::string stations;  ///< number of stations
@@ -44,7 +44,7 @@ struct Words {
     bool is_y_up = false;
 };
 
-/// The square of the page in a panel.
+/// Bounds of the square region of the page in a panel.
 struct Extent {
     Vec2 middle_mm;
     double side_mm = 1;
@@ -106,11 +106,12 @@ const char* colour_of(double bias) {
 constexpr double kMaxMark = 16;
 
 double mark_radius(double bias, double scale) {
-    // The area of a mark is proportional to its value; marks of small values stay visible.
+    // The area of a mark is proportional to the bias. Marks of small values are enlarged to stay
+    // visible.
     return std::max(1.2, kMaxMark * std::sqrt(std::abs(bias) / scale));
 }
 
-/// The axes of a page, with y in the direction of its coordinates.
+/// The axes of a page, in the y direction of its coordinates.
 struct PageScale {
     Scale x;
     Scale y;

@@ -88,9 +88,10 @@ void Raster::draw_band(int top) {
     }
 }
 
-// Darkens each sub-pixel by the fraction of its area that a convex shape covers. The area is exact
-// along the row and a Gauss quadrature with four chords across it, with an error below 0.1 % even
-// at the round ends of a dot. `chord_at(y)` returns the left and right end of the chord at y.
+// Darkens each sub-pixel in proportion to the area that a convex shape covers. The area is exact
+// along the row. Across the row, it is a Gauss quadrature with four chords, with an error below 0.1
+// % even at the round ends of a dot. `chord_at(y)` returns the left and right end of the chord at
+// y.
 template <typename ChordAt>
 void Raster::fill(double top, double bottom, double darkness, const ChordAt& chord_at) {
     struct Line {
@@ -118,7 +119,7 @@ void Raster::fill(double top, double bottom, double darkness, const ChordAt& cho
         float* out = row(row_index - band_top_);
         for (int x = touched_.from; x < touched_.to; ++x) {
             double& coverage = coverage_[static_cast<std::size_t>(x)];
-            // Overlapping shapes do not add: the darker one counts.
+            // Overlapping shapes do not add up: the darker one determines the level.
             out[x] = std::max(out[x], static_cast<float>(coverage * darkness));
             coverage = 0;
         }
