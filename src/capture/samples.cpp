@@ -9,7 +9,7 @@
 namespace dotpose::capture {
 namespace {
 
-/// Returns the grey level of one pixel of `Channels` samples.
+/// Returns the grey level of a pixel with `Channels` samples.
 template <int Channels, typename Sample>
 std::uint8_t grey_of(const Sample* pixel) {
     constexpr std::uint64_t kFull = std::numeric_limits<Sample>::max();

@@ -1,5 +1,5 @@
-// Reads video files with FFmpeg's libraries. Unlike OpenCV, they provide the time of every frame
-// and report damaged frames.
+// Reads video files with the libraries of FFmpeg. Unlike OpenCV, FFmpeg provides the time of each
+// frame and reports damaged frames.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -55,7 +55,7 @@ class GreyConverter {
             const int* colours = sws_getCoefficients(SWS_CS_DEFAULT);
             sws_setColorspaceDetails(converter_.get(), colours, 1, colours, 1, 0, 1 << 16, 1 << 16);
         }
-        // The converter needs aligned rows, which this allocation provides.
+        // The converter requires aligned rows, which this allocation provides.
         const auto grey = owned(av_frame_alloc());
         grey->format = AV_PIX_FMT_GRAY8;
         grey->width = width;
@@ -91,7 +91,7 @@ class VideoFile : public capture::FrameSource {
         if (!std::ifstream(name)) {
             throw Error("cannot read " + name + ": " + std::strerror(errno));
         }
-        // FFmpeg must not print its own messages: failures are reported as Error.
+        // Suppress the messages of FFmpeg: failures are reported as Error.
         av_log_set_level(AV_LOG_QUIET);
         if (!open()) throw Error(name + " is no video, or of a kind that is not known");
     }
@@ -122,12 +122,12 @@ class VideoFile : public capture::FrameSource {
   private:
     bool open() {
         AVFormatContext* file = nullptr;
-        // With the prefix, FFmpeg does not interpret the part of a name before a colon as a
+        // The prefix keeps FFmpeg from interpreting the part of the name before a colon as a
         // protocol.
         const std::string url = "file:" + name_;
         if (avformat_open_input(&file, url.c_str(), nullptr, nullptr) < 0) return false;
         file_.reset(file);
-        // Must precede the reading of packets, which adds entries to the index.
+        // Must run before packets are read, because reading adds entries to the index.
         for (unsigned i = 0; i < file->nb_streams; ++i) {
             const int entries = avformat_index_get_entries_count(file->streams[i]);
             has_index_ = has_index_ || (entries > 0 && entries >= file->streams[i]->nb_frames);
@@ -147,17 +147,17 @@ class VideoFile : public capture::FrameSource {
                avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
     }
 
-    /// Returns the duration of the video in the file, or 0 if it is missing.
+    /// Returns the duration of the video stream in seconds, or 0 if the file does not contain it.
     double duration_s() const {
         if (stream_->duration > 0) {
             return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
         }
-        // The duration of a file is the duration of its longest stream, so it is used only if there
-        // is one stream.
+        // The duration of a file is the maximum over its streams, so it is used only if there is
+        // one stream.
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
-    /// Returns the number of frames in the file, or the number computed from the duration.
+    /// Returns the number of frames according to the file, or a number computed from the duration.
     std::int64_t promised() const {
         return stream_->nb_frames > 0 ? stream_->nb_frames : std::llround(duration_s() * rate_);
     }
@@ -179,8 +179,8 @@ class VideoFile : public capture::FrameSource {
         }
     }
 
-    /// Sends the next packet of the video to the decoder, or the end of the stream after the last
-    /// one.
+    /// Sends the next packet of the video to the decoder. After the last packet, sends the end of
+    /// the stream.
     void send_packet() {
         constexpr int kMaxFailures = 100;
         for (int failures = 0; failures < kMaxFailures;) {
@@ -204,9 +204,9 @@ class VideoFile : public capture::FrameSource {
         avcodec_send_packet(decoder_.get(), nullptr);
     }
 
-    /// Corrects the time of a packet of an AVI file by the file's index. AVI stores no times;
-    /// FFmpeg counts packets, which is wrong after damage. The index contains the position of every
-    /// frame.
+    /// Corrects the time of a packet in an AVI file with the index of the file. AVI stores no
+    /// times: FFmpeg counts packets, which is wrong after damage. The index contains the positions
+    /// of all frames.
     void correct_time() {
         if (std::string_view(file_->iformat->name) != "avi") return;
         int first = 0;
@@ -225,7 +225,8 @@ class VideoFile : public capture::FrameSource {
         if (packet_->pts != AV_NOPTS_VALUE) packet_->pts = entry->timestamp;
     }
 
-    /// Discards frames up to the next key frame, because they may contain parts of damaged frames.
+    /// Discards the frames up to the next key frame, because they may contain parts of damaged
+    /// frames.
     void pass_over() {
         is_damaged_ = true;
         waits_for_key_frame_ = true;
@@ -273,7 +274,7 @@ class VideoFile : public capture::FrameSource {
     bool has_begun_ = false;
     bool is_damaged_ = false;
     bool has_index_ = false;
-    bool is_counted_ = false;  ///< whether times are counted because the index is inconsistent
+    bool is_counted_ = false;  ///< true if times are counted, because the index is inconsistent
     bool waits_for_key_frame_ = false;
     std::int64_t frames_ = 0;  ///< number of returned frames
 };
