@@ -125,7 +125,7 @@ void add_fleet(Command& app, int&) {
     command->footer(kFleetExamples);
     arguments->mqtt.add_to(*command)->required();
     add_sheets_option(*command, arguments->sheets, "Sheet file: draw its sheets on the map");
-    add_draw_option(*command, arguments->map, "Map to draw (SVG), again and again");
+    add_draw_option(*command, arguments->map, "Map to draw and update (SVG)");
     command->add_option("--log", arguments->log, "Write every state as a line of CSV")
         ->type_name("FILE");
     arguments->share.add_to(*command);

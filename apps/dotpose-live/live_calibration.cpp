@@ -190,7 +190,7 @@ std::string LiveCalibration::refusal(const capture::Frame& frame,
             failure_ = reader_.trace().fix.status;
         }
         return reader_.trace().fix.status == Status::mirrored ? "mirrored: start with --flip"
-                                                              : "no pattern is located";
+                                                              : "no pattern was located";
     }
     ++tally_.located;
     const bool holds_still = is_steady(frame);
@@ -226,7 +226,7 @@ bool LiveCalibration::look(capture::Frame& frame) {
     CalibrationStatus status(*coverage_);
     status.needs = needs();
     status.is_taken = why_not.empty();
-    status.now = status.is_taken ? "go on to another place" : why_not;
+    status.now = status.is_taken ? "move on to another place" : why_not;
     if (located) status.theta_rad = reader_.trace().fix.theta_rad();
     if (const auto camera = lens()) status.corner_sigma_px = corner_sigma_px(*camera);
     if (job_.newest()) {
@@ -234,7 +234,7 @@ bool LiveCalibration::look(capture::Frame& frame) {
         if (status.needs.empty()) {
             status.remark = newest.advice;
         } else if (!newest.camera.focal_px) {
-            status.remark = "a camera held by hand: tilt it, too, for its focal length";
+            status.remark = "hand-held camera: also tilt it, to determine its focal length";
         }
     }
     return display_.show(status, image, reader_.trace());
@@ -303,7 +303,7 @@ void LiveCalibration::finish_job() {
 /// Describes what is missing in the frames.
 std::string LiveCalibration::shortage() const {
     std::string text = fmt::format(
-        "not enough was seen, and no file is written: of {} frames {} were located and {} taken "
+        "not enough was seen, and no file was written: of {} frames, {} were located and {} taken "
         "({} out of focus, {} moving)",
         tally_.seen, tally_.located, taken_.size(), tally_.out_of_focus, tally_.moving);
     if (!coverage_) return text;
@@ -333,7 +333,7 @@ LensCalibration LiveCalibration::result() {
                                 newest.advice));
     }
     for (const CalibrationNeed& need : needs())
-        say("the calibration can be used, but would gain: " + need.advice);
+        say("the calibration can be used, but could be improved: " + need.advice);
     return newest;
 }
 

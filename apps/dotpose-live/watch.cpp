@@ -49,8 +49,9 @@ constexpr const char* kWatchExamples =
     "  dotpose watch run.mp4 --sheets sheets.json --log run.csv --draw run.svg\n"
     "  dotpose watch 'frames/*.pgm' --fps 50 --record run-overlay.mp4\n"
     "  ffmpeg -i run.mp4 -f rawvideo -pix_fmt gray - | dotpose watch - --size 640x480 --fps 30\n\n"
-    "One line per frame with the raw and the tracked pose (docs/live.md). Of a camera the newest\n"
-    "frame is taken and those in between are counted; of all else every frame. Ctrl-C ends.\n";
+    "One line per frame with the raw and the tracked pose (docs/live.md). A camera delivers its\n"
+    "newest frame; the frames in between are dropped and counted. Other sources deliver every\n"
+    "frame. Ctrl-C ends.\n";
 
 /// Maximum DDS domain. Higher domains have no ports.
 constexpr int kLastDomain = 232;
@@ -189,11 +190,11 @@ void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follow
         follower.sheets(), [](const SheetEntry& entry) { return !entry.world; });
     if (unplaced == follower.sheets().end()) return;
     constexpr const char* kPartly =
-        "the robot counts as lost on sheets without a place in the world, such as '{}': place them "
+        "the robot is lost on sheets without a place in the world, such as '{}': place them "
         "(dotpose sheets place, dotpose calibrate --stitch)";
     constexpr const char* kPattern =
-        "no sheet has a place in the world, so that the robot is tracked in the frame of the "
-        "pattern (y down, angles clockwise): place the sheets first (dotpose sheets place)";
+        "no sheet has a place in the world, so the robot is tracked in the frame of the pattern (y "
+        "down, angles clockwise): place the sheets first (dotpose sheets place)";
     tell(follower.is_in_world() ? fmt::format(kPartly, unplaced->name) : kPattern);
 }
 
@@ -267,7 +268,7 @@ int run(WatchArguments& arguments) {
         throw BadArgument("--mcap-images needs a file: --mcap FILE");
     }
     if (arguments.outputs.messages.has_images && arguments.save.format == ImageEncoding::pgm) {
-        throw BadArgument("--mcap-images records png or jpeg: --image-format jpeg is the faster");
+        throw BadArgument("--mcap-images records png or jpeg: --image-format jpeg is faster");
     }
     Sources sources(arguments.sources);
     const RunFiles files = files_of(arguments, sources);
@@ -324,8 +325,8 @@ void add_output_options(Command& command, WatchArguments& arguments) {
     add_file("--log", outputs.log, "Also write all lines as CSV in mm, for dotpose replay");
     add_file("--record", outputs.screen.record, "Video with the overlay (.mp4: H.264, or .avi)");
     add_file("--packets", outputs.packets, "Send pose packets to a file or device");
-    add_file("--mcap", outputs.messages.mcap, "Record messages of ROS 2 for ros2 bag and Foxglove");
-    command.add_flag("--mcap-images", outputs.messages.has_images, "Record the frames in it too");
+    add_file("--mcap", outputs.messages.mcap, "Record ROS 2 messages for ros2 bag and Foxglove");
+    command.add_flag("--mcap-images", outputs.messages.has_images, "Also record the frames");
     command
         .add_option("--save", arguments.save.folder,
                     "Save frames that show a new place, for dotpose calibrate")
@@ -340,18 +341,17 @@ void add_output_options(Command& command, WatchArguments& arguments) {
                 arguments.save.format = kFrameFormats.at(name);
                 arguments.outputs.messages.image_format = arguments.save.format;
             },
-            "Format of the frames of --save and --mcap-images: png; jpeg, with small losses, or "
-            "pgm, "
-            "uncompressed, for every frame of a fast camera")
+            "Format of the frames of --save and --mcap-images: png, jpeg (small losses) or pgm "
+            "(uncompressed); png is too slow for every frame of a fast camera")
         ->type_name("NAME")
         ->default_str("png")
         ->check(one_of({"png", "jpeg", "pgm"}));
     command.add_flag("--realtime", arguments.is_realtime,
-                     "Take recorded frames when their time has come, as from a camera");
+                     "Read recorded frames in real time, as from a camera");
     command.add_flag("--list-cameras", arguments.lists_cameras,
-                     "Print the cameras of this computer with their sizes and rates, and end");
+                     "Print the cameras of this computer with their sizes and rates, and exit");
     command.add_flag("--no-window", arguments.has_no_window,
-                     "Show nothing, even where there is a display");
+                     "Open no window, even if there is a display");
     command.add_option("--frames", arguments.frames, "End after N frames")
         ->type_name("N")
         ->check(Range(1, 2'000'000'000));
@@ -359,8 +359,7 @@ void add_output_options(Command& command, WatchArguments& arguments) {
 
 void add_publish_options(Command& command, OutputOptions& outputs, MqttArguments& mqtt) {
     mqtt.add_to(command);
-    add_robot_option(command, outputs.robot,
-                     "Name of the robot on the broker and in topics of ROS");
+    add_robot_option(command, outputs.robot, "Name of the robot on the broker and in ROS topics");
     add_frame_prefix_option(command, outputs.messages.frame_prefix);
     command
         .add_option("--mqtt-rate", outputs.mqtt_rate_hz,
@@ -371,9 +370,9 @@ void add_publish_options(Command& command, OutputOptions& outputs, MqttArguments
 }
 
 void add_dds_options(Command& command, DdsArguments& dds) {
-    command.add_flag("--dds", dds.is_wanted, "Publish messages of ROS 2, over DDS");
+    command.add_flag("--dds", dds.is_wanted, "Publish ROS 2 messages over DDS");
     command.add_flag("--dds-reliable", dds.is_reliable,
-                     "Send lost poses again: for subscribers that ask for it");
+                     "Send lost poses again, for subscribers that request it");
     command.add_option("--dds-domain", dds.domain, "Domain of DDS")
         ->type_name("N")
         ->default_str("ROS_DOMAIN_ID, or 0")
@@ -387,8 +386,9 @@ void add_track_options(Command& command, TrackOptions& track) {
         ->capture_default_str()
         ->check(require_positive);
     command
-        .add_option("--acceleration", track.acceleration_mm_s2,
-                    "Usual acceleration of the robot: larger follows faster, smooths less")
+        .add_option(
+            "--acceleration", track.acceleration_mm_s2,
+            "Usual acceleration of the robot: a larger value follows faster and smooths less")
         ->type_name("MM/S^2")
         ->capture_default_str()
         ->check(require_positive);
@@ -398,7 +398,7 @@ void add_track_options(Command& command, TrackOptions& track) {
             [&track](double p) {
                 track.max_p_wrong_log2 = static_cast<int>(std::floor(std::log2(p)));
             },
-            "Probability of being wrong above which a position is refused, the prior included")
+            "Maximum probability that an accepted position is wrong, including the prior")
         ->type_name("P")
         ->default_str("1e-9")
         ->check(Range(1e-60, 1e-3));
@@ -406,7 +406,7 @@ void add_track_options(Command& command, TrackOptions& track) {
         .add_option_function<double>(
             "--lost-after",
             [&track](double ms) { track.lost_after_us = static_cast<std::int64_t>(ms * 1000); },
-            "Time without a accepted fix after which the robot is lost")
+            "Time without an accepted fix after which the robot is lost")
         ->type_name("MS")
         ->default_str("70")
         ->check(Range(0.0, 1e9));

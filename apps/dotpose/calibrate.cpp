@@ -36,13 +36,12 @@ constexpr const char* kCalibrateExamples =
     "  dotpose calibrate video.mp4 --sheets sheets.json -o camera.yaml\n"
     "  dotpose calibrate --camera camera.yaml -o camera.yaml --spin turn/*.png --drive line/*.png\n"
     "  dotpose calibrate --stitch --sheets sheets.json --camera camera.yaml seams/*.png\n\n"
-    "Take 5 to 50 frames of any printed sheet, some centimetres and any angle apart; 12 of the "
-    "robot\n"
-    "turning on the spot; some of it driving straight ahead. Of a video or a camera, up to 50\n"
-    "frames that show new places are taken; Ctrl-C ends the reading. With --live, a window (or,\n"
-    "without a display, the terminal) shows what is still missing while you move the camera;\n"
-    "frames are taken until they are enough, and q or Ctrl-C ends earlier. Exit status 1 if\n"
-    "the frames do not determine what is asked.\n";
+    "Take 5 to 50 frames of any printed sheet, some centimetres apart and at any angles; for\n"
+    "--spin, 12 frames of the robot turning on the spot; for --drive, some frames of it driving\n"
+    "straight ahead. From a video or a camera, up to 50 frames that show new places are taken;\n"
+    "Ctrl-C ends the reading. With --live, a window (or, without a display, the terminal) shows\n"
+    "what is still missing while you move the camera; frames are taken until they suffice, or\n"
+    "until q or Ctrl-C. Exit status 1 if the frames do not determine the requested values.\n";
 
 struct CalibrateArguments {
     SourceArguments sources;
@@ -235,10 +234,11 @@ void keep_camera_of(const std::string& out, CameraArgument& camera) {
         camera.camera = read_camera(out);
     } catch (const Error& error) {
         throw Error(
-            fmt::format("{}; -o replaces a camera file only: name another file", error.what()));
+            fmt::format("{}; -o replaces only a camera file: name another file", error.what()));
     }
     camera.path = out;
-    tell(fmt::format("{} exists: what is not calibrated now, such as the mount, is kept", out));
+    tell(fmt::format("{} exists: values that are not calibrated now, such as the mount, are kept",
+                     out));
 }
 
 /// Takes the code and the spacing of the frames from the sheets of --sheets.
@@ -282,7 +282,8 @@ int run(CalibrateArguments& arguments) {
     if (!arguments.sources.is_given() && !has_mount) {
         throw BadArgument("no frames given: name 5 to 50 images, or a video or camera");
     }
-    if (arguments.stitch && has_mount) throw BadArgument("--stitch is a job of its own");
+    if (arguments.stitch && has_mount)
+        throw BadArgument("--stitch cannot be combined with --spin or --drive");
     Series series = series_of(arguments);
     require_apart(arguments, series);
     keep_camera_of(arguments.out, arguments.camera);
@@ -308,7 +309,7 @@ void add_live_options(Command& command, CalibrateArguments& arguments) {
         live->excludes(command.get_option(other));
     command
         .add_flag("--no-window", arguments.live.has_no_window,
-                  "Show it in the terminal, even where there is a display")
+                  "Show it in the terminal, even if there is a display")
         ->needs(live);
     command
         .add_option("--save", arguments.live.save, "Also save the frames that are taken, as PNG")
@@ -328,12 +329,13 @@ void add_calibrate(Command& app, int& exit_code) {
         ->add_option("-o,--out", arguments->out,
                      "Camera file to write (YAML), or - for standard output")
         ->type_name("FILE|-");
-    add_draw_option(*command, arguments->picture,
-                    "Also draw residuals and coverage of the image, with --spin the turn (beside "
-                    "the other, as NAME-spin.svg), with --stitch the sheets before and after");
+    add_draw_option(
+        *command, arguments->picture,
+        "Also draw residuals and coverage of the image; with --spin, the turn (as NAME-spin.svg if "
+        "the lens is drawn, too); with --stitch, the sheets before and after");
     add_camera_option(*command, arguments->camera,
-                      "Camera file to start from: what is not calibrated now is kept, the lens or "
-                      "the mount; without it, the file of -o if it exists");
+                      "Camera file to start from: the values that are not calibrated now (lens or "
+                      "mount) are kept; without --camera, the file of -o if it exists");
     command
         ->add_option("--spin", arguments->spin,
                      "Frames of the robot turning on the spot: find its centre (reference_px)")
@@ -342,21 +344,20 @@ void add_calibrate(Command& app, int& exit_code) {
         ->add_option("--drive", arguments->drive,
                      "Frames of a straight drive ahead, in order: find the heading (theta_offset)")
         ->type_name("SOURCE");
-    Option* stitch = command->add_flag(
-        "--stitch", arguments->stitch,
-        "Find how the sheets of a sheet file lie, from frames that show two, and write it there");
+    Option* stitch = command->add_flag("--stitch", arguments->stitch,
+                                       "Find the poses of the sheets of a sheet file from frames "
+                                       "that show two sheets, and write them into the file");
     Option* sheets = add_sheets_option(*command, arguments->sheets,
-                                       "Sheet file: the code and spacing of the frames are "
-                                       "those of the sheet that they show; with "
-                                       "--stitch, the sheets to stitch");
+                                       "Sheet file with the code and spacing of the sheets that "
+                                       "the frames show; with --stitch, the sheets to stitch");
     command
         ->add_option_function<std::string>(
             "--true-scale",
             [arguments](const std::string& text) {
                 arguments->reference = parse_scale_reference(text);
             },
-            "What print scales are measured by: the mm_per_px of the camera file, or the true "
-            "distance of the first from the last column of dots of a sheet")
+            "Reference of the print scales: the mm_per_px of the camera file, or the true distance "
+            "between the first and the last column of dots of a sheet")
         ->type_name("camera|SHEET=MM")
         ->default_str("the mean of the first sheet")
         ->needs(stitch);

@@ -11,8 +11,7 @@ namespace dotpose::cli {
 
 /// Error message for frames that show the pattern mirrored.
 inline constexpr const char* kMirrored =
-    "the frames show the pattern as in a mirror: use --flip, which is then written into the camera "
-    "file";
+    "the frames show the pattern mirrored: use --flip, which is then written into the camera file";
 
 /// All images that are named, and at most 50 frames of each video, camera or raw stream. The 50
 /// frames show different places. Images stay on disk; the chosen frames are kept in memory.

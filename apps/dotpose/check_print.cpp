@@ -86,16 +86,14 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
                         scan, kRemedy));
     }
     if (!check.fields.empty() && !check.resolution) {
-        throw Error(
-            fmt::format("{} states no resolution that can be true, so that its scale is "
-                        "not known{}",
-                        scan, kRemedy));
+        throw Error(fmt::format("{} states no plausible resolution, so its scale is not known{}",
+                                scan, kRemedy));
     }
     for (const PrintField& field : check.fields) {
         if (!field.scale || is_believable(*field.scale)) continue;
         throw Error(
-            fmt::format("{}: a page at {:.0f} % of its size is not what was printed: the "
-                        "resolution or the spacing is not true; nothing was written",
+            fmt::format("{}: the page would be printed at {:.0f} % of its size: the resolution or "
+                        "the spacing is wrong; nothing was written",
                         scan, 100 * std::sqrt(field.scale->scale_x * field.scale->scale_y)));
     }
 }
@@ -140,7 +138,7 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
                             path, entry.print_scale_x, entry.print_scale_y, offset_remark(entry));
     }
     if (done.empty()) {
-        throw Error(fmt::format("{}: no sheet of it is on the scan with a known scale", path));
+        throw Error(fmt::format("{}: the scan shows none of its sheets with a known scale", path));
     }
     file.save();
     return done;
@@ -258,7 +256,7 @@ int run(const CheckPrintArguments& arguments) {
 void add_check_print(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<CheckPrintArguments>();
     Command* command =
-        app.add_subcommand("check-print", "Judge a printed sheet by a scan or photo of it");
+        app.add_subcommand("check-print", "Check a printed sheet with a scan or photo of it");
     command->footer(kCheckPrintExamples);
     command->add_option("scan", arguments->scan, "PNG, TIFF, JPEG, BMP or PGM file")
         ->type_name("SCAN")
@@ -285,8 +283,7 @@ void add_check_print(Command& app, int& exit_code) {
     Option* fit = command->add_flag(
         "--fit", arguments->fit, "Write the scale found into the sheet file, for true millimetres");
     Option* sheets =
-        add_sheets_option(*command, arguments->sheets,
-                          "Sheet file that says how the sheets on the scan were printed");
+        add_sheets_option(*command, arguments->sheets, "Sheet file with the sheets on the scan");
     fit->needs(sheets);
     for (const char* own : {"--spacing", "--displacement", "--dot"})
         sheets->excludes(command->get_option(own));

@@ -118,11 +118,11 @@ std::string message_of(const CLI::ParseError& error) {
     }
     if (kind == "ConversionError") {
         const auto [option, value] = split(split(text, "Could not convert: ").second, " = ");
-        return fmt::format("{}: '{}' is not a number that it takes", option, value);
+        return fmt::format("{}: '{}' is not a valid number", option, value);
     }
     if (kind == "ArgumentMismatch") {
         const auto [option, problem] = split(text, ": ");
-        if (problem.ends_with("missing")) return option + " lacks its value";
+        if (problem.ends_with("missing")) return option + " requires a value";
         // `problem` has the form "At least 2 required but received 1".
         std::istringstream words(problem);
         std::string word, wanted, given;

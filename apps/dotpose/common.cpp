@@ -47,7 +47,7 @@ std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, cons
     const auto numbers = whole_numbers(text, ",", limit - 1);
     if (!numbers) {
         throw ValidationError(
-            flag, fmt::format("'{}' must be two whole numbers from 0 to {} with a comma between",
+            flag, fmt::format("'{}' must be two whole numbers from 0 to {}, separated by a comma",
                               text, limit - 1));
     }
     return {(*numbers)[0], (*numbers)[1]};
@@ -70,7 +70,7 @@ std::string require_spacing(const std::string& text) {
     double value_mm = 0;
     if (!parse_number(text, value_mm) || !(value_mm > 0)) return require_positive(text);
     if (value_mm >= kMin_mm && value_mm <= kMax_mm) return {};
-    return fmt::format("'{}' is no spacing of dots in mm, {:g} to {:g}; usual is {:g}", text,
+    return fmt::format("'{}' is not a spacing in mm from {:g} to {:g}; the default is {:g}", text,
                        kMin_mm, kMax_mm, kDefaultSpacing_mm);
 }
 
@@ -92,7 +92,7 @@ void add_code_option(Command& command, std::optional<CodeVariant>& code) {
     command
         .add_option_function<std::string>(
             "--code", [&code](const std::string& asked) { code = code_by_name(asked); },
-            "Code variant that was printed: " + alternatives(kCodes) + "; auto: found out")
+            "Code variant that was printed: " + alternatives(kCodes) + "; auto: detected")
         ->type_name("NAME")
         ->default_str("auto")
         ->check(one_of(names));
@@ -112,7 +112,7 @@ void add_section_option(Command& command, Section& section) {
 }
 
 void add_spacing_option(Command& command, double& spacing_mm) {
-    command.add_option("--spacing", spacing_mm, "Distance of neighbouring grid intersections")
+    command.add_option("--spacing", spacing_mm, "Distance between adjacent grid intersections")
         ->type_name("MM")
         ->capture_default_str()
         ->check(require_spacing);
@@ -158,7 +158,7 @@ Option* add_lens_option(Command& command, FixedLens& lens) {
 
 void add_flip_option(Command& command, bool& flip) {
     command.add_flag("--flip", flip,
-                     "Flip the image first, left to right: for a mirror, or a camera that mirrors");
+                     "First flip the image left to right, for a mirror or a camera that mirrors");
 }
 
 Option* add_camera_option(Command& command, CameraArgument& camera, const std::string& help) {
@@ -174,7 +174,7 @@ Option* add_camera_option(Command& command, CameraArgument& camera, const std::s
 
 void add_attempt_options(Command& command, Options& options) {
     add_named(command, "--decoder", kDecoders, name(options.decoder),
-              "Dots that the position is read from",
+              "Dots from which the position is read",
               [&options](Decoder decoder) { options.decoder = decoder; });
     add_named(command, "--effort", kEfforts, name(options.effort), "How hard to try",
               [&options](Effort effort) { options.effort = effort; });
@@ -213,8 +213,8 @@ void add_drawing_option(Command& command, DotDrawing& drawing) {
     command
         .add_option_function<std::string>(
             "--dots", [&drawing](const std::string& name) { drawing = kDrawings.at(name); },
-            "Dots of a PDF: glyphs are small and fast, strokes are exact at any spacing; auto "
-            "takes glyphs where they are exact at --dpi")
+            "Dots of a PDF: glyphs are small and fast, strokes are exact at any spacing; auto uses "
+            "glyphs if they are exact at --dpi")
         ->type_name("NAME")
         ->default_str("auto")
         ->check(one_of(names));

@@ -44,8 +44,8 @@ constexpr const char* kEvaluateExamples =
     "pictures\n"
     "  dotpose evaluate --protocol paper -o out the paper's own experiment, simulated\n\n"
     "A fix that is off by more than half a grid spacing or 2 degrees, or in another section, is\n"
-    "wrong; errors are those of the others. Exit status 1 if truth.csv or an image cannot be\n"
-    "read, 2 for wrong usage.\n";
+    "wrong; errors are computed from the other fixes. Exit status 1 if truth.csv or an image\n"
+    "cannot be read, 2 for wrong usage.\n";
 
 /// Value of --protocol: repeats the protocol of section IV of the paper.
 struct PaperProtocol {};
@@ -148,7 +148,7 @@ std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) 
     if (interrupted()) {
         // Frames of a video that were not read have a problem and are removed.
         std::erase_if(outcomes, [](const Outcome& outcome) { return !outcome.problem.empty(); });
-        tell(fmt::format("interrupted; the report is about the first {} of {} frames",
+        tell(fmt::format("interrupted; the report covers the first {} of {} frames",
                          outcomes.size(), all.frames));
     }
     return outcomes;
@@ -269,7 +269,7 @@ int evaluate_sweep(const EvaluateArguments& arguments) {
     write_sweep(arguments.report.out, sweep);
     fmt::print("{0}/sweep-{1}.csv, {0}/sweep-{1}.svg and .png\n", arguments.report.out, kind);
     if (!interrupted()) return 0;
-    tell(fmt::format("interrupted; the sweep has the first {} values", sweep.points.size()));
+    tell(fmt::format("interrupted; the sweep contains the first {} values", sweep.points.size()));
     return kExitFailed;
 }
 
@@ -379,11 +379,11 @@ void add_evaluate(Command& app, int& exit_code) {
     add_spacing_option(*command, arguments->spacing_mm);
     Option* camera =
         add_camera_option(*command, arguments->camera,
-                          "Camera file that frames are located with, as by locate --camera");
+                          "Camera file with which frames are located, as with locate --camera");
     camera->excludes(add_lens_option(*command, arguments->options.lens));
     add_named(*command, "--truth", kTruths, "image",
-              "Whose pose truth.csv has: that of the image centre, as simulate writes it, or that "
-              "of the camera file's reference_px and theta_offset_rad",
+              "Poses in truth.csv: of the image centre, as simulate writes them, or of the robot, "
+              "by reference_px and theta_offset_rad of the camera file",
               [arguments](TruthOf truth) { arguments->truth_of = truth; })
         ->needs(camera);
     arguments->measured.add_to(*command);
@@ -400,7 +400,7 @@ void add_evaluate(Command& app, int& exit_code) {
         ->capture_default_str();
     add_report_options(*command, arguments->report,
                        "File to write instead of standard output; of a sweep and of the protocol, "
-                       "the folder for the results, which is made if missing");
+                       "the folder for the results, which is created if missing");
     command->get_option("--out")->type_name("FILE|-|DIR");
     command->callback([arguments, command, &exit_code] {
         arguments->spacing_given = command->count("--spacing") > 0;

@@ -125,8 +125,8 @@ void MeasuredArguments::add_to(Command& command) {
         ->type_name("FILE");
     command
         .add_option("--draw", draw,
-                    "With --sheets: folder for the paper's figures of these frames, which is made "
-                    "if missing")
+                    "With --sheets: folder for the paper's figures of these frames, which is "
+                    "created if missing")
         ->type_name("DIR");
 }
 
@@ -165,8 +165,8 @@ int evaluate_measured(const MeasuredArguments& arguments, const FollowerOptions&
                           found_in(is_in_world, located.place), located.spacing_mm});
     }
     if (interrupted()) {
-        tell(fmt::format("interrupted; the report is about the first {} of {} frames",
-                         frames.size(), known.rows.size()));
+        tell(fmt::format("interrupted; the report covers the first {} of {} frames", frames.size(),
+                         known.rows.size()));
         exit_code = kExitFailed;
     }
     const auto alignment = arguments.is_aligned ? std::optional(align(frames)) : std::nullopt;

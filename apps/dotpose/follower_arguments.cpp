@@ -21,7 +21,7 @@ PixelPoint parse_reference_px(const std::string& text) {
         !parse(text.substr(comma + 1), point.v)) {
         throw ValidationError(
             "--reference",
-            fmt::format("'{}' must be two numbers from {} to {} with a comma between", text,
+            fmt::format("'{}' must be two numbers from {} to {}, separated by a comma", text,
                         -kFarthestReference_px, kFarthestReference_px));
     }
     return point;
@@ -59,7 +59,7 @@ void add_follower_options(Command& command, FollowerArguments& arguments,
         ->excludes(command.get_option("--code"));
     command.add_flag("--inverted", arguments.is_inverted, "The dots are white on black");
     add_camera_option(command, arguments.camera,
-                      "Camera file, of 'dotpose calibrate' or ROS: lens, reference, heading")
+                      "Camera file from 'dotpose calibrate' or ROS: lens, reference, heading")
         ->excludes(add_lens_option(command, options.locate.lens));
     command
         .add_option_function<std::string>(
@@ -67,7 +67,7 @@ void add_follower_options(Command& command, FollowerArguments& arguments,
             [&options](const std::string& text) {
                 options.reference_px = parse_reference_px(text);
             },
-            "Pixel whose place is wanted; (0, 0) is the centre of the first pixel, undistorted")
+            "Pixel whose place is reported; (0, 0) is the centre of the first pixel, undistorted")
         ->type_name("U,V")
         ->default_str("image centre");
     add_attempt_options(command, options.locate);

@@ -34,8 +34,8 @@ constexpr const char* kListenExamples =
     "  dotpose listen /dev/ttyUSB0 --baud 115200\n"
     "  dotpose listen packets.bin --format csv -o poses.csv\n"
     "  nc robot 4000 | dotpose listen -\n\n"
-    "One line per packet. Packets that arrive damaged are left out and counted at the end, on\n"
-    "standard error. docs/pose-packet.md describes the format.\n";
+    "One line per packet. Damaged packets are skipped; their number is printed on standard\n"
+    "error at the end. docs/pose-packet.md describes the format.\n";
 
 struct Baud {
     int rate = 0;
@@ -168,8 +168,8 @@ class LossCounter {
         if (arrived_ == 0 || damaged > 0 || lost_ > 0) {
             tell(fmt::format("{} packets, {} stretches damaged, {} packets lost{}", arrived_,
                              damaged, lost_,
-                             arrived_ == 0 ? "; is it what a device or 'dotpose watch --packets' "
-                                             "sent, and the --baud of the line right?"
+                             arrived_ == 0 ? "; were the bytes sent by a device or 'dotpose watch "
+                                             "--packets', and is --baud right?"
                                            : ""));
         }
     }
@@ -215,7 +215,8 @@ void add_baud_option(Command& command, Baud& baud) {
                     }
                 }
                 throw ValidationError(
-                    "--baud", fmt::format("{} is no usual rate, such as 115200 or 921600", rate));
+                    "--baud",
+                    fmt::format("{} is not a usual rate, such as 115200 or 921600", rate));
             },
             "Baud rate of a serial device")
         ->type_name("RATE")

@@ -327,7 +327,7 @@ int run(const LocateArguments& arguments) {
     Sources sources(arguments.sources);
     if (is_picture_name(arguments.draw) && sources.number_of_images() != 1) {
         throw BadArgument(fmt::format(
-            "--draw {} is the picture of a single image: name a folder for those of several",
+            "--draw {} is the picture of a single image: name a folder for several images",
             arguments.draw));
     }
     return LocateRun(arguments, sources)();
@@ -337,7 +337,7 @@ int run(const LocateArguments& arguments) {
 
 void add_locate(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<LocateArguments>();
-    Command* command = app.add_subcommand("locate", "Find where images look on the pattern");
+    Command* command = app.add_subcommand("locate", "Find the position of images on the pattern");
     command->footer(kLocateExamples);
     arguments->sources.add_to(*command);
     add_follower_options(*command, arguments->follower,
@@ -356,14 +356,13 @@ void add_locate(Command& app, int& exit_code) {
     Option* draw =
         command
             ->add_option("--draw", arguments->draw,
-                         "Also write a picture (SVG) of what was seen: NAME.svg of one image, or a "
-                         "folder for those of several, which is made if missing (not its parents)")
+                         "Also draw dots, grid and pose (SVG): NAME.svg for one image, or a folder "
+                         "for several images, which is created if missing (not its parents)")
             ->type_name("FILE|DIR");
     command
         ->add_option(
             "--threads", arguments->threads,
-            "Threads that locate images at the same time, 0: all cores; the lines keep their "
-            "order")
+            "Number of threads that locate images, 0 for all cores; the lines keep their order")
         ->type_name("N")
         ->capture_default_str()
         ->check(Range(0, 256))

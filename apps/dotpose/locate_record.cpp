@@ -56,12 +56,12 @@ std::string doubt(const Record& record) {
     const Fix& fix = record.fix;
     if (fix.p_wrong_log2 <= record.max_p_wrong_log2) {
         return fmt::format(
-            "{} of the bits read contradict it, and the dots lie too far from where it "
-            "has them; paper that is bent, or two patterns, look so",
+            "{} of the bits read contradict it, and the dots are too far from their predicted "
+            "places; causes are bent paper or two patterns",
             fix.bit_errors);
     }
     const std::string odds =
-        fix.p_wrong_log2 >= 0 ? "others are as likely"
+        fix.p_wrong_log2 >= 0 ? "other positions are as likely"
                               : fmt::format("{} instead of at most {}", p_wrong_text(fix.p_wrong()),
                                             p_wrong_text(std::ldexp(1.0, record.max_p_wrong_log2)));
     // The number of bits is not two per visible dot: bits are also read in cells without a detected
@@ -71,8 +71,8 @@ std::string doubt(const Record& record) {
     }
     if (!record.advice.empty()) return fmt::format("{}; no bit contradicts it", odds);
     return fmt::format(
-        "{}; no bit contradicts it, but of {} dots too few could be read for sure: "
-        "show more of the sheet, larger, sharper or in better light",
+        "{}; no bit contradicts it, but too few of {} dots could be read with certainty: show more "
+        "of the sheet, larger, sharper or in better light",
         odds, fix.dots_seen);
 }
 
@@ -218,7 +218,7 @@ std::string code_warning(const Record& record) {
     const std::string place =
         reading.fix.status == Status::ok
             ? (reading.other_cell == reading.fix.cell ? "at this place" : "at another place")
-            : "where this one has nothing certain";
+            : "where this code gives no certain position";
     return fmt::format(
         "code {} explains the dots {} without a contradiction; is the sheet of code "
         "{}?",
@@ -234,7 +234,7 @@ std::string spacing_warning(const Record& record) {
     const double camera_mm = record.camera_spacing_mm;
     if (!contradicts(camera_mm, record.spacing_mm)) return {};
     return fmt::format(
-        "the camera file measures a spacing of {:.3f} mm, and lengths are computed with {:g} mm: "
+        "the camera file gives a spacing of {:.3f} mm, but lengths are computed with {:g} mm: "
         "correct the spacing ({}), or calibrate the camera again",
         camera_mm, record.spacing_mm, record.has_sheets ? "of the sheet file" : "--spacing");
 }

@@ -247,9 +247,8 @@ std::string advice_on_code(ImageView image, const Options& options, LargeMemory&
         const Fix fix = Locator(scratch, given).locate(image);
         if (fix.status != Status::ok) continue;
         return fmt::format(
-            "the reason is that the code is not known: in {0} alone the position is certain "
-            "(p_wrong {1}), so name it with --code {0} if that was printed, or show more of the "
-            "sheet",
+            "the reason is that the code is not known: in code {0} alone, the position is certain "
+            "(p_wrong {1}); give --code {0} if this code was printed, or show more of the sheet",
             name(code), p_wrong_text(fix.p_wrong()));
     }
     return {};
@@ -277,7 +276,7 @@ std::string advice_on_distance(ImageView image, const Options& options, LargeMem
 std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeMemory& scratch) {
     if (const auto tilt_degrees = large_tilt_degrees(image, facts.options, scratch)) {
         return fmt::format(
-            "the sheet is tilted too much, by about {:.0f} degrees: look more straight down on it",
+            "the sheet is tilted too much, by about {:.0f} degrees: look straight down on it",
             *tilt_degrees);
     }
     // In videos of sharp frames, H.264 and HEVC begin to lose dots at 0.1 bits per px
@@ -285,8 +284,8 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
     constexpr double kTooFewBits_per_px = 0.15;
     if (facts.bits_per_px > 0 && facts.bits_per_px < kTooFewBits_per_px) {
         return fmt::format(
-            "the video is compressed too much, to {:.2g} bits per pixel, so that its dots are "
-            "blurred: record it with a higher quality, in H.264 with a CRF of 28 or less",
+            "the video is compressed too much, to {:.2g} bits per pixel, which blurs its dots: "
+            "record it with a higher quality, in H.264 with a CRF of 28 or less",
             facts.bits_per_px);
     }
     if (is_out_of_focus(image)) {
@@ -295,8 +294,8 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
                "page";
     }
     if (facts.status != Status::no_grid) return {};
-    return "a sheet that is out of focus, too far away (under 6 px from dot to dot) or strongly "
-           "tilted looks so: focus, come closer, and look straight down";
+    return "the sheet may be out of focus, too far away (under 6 px from dot to dot) or strongly "
+           "tilted: focus, come closer, and look straight down";
 }
 
 }  // namespace
@@ -309,8 +308,8 @@ std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& s
         return {};
     }
     if (status == Status::mirrored) {
-        return "a mirror, a projection from behind or a camera that mirrors its picture shows it "
-               "so: locate with --flip, or 'flip: true' in the camera file";
+        return "the cause is a mirror, a projection from behind or a camera that mirrors: locate "
+               "with --flip, or 'flip: true' in the camera file";
     }
     if (is_inverted(image, options, scratch)) {
         return "the dots are white on black: locate with --inverted";
@@ -320,13 +319,13 @@ std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& s
     const int darkest_paper = 4 * options.threshold.min_contrast;
     if (const int level = paper_level(image); level < darkest_paper) {
         return fmt::format(
-            "the picture is too dark, its paper has grey level {} of 255: more light, "
-            "or a longer exposure, helps",
+            "the picture is too dark, its paper has grey level {} of 255: use more light or a "
+            "longer exposure",
             level);
     }
     if (status == Status::no_contrast) {
-        return "dots that are pale, far out of focus or much too small in the picture look so: "
-               "more light, focus, or come closer";
+        return "the dots may be pale, far out of focus or much too small in the picture: use more "
+               "light, focus, or come closer";
     }
     if (std::string advice = advice_on_distance(image, options, scratch); !advice.empty())
         return advice;

@@ -142,17 +142,16 @@ void run(const ReplayArguments& arguments) {
 void add_replay(Command& app, int&) {
     const auto arguments = std::make_shared<ReplayArguments>();
     Command* command =
-        app.add_subcommand("replay", "Figures and a picture of a run that watch kept");
+        app.add_subcommand("replay", "Statistics and a picture of a run that watch recorded");
     command->footer(kReplayExamples);
     command
-        ->add_option("log", arguments->log,
-                     "What dotpose watch --log wrote (CSV), or its lines (JSON)")
+        ->add_option("log", arguments->log, "Log of dotpose watch --log (CSV), or its lines (JSON)")
         ->type_name("FILE")
         ->required();
     add_report_options(*command, arguments->report,
-                       "File to write instead of standard output; NAME.mcap: messages of ROS 2");
+                       "File to write instead of standard output; NAME.mcap: ROS 2 messages");
     add_draw_option(*command, arguments->picture, "Also draw the run (SVG)");
-    add_robot_option(*command, arguments->robot, "Name of the robot in topics of ROS");
+    add_robot_option(*command, arguments->robot, "Name of the robot in ROS topics");
     add_frame_prefix_option(*command, arguments->frame_prefix);
     command->callback([arguments] { run(*arguments); });
 }

@@ -24,7 +24,7 @@ using csv::cells_of;
 /// numbers.
 std::int64_t whole(double value, const char* column) {
     if (!(value >= 0 && value < 9007199254740992.0) || value != std::floor(value)) {
-        throw Error(fmt::format("{} is no whole number from 0 on", column));
+        throw Error(fmt::format("{} is not a whole number of at least 0", column));
     }
     return static_cast<std::int64_t>(value);
 }
@@ -80,7 +80,7 @@ std::optional<double> LogCells::number(std::string_view column) const {
     const char* end = cell.data() + cell.size();
     const auto [stop, error] = std::from_chars(cell.data(), end, value);
     if (error != std::errc() || stop != end || !std::isfinite(value)) {
-        throw Error(fmt::format("'{}' is no number of {}", cell, column));
+        throw Error(fmt::format("'{}' is not a number of {}", cell, column));
     }
     return value;
 }
@@ -147,7 +147,7 @@ LogCells LogReader::row_of_json(const std::string& line) {
 
 void LogReader::refuse(const Error& error) const {
     throw Error(
-        fmt::format("{}:{}: no log of dotpose watch: {}", path_.string(), line_, error.what()));
+        fmt::format("{}:{}: not a log of dotpose watch: {}", path_.string(), line_, error.what()));
 }
 
 std::vector<LogRow> read_log(const std::filesystem::path& path) {

@@ -34,8 +34,8 @@ PrintOptions likely_options(const SheetEntry& entry) {
 void reprint_sheet(const SheetEntry& entry, const std::string& out) {
     if (entry.print && !entry.print->document.empty()) {
         throw Error(
-            fmt::format("the dots of '{}' lay over the document {}, which a sheet file does not "
-                        "hold; lay them over it again: {}",
+            fmt::format("the dots of '{}' were laid over the document {}, which the sheet file "
+                        "does not contain; lay them over it again: {}",
                         entry.name, entry.print->document, entry.print->command));
     }
     PrintOptions options = entry.print ? options_of(*entry.print) : likely_options(entry);

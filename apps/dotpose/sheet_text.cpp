@@ -70,8 +70,8 @@ std::optional<CodeVariant> common_code(const std::string& file,
 }
 
 std::string world_text(const SheetEntry& entry) {
-    if (!entry.world) return "where it lies in the world is not known";
-    return fmt::format("its top left corner lies at x {} mm, y {} mm in the world, yaw {} deg",
+    if (!entry.world) return "its pose in the world is not known";
+    return fmt::format("its top left corner is at x {} mm, y {} mm in the world, yaw {} deg",
                        short_number(kMmPerM * entry.world->x_m, 3),
                        short_number(kMmPerM * entry.world->y_m, 3),
                        short_number(entry.world->yaw_rad * 180 / std::numbers::pi, 4));

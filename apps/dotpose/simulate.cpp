@@ -52,16 +52,18 @@ constexpr NumberOption kNumberOptions[] = {
     {"--ink", "FRACTION", "Reflectance of ink, relative to paper", &Imperfections::ink_reflectance},
     {"--palest-ink", "FRACTION", "Contrast of the palest of four inks, one for each direction",
      &Imperfections::palest_ink},
-    {"--ink-variation", "FRACTION", "Deviation of the ink from dot to dot",
+    {"--ink-variation", "FRACTION", "Standard deviation of the ink from dot to dot",
      &Imperfections::ink_variation},
     {"--vignetting", "FRACTION", "Loss of light in the corners", &Imperfections::vignetting},
     {"--fall", "FRACTION", "Change of light from side to side", &Imperfections::fall},
     {"--blur", "PX", "Sigma of the lens's blur", &Imperfections::blur_sigma_px},
     {"--noise", "LEVELS", "Sigma of the sensor's noise", &Imperfections::noise_sigma},
     {"--salt-pepper", "FRACTION", "Black or white pixels", &Imperfections::salt_and_pepper},
-    {"--jitter", "MM", "Deviation of each dot's place, per axis", &Imperfections::jitter_mm},
+    {"--jitter", "MM", "Standard deviation of the dot positions, per axis",
+     &Imperfections::jitter_mm},
     {"--missing", "FRACTION", "Dots that are missing", &Imperfections::missing},
-    {"--texture", "FRACTION", "Deviation of the paper's reflectance", &Imperfections::texture},
+    {"--texture", "FRACTION", "Standard deviation of the paper's reflectance",
+     &Imperfections::texture},
 };
 
 // Two numbers in one argument, "A,B".
@@ -307,12 +309,12 @@ void add_overrides(Command& command, SimulateArguments& arguments) {
         command.add_option(option.flag, arguments.numbers[i], option.help)->type_name(option.unit);
     }
     add_pair(command, "--covered", "FROM,TO", arguments.covered,
-             "Share of the frame that has dots, along a border or in a corner");
+             "Fraction of the frame that shows dots, along a border or in a corner");
     command
         .add_option("--islands", arguments.islands, "Rectangles of dots in each frame, else none")
         ->type_name("N");
     command.add_flag("--table", arguments.on_table,
-                     "The sheet ends in the frame, a dark table is beyond");
+                     "Show the edge of the sheet, with a dark table beyond it");
     command.add_option("--dirt", arguments.dirt_blobs, "Dark specks in each frame")->type_name("N");
     command.add_option("--graphics", arguments.graphics, "Thick strokes or words in each frame")
         ->type_name("N");
@@ -345,7 +347,7 @@ void add_drive_options(Command& command, SimulateArguments& arguments) {
 void add_simulate(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<SimulateArguments>();
     Command* command =
-        app.add_subcommand("simulate", "Make camera frames whose pose is known exactly");
+        app.add_subcommand("simulate", "Render camera frames with exactly known poses");
     command->footer(kSimulateExamples);
     command
         ->add_option("-o,--out", arguments->out,
@@ -365,7 +367,8 @@ void add_simulate(Command& app, int& exit_code) {
     arguments->pattern.add_to(*command);
     command->get_option("--section")->default_str("random");
     add_overrides(*command, *arguments);
-    add_named(*command, "--scene", kScenes, "", "Something other than the pattern, to be refused",
+    add_named(*command, "--scene", kScenes, "",
+              "A scene that is not a valid pattern and must be rejected",
               [arguments](Scene s) { arguments->scene = s; });
     command
         ->add_option("--density", arguments->density,

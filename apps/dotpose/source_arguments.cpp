@@ -70,7 +70,7 @@ void SourceArguments::add_frame_options(Command& command) {
     command
         .add_option_function<std::string>(
             "--roi", [this](const std::string& text) { options.region = parse_region(text); },
-            "Part of the frame to look at")
+            "Part of the frame to use")
         ->type_name("X,Y,WxH");
 }
 

@@ -25,8 +25,8 @@ constexpr const char* kVersion = "dotpose " DOTPOSE_VERSION;
 /// Commands that the help suggests to a new user.
 constexpr const char* kFirstDay =
     "  dotpose print -o sheet.pdf   a sheet of dots; print it at 100 %\n"
-    "  dotpose locate photo.jpg     where on it a picture was taken\n"
-    "  dotpose watch 0              where on it a camera is, live\n";
+    "  dotpose locate photo.jpg     the position of a photo on the sheet\n"
+    "  dotpose watch 0              the position of a camera on the sheet, live\n";
 
 /// Returns a text with the path of the documents, which are installed beside the tool.
 std::string places_of_documents() {
@@ -83,7 +83,7 @@ int run(int argc, char** argv, const AddCommands& add) {
         }
     }
     app.footer(fmt::format(
-        "A first day:\n{}\ndotpose COMMAND --help has all options and more examples.\n{}",
+        "First steps:\n{}\ndotpose COMMAND --help has all options and more examples.\n{}",
         kFirstDay, places_of_documents()));
     try {
         app.parse(argc, argv);

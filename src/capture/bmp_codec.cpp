@@ -96,11 +96,12 @@ BmpHeader read_header(Bytes file) {
         case 4:
         case 8:
         case 24:
-            if (kind != Compression::none) fail("compressed pixels are not read");
+            if (kind != Compression::none) fail("compressed pixels are not supported");
             break;
         case 16:
         case 32:
-            if (kind != Compression::none && !has_fields) fail("compressed pixels are not read");
+            if (kind != Compression::none && !has_fields)
+                fail("compressed pixels are not supported");
             header.masks = masks_of(file, header.bits_per_pixel, kind);
             break;
         default:

@@ -185,7 +185,7 @@ void MqttClient::start() {
         stop();
         throw Error(place() + " refuses the connection: " + refusal);
     }
-    if (!is_connected) options_.tell("cannot reach " + place() + ": " + failure + "; trying on");
+    if (!is_connected) options_.tell("cannot reach " + place() + ": " + failure + "; trying again");
 }
 
 void MqttClient::stop() {

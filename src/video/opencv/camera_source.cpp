@@ -86,12 +86,13 @@ class Camera : public capture::FrameSource {
     }
 
     std::string why_not_open() const {
-        if (is_remote_) return "nothing answers there, or what does is no video";
+        if (is_remote_) return "there is no answer, or the answer is not a video";
         const std::vector<FoundCamera> cameras = find_cameras();
         const bool exists =
             std::ranges::find(cameras, device(), &FoundCamera::device) != cameras.end();
         return fmt::format(
-            "{}; {}", exists ? "another program uses it, or it gives no pictures" : "there is none",
+            "{}; {}",
+            exists ? "another program uses it, or it delivers no pictures" : "there is none",
             in_one_line(cameras));
     }
 

@@ -93,7 +93,7 @@ class VideoFile : public capture::FrameSource {
         }
         // Suppress the messages of FFmpeg: failures are reported as Error.
         av_log_set_level(AV_LOG_QUIET);
-        if (!open()) throw Error(name + " is no video, or of a kind that is not known");
+        if (!open()) throw Error(name + " is not a video, or its format is not known");
     }
 
     bool next(Frame& frame) override {
@@ -168,9 +168,9 @@ class VideoFile : public capture::FrameSource {
         const std::string of = promised() > frames_ ? fmt::format(" of {}", promised()) : "";
         const std::string counts = fmt::format("{}{} frames were read", frames_, of);
         if (is_damaged_ || is_short) {
-            throw Error(
-                fmt::format("{} is damaged or cut short: {}{}", name_, counts,
-                            is_counted_ ? "; times after the damage are only counted" : ""));
+            throw Error(fmt::format(
+                "{} is damaged or cut short: {}{}", name_, counts,
+                is_counted_ ? "; times after the damage are counted from frame numbers" : ""));
         }
         const bool is_regular = av_cmp_q(stream_->avg_frame_rate, stream_->r_frame_rate) == 0;
         if (is_regular && frames_ < promised()) {
