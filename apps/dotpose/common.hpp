@@ -19,7 +19,7 @@
 namespace dotpose::cli {
 
 /// Adds --code anoto|libdots|microdots for commands that write a pattern. The default is the value
-/// of `profile`.
+/// of `code`.
 void add_code_option(Command& command, CodeVariant& code);
 
 /// Adds --code auto|anoto|libdots|microdots for commands that read a pattern. None means auto,
