@@ -105,10 +105,10 @@ Lines terminal_lines(const CalibrationStatus& status) {
 }
 
 std::size_t terminal_columns() {
-    constexpr std::size_t kUsual = 80;
+    constexpr std::size_t kDefault = 80;
     winsize size{};
     const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    return is_known ? size.ws_col : kUsual;
+    return is_known ? size.ws_col : kDefault;
 }
 
 std::string line_of(const CalibrationStatus& status) {

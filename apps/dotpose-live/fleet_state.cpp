@@ -77,15 +77,15 @@ void FleetState::remove_oldest() {
 
 void FleetState::extend_path(Robot& robot) const {
     constexpr double kStep_mm = 0.1;  // minimum step, so a robot at rest adds no points to its path
-    const std::size_t most = std::min(kPath, kAllPaths / robots_.size());
+    const std::size_t max_points = std::min(kPath, kAllPaths / robots_.size());
     const RobotState& newest = robot.shown.newest;
     const draw::Point place{newest.x_m * 1000, newest.y_m * 1000};
     auto& path = robot.path_mm;
     if (!path.empty() && std::hypot(place.x - path.back().x, place.y - path.back().y) < kStep_mm) {
         return;
     }
-    if (path.size() >= most) {
-        path.erase(path.begin(), path.end() - static_cast<std::ptrdiff_t>(most / 2));
+    if (path.size() >= max_points) {
+        path.erase(path.begin(), path.end() - static_cast<std::ptrdiff_t>(max_points / 2));
         path.shrink_to_fit();
     }
     path.push_back(place);

@@ -273,9 +273,9 @@ bool LiveCalibration::go_on_calibrating() {
             if (interrupted() || !display_.is_wanted()) return false;
             continue;
         }
-        constexpr double kTrusted_px = 1;
+        constexpr double kMaxCornerSigma_px = 1;
         const auto camera = lens();
-        if (camera && corner_sigma_px(*camera) < kTrusted_px)
+        if (camera && corner_sigma_px(*camera) < kMaxCornerSigma_px)
             reader_.use_lens(calibrate::lens_of(*camera));
     }
     return true;

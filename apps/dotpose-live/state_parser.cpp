@@ -80,10 +80,10 @@ std::optional<std::int64_t> parse_timestamp(std::string_view text) {
 struct Absurd {};
 
 /// Returns a number of a message. Throws simdjson_error if there is no number, and Absurd if its
-/// absolute value exceeds `most`.
-double bounded(const object& values, std::string_view key, double most) {
+/// absolute value exceeds `max_magnitude`.
+double bounded(const object& values, std::string_view key, double max_magnitude) {
     const double value = values[key].get_double();
-    if (!(std::abs(value) <= most)) throw Absurd();
+    if (!(std::abs(value) <= max_magnitude)) throw Absurd();
     return value;
 }
 

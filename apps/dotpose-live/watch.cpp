@@ -165,8 +165,8 @@ class Pace {
         if (!begun_) begun_ = steady_clock::now() - microseconds(frame.time_us);
         const auto due = *begun_ + microseconds(frame.time_us);
         while (!interrupted() && steady_clock::now() < due) {
-            constexpr steady_clock::duration kLongest = milliseconds(50);
-            std::this_thread::sleep_for(std::min(kLongest, due - steady_clock::now()));
+            constexpr steady_clock::duration kMaxSleep = milliseconds(50);
+            std::this_thread::sleep_for(std::min(kMaxSleep, due - steady_clock::now()));
         }
     }
 

@@ -65,8 +65,9 @@ void require_svg(const std::string& path) {
 /// Returns true if a printer driver can produce this print scale. If not, the resolution of the
 /// scan is probably wrong.
 bool is_believable(const PrintScale& scale) {
-    constexpr double kFarthest = 0.25;
-    return std::abs(scale.scale_x - 1) <= kFarthest && std::abs(scale.scale_y - 1) <= kFarthest;
+    constexpr double kMaxDeviation = 0.25;
+    return std::abs(scale.scale_x - 1) <= kMaxDeviation &&
+           std::abs(scale.scale_y - 1) <= kMaxDeviation;
 }
 
 /// Throws Error if the scan yields no scale that can be written into a sheet file.

@@ -89,12 +89,12 @@ class HelpFormatter : public CLI::Formatter {
 };
 
 template <typename Number>
-Validator range(Number least, Number most) {
-    const CLI::Range range(least, most);
-    return Validator([range, least, most](const std::string& value) -> std::string {
+Validator range(Number min, Number max) {
+    const CLI::Range range(min, max);
+    return Validator([range, min, max](const std::string& value) -> std::string {
         std::string tried = value;
         if (range(tried).empty()) return {};
-        return fmt::format("'{}' is not a number from {} to {}", value, least, most);
+        return fmt::format("'{}' is not a number from {} to {}", value, min, max);
     });
 }
 
@@ -157,9 +157,9 @@ bool parse_number(const std::string& text, int& number) {
     return CLI::detail::lexical_cast(text, number);
 }
 
-Range::Range(int least, int most) : Validator(range(least, most)) {}
-Range::Range(double least, double most) : Validator(range(least, most)) {}
-Range::Range(std::uint64_t least, std::uint64_t most) : Validator(range(least, most)) {}
+Range::Range(int min, int max) : Validator(range(min, max)) {}
+Range::Range(double min, double max) : Validator(range(min, max)) {}
+Range::Range(std::uint64_t min, std::uint64_t max) : Validator(range(min, max)) {}
 
 Option* Option::type_name(const std::string& name) {
     option_->type_name(name);

@@ -56,9 +56,9 @@ class Validator {
 /// Accepts numbers in a range, including both ends.
 class Range : public Validator {
   public:
-    Range(int least, int most);
-    Range(double least, double most);
-    Range(std::uint64_t least, std::uint64_t most);
+    Range(int min, int max);
+    Range(double min, double max);
+    Range(std::uint64_t min, std::uint64_t max);
 };
 
 /// An option of a command, or a positional argument. Commands own their options.

@@ -144,10 +144,10 @@ Option* add_lens_option(Command& command, FixedLens& lens) {
         .add_option_function<double>(
             "--k",
             [&lens](double k_per_px2) {
-                constexpr double kLargest_k = 1.0 / 512;
-                if (!(std::abs(k_per_px2) < kLargest_k)) {
+                constexpr double kMax_k = 1.0 / 512;
+                if (!(std::abs(k_per_px2) < kMax_k)) {
                     throw ValidationError("--k", fmt::format("{} is not between {:.4f} and {:.4f}",
-                                                             k_per_px2, -kLargest_k, kLargest_k));
+                                                             k_per_px2, -kMax_k, kMax_k));
                 }
                 lens = FixedLens::from_k(k_per_px2);
             },
@@ -222,14 +222,14 @@ void add_drawing_option(Command& command, DotDrawing& drawing) {
 
 std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,
                                                         std::string_view separators,
-                                                        std::uint32_t most) {
+                                                        std::uint32_t max) {
     std::vector<std::uint32_t> numbers;
     const char* next = text.data();
     const char* const end = next + text.size();
     while (true) {
         std::uint32_t& number = numbers.emplace_back();
         const auto [stop, error] = std::from_chars(next, end, number);
-        if (error != std::errc() || number > most) return std::nullopt;
+        if (error != std::errc() || number > max) return std::nullopt;
         const std::size_t done = numbers.size() - 1;
         if (done == separators.size()) return stop == end ? std::optional(numbers) : std::nullopt;
         if (stop == end || *stop != separators[done]) return std::nullopt;

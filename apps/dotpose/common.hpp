@@ -112,11 +112,11 @@ std::optional<DotDrawing> drawing_by_name(const std::string& name);
 /// Adds --dots, the way in which a PDF draws dots.
 void add_drawing_option(Command& command, DotDrawing& drawing);
 
-/// Parses integers from 0 to `most`, separated by exactly these separators. For example, "640x480"
+/// Parses integers from 0 to `max`, separated by exactly these separators. For example, "640x480"
 /// has the separators "x", and "10,20,640x480" has ",,x". Returns none for any other text.
 std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,
                                                         std::string_view separators,
-                                                        std::uint32_t most);
+                                                        std::uint32_t max);
 
 struct FrameSize {
     int width_px = 0;

@@ -9,20 +9,20 @@ namespace {
 
 /// Maximum distance of a reference point from the image centre, in px: far outside of any image,
 /// but well within the range of the fixed-point pose.
-constexpr double kFarthestReference_px = 10'000;
+constexpr double kMaxReference_px = 10'000;
 
 PixelPoint parse_reference_px(const std::string& text) {
     PixelPoint point;
     const std::size_t comma = text.find(',');
     const auto parse = [](const std::string& number, double& value) {
-        return parse_number(number, value) && std::abs(value) <= kFarthestReference_px;
+        return parse_number(number, value) && std::abs(value) <= kMaxReference_px;
     };
     if (comma == std::string::npos || !parse(text.substr(0, comma), point.u) ||
         !parse(text.substr(comma + 1), point.v)) {
         throw ValidationError(
             "--reference",
             fmt::format("'{}' must be two numbers from {} to {}, separated by a comma", text,
-                        -kFarthestReference_px, kFarthestReference_px));
+                        -kMaxReference_px, kMaxReference_px));
     }
     return point;
 }

@@ -56,13 +56,13 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
     // Longer words match no name, and the distance table would need much memory.
     constexpr std::size_t kMaxCharacters = 64;
     if (asked.size() > kMaxCharacters) return nearest;
-    int least = static_cast<int>(kMaxCharacters);
+    int min_distance = static_cast<int>(kMaxCharacters);
     for (const std::string& name : names) {
         const std::string known = bare(name);
         const int distance = edit_distance(asked, known);
         const std::size_t longer = std::max(asked.size(), known.size());
-        if (distance < least && distance <= static_cast<int>(longer / 3)) {
-            least = distance;
+        if (distance < min_distance && distance <= static_cast<int>(longer / 3)) {
+            min_distance = distance;
             nearest = name;
         }
     }

@@ -177,10 +177,10 @@ double bend(ImageView image, int step_px) {
 bool is_out_of_focus(ImageView image) {
     constexpr double kMinDetail = 0.4;
     constexpr double kFocused = 0.06;
-    constexpr int kFarthest_px = 16;
-    if (std::min(image.width_px, image.height_px) <= 2 * kFarthest_px) return false;
+    constexpr int kMaxStep_px = 16;
+    if (std::min(image.width_px, image.height_px) <= 2 * kMaxStep_px) return false;
     const double noise = bend(image, 1);
-    const double detail = std::max(bend(image, 8), bend(image, kFarthest_px)) - noise;
+    const double detail = std::max(bend(image, 8), bend(image, kMaxStep_px)) - noise;
     return detail > kMinDetail && bend(image, 2) - noise < kFocused * detail;
 }
 

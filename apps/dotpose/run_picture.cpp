@@ -94,12 +94,12 @@ void draw_gaps(const Axes& axes, const std::vector<LogRow>& rows, double low, do
 void draw_over_time(Svg& svg, const std::vector<LogRow>& rows, double top, const char* label,
                     const std::function<double(const LogRow&)>& value, bool has_time) {
     std::vector<Point> curve;
-    double largest = 0;
+    double max_value = 0;
     for (const LogRow& row : rows) {
         curve.push_back({row.t_s, value(row)});
-        if (std::isfinite(curve.back().y)) largest = std::max(largest, curve.back().y);
+        if (std::isfinite(curve.back().y)) max_value = std::max(max_value, curve.back().y);
     }
-    const double limit = plot::rounded_up(largest);
+    const double limit = plot::rounded_up(max_value);
     const double end_s = std::max(rows.back().t_s, rows.front().t_s + 1e-3);
     const Axes axes(svg, {850, top, 600, 170}, {rows.front().t_s, end_s}, {0, limit});
     axes.draw_y(label);

@@ -76,7 +76,7 @@ SimulatedDrive::SimulatedDrive(const std::vector<SheetEntry>& sheets, const Driv
 
 void SimulatedDrive::lay_path() {
     constexpr double kMargin_mm = 5;
-    constexpr double kSmallest = 0.25;  // fraction of the width or height
+    constexpr double kMinFraction = 0.25;  // fraction of the width or height
     Vec2 low{1e9, 1e9};
     Vec2 high{-1e9, -1e9};
     for (const SheetEntry& entry : sheets_) {
@@ -89,7 +89,7 @@ void SimulatedDrive::lay_path() {
         }
     }
     const auto amplitude = [&](double length_mm) {
-        return std::max(kSmallest * length_mm, length_mm / 2 - reach_mm(camera_) - kMargin_mm);
+        return std::max(kMinFraction * length_mm, length_mm / 2 - reach_mm(camera_) - kMargin_mm);
     };
     centre_mm_ = {(low.x + high.x) / 2, (low.y + high.y) / 2};
     amplitude_mm_ = {amplitude(high.x - low.x), amplitude(high.y - low.y)};

@@ -97,13 +97,13 @@ void SourceList::put_in_order(Frame& frame) {
         first_index_ = next_index_;
         offset_us_ = is_first_source_ ? 0 : next_time_us_ - frame.time_us;
     }
-    constexpr double kUsualRate = 30;
+    constexpr double kDefaultRate = 30;
     frame.index += first_index_;
     frame.time_us += offset_us_;
     // The times continue the times of the previous source.
     if (offset_us_ != 0) frame.is_live = false;
     next_index_ = frame.index + 1;
-    next_time_us_ = frame.time_us + time_of(1, rate() > 0 ? rate() : kUsualRate);
+    next_time_us_ = frame.time_us + time_of(1, rate() > 0 ? rate() : kDefaultRate);
 }
 
 std::int64_t SourceList::dropped() const {
