@@ -1,5 +1,5 @@
 /// The display of `dotpose calibrate --live` while it takes frames: a window, or the terminal if
-/// there is no display. If standard error is not a terminal, a line for each change.
+/// there is no display. If standard error is not a terminal, each change is printed as a line.
 #pragma once
 
 #include <atomic>
@@ -38,7 +38,7 @@ class CalibrationDisplay {
     /// Handles the events of the window. Returns false like `show`.
     bool is_wanted() { return screen_.is_wanted(); }
 
-    /// Writes a message to standard error without overwriting it with the next status. Thread-safe.
+    /// Writes a message to standard error. The next status does not overwrite it. Thread-safe.
     void say(const std::string& message);
 
   private:

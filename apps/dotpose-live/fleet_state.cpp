@@ -33,7 +33,7 @@ void FleetState::take(std::string_view topic, std::string_view payload, std::int
 void FleetState::take_connection(std::string_view name, const RobotConnection& connection,
                                  std::int64_t now_us) {
     Robot& robot = heard(name);
-    // The message may be days old, because the broker retains it: its own time limits `heard_us`.
+    // A retained message may be days old, so its own time is an upper limit for `heard_us`.
     FleetRobot& shown = robot.shown;
     shown.heard_us = std::max(shown.heard_us, std::min(now_us, connection.sent_us));
     if (connection.presence == publish::Presence::online) return;

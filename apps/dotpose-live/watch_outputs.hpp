@@ -27,7 +27,7 @@ struct OutputOptions {
     std::string robot = "robot";               ///< name of the robot on the broker and in ROS
     RobotOutputOptions messages;               ///< ROS messages
     std::optional<publish::MqttOptions> mqtt;  ///< the broker; none if nothing is published
-    /// Maximum number of messages per second, without events; 0: one per frame.
+    /// Maximum number of messages per second, not counting events. 0: one message per frame.
     double mqtt_rate_hz = 0;
     std::string world_map;  ///< name of the world of the sheets
     video::ScreenOptions screen;

@@ -133,8 +133,8 @@ std::string message_of(const CLI::ParseError& error) {
     return text;
 }
 
-/// Calls `parse` and translates the exceptions of CLI11. Returns false after the help or the
-/// version, and throws UsageError after an error, as Command::parse does.
+/// Calls `parse` and translates the exceptions of CLI11. Returns false after printing the help or
+/// the version. Throws UsageError after an error, as Command::parse does.
 bool parsed(CLI::App& app, const std::function<void()>& parse) {
     try {
         parse();

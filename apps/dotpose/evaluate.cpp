@@ -77,7 +77,7 @@ struct EvaluateArguments {
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
     std::optional<CodeVariant> code;  ///< code in which all frames are read, if --code names one
-    bool code_is_found_out = false;   ///< ignores the codes in truth.csv
+    bool code_is_found_out = false;   ///< true to ignore the codes in truth.csv
     int threads = 0;
 };
 

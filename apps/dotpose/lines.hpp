@@ -17,7 +17,7 @@ inline bool is_standard_output(const std::string& out) {
     return out.empty() || out == kStandardOutput;
 }
 
-/// The reader of an output closed it, as `head` does.
+/// Thrown if the reader of an output, such as `head`, closed it.
 struct ReaderLeft : Error {
     using Error::Error;
 };
@@ -29,7 +29,7 @@ struct ReaderLeft : Error {
 struct FileCloser {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
-/// A file of the C library, which closes itself.
+/// A file of the C library that is closed automatically.
 using File = std::unique_ptr<std::FILE, FileCloser>;
 
 /// Creates or truncates a file. Throws Error if that fails.

@@ -10,8 +10,8 @@
 namespace dotpose::cli {
 
 struct LiveCalibrationOptions {
-    bool has_no_window = false;  ///< uses the terminal even if there is a display
-    /// Folder in which the frames that are taken are saved; empty: they are not saved.
+    bool has_no_window = false;  ///< true to use the terminal even if there is a display
+    /// Folder for the frames that are taken. Empty: the frames are not saved.
     std::string save;
 };
 

@@ -64,8 +64,8 @@ std::string doubt(const Record& record) {
         fix.p_wrong_log2 >= 0 ? "other positions are as likely"
                               : fmt::format("{} instead of at most {}", p_wrong_text(fix.p_wrong()),
                                             p_wrong_text(std::ldexp(1.0, record.max_p_wrong_log2)));
-    // The number of bits is not two per visible dot: bits are also read in cells without a detected
-    // dot.
+    // Bits are also read in cells without a detected dot, so their number is not twice the number
+    // of dots.
     if (fix.bit_errors > 0) {
         return fmt::format("{}; {} of the bits read contradict it", odds, fix.bit_errors);
     }

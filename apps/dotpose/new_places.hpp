@@ -31,7 +31,7 @@ class NewPlaces {
     };
 
     std::vector<Place> places_;
-    double far_ = 1;  ///< factor on the minimum differences
+    double factor_ = 1;  ///< factor on the minimum differences
 };
 
 /// Removes the elements with odd indices.

@@ -54,7 +54,7 @@ std::vector<Field> covariance_fields(const PoseNames& names, Units units,
 /// Returns the fields x_m, y_m, yaw_rad and covariance_m_rad.
 std::vector<Field> world_fields(const std::optional<WorldPlace>& place);
 
-/// Formats a length given in mm, in metres.
+/// Formats a length in metres. `mm` is the length in mm.
 std::string metres(double mm);
 
 /// Appends `more` to `fields`.

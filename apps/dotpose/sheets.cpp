@@ -66,7 +66,7 @@ struct SheetsArguments {
     SheetFileWait wait() const { return {wait_s, tell, interrupted}; }
 };
 
-/// Throws an error if the sheet file does not exist, because changing it would create a new one.
+/// Throws Error if the sheet file does not exist, because changing it would create a new one.
 void require_there(const SheetsArguments& arguments) {
     std::error_code error;
     if (std::filesystem::exists(arguments.sheets, error)) return;

@@ -31,7 +31,7 @@ std::optional<ImageFormat> sniff(std::span<const std::uint8_t> bytes);
 /// An unsupported image format.
 struct OtherFormat {
     const char* name;    ///< for example "a WebP image"
-    const char* remedy;  ///< instruction how to convert it to a supported format
+    const char* remedy;  ///< instructions for converting it to a supported format
 };
 /// Detects an unsupported format from the first bytes of a file. Returns none for other files.
 std::optional<OtherFormat> sniff_other(std::span<const std::uint8_t> bytes);

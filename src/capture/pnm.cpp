@@ -150,8 +150,8 @@ std::uint32_t read_level(Reader& reader, const Header& header) {
     return level;
 }
 
-/// Returns the level of white. `reader` is copied, to read the levels after the header once for the
-/// maximum.
+/// Returns the level of white. `reader` is passed by value, because the search for the maximum
+/// level must not advance the caller's reader.
 std::uint32_t white_of(Reader reader, const Header& header) {
     if (header.max_level < kMaxLevel) return header.max_level;
     std::uint32_t largest = 0;

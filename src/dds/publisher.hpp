@@ -34,7 +34,7 @@ class Publisher {
     /// reliable messages. Otherwise, the newest 100 messages of a topic are kept for slow
     /// subscribers.
     void publish(const ros::RobotMessages& messages, bool waits);
-    /// Publishes the mount of the camera, including for later subscribers.
+    /// Publishes the mount of the camera. Later subscribers receive it, too.
     void publish(const ros::TransformStamped& mount);
 
     /// Number of messages that were passed to DDS, and number of messages that were lost: DDS had

@@ -111,7 +111,7 @@ double mark_radius(double bias, double scale) {
     return std::max(1.2, kMaxMark * std::sqrt(std::abs(bias) / scale));
 }
 
-/// The axes of a page, in the y direction of its coordinates.
+/// The axes of a page. The y axis has the direction of the coordinates on the page.
 struct PageScale {
     Scale x;
     Scale y;

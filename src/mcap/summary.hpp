@@ -5,7 +5,7 @@
 
 namespace dotpose::mcap {
 
-/// Schemas and channels, as records that are repeated in the summary.
+/// Contents of the file, for the summary. Schemas and channels are stored as records.
 struct Contents {
     Bytes schemas;
     Bytes channels;
