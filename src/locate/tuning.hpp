@@ -83,8 +83,8 @@ inline constexpr float kOutlier = 8.3F;
 /// measured, above which small centroid windows miss a part of the offsets and the dots are
 /// measured again.
 inline constexpr float kFar = 0.055F;
-/// Maximum number of measurements of the dots. docs/accuracy.md, "Dots that fall on the pixels
-/// alike", lists the remaining errors.
+/// Maximum number of measurements of the dots. docs/accuracy.md, "Dots with the same sub-pixel
+/// phase", lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
 /// Windows darker than this fraction of the paper level show the table beyond the sheet, where
 /// noise is as dark as dots.
