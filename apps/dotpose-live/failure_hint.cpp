@@ -78,12 +78,12 @@ std::string FailureHint::after(const Reading& reading, ImageView image, const Op
     const auto failed =
         static_cast<std::size_t>(std::ranges::count(last_second_, true, &Frame::has_failed));
     if (2 * failed <= last_second_.size()) {
-        is_told_ = false;
+        is_reported_ = false;
         return {};
     }
-    const bool is_time = is_long_enough && failed >= kMinFrames && !is_told_;
+    const bool is_time = is_long_enough && failed >= kMinFrames && !is_reported_;
     if (!is_time || record.fix.status == Status::ok) return {};
-    is_told_ = true;
+    is_reported_ = true;
     return fmt::format("most frames of the last second were not located; the newest: {}",
                        reason_with_advice(record, image, options, bits_per_px));
 }

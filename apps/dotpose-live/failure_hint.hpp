@@ -40,7 +40,7 @@ class FailureHint {
                   double bits_per_px);
 
     std::deque<Frame> last_second_;
-    bool is_told_ = false;
+    bool is_reported_ = false;
     std::int64_t frames_ = 0;
     std::int64_t failed_ = 0;
     std::map<Status, Failures> failures_;

@@ -98,7 +98,7 @@ void run(const FleetArguments& arguments) {
     files.writes("--log", arguments.log, Content::csv);
     catch_interrupts();
     FleetView view(arguments.sheets, arguments.map,
-                   arguments.share.is_shared() ? Gets::share : Gets::all);
+                   arguments.share.is_shared() ? Delivery::shared : Delivery::all);
     FleetInput input(arguments, *options);
     const auto begun = steady_clock::now();
     const auto seconds_since = [](steady_clock::time_point time) {

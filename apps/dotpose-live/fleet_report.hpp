@@ -13,10 +13,10 @@ namespace dotpose::cli {
 /// Whether a fleet receives all states of its robots or shares them with other fleets. If the
 /// states are shared, a gap in the numbers does not mean a lost state, so missing states are not
 /// reported.
-enum class Gets { all, share };
+enum class Delivery { all, shared };
 
 /// Returns a table of the robots as text, with a header line and a summary line.
-std::string table_of(const FleetState& fleet, Gets gets, std::int64_t now_us);
+std::string table_of(const FleetState& fleet, Delivery delivery, std::int64_t now_us);
 
 /// Returns the map with its sheets and the robots on it.
 draw::Map map_of(const FleetState& fleet, const std::string& map_id,

@@ -32,7 +32,7 @@ void FleetState::take(std::string_view topic, std::string_view payload, std::int
 
 void FleetState::take_connection(std::string_view name, const RobotConnection& connection,
                                  std::int64_t now_us) {
-    Robot& robot = heard(name);
+    Robot& robot = touch(name);
     // A retained message may be days old, so its own time is an upper limit for `heard_us`.
     FleetRobot& shown = robot.shown;
     shown.heard_us = std::max(shown.heard_us, std::min(now_us, connection.sent_us));
@@ -43,7 +43,7 @@ void FleetState::take_connection(std::string_view name, const RobotConnection& c
 }
 
 void FleetState::take_state(std::string_view name, RobotState state, std::int64_t now_us) {
-    Robot& robot = heard(name);
+    Robot& robot = touch(name);
     robot.shown.heard_us = now_us;
     count_latency(static_cast<float>(now_us - state.sent_us) * 1e-3F);
     const auto arrival = robot.numbers.take(state, robot.shown.counts);
@@ -56,7 +56,7 @@ void FleetState::take_state(std::string_view name, RobotState state, std::int64_
     if (robot.shown.newest.is_localized) extend_path(robot);
 }
 
-FleetState::Robot& FleetState::heard(std::string_view name) {
+FleetState::Robot& FleetState::touch(std::string_view name) {
     const auto known = robots_.find(name);
     if (known != robots_.end()) {
         by_age_.splice(by_age_.end(), by_age_, known->second.place);

@@ -74,7 +74,7 @@ class FleetState {
     void take_state(std::string_view name, RobotState state, std::int64_t now_us);
     void take_connection(std::string_view name, const RobotConnection& connection,
                          std::int64_t now_us);
-    Robot& heard(std::string_view name);
+    Robot& touch(std::string_view name);
     void remove_oldest();
     void extend_path(Robot& robot) const;
     void count_latency(float latency_ms);

@@ -15,8 +15,8 @@
 
 namespace dotpose::cli {
 
-FleetView::FleetView(const std::string& sheets, std::string map, Gets gets)
-    : map_path_(std::move(map)), gets_(gets), on_terminal_(isatty(STDOUT_FILENO) == 1) {
+FleetView::FleetView(const std::string& sheets, std::string map, Delivery delivery)
+    : map_path_(std::move(map)), delivery_(delivery), on_terminal_(isatty(STDOUT_FILENO) == 1) {
     if (!map_path_.empty()) base::require_writable(map_path_);
     if (sheets.empty()) return;
     map_id_ = std::filesystem::path(sheets).stem().string();
@@ -46,7 +46,7 @@ void FleetView::finish(const FleetState& fleet) {
 
 void FleetView::show_table(const FleetState& fleet) const {
     constexpr const char* kClear = "\033[H\033[J";
-    fmt::print("{}{}", on_terminal_ ? kClear : "", table_of(fleet, gets_, system_us()));
+    fmt::print("{}{}", on_terminal_ ? kClear : "", table_of(fleet, delivery_, system_us()));
     std::fflush(stdout);
 }
 

@@ -15,7 +15,7 @@ class FleetView {
   public:
     /// `sheets` is the path of the sheet file and `map` the path of the drawing. Both may be empty.
     /// Throws Error.
-    FleetView(const std::string& sheets, std::string map, Gets gets);
+    FleetView(const std::string& sheets, std::string map, Delivery delivery);
 
     /// Shows the table if standard output is a terminal. Draws the map, but uses at most a tenth of
     /// the time for drawing.
@@ -34,7 +34,7 @@ class FleetView {
     std::string map_path_;
     std::string map_id_;
     std::vector<draw::MapSheet> sheets_;
-    Gets gets_;
+    Delivery delivery_;
     bool on_terminal_;
     bool is_failing_ = false;  ///< true if the last map could not be written
     Clock::time_point next_map_;

@@ -215,18 +215,18 @@ bool LiveCalibration::look(capture::Frame& frame) {
     if (frame.image.pixels.empty()) return display_.is_wanted();
     start_with(frame.image);
     const auto located = reader_.read(frame.image.view());
-    const std::string why_not = refusal(frame, located);
+    const std::string refusal_reason = refusal(frame, located);
     // Remains valid when the pixels are moved out of the frame.
     const ImageView image = frame.image.view();
-    if (why_not.empty()) {
+    if (refusal_reason.empty()) {
         coverage_->add(view_of(*located, reader_.trace().fix));
         if (saver_) saver_->take(image, reader_.trace().fix);
         taken_.push_back(std::make_shared<const GreyImage>(std::move(frame.image)));
     }
     CalibrationStatus status(*coverage_);
     status.needs = needs();
-    status.is_taken = why_not.empty();
-    status.now = status.is_taken ? "move on to another place" : why_not;
+    status.is_taken = refusal_reason.empty();
+    status.now = status.is_taken ? "move on to another place" : refusal_reason;
     if (located) status.theta_rad = reader_.trace().fix.theta_rad();
     if (const auto camera = lens()) status.corner_sigma_px = corner_sigma_px(*camera);
     if (job_.newest()) {

@@ -77,25 +77,25 @@ std::optional<std::int64_t> parse_timestamp(std::string_view text) {
 }
 
 /// Thrown if a value of a message is out of range.
-struct Absurd {};
+struct OutOfRange {};
 
-/// Returns a number of a message. Throws simdjson_error if there is no number, and Absurd if its
-/// absolute value exceeds `max_magnitude`.
+/// Returns a number of a message. Throws simdjson_error if there is no number, and OutOfRange if
+/// its absolute value exceeds `max_magnitude`.
 double bounded(const object& values, std::string_view key, double max_magnitude) {
     const double value = values[key].get_double();
-    if (!(std::abs(value) <= max_magnitude)) throw Absurd();
+    if (!(std::abs(value) <= max_magnitude)) throw OutOfRange();
     return value;
 }
 
 std::string name_in(const object& values, std::string_view key) {
     const std::string_view name = values[key].get_string();
-    if (name.size() > kMaxNameBytes) throw Absurd();
+    if (name.size() > kMaxNameBytes) throw OutOfRange();
     return std::string(name);
 }
 
 std::int64_t time_in(const object& message) {
     const auto sent_us = parse_timestamp(message["timestamp"].get_string());
-    if (!sent_us) throw Absurd();
+    if (!sent_us) throw OutOfRange();
     return *sent_us;
 }
 
@@ -128,7 +128,7 @@ RobotConnection connection_in(const object& message) {
     connection.header_id = message["headerId"].get_uint64();
     const std::string_view state = message["connectionState"].get_string();
     const auto known = std::ranges::find(kConnectionStates, state);
-    if (known == std::end(kConnectionStates)) throw Absurd();
+    if (known == std::end(kConnectionStates)) throw OutOfRange();
     connection.presence = static_cast<publish::Presence>(known - std::begin(kConnectionStates));
     return connection;
 }
@@ -150,7 +150,7 @@ auto parsed(std::string_view json, const Read& read) -> std::optional<decltype(r
         return read(parser.parse(json.data(), json.size()).get_object());
     } catch (const simdjson::simdjson_error&) {
         return std::nullopt;
-    } catch (const Absurd&) {
+    } catch (const OutOfRange&) {
         return std::nullopt;
     }
 }

@@ -125,14 +125,14 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
 }
 
 /// Reports on standard error why most frames fail, and the first warning of each kind.
-void tell_once_in_a_while(const Reading& reading, ImageView image, const Follower& follower,
-                          double bits_per_px, FailureHint& hint,
-                          std::array<bool, kWarnings>& was_told) {
+void report_problems(const Reading& reading, ImageView image, const Follower& follower,
+                     double bits_per_px, FailureHint& hint,
+                     std::array<bool, kWarnings>& was_reported) {
     const std::string advice = hint.after(reading, image, follower.used_options(), bits_per_px);
     if (!advice.empty()) tell(advice);
     const auto doubts = warnings(reading.record);
     for (std::size_t i = 0; i < doubts.size(); ++i) {
-        if (doubts[i].empty() || std::exchange(was_told[i], true)) continue;
+        if (doubts[i].empty() || std::exchange(was_reported[i], true)) continue;
         tell(fmt::format("frame {}: {}", reading.index, doubts[i]));
     }
 }
@@ -213,7 +213,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
            FailureHint& hint) {
     try {
         capture::Frame frame;
-        std::array<bool, kWarnings> was_told{};
+        std::array<bool, kWarnings> was_reported{};
         bool goes_on = true;
         Pace pace;
         ProgressLine progress("following", arguments.outputs.lines.out);
@@ -221,8 +221,8 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
             if (arguments.is_realtime) pace.wait_for(frame);
             if (arguments.follower.is_inverted) invert(frame.image);
             const Reading reading = read(frame, follower);
-            tell_once_in_a_while(reading, frame.image.view(), follower, source.bits_per_px(), hint,
-                                 was_told);
+            report_problems(reading, frame.image.view(), follower, source.bits_per_px(), hint,
+                            was_reported);
             if (saver) save(*saver, frame.image, reading.record.fix, arguments);
             goes_on = outputs.take(frame, reading, source.dropped());
             progress.update(outputs.tally().frames, length);

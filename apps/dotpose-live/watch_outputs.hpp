@@ -33,7 +33,7 @@ struct OutputOptions {
     video::ScreenOptions screen;
 };
 
-/// Counts of a run.
+/// Number of frames, fixes and events of a run.
 struct WatchTally {
     std::int64_t frames = 0;
     std::int64_t fixes = 0;

@@ -64,7 +64,7 @@ void require_svg(const std::string& path) {
 
 /// Returns true if a printer driver can produce this print scale. If not, the resolution of the
 /// scan is probably wrong.
-bool is_believable(const PrintScale& scale) {
+bool is_plausible(const PrintScale& scale) {
     constexpr double kMaxDeviation = 0.25;
     return std::abs(scale.scale_x - 1) <= kMaxDeviation &&
            std::abs(scale.scale_y - 1) <= kMaxDeviation;
@@ -91,7 +91,7 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
                                 scan, kRemedy));
     }
     for (const PrintField& field : check.fields) {
-        if (!field.scale || is_believable(*field.scale)) continue;
+        if (!field.scale || is_plausible(*field.scale)) continue;
         throw Error(
             fmt::format("{}: the page would be printed at {:.0f} % of its size: the resolution or "
                         "the spacing is wrong; nothing was written",

@@ -164,7 +164,7 @@ ordered_json json_of(const Pattern& pattern) {
 
 /// Returns a remark to append to the name of a detected code, or an empty text if no other code is
 /// probable.
-std::string doubt_of_code(const PrintCheck& check) {
+std::string code_remark(const PrintCheck& check) {
     constexpr double kDoubtful = 0.01;
     if (check.code_p_wrong < kDoubtful) return "";
     return fmt::format(" (or another one: too few dots to decide; probability {:.2g})",
@@ -190,7 +190,7 @@ std::string text_report(const CheckedScan& scan, const PrintCheck& check) {
             check.is_mirrored ? "the pattern is mirrored: check it with --flip"
                               : "no pattern was found in this image");
     } else {
-        add(text, "code        {}{}", name(check.code), doubt_of_code(check));
+        add(text, "code        {}{}", name(check.code), code_remark(check));
     }
     if (check.is_test_page) {
         add_patches(text, check);

@@ -76,8 +76,8 @@ struct EvaluateArguments {
     TruthOf truth_of = TruthOf::image;
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
-    std::optional<CodeVariant> code;  ///< code in which all frames are read, if --code names one
-    bool code_is_found_out = false;   ///< true to ignore the codes in truth.csv
+    std::optional<CodeVariant> code;   ///< code in which all frames are read, if --code names one
+    bool ignores_truth_codes = false;  ///< true to ignore the codes in truth.csv
     int threads = 0;
 };
 
@@ -158,7 +158,7 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
     ProgressLine line("evaluating " + what);
     run.options = {arguments.options};
     run.any_code = !arguments.code;
-    if (arguments.code_is_found_out) {
+    if (arguments.ignores_truth_codes) {
         run.frame_at = [read = run.frame_at](int index) {
             KnownFrame frame = read(index);
             frame.code.reset();
@@ -404,7 +404,7 @@ void add_evaluate(Command& app, int& exit_code) {
     command->get_option("--out")->type_name("FILE|-|DIR");
     command->callback([arguments, command, &exit_code] {
         arguments->spacing_given = command->count("--spacing") > 0;
-        arguments->code_is_found_out = command->count("--code") > 0 && !arguments->code;
+        arguments->ignores_truth_codes = command->count("--code") > 0 && !arguments->code;
         if (const auto& size = arguments->sources.options; size.width_px > 0) {
             arguments->setup.camera.width_px = size.width_px;
             arguments->setup.camera.height_px = size.height_px;

@@ -52,7 +52,7 @@ std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place, Units un
 }
 
 /// Explains, with numbers, why a position is rejected as not certain.
-std::string doubt(const Record& record) {
+std::string uncertainty_reason(const Record& record) {
     const Fix& fix = record.fix;
     if (fix.p_wrong_log2 <= record.max_p_wrong_log2) {
         return fmt::format(
@@ -201,7 +201,7 @@ std::string plain_reason(const Record& record) {
             return fmt::format("found {} dots; at least {} are needed", fix.dots_seen,
                                record.min_dots);
         case Status::not_certain:
-            return fmt::format("{}: {}", message(fix.status), doubt(record));
+            return fmt::format("{}: {}", message(fix.status), uncertainty_reason(record));
         case Status::ambiguous_code:
             return fmt::format(
                 "codes {} and {} explain the dots about equally well, at different places: name "

@@ -157,7 +157,7 @@ std::optional<double> large_tilt_degrees(ImageView image, const Options& options
 /// Returns the mean squared second difference of the grey levels: the difference between a pixel
 /// and the mean of the two pixels at `step_px` on opposite sides. Noise adds the same value at all
 /// distances; a linear brightness gradient adds nothing.
-double bend(ImageView image, int step_px) {
+double second_difference(ImageView image, int step_px) {
     std::int64_t squares = 0;
     for (int v = step_px; v + step_px < image.height_px; ++v) {
         for (int u = step_px; u + step_px < image.width_px; ++u) {
@@ -179,9 +179,10 @@ bool is_out_of_focus(ImageView image) {
     constexpr double kFocused = 0.06;
     constexpr int kMaxStep_px = 16;
     if (std::min(image.width_px, image.height_px) <= 2 * kMaxStep_px) return false;
-    const double noise = bend(image, 1);
-    const double detail = std::max(bend(image, 8), bend(image, kMaxStep_px)) - noise;
-    return detail > kMinDetail && bend(image, 2) - noise < kFocused * detail;
+    const double noise = second_difference(image, 1);
+    const double detail =
+        std::max(second_difference(image, 8), second_difference(image, kMaxStep_px)) - noise;
+    return detail > kMinDetail && second_difference(image, 2) - noise < kFocused * detail;
 }
 
 /// Reduces the image by the factor `by`: each pixel is the mean of a square of pixels.

@@ -24,7 +24,7 @@ class SheetEntryArguments {
 
     /// A page of the document.
     struct Page {
-        int number = 1;  ///< from 1
+        int number = 1;  ///< page number, counted from 1
         bool is_only = true;
     };
 

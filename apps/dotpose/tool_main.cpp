@@ -23,7 +23,7 @@ namespace {
 constexpr const char* kVersion = "dotpose " DOTPOSE_VERSION;
 
 /// Commands that the help suggests to a new user.
-constexpr const char* kFirstDay =
+constexpr const char* kFirstSteps =
     "  dotpose print -o sheet.pdf   a sheet of dots; print it at 100 %\n"
     "  dotpose locate photo.jpg     the position of a photo on the sheet\n"
     "  dotpose watch 0              the position of a camera on the sheet, live\n";
@@ -84,7 +84,7 @@ int run(int argc, char** argv, const AddCommands& add) {
     }
     app.footer(fmt::format(
         "First steps:\n{}\ndotpose COMMAND --help has all options and more examples.\n{}",
-        kFirstDay, places_of_documents()));
+        kFirstSteps, places_of_documents()));
     try {
         app.parse(argc, argv);
         if (!help_words.empty()) app.parse(help_words);

@@ -37,7 +37,7 @@ struct Coordinate {
 };
 
 /// The labels of a figure.
-struct Words {
+struct Labels {
     const char* how;       ///< origin of the poses
     std::string stations;  ///< number of stations
     const char* y_label;
@@ -171,10 +171,10 @@ void draw_mark_legend(const Panel& panel, double scale) {
     }
 }
 
-void draw_map(const Panel& panel, const FigurePage& page, const Words& words) {
+void draw_map(const Panel& panel, const FigurePage& page, const Labels& labels) {
     draw_summary(panel, page.name, page.decimals);
-    const PageScale on_page(extent_of(panel.stations), panel.corner, words.is_y_up);
-    draw_page_axes(panel, on_page, words.y_label);
+    const PageScale on_page(extent_of(panel.stations), panel.corner, labels.is_y_up);
+    draw_page_axes(panel, on_page, labels.y_label);
     std::string path;
     for (const Station& station : panel.stations) {
         const Point at = on_page.at(station.place_mm);
@@ -251,25 +251,25 @@ Coordinate coordinate_of(int figure) {
 }
 
 /// Draws the pages side by side.
-void draw_figure(std::ostream& out, const Coordinate& coordinate, const Words& words,
+void draw_figure(std::ostream& out, const Coordinate& coordinate, const Labels& labels,
                  std::span<const FigurePage> pages) {
     const bool is_rose = coordinate.figure == kAngleFigure;
     const auto count = static_cast<double>(pages.size());
     constexpr double kMinWidth = 800;
     const double width = std::max(2 * kLeft + count * kPanel + (count - 1) * kGap - 40, kMinWidth);
     const std::string title = fmt::format("Accuracy of {} at rest, {} (paper: Figure {})",
-                                          coordinate.name, words.how, coordinate.figure);
+                                          coordinate.name, labels.how, coordinate.figure);
     Svg svg(width, is_rose ? kHeight - 70 : kHeight, title);
     draw_head(svg, title,
               fmt::format("{}; a {} is the mean of found minus true, red above 0, blue below",
-                          words.stations, is_rose ? "bar" : "mark's area"));
+                          labels.stations, is_rose ? "bar" : "mark's area"));
     double left = kLeft;
     for (const FigurePage& page : pages) {
         const Panel panel{svg, {left, kTop}, page.stations, coordinate.spread, coordinate.unit};
         if (is_rose) {
             draw_rose(panel, page);
         } else {
-            draw_map(panel, page, words);
+            draw_map(panel, page, labels);
         }
         left += kPanel + kGap;
     }

@@ -262,18 +262,18 @@ MqttPublisher::MqttPublisher(MqttOptions options) : MqttClient(std::move(options
 }
 
 MqttPublisher::~MqttPublisher() {
-    if (!options_.presence_topic.empty()) say_goodbye();
+    if (!options_.presence_topic.empty()) send_offline();
     stop();
 }
 
 // Waits until the broker has acknowledged all presence messages before the connection is closed.
 // Otherwise the broker detects a broken connection and publishes the last will.
-void MqttPublisher::say_goodbye() {
+void MqttPublisher::send_offline() {
     constexpr std::chrono::seconds kPatience(1);
     {
         std::unique_lock lock(mutex_);
-        done_.wait_for(lock, kPatience, [this] { return said_online_ || has_failed(); });
-        if (!said_online_) return;
+        done_.wait_for(lock, kPatience, [this] { return is_online_published_ || has_failed(); });
+        if (!is_online_published_) return;
     }
     send_presence(Presence::offline);
     std::unique_lock lock(mutex_);
@@ -284,7 +284,7 @@ void MqttPublisher::on_connected() {
     send_presence(Presence::online);
     {
         const std::lock_guard lock(mutex_);
-        said_online_ = true;
+        is_online_published_ = true;
     }
     done_.notify_all();
     send_waiting();
@@ -348,7 +348,7 @@ void MqttPublisher::on_published(int id) {
 void MqttPublisher::on_disconnected() {
     {
         const std::lock_guard lock(mutex_);
-        said_online_ = false;
+        is_online_published_ = false;
     }
     // After reconnecting, libmosquitto resends messages with QoS 1 and drops messages with QoS 0.
     if (options_.qos > 0) return;

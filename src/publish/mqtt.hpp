@@ -144,14 +144,14 @@ class MqttPublisher : public MqttClient {
     void on_published(int id) override;
     void send_waiting();
     void send_presence(Presence presence);
-    void say_goodbye();
+    void send_offline();
 
     std::deque<Message> waiting_;
     std::set<int>
         /// Messages in libmosquitto: not yet sent (QoS 0) or not yet acknowledged (QoS 1).
         under_way_;
     std::set<int> presence_under_way_;  ///< presence messages that are not yet acknowledged
-    bool said_online_ = false;          ///< true if `online` was published on this connection
+    bool is_online_published_ = false;  ///< true if `online` was published on this connection
     std::condition_variable done_;
     std::int64_t sent_ = 0;
     std::int64_t dropped_ = 0;

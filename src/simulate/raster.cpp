@@ -18,7 +18,7 @@ Raster::Raster(const Ink& ink, const Layout& layout)
         ellipses_.push_back({place(dot.centre_px.x), place(dot.centre_px.y), dot.xy / dot.yy,
                              std::sqrt(narrow) * scale, std::sqrt(dot.yy) * scale,
                              1 - dot.reflectance});
-        tallest_ = std::max(tallest_, ellipses_.back().half_height);
+        max_half_height_ = std::max(max_half_height_, ellipses_.back().half_height);
     }
     // The sort is stable because the order of the ellipses affects the rounding of sums.
     std::stable_sort(ellipses_.begin(), ellipses_.end(),
@@ -61,9 +61,9 @@ void Raster::draw_band(int top) {
     band_top_ = top;
     const double bottom = top + layout_.band_rows;
 
-    auto dot = std::lower_bound(ellipses_.begin(), ellipses_.end(), top - tallest_,
+    auto dot = std::lower_bound(ellipses_.begin(), ellipses_.end(), top - max_half_height_,
                                 [](const Ellipse& a, double y) { return a.y < y; });
-    for (; dot != ellipses_.end() && dot->y <= bottom + tallest_; ++dot) {
+    for (; dot != ellipses_.end() && dot->y <= bottom + max_half_height_; ++dot) {
         fill(dot->y - dot->half_height, dot->y + dot->half_height, dot->darkness, [&](double y) {
             const double t = (y - dot->y) / dot->half_height;
             const double half = dot->half_width * std::sqrt(std::max(0.0, 1 - t * t));

@@ -58,7 +58,7 @@ class Raster {
 
     Layout layout_;
     std::vector<Ellipse> ellipses_;  // sorted by y
-    double tallest_ = 0;             // maximum half_height
+    double max_half_height_ = 0;     // maximum half_height
     std::vector<Polygon> polygons_;
     int band_top_ = 0;
     // A range of sub-pixels with ink. Most sub-pixels have no ink, and only the ranges are read.

@@ -143,11 +143,11 @@ class Camera : public capture::FrameSource {
                 is_read = false;
             }
             if (!is_read) {
-                try_again();
+                reopen();
                 continue;
             }
-            if (is_away_) options_.tell("the camera " + name_ + " is back");
-            is_away_ = false;
+            if (is_disconnected_) options_.tell("the camera " + name_ + " is back");
+            is_disconnected_ = false;
             read_at_ = steady_clock::now();
             newest_us_ = time_us();
             Frame frame;
@@ -164,20 +164,20 @@ class Camera : public capture::FrameSource {
     }
 
     /// Delivers an empty frame with the current time on the clock of the camera.
-    void put_none() {
+    void put_empty() {
         using namespace std::chrono;
         put({}, newest_us_ + duration_cast<microseconds>(steady_clock::now() - read_at_).count());
     }
 
     /// Waits half a second and tries to open the camera again.
-    void try_again() {
-        if (!is_away_) {
+    void reopen() {
+        if (!is_disconnected_) {
             options_.tell("the camera " + name_ + " does not answer; waiting for it");
         }
-        is_away_ = true;
+        is_disconnected_ = true;
         capture_.release();
         std::this_thread::sleep_for(500ms);
-        if (frames_ > 0) put_none();
+        if (frames_ > 0) put_empty();
         try {
             open();
         } catch (const Error&) {  // the next read fails as well and retries
@@ -193,7 +193,7 @@ class Camera : public capture::FrameSource {
     double rate_ = 0;
     Latest<Frame> latest_;
     std::atomic<bool> ends_ = false;
-    bool is_away_ = false;
+    bool is_disconnected_ = false;
     std::int64_t frames_ = 0;
     std::int64_t newest_us_ = 0;  ///< time of the newest frame
     steady_clock::time_point read_at_ = steady_clock::now();

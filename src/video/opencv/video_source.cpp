@@ -102,10 +102,10 @@ class VideoFile : public capture::FrameSource {
             if (code == AVERROR(EAGAIN)) {
                 send_packet();
             } else if (code == AVERROR_EOF) {
-                judge_end();
+                check_end();
                 return false;
             } else if (code < 0) {
-                pass_over();
+                skip_to_key_frame();
             } else if (take_picture(frame)) {
                 return true;
             }
@@ -113,7 +113,7 @@ class VideoFile : public capture::FrameSource {
         return false;
     }
     double rate() const override { return options_.fps.value_or(rate_); }
-    std::int64_t length() const override { return promised(); }
+    std::int64_t length() const override { return expected_frames(); }
     double bits_per_px() const override {
         if (!is_lossy_ || packet_px_ == 0) return 0;
         return 8.0 * static_cast<double>(packet_bytes_) / static_cast<double>(packet_px_);
@@ -158,14 +158,15 @@ class VideoFile : public capture::FrameSource {
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
     /// Returns the number of frames according to the file, or a number computed from the duration.
-    std::int64_t promised() const {
+    std::int64_t expected_frames() const {
         return stream_->nb_frames > 0 ? stream_->nb_frames : std::llround(duration_s() * rate_);
     }
     /// Throws Error if the video is damaged or ended too early.
-    void judge_end() const {
+    void check_end() const {
         const bool is_short = stream_->nb_frames > 0 ? frames_ < stream_->nb_frames
                                                      : time_s_ + 2 / rate_ < duration_s();
-        const std::string of = promised() > frames_ ? fmt::format(" of {}", promised()) : "";
+        const std::string of =
+            expected_frames() > frames_ ? fmt::format(" of {}", expected_frames()) : "";
         const std::string counts = fmt::format("{}{} frames were read", frames_, of);
         if (is_damaged_ || is_short) {
             throw Error(fmt::format(
@@ -173,7 +174,7 @@ class VideoFile : public capture::FrameSource {
                 is_counted_ ? "; times after the damage are counted from frame numbers" : ""));
         }
         const bool is_regular = av_cmp_q(stream_->avg_frame_rate, stream_->r_frame_rate) == 0;
-        if (is_regular && frames_ < promised()) {
+        if (is_regular && frames_ < expected_frames()) {
             options_.tell(
                 fmt::format("{} has gaps, from damage or from its recording: {}", name_, counts));
         }
@@ -188,15 +189,15 @@ class VideoFile : public capture::FrameSource {
             if (code == AVERROR_EOF) break;
             if (code < 0) {
                 ++failures;
-                pass_over();
+                skip_to_key_frame();
                 continue;
             }
             const bool is_video = packet_->stream_index == stream_->index;
             if (is_video) {
-                if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) pass_over();
+                if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) skip_to_key_frame();
                 packet_bytes_ += packet_->size;
                 correct_time();
-                if (avcodec_send_packet(decoder_.get(), packet_.get()) < 0) pass_over();
+                if (avcodec_send_packet(decoder_.get(), packet_.get()) < 0) skip_to_key_frame();
             }
             av_packet_unref(packet_.get());
             if (is_video) return;
@@ -227,7 +228,7 @@ class VideoFile : public capture::FrameSource {
 
     /// Discards the frames up to the next key frame, because they may contain parts of damaged
     /// frames.
-    void pass_over() {
+    void skip_to_key_frame() {
         is_damaged_ = true;
         waits_for_key_frame_ = true;
     }
@@ -244,7 +245,7 @@ class VideoFile : public capture::FrameSource {
         }
         has_begun_ = true;
         if (picture_->decode_error_flags != 0 || (picture_->flags & AV_FRAME_FLAG_CORRUPT) != 0) {
-            pass_over();
+            skip_to_key_frame();
             return false;
         }
         if (picture_->key_frame != 0) waits_for_key_frame_ = false;
