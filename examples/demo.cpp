@@ -1,5 +1,5 @@
-// Shows the library from end to end: prints a sheet, drives a simulated camera over it, locates
-// every frame and compares the poses with the true ones. `make demo` runs it.
+// Shows the whole library: prints a sheet, drives a simulated camera over it, locates every frame
+// and compares the poses with the true poses. Run by `make demo`.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -37,15 +37,16 @@ Sheet print_sheet(const fs::path& folder) {
     return sheet;
 }
 
-/// A point of the page, in mm from its top left corner, and the direction of the camera there.
+/// A point of the page in mm from its top left corner, and the direction of the camera at this
+/// point.
 struct Waypoint {
     double x_mm = 0;
     double y_mm = 0;
     double heading_rad = 0;
 };
 
-/// Returns the waypoint of a frame. The path is a figure of eight that fills the page, and the
-/// camera faces ahead.
+/// Returns the waypoint of a frame. The path is a figure of eight that fills the page. The camera
+/// is aligned to the direction of travel.
 Waypoint waypoint(const Sheet& sheet, int frame) {
     const double t = 2 * std::numbers::pi * frame / kFrames;
     const double reach_x_mm = 0.4 * sheet.width_mm;
@@ -75,7 +76,7 @@ struct Drive {
     std::vector<double> errors_deg;
     std::vector<double> times_us;
     int lost = 0;         ///< frames without a fix
-    int wrong_fixes = 0;  ///< with an error above half a cell, or in another section
+    int wrong_fixes = 0;  ///< fixes in another section or with an error above half a cell
 };
 
 void record(const Sheet& sheet, const Waypoint& truth, const Fix& fix, Drive& drive) {
@@ -161,7 +162,7 @@ void print_table(const Drive& drive) {
                1e6 / median(drive.times_us));
 }
 
-/// Runs the demo. Returns whether nearly all frames were located and none of them wrongly.
+/// Runs the demo. Returns true if nearly all frames were located and no fix is wrong.
 bool run(const fs::path& folder) {
     fs::create_directories(folder);
     Options options;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kFrameTime_us = 20'000;
 
-// All the memory that the locator uses: 13 KB, and no heap.
+// All memory of the locator: 13 KB, no heap.
 dotpose::DeviceMemory memory;
 
 }  // namespace
@@ -25,7 +25,7 @@ int main(int argc, char** argv) try {
     dotpose::DeviceLocator locator(memory);
     for (int i = 1; i < argc; ++i) {
         const dotpose::GreyImage image = dotpose::read_image(argv[i]);
-        // `finish` returns the same error.
+        // Ignored, because `finish` returns the same error.
         static_cast<void>(locator.begin(image.width_px, image.height_px));
         for (int row = 0; row < image.height_px; ++row)
             locator.push_row(image.view().row(row));

@@ -1,4 +1,4 @@
-// Prints where an image looks on the pattern: dotpose_locate_one FRAME.pgm
+// Prints the position of an image on the pattern: dotpose_locate_one FRAME.pgm
 #include <cstdint>
 #include <cstdio>
 #include <fstream>

@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Returns a view of a grey cv::Mat. Nothing is copied, so the Mat must outlive the view.
+/// Returns a view of a grey cv::Mat. The pixels are not copied, so the Mat must outlive the view.
 dotpose::ImageView view_of(const cv::Mat& grey) {
     return {grey.data, grey.cols, grey.rows, static_cast<std::ptrdiff_t>(grey.step)};
 }

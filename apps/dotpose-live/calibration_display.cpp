@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 using Lines = std::vector<std::string>;
 
-/// Characters of a line on the panel of the window.
+/// Number of characters per line on the panel of the window.
 constexpr std::size_t kPanelColumns = 44;
 constexpr std::size_t kCaptions = 7;
 
@@ -25,7 +25,7 @@ bool is_missing(const CalibrationStatus& status, CalibrationNeed::Kind kind) {
     return std::ranges::find(status.needs, kind, &CalibrationNeed::kind) != status.needs.end();
 }
 
-/// Returns how far everything that is wanted has been reached.
+/// Returns the progress towards each goal of the calibration.
 std::vector<video::Gauge> gauges_of(const CalibrationStatus& status) {
     using Kind = CalibrationNeed::Kind;
     const CalibrationCoverage& coverage = status.coverage;
@@ -60,7 +60,7 @@ std::string next_text(const CalibrationStatus& status) {
     return status.needs.empty() ? "nothing is missing" : status.needs.front().advice;
 }
 
-/// Appends a text in lines of at most `columns` characters, broken at spaces.
+/// Appends `text`, wrapped at spaces into lines of at most `columns` characters.
 void append_wrapped(std::string_view text, std::size_t columns, Lines& lines) {
     while (text.size() > columns) {
         const std::size_t space = text.rfind(' ', columns);
@@ -76,13 +76,13 @@ Lines captions_of(const CalibrationStatus& status) {
     append_wrapped(taken_text(status) + "; " + status.now, kPanelColumns, lines);
     append_wrapped("next: " + next_text(status), kPanelColumns, lines);
     if (!status.remark.empty()) append_wrapped(status.remark, kPanelColumns, lines);
-    // A constant number of lines keeps what is drawn below them in place.
+    // A constant number of lines keeps the drawings below the captions in place.
     lines.resize(kCaptions - 1);
     lines.emplace_back("q ends");
     return lines;
 }
 
-/// Returns the parts of the image as characters, beside the gauges.
+/// Returns the covered parts of the image as characters, beside the gauges.
 Lines terminal_lines(const CalibrationStatus& status) {
     using Image = ImageCoverage;
     Lines lines;
@@ -105,10 +105,10 @@ Lines terminal_lines(const CalibrationStatus& status) {
 }
 
 std::size_t terminal_columns() {
-    constexpr std::size_t kUsual = 80;
+    constexpr std::size_t kDefault = 80;
     winsize size{};
     const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    return is_known ? size.ws_col : kUsual;
+    return is_known ? size.ws_col : kDefault;
 }
 
 std::string line_of(const CalibrationStatus& status) {
@@ -152,7 +152,7 @@ void CalibrationDisplay::show_in_terminal(const CalibrationStatus& status) {
     const auto now = std::chrono::steady_clock::now();
     if (now < next_ && !status.is_taken) return;
     next_ = now + 100ms;
-    // Back to the first line of what was shown, and erase everything below.
+    // Move to the first line of the previous output and erase everything below.
     const int shown_lines = shown_lines_;
     std::string text = shown_lines > 0 ? fmt::format("\033[{}A\r\033[J", shown_lines) : "";
     const std::size_t columns = terminal_columns();

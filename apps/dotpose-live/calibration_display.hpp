@@ -1,5 +1,5 @@
-/// The display of `dotpose calibrate --live` while it takes frames: a window; the terminal if there
-/// is no display; and a line for each change if standard error is no terminal.
+/// The display of `dotpose calibrate --live` while it takes frames: a window, or the terminal if
+/// there is no display. If standard error is not a terminal, each change is printed as a line.
 #pragma once
 
 #include <atomic>
@@ -19,25 +19,26 @@ struct CalibrationStatus {
     explicit CalibrationStatus(const CalibrationCoverage& shown) : coverage(shown) {}
 
     CalibrationCoverage coverage;
-    std::vector<CalibrationNeed> needs;     ///< what is missing, the most urgent first
-    std::optional<double> corner_sigma_px;  ///< of the newest calibration
-    std::optional<double> theta_rad;        ///< direction of the newest frame, if it is located
-    std::string now;                        ///< what became of the newest frame
-    std::string remark;                     ///< what else there is to say, or empty
-    bool is_taken = false;                  ///< whether the newest frame was taken
+    std::vector<CalibrationNeed> needs;  ///< what is still missing, most urgent first
+    /// Standard deviation at the corner, from the newest calibration.
+    std::optional<double> corner_sigma_px;
+    std::optional<double> theta_rad;  ///< direction of the newest frame, if it was located
+    std::string now;                  ///< what happened to the newest frame
+    std::string remark;               ///< further remark; may be empty
+    bool is_taken = false;            ///< true if the newest frame was taken
 };
 
 class CalibrationDisplay {
   public:
     explicit CalibrationDisplay(bool has_window);
-    /// Shows the newest frame, with the trace of its stages, and the status. Returns false if the
-    /// user closed the window or pressed q or Escape in it.
+    /// Shows the newest frame, the trace of its stages, and the status. Returns false if the user
+    /// closed the window or pressed q or Escape in it.
     bool show(const CalibrationStatus& status, ImageView image, const Trace& trace);
 
-    /// Handles events of the window. Returns false like `show`.
+    /// Handles the events of the window. Returns false like `show`.
     bool is_wanted() { return screen_.is_wanted(); }
 
-    /// Tells the user something beside what is shown. Any thread may call it.
+    /// Writes a message to standard error. The next status does not overwrite it. Thread-safe.
     void say(const std::string& message);
 
   private:
@@ -46,7 +47,8 @@ class CalibrationDisplay {
     bool has_window_;
     bool on_terminal_;
     video::Screen screen_;
-    std::atomic<int> shown_lines_ = 0;  ///< lines on the terminal that the next status replaces
+    /// Number of terminal lines that the next status overwrites.
+    std::atomic<int> shown_lines_ = 0;
     std::chrono::steady_clock::time_point next_;
     std::string last_line_;
 };

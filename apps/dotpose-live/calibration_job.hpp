@@ -1,4 +1,4 @@
-/// Calibrates a lens in a second thread, so that the frames of the camera go on being shown.
+/// Calibrates a lens in a second thread, while new frames of the camera are shown.
 #pragma once
 
 #include <atomic>
@@ -19,24 +19,25 @@ class CalibrationJob {
     using Frames = std::vector<std::shared_ptr<const GreyImage>>;
 
     explicit CalibrationJob(const CalibrateOptions& options);
-    /// Stops a calibration that is running, after the frame or the fit it is at.
+    /// Stops a running calibration after its current frame or fit.
     ~CalibrationJob();
     CalibrationJob(const CalibrationJob&) = delete;
     CalibrationJob& operator=(const CalibrationJob&) = delete;
 
     bool is_running() const { return job_.valid(); }
 
-    /// Starts to calibrate with these frames. No other calibration may be running.
+    /// Starts a calibration with these frames. No other calibration may be running.
     void start(Frames frames);
 
-    /// Waits at most so long for the calibration that is running. Returns whether it has ended.
+    /// Waits for the running calibration, at most for `patience`. Returns true if the calibration
+    /// has ended.
     bool wait(std::chrono::milliseconds patience);
 
-    /// Returns the result of the newest calibration, unless it failed.
+    /// Returns the result of the newest calibration, or none if it failed.
     const std::optional<LensCalibration>& newest() const { return newest_; }
-    /// Returns why the newest calibration failed.
+    /// Returns the reason why the newest calibration failed.
     const std::string& problem() const { return problem_; }
-    /// Returns the number of frames of the newest calibration that has ended, or 0.
+    /// Returns the number of frames of the newest finished calibration, or 0.
     std::size_t frames() const { return frames_; }
 
   private:
@@ -46,7 +47,7 @@ class CalibrationJob {
     std::size_t frames_ = 0;
     std::optional<LensCalibration> newest_;
     std::string problem_;
-    std::future<LensCalibration> job_;  // the last member: it ends before what it uses
+    std::future<LensCalibration> job_;  // last member, because the job uses the other members
 };
 
 }  // namespace dotpose::cli

@@ -1,4 +1,4 @@
-/// The subcommands that need a camera or a network, in a separate program, which `dotpose` starts.
+/// Subcommands that need a camera or a network. They are in dotpose-live, which `dotpose` starts.
 #pragma once
 
 #include "command_line.hpp"
@@ -8,7 +8,7 @@ namespace dotpose::cli {
 void add_watch(Command& app, int& exit_code);
 void add_fleet(Command& app, int& exit_code);
 
-/// Registers all of these.
+/// Registers the subcommands.
 void add_live_commands(Command& app, int& exit_code);
 
 }  // namespace dotpose::cli

@@ -12,9 +12,10 @@ namespace dotpose::cli {
 namespace {
 
 constexpr std::int64_t kWindow_us = 1'000'000;
-/// Minimum number of frames in a second for a hint. Slow cameras deliver no more.
+/// Minimum number of failed frames in a second for a hint. Slow cameras deliver only a few frames
+/// per second.
 constexpr std::size_t kMinFrames = 3;
-/// Maximum number of frames that are kept, in case the times of a source do not advance.
+/// Maximum number of frames that are remembered, in case the times of a source do not advance.
 constexpr std::size_t kMaxFrames = 2000;
 
 std::string reason_with_advice(Record record, ImageView image, const Options& options,
@@ -34,8 +35,9 @@ GreyImage copy_of(ImageView image) {
 
 }  // namespace
 
-/// Keeps the first frame with a status, then the second, fourth, eighth ...: one from late in the
-/// run, with few copies.
+/// Keeps a copy of the first frame with a status, then of the second, fourth, eighth and so on. At
+/// the end of the run, the copy is from the last half of these frames, and only few copies were
+/// made.
 void FailureHint::remember(const Record& record, ImageView image, const Options& options,
                            double bits_per_px) {
     ++frames_;
@@ -66,7 +68,8 @@ std::string FailureHint::after(const Reading& reading, ImageView image, const Op
     const Record& record = reading.record;
     remember(record, image, options, bits_per_px);
     last_second_.push_back({reading.time_us, record.fix.status != Status::ok});
-    // The oldest frame that is kept must be a second old; until then it is too early to judge.
+    // A hint requires that the remembered frames cover a full second, so the oldest frame is kept
+    // until the next one is a second old.
     while (last_second_.size() > kMaxFrames ||
            (last_second_.size() > 1 && reading.time_us - last_second_[1].time_us >= kWindow_us)) {
         last_second_.pop_front();
@@ -75,12 +78,12 @@ std::string FailureHint::after(const Reading& reading, ImageView image, const Op
     const auto failed =
         static_cast<std::size_t>(std::ranges::count(last_second_, true, &Frame::has_failed));
     if (2 * failed <= last_second_.size()) {
-        is_told_ = false;
+        is_reported_ = false;
         return {};
     }
-    const bool is_time = is_long_enough && failed >= kMinFrames && !is_told_;
+    const bool is_time = is_long_enough && failed >= kMinFrames && !is_reported_;
     if (!is_time || record.fix.status == Status::ok) return {};
-    is_told_ = true;
+    is_reported_ = true;
     return fmt::format("most frames of the last second were not located; the newest: {}",
                        reason_with_advice(record, image, options, bits_per_px));
 }

@@ -14,13 +14,14 @@ namespace dotpose::cli {
 
 class FailureHint {
   public:
-    /// Takes the result of a frame, which was located with `options`. Returns a sentence once most
-    /// frames of the last second have failed, and again only after most of a second were located in
-    /// between; otherwise an empty text. `bits_per_px` is that of the source of the frame.
+    /// Takes the result of a frame that was located with `options`. Returns a sentence when most
+    /// frames of the last second failed, otherwise an empty text. The sentence is returned again
+    /// only after most frames of a second were located. `bits_per_px` describes the source of the
+    /// frame.
     std::string after(const Reading& reading, ImageView image, const Options& options,
                       double bits_per_px);
 
-    /// Returns a sentence if most frames of the whole run have failed; otherwise an empty text.
+    /// Returns a sentence if most frames of the whole run failed, otherwise an empty text.
     std::string at_end() const;
 
   private:
@@ -28,7 +29,7 @@ class FailureHint {
         std::int64_t time_us = 0;
         bool has_failed = false;
     };
-    /// The frames that failed with the same status, and one of them.
+    /// The frames that failed with one status: their number and a copy of one of them.
     struct Failures {
         std::int64_t count = 0;
         Record record;
@@ -39,11 +40,11 @@ class FailureHint {
                   double bits_per_px);
 
     std::deque<Frame> last_second_;
-    bool is_told_ = false;
+    bool is_reported_ = false;
     std::int64_t frames_ = 0;
     std::int64_t failed_ = 0;
     std::map<Status, Failures> failures_;
-    Options options_;  ///< of the newest frame that failed
+    Options options_;  ///< options of the newest frame that failed
     double bits_per_px_ = 0;
 };
 

@@ -38,11 +38,11 @@ struct FleetArguments {
     std::string sheets;
     std::string map;
     std::string log;
-    double seconds = 0;  ///< how long to run; 0 until interrupted
+    double seconds = 0;  ///< run time; 0: until interrupted
     double every_s = 1;
 };
 
-/// Takes the messages of the broker, in its thread, and logs them.
+/// Receives the messages of the broker in the thread of the subscriber, and logs them.
 class FleetInput {
   public:
     FleetInput(const FleetArguments& arguments, const publish::MqttOptions& options)
@@ -56,12 +56,12 @@ class FleetInput {
 
     const FleetState& fleet() const { return fleet_; }
 
-    /// Writes the log so far. Throws Error.
+    /// Writes the buffered lines of the log. Throws Error.
     void flush() {
         if (log_) log_->flush();
     }
 
-    /// Ends the connection and completes the log. Throws Error if the log cannot be written.
+    /// Disconnects and completes the log. Throws Error if the log cannot be written.
     void finish() {
         subscriber_->disconnect();
         flush();
@@ -82,7 +82,7 @@ class FleetInput {
     }
 
     Shard shard_;
-    std::int64_t now_us_ = 0;  ///< when the message came that is being taken
+    std::int64_t now_us_ = 0;  ///< arrival time of the current message
     std::optional<FleetLog> log_;
     FleetState fleet_;
     std::optional<publish::MqttSubscriber> subscriber_;
@@ -98,7 +98,7 @@ void run(const FleetArguments& arguments) {
     files.writes("--log", arguments.log, Content::csv);
     catch_interrupts();
     FleetView view(arguments.sheets, arguments.map,
-                   arguments.share.is_shared() ? Gets::share : Gets::all);
+                   arguments.share.is_shared() ? Delivery::shared : Delivery::all);
     FleetInput input(arguments, *options);
     const auto begun = steady_clock::now();
     const auto seconds_since = [](steady_clock::time_point time) {
@@ -125,7 +125,7 @@ void add_fleet(Command& app, int&) {
     command->footer(kFleetExamples);
     arguments->mqtt.add_to(*command)->required();
     add_sheets_option(*command, arguments->sheets, "Sheet file: draw its sheets on the map");
-    add_draw_option(*command, arguments->map, "Map to draw (SVG), again and again");
+    add_draw_option(*command, arguments->map, "Map to draw and update (SVG)");
     command->add_option("--log", arguments->log, "Write every state as a line of CSV")
         ->type_name("FILE");
     arguments->share.add_to(*command);

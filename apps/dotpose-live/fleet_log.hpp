@@ -1,4 +1,4 @@
-/// Writes the states of all robots to a file as CSV, a line each.
+/// Writes the states of all robots to a CSV file, one state per line.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@ class FleetLog {
     /// Throws Error if the file cannot be created.
     explicit FleetLog(const std::string& path);
 
-    /// Adds a state. May be called by another thread than `flush`.
+    /// Adds a state to the buffer. May run in another thread than `flush`.
     void add(std::string_view robot, const RobotState& state, std::int64_t received_us);
 
-    /// Writes what was added to the file. Throws Error if that was or is not possible.
+    /// Writes the buffer to the file. Throws Error if this or an earlier write failed.
     void flush();
 
   private:

@@ -12,14 +12,14 @@
 namespace dotpose::cli {
 namespace {
 
-void add_row(std::string& table, const std::string& name, const FleetRobot& robot, Gets gets,
-             std::int64_t now_us) {
+void add_row(std::string& table, const std::string& name, const FleetRobot& robot,
+             Delivery delivery, std::int64_t now_us) {
     const RobotState& state = robot.newest;
     const auto shown = [&state](double value, int decimals) {
         return state.is_localized ? fmt::format("{:.{}f}", value, decimals) : std::string("-");
     };
     const std::string missed =
-        gets == Gets::all ? fmt::format("{}", robot.counts.missed) : std::string("-");
+        delivery == Delivery::all ? fmt::format("{}", robot.counts.missed) : std::string("-");
     fmt::format_to(std::back_inserter(table),
                    "{:<16.16} {:<10.10} {:>12} {:>12} {:>9} {:>9} {:>8.1f} {:>9} {:>7}\n",
                    printable(name), printable(state.state), shown(state.x_m * 1000, 3),
@@ -29,10 +29,10 @@ void add_row(std::string& table, const std::string& name, const FleetRobot& robo
                    missed);
 }
 
-std::string summary_of(const FleetState& fleet, std::size_t robots, Gets gets) {
+std::string summary_of(const FleetState& fleet, std::size_t robots, Delivery delivery) {
     const StateCounts counts = fleet.counts();
     const Latency latency = fleet.latency();
-    const std::string missed = gets == Gets::all
+    const std::string missed = delivery == Delivery::all
                                    ? fmt::format("{} missed, {} late, ", counts.missed, counts.late)
                                    : std::string();
     return fmt::format(
@@ -43,14 +43,14 @@ std::string summary_of(const FleetState& fleet, std::size_t robots, Gets gets) {
 
 }  // namespace
 
-std::string table_of(const FleetState& fleet, Gets gets, std::int64_t now_us) {
+std::string table_of(const FleetState& fleet, Delivery delivery, std::int64_t now_us) {
     std::string table =
         fmt::format("{:<16} {:<10} {:>12} {:>12} {:>9} {:>9} {:>8} {:>9} {:>7}\n", "robot", "state",
                     "x [mm]", "y [mm]", "[deg]", "[mm/s]", "age [s]", "messages", "missed");
     const auto robots = fleet.robots();
     for (const auto& [name, robot] : robots)
-        add_row(table, name, robot, gets, now_us);
-    return table + summary_of(fleet, robots.size(), gets);
+        add_row(table, name, robot, delivery, now_us);
+    return table + summary_of(fleet, robots.size(), delivery);
 }
 
 draw::Map map_of(const FleetState& fleet, const std::string& map_id,
@@ -62,7 +62,8 @@ draw::Map map_of(const FleetState& fleet, const std::string& map_id,
     for (const auto& [name, robot] : fleet.robots()) {
         const RobotState& state = robot.newest;
         if (state.is_localized && state.map_id != map_id) continue;
-        // Copies one path at a time, to release the lock for incoming messages between copies.
+        // Copies one path at a time, and releases the lock between copies so that messages can be
+        // received.
         std::vector<draw::Point> path_mm = fleet.path_mm(name);
         if (path_mm.empty()) continue;
         draw::MapRobot drawn;

@@ -1,4 +1,4 @@
-/// What `dotpose fleet` shows of the robots: a table and a map.
+/// Reports of `dotpose fleet` about the robots: a table and a map.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,15 @@
 
 namespace dotpose::cli {
 
-/// Whether a fleet gets all states of its robots. If it shares them with others, missing numbers
-/// are no missing states, so these are not reported.
-enum class Gets { all, share };
+/// Whether a fleet receives all states of its robots or shares them with other fleets. If the
+/// states are shared, a gap in the numbers does not mean a lost state, so missing states are not
+/// reported.
+enum class Delivery { all, shared };
 
-/// Returns a table of the robots as text, with a header line, and a line of what was counted.
-std::string table_of(const FleetState& fleet, Gets gets, std::int64_t now_us);
+/// Returns a table of the robots as text, with a header line and a summary line.
+std::string table_of(const FleetState& fleet, Delivery delivery, std::int64_t now_us);
 
-/// Returns the map with the robots that are on it and its sheets.
+/// Returns the map with its sheets and the robots on it.
 draw::Map map_of(const FleetState& fleet, const std::string& map_id,
                  std::vector<draw::MapSheet> sheets);
 

@@ -8,7 +8,8 @@ namespace dotpose::cli {
 namespace {
 
 std::uint64_t hash_of(std::string_view text) {
-    // FNV-1a with 64 bits, folded, because its lowest bits alone divide similar names unevenly.
+    // FNV-1a with 64 bits. The upper half is folded into the lower half, because the lowest bits
+    // alone distribute similar names unevenly.
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char byte : text)
         hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
@@ -18,7 +19,8 @@ std::uint64_t hash_of(std::string_view text) {
 std::string check_group(const std::string& name) {
     const bool is_bad =
         name.empty() || name.find_first_of("/+#") != std::string::npos || printable(name) != name;
-    return is_bad ? "the name of a group is not empty, holds none of / + #, and can be printed"
+    return is_bad ? "the name of a group must not be empty, must not contain / + #, and must be "
+                    "printable"
                   : std::string();
 }
 
@@ -38,17 +40,16 @@ bool Shard::has(std::string_view robot) const {
 }
 
 void ShareArguments::add_to(Command& command) {
-    auto* const share =
-        command
-            .add_option("--share", group_,
-                        "Share the states with the other fleets of this group: each is sent to one "
-                        "of them")
-            ->type_name("GROUP")
-            ->check(check_group);
+    auto* const share = command
+                            .add_option("--share", group_,
+                                        "Share the states with the other fleets of this group: "
+                                        "each state is sent to one fleet")
+                            ->type_name("GROUP")
+                            ->check(check_group);
     command
         .add_option_function<std::string>(
             "--shard", [this](const std::string& text) { parse_shard(text, shard_); },
-            "Take only part I of N of the robots, which are divided by their names")
+            "Take only part I of N of the robots, divided by their names")
         ->type_name("I/N")
         ->excludes(share);
 }

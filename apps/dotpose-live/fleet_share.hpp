@@ -1,4 +1,4 @@
-/// How several fleets share the robots of a broker.
+/// Divides the robots of a broker among several fleets.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace dotpose::cli {
 
-/// One of several parts of all robots, which are divided by a hash of their names: the same on all
-/// computers, so that fleets need not know of each other.
+/// One part of the robots. The hash of its name assigns a robot to a part. The hash is the same on
+/// all computers, so fleets need no connection to each other.
 struct Shard {
     std::uint64_t index = 1;  ///< from 1 to `count`
     std::uint64_t count = 1;
@@ -24,7 +24,8 @@ class ShareArguments {
     /// Adds --share and --shard.
     void add_to(Command& command);
 
-    /// Returns the topics to subscribe to: states, of which a group gets its part, and connections.
+    /// Returns the topics to subscribe to: the states, which the broker divides among the fleets of
+    /// a group, and the connections.
     std::vector<std::string> topics() const;
     bool is_shared() const { return !group_.empty(); }
     const Shard& shard() const { return shard_; }

@@ -32,8 +32,8 @@ void FleetState::take(std::string_view topic, std::string_view payload, std::int
 
 void FleetState::take_connection(std::string_view name, const RobotConnection& connection,
                                  std::int64_t now_us) {
-    Robot& robot = heard(name);
-    // The broker may have retained the message for days.
+    Robot& robot = touch(name);
+    // A retained message may be days old, so its own time is an upper limit for `heard_us`.
     FleetRobot& shown = robot.shown;
     shown.heard_us = std::max(shown.heard_us, std::min(now_us, connection.sent_us));
     if (connection.presence == publish::Presence::online) return;
@@ -43,7 +43,7 @@ void FleetState::take_connection(std::string_view name, const RobotConnection& c
 }
 
 void FleetState::take_state(std::string_view name, RobotState state, std::int64_t now_us) {
-    Robot& robot = heard(name);
+    Robot& robot = touch(name);
     robot.shown.heard_us = now_us;
     count_latency(static_cast<float>(now_us - state.sent_us) * 1e-3F);
     const auto arrival = robot.numbers.take(state, robot.shown.counts);
@@ -56,7 +56,7 @@ void FleetState::take_state(std::string_view name, RobotState state, std::int64_
     if (robot.shown.newest.is_localized) extend_path(robot);
 }
 
-FleetState::Robot& FleetState::heard(std::string_view name) {
+FleetState::Robot& FleetState::touch(std::string_view name) {
     const auto known = robots_.find(name);
     if (known != robots_.end()) {
         by_age_.splice(by_age_.end(), by_age_, known->second.place);
@@ -76,16 +76,16 @@ void FleetState::remove_oldest() {
 }
 
 void FleetState::extend_path(Robot& robot) const {
-    constexpr double kStep_mm = 0.1;  // a robot at rest adds no points to its path
-    const std::size_t most = std::min(kPath, kAllPaths / robots_.size());
+    constexpr double kStep_mm = 0.1;  // minimum step, so a robot at rest adds no points to its path
+    const std::size_t max_points = std::min(kPath, kAllPaths / robots_.size());
     const RobotState& newest = robot.shown.newest;
     const draw::Point place{newest.x_m * 1000, newest.y_m * 1000};
     auto& path = robot.path_mm;
     if (!path.empty() && std::hypot(place.x - path.back().x, place.y - path.back().y) < kStep_mm) {
         return;
     }
-    if (path.size() >= most) {
-        path.erase(path.begin(), path.end() - static_cast<std::ptrdiff_t>(most / 2));
+    if (path.size() >= max_points) {
+        path.erase(path.begin(), path.end() - static_cast<std::ptrdiff_t>(max_points / 2));
         path.shrink_to_fit();
     }
     path.push_back(place);

@@ -15,8 +15,8 @@
 
 namespace dotpose::cli {
 
-FleetView::FleetView(const std::string& sheets, std::string map, Gets gets)
-    : map_path_(std::move(map)), gets_(gets), on_terminal_(isatty(STDOUT_FILENO) == 1) {
+FleetView::FleetView(const std::string& sheets, std::string map, Delivery delivery)
+    : map_path_(std::move(map)), delivery_(delivery), on_terminal_(isatty(STDOUT_FILENO) == 1) {
     if (!map_path_.empty()) base::require_writable(map_path_);
     if (sheets.empty()) return;
     map_id_ = std::filesystem::path(sheets).stem().string();
@@ -27,7 +27,7 @@ void FleetView::refresh(const FleetState& fleet) {
     if (on_terminal_) show_table(fleet);
     const auto begun = Clock::now();
     if (map_path_.empty() || begun < next_map_) return;
-    // A failure is only reported, because the next attempt may succeed.
+    // Reports a failure and continues, because the next attempt may succeed.
     try {
         draw(fleet);
         is_failing_ = false;
@@ -46,7 +46,7 @@ void FleetView::finish(const FleetState& fleet) {
 
 void FleetView::show_table(const FleetState& fleet) const {
     constexpr const char* kClear = "\033[H\033[J";
-    fmt::print("{}{}", on_terminal_ ? kClear : "", table_of(fleet, gets_, system_us()));
+    fmt::print("{}{}", on_terminal_ ? kClear : "", table_of(fleet, delivery_, system_us()));
     std::fflush(stdout);
 }
 
@@ -56,8 +56,8 @@ void FleetView::draw(const FleetState& fleet) {
     file.commit();
 }
 
-/// Returns the name of the map to draw: the world of the sheets, or else the plane of the first
-/// robot that has one.
+/// Returns the name of the map to draw: the world of the sheets, or without sheets the plane of the
+/// first robot that has one.
 std::string FleetView::map_shown(const FleetState& fleet) const {
     if (!map_id_.empty()) return map_id_;
     for (const auto& [name, robot] : fleet.robots()) {

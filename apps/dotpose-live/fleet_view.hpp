@@ -1,4 +1,4 @@
-/// Shows the robots of a fleet again and again, as a table and as a map.
+/// Shows the robots of a fleet periodically, as a table and as a map.
 #pragma once
 
 #include <chrono>
@@ -13,14 +13,15 @@ namespace dotpose::cli {
 
 class FleetView {
   public:
-    /// `sheets` is the sheet file and `map` the drawing; both may be empty. Throws Error.
-    FleetView(const std::string& sheets, std::string map, Gets gets);
+    /// `sheets` is the path of the sheet file and `map` the path of the drawing. Both may be empty.
+    /// Throws Error.
+    FleetView(const std::string& sheets, std::string map, Delivery delivery);
 
-    /// Shows the table if standard output is a terminal, and draws the map unless that would take
-    /// more than a tenth of the time.
+    /// Shows the table if standard output is a terminal. Draws the map, but uses at most a tenth of
+    /// the time for drawing.
     void refresh(const FleetState& fleet);
 
-    /// Shows the last table and draws the last map. Throws Error if it cannot be written.
+    /// Shows the last table and draws the last map. Throws Error if the map cannot be written.
     void finish(const FleetState& fleet);
 
   private:
@@ -33,9 +34,9 @@ class FleetView {
     std::string map_path_;
     std::string map_id_;
     std::vector<draw::MapSheet> sheets_;
-    Gets gets_;
+    Delivery delivery_;
     bool on_terminal_;
-    bool is_failing_ = false;  ///< whether the last map could not be written
+    bool is_failing_ = false;  ///< true if the last map could not be written
     Clock::time_point next_map_;
 };
 

@@ -35,7 +35,7 @@ const char* ending_of(ImageEncoding format) {
     return ".png";
 }
 
-/// Returns the number that follows the largest one of the frames in a folder.
+/// Returns the highest frame number in a folder plus one.
 std::int64_t number_after(const fs::path& folder) {
     std::int64_t next = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -52,7 +52,7 @@ std::int64_t number_after(const fs::path& folder) {
     throw Error("cannot write " + path.string() + ": " + std::strerror(error_number));
 }
 
-/// Writes a new file. Returns false if there is one of this name already.
+/// Creates and writes a file. Returns false if a file with this name exists.
 bool write_new(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
     const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno == EEXIST) return false;
@@ -61,7 +61,7 @@ bool write_new(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
     errno = 0;
     const bool is_written =
         file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    // Closing writes what is buffered, which fails if the disk is full.
+    // fclose writes the buffered bytes, which fails if the disk is full.
     const bool is_closed = file && std::fclose(file.release()) == 0;
     if (is_written && is_closed) return true;
     const int error_number = errno;
@@ -73,7 +73,8 @@ bool write_new(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
 
 FrameSaver::FrameSaver(SaveOptions options) : options_(std::move(options)) {
     std::error_code failed;
-    // Only the last folder of the path is created: if others are missing, the name is mistyped.
+    // Creates only the last folder of the path. A missing parent folder means that the name is
+    // mistyped.
     fs::create_directory(options_.folder, failed);
     if (!fs::is_directory(options_.folder)) {
         throw Error(fmt::format("cannot create the folder {}: {}", options_.folder,
@@ -94,7 +95,7 @@ void FrameSaver::take(ImageView image, const Fix& fix) {
         return fs::path(options_.folder) /
                fmt::format("{}{:06}{}", kPrefix, next_number_, ending_of(options_.format));
     };
-    // Another program may save into the same folder.
+    // Skips numbers that another program has used in the same folder.
     while (!write_new(path(), bytes))
         ++next_number_;
     ++next_number_;

@@ -1,4 +1,4 @@
-/// Saves frames as images, for `dotpose calibrate` or to look at them later.
+/// Saves frames as images, for `dotpose calibrate` or for later inspection.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,9 @@
 namespace dotpose::cli {
 
 struct SaveOptions {
-    std::string folder;      ///< empty: nothing is saved
-    std::int64_t every = 0;  ///< one in this many frames; 0: those that show a new place
+    std::string folder;  ///< empty: frames are not saved
+    /// Saves one of this many frames; 0: saves frames that show a new place.
+    std::int64_t every = 0;
     ImageEncoding format = ImageEncoding::png;
 };
 
@@ -23,9 +24,9 @@ class FrameSaver {
     /// Creates the folder, whose parent must exist. Throws Error if that fails.
     explicit FrameSaver(SaveOptions options);
 
-    /// Saves the frame if it is wanted, as frame_000000.png and so on. Numbers go on
-    /// after the last image in the folder; no file is ever overwritten. Throws Error if it cannot
-    /// be written.
+    /// Saves the frame, if its number or place is selected, as frame_000000.png and so on. Numbers
+    /// continue after the last image in the folder; files are never overwritten. Throws Error if
+    /// the image cannot be written.
     void take(ImageView image, const Fix& fix);
 
     std::int64_t saved() const { return saved_; }

@@ -28,22 +28,22 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Maximum number of frames that are taken. More take longer and add nothing.
+/// Maximum number of frames that are taken. More frames take longer and do not improve the result.
 constexpr std::size_t kMaxLiveFrames = 50;
-/// A camera that moves less in the image, in px per s, is steady: less than a pixel during an
-/// exposure, or while a rolling shutter passes.
+/// Maximum speed of the image for a steady camera, in px/s: less than a pixel during an exposure or
+/// the readout of a rolling shutter.
 constexpr double kSteady_px_s = 30;
-/// Time without a steady frame after which frames of a moving camera are taken, as of a robot that
-/// does not stop.
+/// Time without a steady frame after which frames of a moving camera are accepted, for example on a
+/// robot that does not stop.
 constexpr std::int64_t kPatience_us = 3'000'000;
-/// A frame of a place that is not new is taken for this many parts of the image that no frame has
-/// covered.
+/// Minimum number of uncovered parts of the image for which a frame is taken at a place that is not
+/// new.
 constexpr int kNewParts = 3;
 
-/// Measures the speed of the image, from one located frame to the next.
+/// Measures the speed of the image between two located frames.
 class Motion {
   public:
-    /// Returns the speed since the frame before, in px per s; infinite if it is not known.
+    /// Returns the speed since the previous frame, in px/s; infinity if unknown.
     double speed_px_s(const Fix& fix, std::int64_t time_us, double reach_px) {
         const std::optional<Seen> before =
             std::exchange(newest_, Seen{fix.x_grid(), fix.y_grid(), fix.theta_rad(), time_us});
@@ -67,7 +67,7 @@ class Motion {
     std::optional<Seen> newest_;
 };
 
-/// Counts of the frames, which explain why too few were taken.
+/// Counts of frames, which explain why too few frames were taken.
 struct Tally {
     std::int64_t seen = 0;
     std::int64_t located = 0;
@@ -88,7 +88,7 @@ class LiveCalibration {
 
     void say(const std::string& message) { display_.say(message); }
 
-    /// Takes frames until they are enough, the source ends or the user ends it.
+    /// Takes frames until they suffice, the source ends or the user stops.
     void take_all(capture::FrameSource& source) {
         try {
             capture::Frame frame;
@@ -99,7 +99,7 @@ class LiveCalibration {
         } catch (const BadArgument&) {
             throw;
         } catch (const Error& error) {
-            // The frames before the failure may be enough.
+            // The frames before the failure may suffice.
             say(error.what());
         }
     }
@@ -134,9 +134,9 @@ class LiveCalibration {
     Motion motion_;
     std::int64_t steady_us_ = 0;  ///< time of the newest steady frame, or of the first frame
     Tally tally_;
-    GreyImage failed_;  ///< the newest frame, as long as none has been located
+    GreyImage failed_;  ///< the newest frame, until a frame is located
     Status failure_ = Status::ok;
-    double bits_per_px_ = 0;  ///< of the source (capture/frame_source.hpp)
+    double bits_per_px_ = 0;  ///< bit rate of the source (capture/frame_source.hpp)
 };
 
 void LiveCalibration::start_with(const GreyImage& image) {
@@ -155,7 +155,7 @@ void LiveCalibration::start_with(const GreyImage& image) {
 }
 
 bool LiveCalibration::is_steady(const capture::Frame& frame) {
-    if (!frame.file.empty()) return true;  // images are taken one by one
+    if (!frame.file.empty()) return true;  // images are taken one by one, so the camera was steady
     const double reach_px = std::hypot(width_px_, height_px_) / 2;
     const bool is_slow =
         motion_.speed_px_s(reader_.trace().fix, frame.time_us, reach_px) < kSteady_px_s;
@@ -179,7 +179,7 @@ bool LiveCalibration::is_new(const CalibrationView& view, ImageView image) {
     return places_.take(reader_.trace().fix, image) || coverage_->parts_added_by(view) >= kNewParts;
 }
 
-/// Returns why a frame is not taken, or an empty text if it is.
+/// Returns the reason for not taking a frame, or an empty text if the frame is taken.
 std::string LiveCalibration::refusal(const capture::Frame& frame,
                                      const std::optional<calibrate::LocatedFrame>& located) {
     ++tally_.seen;
@@ -190,7 +190,7 @@ std::string LiveCalibration::refusal(const capture::Frame& frame,
             failure_ = reader_.trace().fix.status;
         }
         return reader_.trace().fix.status == Status::mirrored ? "mirrored: start with --flip"
-                                                              : "no pattern is located";
+                                                              : "no pattern was located";
     }
     ++tally_.located;
     const bool holds_still = is_steady(frame);
@@ -209,23 +209,24 @@ std::string LiveCalibration::refusal(const capture::Frame& frame,
     return "";
 }
 
-/// Takes a frame if it adds something, and shows it. Returns false if the user ends it.
+/// Takes a frame if it adds something new, and shows it. Returns false if the user stops.
 bool LiveCalibration::look(capture::Frame& frame) {
-    // A camera that was unplugged gives empty frames.
+    // An unplugged camera delivers empty frames.
     if (frame.image.pixels.empty()) return display_.is_wanted();
     start_with(frame.image);
     const auto located = reader_.read(frame.image.view());
-    const std::string why_not = refusal(frame, located);
-    const ImageView image = frame.image.view();  // its pixels move along with the frame
-    if (why_not.empty()) {
+    const std::string refusal_reason = refusal(frame, located);
+    // Remains valid when the pixels are moved out of the frame.
+    const ImageView image = frame.image.view();
+    if (refusal_reason.empty()) {
         coverage_->add(view_of(*located, reader_.trace().fix));
         if (saver_) saver_->take(image, reader_.trace().fix);
         taken_.push_back(std::make_shared<const GreyImage>(std::move(frame.image)));
     }
     CalibrationStatus status(*coverage_);
     status.needs = needs();
-    status.is_taken = why_not.empty();
-    status.now = status.is_taken ? "go on to another place" : why_not;
+    status.is_taken = refusal_reason.empty();
+    status.now = status.is_taken ? "move on to another place" : refusal_reason;
     if (located) status.theta_rad = reader_.trace().fix.theta_rad();
     if (const auto camera = lens()) status.corner_sigma_px = corner_sigma_px(*camera);
     if (job_.newest()) {
@@ -233,7 +234,7 @@ bool LiveCalibration::look(capture::Frame& frame) {
         if (status.needs.empty()) {
             status.remark = newest.advice;
         } else if (!newest.camera.focal_px) {
-            status.remark = "a camera held by hand: tilt it, too, for its focal length";
+            status.remark = "hand-held camera: also tilt it, to determine its focal length";
         }
     }
     return display_.show(status, image, reader_.trace());
@@ -243,9 +244,10 @@ std::optional<Camera> LiveCalibration::lens() const {
     return job_.newest() ? std::optional(job_.newest()->camera) : std::nullopt;
 }
 
-/// Whether another calibration would be better than the newest one. Each takes longer than the one
-/// before, so it is made again for twice as many frames, or for as many as the lens may need:
-/// deviations fall with the root of the number of frames.
+/// Returns true if another calibration would improve on the newest one. Each calibration takes
+/// longer than the previous one, so the next one waits for twice as many frames. If only the lens
+/// accuracy is missing, the number of frames that it needs may be smaller: deviations fall with the
+/// root of the number of frames.
 bool LiveCalibration::is_worth_calibrating() const {
     if (taken_.size() < std::size_t{kWantedFrames} || taken_.size() == job_.frames()) return false;
     const std::vector<CalibrationNeed> missing = needs();
@@ -259,9 +261,9 @@ bool LiveCalibration::is_worth_calibrating() const {
     return static_cast<double>(taken_.size()) >= growth * static_cast<double>(job_.frames());
 }
 
-/// Starts and ends calibrations by the frames taken. Of a camera frames go on meanwhile; all others
-/// wait, so that the result does not depend on the speed of the computer. Returns false if the user
-/// ends it.
+/// Starts and finishes calibrations with the frames taken so far. During a calibration, a camera
+/// continues to deliver frames. All other sources wait, which makes the result independent of the
+/// speed of the computer. Returns false if the user stops.
 bool LiveCalibration::go_on_calibrating() {
     if (!coverage_) return true;
     if (!job_.is_running() && is_worth_calibrating()) job_.start(taken_);
@@ -271,9 +273,9 @@ bool LiveCalibration::go_on_calibrating() {
             if (interrupted() || !display_.is_wanted()) return false;
             continue;
         }
-        constexpr double kTrusted_px = 1;
+        constexpr double kMaxCornerSigma_px = 1;
         const auto camera = lens();
-        if (camera && corner_sigma_px(*camera) < kTrusted_px)
+        if (camera && corner_sigma_px(*camera) < kMaxCornerSigma_px)
             reader_.use_lens(calibrate::lens_of(*camera));
     }
     return true;
@@ -284,9 +286,9 @@ bool LiveCalibration::is_enough() const {
            needs().empty();
 }
 
-/// Waits for a calibration by all frames. Throws Error after an interrupt.
+/// Waits for a calibration with all frames. Throws Error after an interrupt.
 void LiveCalibration::finish_job() {
-    // A first Ctrl-C has only ended the taking of frames.
+    // The first Ctrl-C only stopped the taking of frames.
     take_ctrl_c();
     ProgressLine line("calibrating the lens");
     while (job_.is_running() || job_.frames() < taken_.size()) {
@@ -298,10 +300,10 @@ void LiveCalibration::finish_job() {
     }
 }
 
-/// Returns what is missing in the frames.
+/// Describes what is missing in the frames.
 std::string LiveCalibration::shortage() const {
     std::string text = fmt::format(
-        "not enough was seen, and no file is written: of {} frames {} were located and {} taken "
+        "not enough was seen, and no file was written: of {} frames, {} were located and {} taken "
         "({} out of focus, {} moving)",
         tally_.seen, tally_.located, taken_.size(), tally_.out_of_focus, tally_.moving);
     if (!coverage_) return text;
@@ -320,7 +322,7 @@ std::string LiveCalibration::shortage() const {
     return text;
 }
 
-/// Returns the calibration by all frames. Throws Error if they are not enough.
+/// Returns the calibration with all frames. Throws Error if the frames do not suffice.
 LensCalibration LiveCalibration::result() {
     if (taken_.size() < std::size_t{kWantedFrames}) throw Error(shortage());
     finish_job();
@@ -331,7 +333,7 @@ LensCalibration LiveCalibration::result() {
                                 newest.advice));
     }
     for (const CalibrationNeed& need : needs())
-        say("the calibration can be used, but would gain: " + need.advice);
+        say("the calibration can be used, but could be improved: " + need.advice);
     return newest;
 }
 

@@ -11,14 +11,14 @@ namespace dotpose::cli {
 
 Option* MqttArguments::add_to(Command& command) {
     command.add_option("--mqtt-ca", ca_file_, "Certificates to trust (mqtts)")->type_name("FILE");
-    command.add_option("--qos", qos_, "0: states may be lost, 1: they arrive, perhaps twice")
+    command.add_option("--qos", qos_, "0: states may be lost; 1: states arrive, possibly twice")
         ->type_name("N")
         ->capture_default_str()
         ->check(Range(0, 1));
     return command
         .add_option("--mqtt", url_,
-                    "Broker: mqtt://[USER[:PASSWORD]@]HOST[:PORT], or mqtts:// for TLS; a password "
-                    "may stand in DOTPOSE_MQTT_PASSWORD")
+                    "Broker: mqtt://[USER[:PASSWORD]@]HOST[:PORT], or mqtts:// for TLS; the "
+                    "password may be in DOTPOSE_MQTT_PASSWORD")
         ->type_name("URL");
 }
 

@@ -1,4 +1,4 @@
-/// The options of a broker, which `watch` and `fleet` share.
+/// Options of the broker, shared by `watch` and `fleet`.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ class MqttArguments {
     /// Adds --mqtt, --mqtt-ca and --qos.
     Option* add_to(Command& command);
 
-    /// Returns none if no broker was given. The password may be in the environment variable
-    /// DOTPOSE_MQTT_PASSWORD. Throws BadArgument if the options are invalid.
+    /// Returns the options, or none without --mqtt. The environment variable DOTPOSE_MQTT_PASSWORD
+    /// may contain the password. Throws BadArgument if the options are invalid.
     std::optional<publish::MqttOptions> options() const;
 
     const std::string& ca_file() const { return ca_file_; }

@@ -14,13 +14,13 @@ namespace dotpose::cli {
 namespace {
 
 struct Shown {
-    std::string frame;  ///< the frame of reference
+    std::string frame;  ///< name of the frame of reference
     double x_mm = 0;
     double y_mm = 0;
     double angle_rad = 0;
 };
 
-/// Returns the pose to show, or none if there is none.
+/// Returns the pose to show, or none while the robot is lost and not on a sheet.
 std::optional<Shown> shown_pose(const Reading& reading) {
     const std::optional<SheetPlace>& place = reading.record.place;
     const TrackedPose& pose = reading.track.pose;

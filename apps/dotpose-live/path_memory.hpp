@@ -1,5 +1,5 @@
-/// Keeps the path of a robot in bounded memory; of a long path, it keeps every second, fourth, ...
-/// point.
+/// Stores the path of a robot in bounded memory. Long paths are thinned to every second, fourth,
+/// ... point.
 #pragma once
 
 #include <cstdint>
@@ -15,24 +15,25 @@ namespace dotpose::cli {
 
 class PathMemory {
   public:
-    /// Takes the track after a frame; only frames in which the robot is tracked extend the path.
+    /// Takes the track after a frame. The path is extended only by frames in which the robot is
+    /// tracked.
     void add(const Track& track);
 
     const std::vector<video::PathMark>& marks() const { return marks_; }
 
-    /// Returns the path in mm; a new stroke begins where the robot was lost or put elsewhere.
+    /// Returns the path in mm. A new stroke begins where the robot was lost or moved by hand.
     std::vector<std::vector<draw::Point>> strokes() const;
 
   private:
     static constexpr std::size_t kMax = 16384;
 
     std::vector<video::PathMark> marks_;
-    std::int64_t stride_ = 1;  ///< one in this many tracked frames is kept
+    std::int64_t stride_ = 1;  ///< one of this many tracked frames is stored
     std::int64_t frames_ = 0;
     bool is_jump_ = true;
 };
 
-/// Returns the sheets in the plane of the tracker.
+/// Returns the outlines of the sheets in the plane of the tracker.
 std::vector<draw::MapSheet> map_sheets(const std::vector<SheetEntry>& sheets, Plane plane);
 
 }  // namespace dotpose::cli

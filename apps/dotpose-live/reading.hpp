@@ -1,4 +1,4 @@
-/// The results of `dotpose watch` for one frame: the fix of that frame, and the track up to it.
+/// The results of `dotpose watch` for one frame: its fix, and the track up to the frame.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,13 @@ Plane plane_of(const Follower& follower);
 struct Reading {
     std::int64_t index = 0;
     std::int64_t time_us = 0;
-    Record record;  ///< `p_wrong` with the tracker's prior, where the fix needed that
+    /// `p_wrong` includes the prior of the tracker if the fix was accepted only with it.
+    Record record;
     Track track;
     Plane plane = Plane::pattern;
 };
 
-/// Follows the robot to this frame.
+/// Locates the frame and updates the track.
 Reading read(const capture::Frame& frame, Follower& follower);
 
 }  // namespace dotpose::cli

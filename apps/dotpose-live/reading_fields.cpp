@@ -17,7 +17,7 @@ double deviation(const TrackedPose& pose, std::size_t i) {
     return std::sqrt(static_cast<double>(pose.covariance[i][i]));
 }
 
-/// Returns the pose of the track with the covariance of its first three states.
+/// Returns the pose of the track with the covariance of x, y and theta.
 PlanePose plane_pose(const TrackedPose& pose) {
     PlanePose result{pose.x_mm(), pose.y_mm(), pose.theta_rad(), {}};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -27,8 +27,8 @@ PlanePose plane_pose(const TrackedPose& pose) {
     return result;
 }
 
-/// Returns the fields of velocities and deviations. Where `is_flipped`, y points up in the output
-/// and down in the track.
+/// Returns the fields of velocities and standard deviations. If `is_flipped`, y points up in the
+/// output but down in the track.
 std::vector<Field> motion_fields(const TrackedPose& pose, Units units, bool is_flipped) {
     const double sign = is_flipped ? -1 : 1;
     const double vx_mm_s = static_cast<double>(pose.vx_mm_s);
@@ -58,7 +58,7 @@ std::vector<Field> motion_fields(const TrackedPose& pose, Units units, bool is_f
     };
 }
 
-/// Returns the fields of the tracker; those of the pose are empty while it is lost.
+/// Returns the fields of the tracker. The fields of the pose are empty while the robot is lost.
 std::vector<Field> track_fields(const Track& track, Plane plane, Units units) {
     const bool is_flipped = units == Units::ros && plane == Plane::pattern;
     std::optional<PlanePose> pose;
@@ -91,7 +91,7 @@ std::vector<Field> fields(const Reading& reading, Units units) {
         {"frame", fmt::format("{}", reading.index)},
         {"t_s", decimal(static_cast<double>(reading.time_us) * 1e-6, 6)},
     };
-    all.insert(all.begin() + 1, time.begin(), time.end());  // after the version of the schema
+    all.insert(all.begin() + 1, time.begin(), time.end());  // after the schema version
     append(all, track_fields(reading.track, reading.plane, units));
     return all;
 }

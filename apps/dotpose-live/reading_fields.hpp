@@ -1,5 +1,4 @@
-/// The fields of an output line of `dotpose watch`: those of `dotpose locate` and those of the
-/// tracker.
+/// Fields of an output line of `dotpose watch`: the fields of `dotpose locate` and of the tracker.
 #pragma once
 
 #include <string>
@@ -12,7 +11,7 @@ namespace dotpose::cli {
 
 std::vector<Field> fields(const Reading& reading, Units units);
 
-/// Returns the header line of a run with or without sheets.
+/// Returns the CSV header of a run with or without sheets.
 std::string csv_header_of_readings(bool has_sheets, Units units);
 
 }  // namespace dotpose::cli

@@ -1,4 +1,4 @@
-/// Sends the readings of `dotpose watch` as messages of ROS 2: to an MCAP file, and over DDS.
+/// Sends the readings of `dotpose watch` as ROS 2 messages to an MCAP file and over DDS.
 #pragma once
 
 #include <cmath>
@@ -15,20 +15,20 @@
 namespace dotpose::cli {
 
 struct RobotOutputOptions {
-    std::string mcap;         ///< file to record; empty for none
-    bool has_images = false;  ///< whether the frames are recorded too
+    std::string mcap;         ///< MCAP file to record; empty for none
+    bool has_images = false;  ///< true if the frames are recorded, too
     ImageEncoding image_format = ImageEncoding::png;
-    std::optional<dds::PublisherOptions> dds;  ///< none if nothing is published
+    std::optional<dds::PublisherOptions> dds;  ///< none if nothing is published over DDS
     std::string robot;
-    std::string frame_prefix;      ///< before the names of the robot's frames
-    std::optional<Camera> camera;  ///< has the mount and the exposure
+    std::string frame_prefix;      ///< prefix of the names of the robot's frames
+    std::optional<Camera> camera;  ///< source of the mount and the exposure time
 
     bool is_wanted() const { return !mcap.empty() || dds; }
 };
 
-/// Gives frames the stamps of their messages, in nanoseconds. Live frames have times on the
-/// monotonic clock, of the end of the exposure; other nodes of ROS use the system's clock, and the
-/// middle of the exposure. Times of recorded frames stay as they are.
+/// Computes the time stamps of messages in ns. The time of a live frame is the end of its exposure
+/// on the monotonic clock. ROS uses the middle of the exposure on the system clock, so the time is
+/// converted. Times of recorded frames are not changed.
 class Stamps {
   public:
     explicit Stamps(double exposure_us) : half_exposure_ns_(std::llround(exposure_us * 500)) {}
@@ -37,25 +37,25 @@ class Stamps {
   private:
     std::int64_t half_exposure_ns_;
     std::optional<std::int64_t>
-        system_from_monotonic_ns_;  ///< constant, so that intervals are kept
+        system_from_monotonic_ns_;  ///< offset between the clocks; constant, to preserve intervals
 };
 
 class RobotOutput {
   public:
-    /// Throws Error if something cannot be opened.
+    /// Throws Error if the file or the publisher cannot be opened.
     explicit RobotOutput(const RobotOutputOptions& options);
 
-    /// Passes on a frame. Throws Error.
+    /// Sends the messages of a frame. Throws Error.
     void take(const capture::Frame& frame, const Reading& reading);
 
-    /// Completes the file, and says how many messages were published. Throws Error.
+    /// Completes the file and reports the number of published messages. Throws Error.
     void finish();
 
   private:
     RobotOutputOptions options_;
     Stamps stamps_;
     ros::RobotMessenger messenger_;
-    bool has_mount_ = false;  ///< whether the mount was passed on
+    bool has_mount_ = false;  ///< true once the mount was sent
     std::optional<RobotRecording> recording_;
     std::optional<dds::Publisher> publisher_;
 };

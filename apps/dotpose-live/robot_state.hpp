@@ -8,7 +8,7 @@
 
 namespace dotpose::cli {
 
-/// Makes the state message of a reading. `world_map` is the name of the world of the sheet file.
+/// Returns the state message of a reading. `world_map` is the name of the world of the sheet file.
 RobotState state_of(const Reading& reading, const std::string& robot, const std::string& world_map);
 
 }  // namespace dotpose::cli

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kMicro = 1'000'000;
 
-/// Formats a time by ISO 8601 in UTC, with microseconds.
+/// Formats a time in ISO 8601, UTC, with microseconds.
 std::string timestamp(std::int64_t time_us) {
     const auto seconds = static_cast<std::time_t>(time_us / kMicro);
     std::tm utc{};
@@ -25,10 +25,10 @@ std::string timestamp(std::int64_t time_us) {
                        time_us % kMicro);
 }
 
-/// Name of each subject in topics, in the order of the enumeration.
+/// Names of the subjects in topics, in the order of Subject.
 constexpr std::string_view kSubjects[] = {"visualization", "connection"};
 
-/// Returns the members with which each message begins.
+/// Returns the members with which all messages begin.
 nlohmann::ordered_json header(const std::string& robot, std::uint64_t id, std::int64_t sent_us) {
     return {{"headerId", id},
             {"timestamp", timestamp(sent_us)},
@@ -54,7 +54,7 @@ std::int64_t system_us() {
 
 std::string json_of(const RobotState& state) {
     nlohmann::ordered_json json = header(state.robot, state.header_id, state.sent_us);
-    json["state"] = state.state;  // not a member of VDA 5050, which permits others
+    json["state"] = state.state;  // an additional member, which VDA 5050 permits
     if (state.is_localized) {
         json["agvPosition"] = {{"positionInitialized", true},
                                {"mapId", state.map_id},

@@ -27,7 +27,7 @@ StateNumbers::Arrival StateNumbers::take(const RobotState& state, StateCounts& c
         counts.missed = std::max<std::int64_t>(counts.missed - 1, 0);
         return Arrival::late;
     }
-    // A lower number means that the robot has started again, which is no gap.
+    // A lower number means that the robot was restarted. It is not a gap.
     if (!is_first && sent.number > newest_.number) {
         constexpr std::uint64_t kMax = 1'000'000'000;
         counts.missed +=
@@ -43,7 +43,7 @@ bool StateNumbers::is_late(const Sent& sent) {
         doubts_ = 0;
         return false;
     }
-    // After an interruption, a queue is sent with the newest message first, so its times descend.
+    // After an interruption, a queue is sent newest message first, so its times descend.
     doubts_ = sent.time_us > doubted_us_ || doubts_ == 0 ? doubts_ + 1 : 1;
     doubted_us_ = sent.time_us;
     if (doubts_ < kDoubts) return true;

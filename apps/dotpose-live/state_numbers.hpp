@@ -1,4 +1,5 @@
-/// Classifies the states of one robot by their numbers and times: new, missing, late, repeated.
+/// Classifies the states of one robot by their numbers and times: news, late or repeated. Counts
+/// missing states.
 #pragma once
 
 #include <array>
@@ -11,9 +12,10 @@ namespace dotpose::cli {
 
 struct StateCounts {
     std::int64_t messages = 0;
-    std::int64_t missed = 0;    ///< missing so far, from gaps in the numbers
-    std::int64_t late = 0;      ///< came after newer ones; they are no longer missing
-    std::int64_t repeated = 0;  ///< came before; at QoS 1 a connection that breaks repeats some
+    std::int64_t missed = 0;  ///< number of missing states so far, from gaps in the numbers
+    std::int64_t late = 0;    ///< states that arrived after newer states; no longer missing
+    /// States that arrived before; with QoS 1, a broken connection repeats some states.
+    std::int64_t repeated = 0;
 
     StateCounts& operator+=(const StateCounts& more);
 };
@@ -22,10 +24,10 @@ class StateNumbers {
   public:
     enum class Arrival { news, late, repeated };
 
-    /// Takes a state, and counts it. It is news if its number is higher than all before, whatever
-    /// the sender's clock says, or its time is later: then the robot has started again. If both are
-    /// lower, it is late, unless several such states ascend: then the robot has started again with
-    /// its clock set back.
+    /// Takes a state and counts it. A state is news if its number is higher than all numbers
+    /// before, regardless of its time. A state with a lower number but a later time is also news,
+    /// from a restarted robot. If both are lower, the state is late. Several such states in
+    /// ascending order are news, from a robot that restarted with its clock set back.
     Arrival take(const RobotState& state, StateCounts& counts);
 
   private:
@@ -36,14 +38,14 @@ class StateNumbers {
     };
     bool is_late(const Sent& sent);
 
-    /// Number of newest states whose repetitions are recognized.
+    /// Number of newest states whose repetitions are detected.
     static constexpr std::size_t kRemembered = 64;
 
     bool is_first_ = true;
     Sent newest_;
-    std::array<Sent, kRemembered> seen_{};  ///< each at its number modulo the size
-    /// Number of successive states that are older than `newest_` but newer than each other, and the
-    /// time at which the last of them was sent.
+    std::array<Sent, kRemembered> seen_{};  ///< each state is stored at its number modulo the size
+    /// Number of successive states that are older than `newest_` but ascend in time, and the time
+    /// of the last of these states.
     int doubts_ = 0;
     std::int64_t doubted_us_ = 0;
 };

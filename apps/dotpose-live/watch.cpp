@@ -49,10 +49,11 @@ constexpr const char* kWatchExamples =
     "  dotpose watch run.mp4 --sheets sheets.json --log run.csv --draw run.svg\n"
     "  dotpose watch 'frames/*.pgm' --fps 50 --record run-overlay.mp4\n"
     "  ffmpeg -i run.mp4 -f rawvideo -pix_fmt gray - | dotpose watch - --size 640x480 --fps 30\n\n"
-    "One line per frame with the raw and the tracked pose (docs/live.md). Of a camera the newest\n"
-    "frame is taken and those in between are counted; of all else every frame. Ctrl-C ends.\n";
+    "One line per frame with the raw and the tracked pose (docs/live.md). A camera delivers its\n"
+    "newest frame; the frames in between are dropped and counted. Other sources deliver every\n"
+    "frame. Ctrl-C ends.\n";
 
-/// The largest domain of DDS: higher ones have no ports.
+/// Maximum DDS domain. Higher domains have no ports.
 constexpr int kLastDomain = 232;
 
 struct DdsArguments {
@@ -60,7 +61,7 @@ struct DdsArguments {
     bool is_reliable = false;
     std::optional<int> domain;
 
-    /// Returns none if nothing is published. Throws BadArgument if the environment names no domain.
+    /// Returns none without --dds. Throws BadArgument if ROS_DOMAIN_ID is not a valid domain.
     std::optional<dds::PublisherOptions> publisher() const {
         if (!is_wanted) return std::nullopt;
         const char* range = std::getenv("ROS_AUTOMATIC_DISCOVERY_RANGE");
@@ -97,7 +98,7 @@ struct WatchArguments {
     bool lists_cameras = false;
     bool has_no_window = false;
     bool is_realtime = false;
-    std::int64_t frames = 0;  ///< number of frames to take; 0 for no limit
+    std::int64_t frames = 0;  ///< number of frames to take; 0: no limit
 };
 
 void report(const WatchOutputs& outputs, std::int64_t dropped) {
@@ -123,27 +124,27 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
     return files;
 }
 
-/// Writes to standard error why most frames fail, and the first warning of each kind.
-void tell_once_in_a_while(const Reading& reading, ImageView image, const Follower& follower,
-                          double bits_per_px, FailureHint& hint,
-                          std::array<bool, kWarnings>& was_told) {
+/// Reports on standard error why most frames fail, and the first warning of each kind.
+void report_problems(const Reading& reading, ImageView image, const Follower& follower,
+                     double bits_per_px, FailureHint& hint,
+                     std::array<bool, kWarnings>& was_reported) {
     const std::string advice = hint.after(reading, image, follower.used_options(), bits_per_px);
     if (!advice.empty()) tell(advice);
     const auto doubts = warnings(reading.record);
     for (std::size_t i = 0; i < doubts.size(); ++i) {
-        if (doubts[i].empty() || std::exchange(was_told[i], true)) continue;
+        if (doubts[i].empty() || std::exchange(was_reported[i], true)) continue;
         tell(fmt::format("frame {}: {}", reading.index, doubts[i]));
     }
 }
 
 FollowerOptions options_of(const WatchArguments& arguments) {
     FollowerOptions options = arguments.follower.read();
-    options.locate.show_stages = true;  // for window and recording
+    options.locate.show_stages = true;  // stages for the window and the recording
     options.track.spacing_mm = static_cast<float>(options.spacing_mm);
     return options;
 }
 
-/// Saves a frame as it came from its source.
+/// Saves a frame in its original form, without inversion and flip.
 void save(FrameSaver& saver, GreyImage& image, const Fix& fix, const WatchArguments& arguments) {
     const auto undo_or_redo = [&] {
         if (arguments.follower.is_inverted) invert(image);
@@ -154,23 +155,24 @@ void save(FrameSaver& saver, GreyImage& image, const Fix& fix, const WatchArgume
     undo_or_redo();
 }
 
-/// Waits until recorded frames are due, by their times.
+/// Waits until the time of a recorded frame.
 class Pace {
   public:
     void wait_for(const capture::Frame& frame) {
         using namespace std::chrono;
-        // The first frame is due now. Live frames are due when they come.
+        // Live frames are due on arrival. The first recorded frame is due immediately.
         if (frame.is_live) return;
         if (!begun_) begun_ = steady_clock::now() - microseconds(frame.time_us);
         const auto due = *begun_ + microseconds(frame.time_us);
         while (!interrupted() && steady_clock::now() < due) {
-            constexpr steady_clock::duration kLongest = milliseconds(50);
-            std::this_thread::sleep_for(std::min(kLongest, due - steady_clock::now()));
+            constexpr steady_clock::duration kMaxSleep = milliseconds(50);
+            std::this_thread::sleep_for(std::min(kMaxSleep, due - steady_clock::now()));
         }
     }
 
   private:
-    std::optional<std::chrono::steady_clock::time_point> begun_;  ///< when time 0 was due
+    /// Clock time at which the source time is 0.
+    std::optional<std::chrono::steady_clock::time_point> begun_;
 };
 
 /// Warns on standard error if the tracked poses are not in the world.
@@ -188,15 +190,15 @@ void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follow
         follower.sheets(), [](const SheetEntry& entry) { return !entry.world; });
     if (unplaced == follower.sheets().end()) return;
     constexpr const char* kPartly =
-        "the robot counts as lost on sheets without a place in the world, such as '{}': place them "
+        "the robot is lost on sheets without a place in the world, such as '{}': place them "
         "(dotpose sheets place, dotpose calibrate --stitch)";
     constexpr const char* kPattern =
-        "no sheet has a place in the world, so that the robot is tracked in the frame of the "
-        "pattern (y down, angles clockwise): place the sheets first (dotpose sheets place)";
+        "no sheet has a place in the world, so the robot is tracked in the frame of the pattern (y "
+        "down, angles clockwise): place the sheets first (dotpose sheets place)";
     tell(follower.is_in_world() ? fmt::format(kPartly, unplaced->name) : kPattern);
 }
 
-/// Returns the number of frames that will be followed, or 0 if it is not known.
+/// Returns the number of frames to follow, or 0 if unknown.
 std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
                        const capture::FrameSource& source) {
     if (arguments.frames > 0) return arguments.frames;
@@ -204,14 +206,14 @@ std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
     return images > 0 ? images : source.length();
 }
 
-/// Follows the robot over all frames, of which there are `length`, or 0 if that is not known.
-/// Returns the exit status. Throws BadArgument if frames cannot be located with the arguments.
+/// Follows the robot over all frames. `length` is the number of frames, or 0 if unknown. Returns
+/// the exit status. Throws BadArgument if the arguments do not fit the frames.
 int follow(const WatchArguments& arguments, capture::FrameSource& source, std::int64_t length,
            Follower& follower, std::optional<FrameSaver>& saver, WatchOutputs& outputs,
            FailureHint& hint) {
     try {
         capture::Frame frame;
-        std::array<bool, kWarnings> was_told{};
+        std::array<bool, kWarnings> was_reported{};
         bool goes_on = true;
         Pace pace;
         ProgressLine progress("following", arguments.outputs.lines.out);
@@ -219,8 +221,8 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
             if (arguments.is_realtime) pace.wait_for(frame);
             if (arguments.follower.is_inverted) invert(frame.image);
             const Reading reading = read(frame, follower);
-            tell_once_in_a_while(reading, frame.image.view(), follower, source.bits_per_px(), hint,
-                                 was_told);
+            report_problems(reading, frame.image.view(), follower, source.bits_per_px(), hint,
+                            was_reported);
             if (saver) save(*saver, frame.image, reading.record.fix, arguments);
             goes_on = outputs.take(frame, reading, source.dropped());
             progress.update(outputs.tally().frames, length);
@@ -229,7 +231,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
     } catch (const BadArgument&) {
         throw;
     } catch (const Error& error) {
-        // The map and the counts of the frames before the failure are still written.
+        // The map and the report on the frames before the failure are still written.
         tell(error.what());
         return kExitFailed;
     }
@@ -266,7 +268,7 @@ int run(WatchArguments& arguments) {
         throw BadArgument("--mcap-images needs a file: --mcap FILE");
     }
     if (arguments.outputs.messages.has_images && arguments.save.format == ImageEncoding::pgm) {
-        throw BadArgument("--mcap-images records png or jpeg: --image-format jpeg is the faster");
+        throw BadArgument("--mcap-images records png or jpeg: --image-format jpeg is faster");
     }
     Sources sources(arguments.sources);
     const RunFiles files = files_of(arguments, sources);
@@ -309,7 +311,7 @@ int run(WatchArguments& arguments) {
     report(outputs, source->dropped());
     if (saver) tell(fmt::format("{} frames saved in {}", saver->saved(), arguments.save.folder));
     if (const std::string why = hint.at_end(); !why.empty()) tell(why);
-    // Images that cannot be read are skipped, but it is a failure if none was read.
+    // Images that cannot be read are skipped, but the run fails if no image was read.
     return is_unreadable && outputs.tally().frames == 0 ? kExitFailed : exit_code;
 }
 
@@ -323,8 +325,8 @@ void add_output_options(Command& command, WatchArguments& arguments) {
     add_file("--log", outputs.log, "Also write all lines as CSV in mm, for dotpose replay");
     add_file("--record", outputs.screen.record, "Video with the overlay (.mp4: H.264, or .avi)");
     add_file("--packets", outputs.packets, "Send pose packets to a file or device");
-    add_file("--mcap", outputs.messages.mcap, "Record messages of ROS 2 for ros2 bag and Foxglove");
-    command.add_flag("--mcap-images", outputs.messages.has_images, "Record the frames in it too");
+    add_file("--mcap", outputs.messages.mcap, "Record ROS 2 messages for ros2 bag and Foxglove");
+    command.add_flag("--mcap-images", outputs.messages.has_images, "Also record the frames");
     command
         .add_option("--save", arguments.save.folder,
                     "Save frames that show a new place, for dotpose calibrate")
@@ -339,18 +341,17 @@ void add_output_options(Command& command, WatchArguments& arguments) {
                 arguments.save.format = kFrameFormats.at(name);
                 arguments.outputs.messages.image_format = arguments.save.format;
             },
-            "Format of the frames of --save and --mcap-images: png; jpeg, with small losses, or "
-            "pgm, "
-            "uncompressed, for every frame of a fast camera")
+            "Format of the frames of --save and --mcap-images: png, jpeg (small losses) or pgm "
+            "(uncompressed); png is too slow for every frame of a fast camera")
         ->type_name("NAME")
         ->default_str("png")
         ->check(one_of({"png", "jpeg", "pgm"}));
     command.add_flag("--realtime", arguments.is_realtime,
-                     "Take recorded frames when their time has come, as from a camera");
+                     "Read recorded frames in real time, as from a camera");
     command.add_flag("--list-cameras", arguments.lists_cameras,
-                     "Print the cameras of this computer with their sizes and rates, and end");
+                     "Print the cameras of this computer with their sizes and rates, and exit");
     command.add_flag("--no-window", arguments.has_no_window,
-                     "Show nothing, even where there is a display");
+                     "Open no window, even if there is a display");
     command.add_option("--frames", arguments.frames, "End after N frames")
         ->type_name("N")
         ->check(Range(1, 2'000'000'000));
@@ -358,8 +359,7 @@ void add_output_options(Command& command, WatchArguments& arguments) {
 
 void add_publish_options(Command& command, OutputOptions& outputs, MqttArguments& mqtt) {
     mqtt.add_to(command);
-    add_robot_option(command, outputs.robot,
-                     "Name of the robot on the broker and in topics of ROS");
+    add_robot_option(command, outputs.robot, "Name of the robot on the broker and in ROS topics");
     add_frame_prefix_option(command, outputs.messages.frame_prefix);
     command
         .add_option("--mqtt-rate", outputs.mqtt_rate_hz,
@@ -370,9 +370,9 @@ void add_publish_options(Command& command, OutputOptions& outputs, MqttArguments
 }
 
 void add_dds_options(Command& command, DdsArguments& dds) {
-    command.add_flag("--dds", dds.is_wanted, "Publish messages of ROS 2, over DDS");
+    command.add_flag("--dds", dds.is_wanted, "Publish ROS 2 messages over DDS");
     command.add_flag("--dds-reliable", dds.is_reliable,
-                     "Send lost poses again: for subscribers that ask for it");
+                     "Send lost poses again, for subscribers that request it");
     command.add_option("--dds-domain", dds.domain, "Domain of DDS")
         ->type_name("N")
         ->default_str("ROS_DOMAIN_ID, or 0")
@@ -386,8 +386,9 @@ void add_track_options(Command& command, TrackOptions& track) {
         ->capture_default_str()
         ->check(require_positive);
     command
-        .add_option("--acceleration", track.acceleration_mm_s2,
-                    "Usual acceleration of the robot: larger follows faster, smooths less")
+        .add_option(
+            "--acceleration", track.acceleration_mm_s2,
+            "Usual acceleration of the robot: a larger value follows faster and smooths less")
         ->type_name("MM/S^2")
         ->capture_default_str()
         ->check(require_positive);
@@ -397,7 +398,7 @@ void add_track_options(Command& command, TrackOptions& track) {
             [&track](double p) {
                 track.max_p_wrong_log2 = static_cast<int>(std::floor(std::log2(p)));
             },
-            "Probability of being wrong above which a position is refused, the prior included")
+            "Maximum probability that an accepted position is wrong, including the prior")
         ->type_name("P")
         ->default_str("1e-9")
         ->check(Range(1e-60, 1e-3));
@@ -405,7 +406,7 @@ void add_track_options(Command& command, TrackOptions& track) {
         .add_option_function<double>(
             "--lost-after",
             [&track](double ms) { track.lost_after_us = static_cast<std::int64_t>(ms * 1000); },
-            "Time without a accepted fix after which the robot is lost")
+            "Time without an accepted fix after which the robot is lost")
         ->type_name("MS")
         ->default_str("70")
         ->check(Range(0.0, 1e9));

@@ -20,19 +20,20 @@ namespace dotpose::cli {
 
 struct OutputOptions {
     LineArguments lines;
-    // An empty path means that the output is not written.
+    // Outputs with an empty path are not written.
     std::string log;                           ///< CSV file of all frames
     std::string map;                           ///< SVG file of the path, written at the end
     std::string packets;                       ///< file or device for pose packets
     std::string robot = "robot";               ///< name of the robot on the broker and in ROS
-    RobotOutputOptions messages;               ///< messages of ROS
+    RobotOutputOptions messages;               ///< ROS messages
     std::optional<publish::MqttOptions> mqtt;  ///< the broker; none if nothing is published
-    double mqtt_rate_hz = 0;                   ///< most messages per second; 0 for one per frame
-    std::string world_map;                     ///< name of the world of the sheets
+    /// Maximum number of messages per second, not counting events. 0: one message per frame.
+    double mqtt_rate_hz = 0;
+    std::string world_map;  ///< name of the world of the sheets
     video::ScreenOptions screen;
 };
 
-/// Counts of a run.
+/// Number of frames, fixes and events of a run.
 struct WatchTally {
     std::int64_t frames = 0;
     std::int64_t fixes = 0;
@@ -45,8 +46,8 @@ struct WatchTally {
 /// Writes pose packets to a file or serial device.
 class PacketOutput {
   public:
-    /// Throws Error if it cannot be opened. `write` throws Error if it cannot be written,
-    /// ReaderLeft if its reader has closed it.
+    /// Throws Error if the file or device cannot be opened. `write` throws Error if it fails, and
+    /// ReaderLeft if the reader closed a pipe.
     explicit PacketOutput(const std::string& path);
     ~PacketOutput();
     PacketOutput(const PacketOutput&) = delete;
@@ -66,7 +67,7 @@ class StateOutput {
 
     void take(const Reading& reading);
 
-    /// Waits a short time until all messages are sent, and reports how many were. Throws Error if
+    /// Waits up to 2 s until all messages are sent, and reports how many were sent. Throws Error if
     /// the broker was never reached.
     void finish();
 
@@ -81,18 +82,19 @@ class StateOutput {
 
 class WatchOutputs {
   public:
-    /// Throws Error if something cannot be opened.
+    /// Throws Error if an output cannot be opened.
     WatchOutputs(const OutputOptions& options, const Follower& follower);
 
-    /// Writes the outputs of a frame. Returns false if the user closed the window or all outputs
-    /// have lost their readers. Throws Error if an output cannot be written.
+    /// Writes the outputs of a frame. Returns false if the user closed the window or all readers
+    /// closed their outputs. Throws Error if an output cannot be written.
     bool take(const capture::Frame& frame, const Reading& reading, std::int64_t dropped);
 
-    /// Writes the map, closes the recording and sends the last states. Throws Error if that fails.
+    /// Writes the map, completes the recording and sends the last states. Throws Error if that
+    /// fails.
     void finish();
 
     const WatchTally& tally() const { return tally_; }
-    /// Returns the number of frames per second of real time, over all frames of the run.
+    /// Returns the mean number of frames per second of real time.
     double rate() const;
 
   private:

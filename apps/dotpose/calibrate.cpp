@@ -36,13 +36,12 @@ constexpr const char* kCalibrateExamples =
     "  dotpose calibrate video.mp4 --sheets sheets.json -o camera.yaml\n"
     "  dotpose calibrate --camera camera.yaml -o camera.yaml --spin turn/*.png --drive line/*.png\n"
     "  dotpose calibrate --stitch --sheets sheets.json --camera camera.yaml seams/*.png\n\n"
-    "Take 5 to 50 frames of any printed sheet, some centimetres and any angle apart; 12 of the "
-    "robot\n"
-    "turning on the spot; some of it driving straight ahead. Of a video or a camera, up to 50\n"
-    "frames that show new places are taken; Ctrl-C ends the reading. With --live, a window (or,\n"
-    "without a display, the terminal) shows what is still missing while you move the camera;\n"
-    "frames are taken until they are enough, and q or Ctrl-C ends earlier. Exit status 1 if\n"
-    "the frames do not determine what is asked.\n";
+    "Take 5 to 50 frames of any printed sheet, some centimetres apart and at any angles; for\n"
+    "--spin, 12 frames of the robot turning on the spot; for --drive, some frames of it driving\n"
+    "straight ahead. From a video or a camera, up to 50 frames that show new places are taken;\n"
+    "Ctrl-C ends the reading. With --live, a window (or, without a display, the terminal) shows\n"
+    "what is still missing while you move the camera; frames are taken until they suffice, or\n"
+    "until q or Ctrl-C. Exit status 1 if the frames do not determine the requested values.\n";
 
 struct CalibrateArguments {
     SourceArguments sources;
@@ -57,18 +56,18 @@ struct CalibrateArguments {
     CameraArgument camera;
     std::string out;
     std::string picture;
-    std::optional<CodeVariant> code;  ///< none if it is found out from the frames
+    std::optional<CodeVariant> code;  ///< none: the code is detected from the frames
     CalibrateOptions options;
 };
 
-/// The sources of the frames for each part of the work, if they were given.
+/// Sources of the frames for each part of the calibration. A part without frames has none.
 struct Series {
     std::optional<Sources> lens;
     std::optional<Sources> spin;
     std::optional<Sources> drive;
 };
 
-/// Returns the arguments with other sources and without a list.
+/// Returns the arguments with `names` as the sources and without a list.
 SourceArguments with_names(SourceArguments arguments, const std::vector<std::string>& names) {
     arguments.names = names;
     arguments.list.clear();
@@ -90,7 +89,7 @@ Series series_of(const CalibrateArguments& arguments) {
     return series;
 }
 
-/// Runs `work(frames, frame_at, options)` and shows its progress.
+/// Runs `work(number of frames, frame_at, options)` and shows its progress.
 template <typename Work>
 auto with_progress(const CalibrateArguments& arguments, Sources& sources, const std::string& what,
                    Work work) {
@@ -112,8 +111,8 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources, const 
     }
 }
 
-/// Returns the picture of the turn: that of --draw, or if it shows the lens, one beside it, with
-/// "-spin" in its name.
+/// Returns the path of the picture of the turn. It is the path of --draw. If that path is used for
+/// the picture of the lens, "-spin" is inserted before its extension.
 std::string spin_picture_of(const CalibrateArguments& arguments) {
     const bool is_only_picture = arguments.spin.empty() || !arguments.sources.is_given();
     if (arguments.picture.empty() || is_only_picture) return arguments.picture;
@@ -122,7 +121,7 @@ std::string spin_picture_of(const CalibrateArguments& arguments) {
     return (lens.parent_path() / name).string();
 }
 
-/// Writes the camera file to the file of -o or to standard output.
+/// Writes the camera file to the path of -o or to standard output.
 void write_result(const std::string& out, const Camera& camera) {
     if (out.empty()) return;
     const DocumentOutput output(out, ".yaml");
@@ -130,7 +129,7 @@ void write_result(const std::string& out, const Camera& camera) {
     output.finish();
 }
 
-/// Throws Error unless the frames have the size of the images of the camera file.
+/// Throws Error unless the frames and the camera file have the same image size.
 void require_size(const Camera& file, const Camera& frames, const std::string& path) {
     if (file.width_px == frames.width_px && file.height_px == frames.height_px) return;
     throw Error(
@@ -151,7 +150,7 @@ void keep_mount(const Camera& from, Camera& to) {
     }
 }
 
-/// Calibrates the lens and then the mount, if frames for them are given. Returns a report.
+/// Calibrates the lens, then the mount, each only if frames for it are given. Returns a report.
 std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
     std::string report;
     std::optional<Camera> camera = arguments.camera.camera;
@@ -206,8 +205,8 @@ ScaleReference parse_scale_reference(const std::string& text) {
     return reference;
 }
 
-/// Finds the world poses and print scales of sheets and writes them into the sheet file. Returns a
-/// report.
+/// Computes the world poses and print scales of sheets and writes them into the sheet file. Returns
+/// a report.
 std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     SheetFile file(arguments.sheets, {.tell = tell, .stop = interrupted});
     const Stitching stitching = with_progress(
@@ -223,8 +222,8 @@ std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     return stitching_report(stitching);
 }
 
-/// Without --camera, starts from the camera file that -o replaces: what is not calibrated now, such
-/// as the mount, is kept. Throws Error if that file is not a camera file.
+/// Without --camera, reads the camera file that -o replaces, to keep the values that this
+/// calibration does not change, such as the mount. Throws Error if the file is not a camera file.
 void keep_camera_of(const std::string& out, CameraArgument& camera) {
     std::error_code failed;
     if (!camera.path.empty() || !std::filesystem::is_regular_file(out, failed) ||
@@ -235,13 +234,14 @@ void keep_camera_of(const std::string& out, CameraArgument& camera) {
         camera.camera = read_camera(out);
     } catch (const Error& error) {
         throw Error(
-            fmt::format("{}; -o replaces a camera file only: name another file", error.what()));
+            fmt::format("{}; -o replaces only a camera file: name another file", error.what()));
     }
     camera.path = out;
-    tell(fmt::format("{} exists: what is not calibrated now, such as the mount, is kept", out));
+    tell(fmt::format("{} exists: values that are not calibrated now, such as the mount, are kept",
+                     out));
 }
 
-/// Takes code and spacing of the frames from the sheets of --sheets.
+/// Takes the code and the spacing of the frames from the sheets of --sheets.
 void use_sheets(CalibrateArguments& arguments) {
     if (arguments.sheets.empty() || arguments.stitch) return;
     arguments.spacing = SpacingSource::sheets;
@@ -261,8 +261,7 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
     } else {
         files.reads("--sheets", arguments.sheets);
     }
-    // The output may be the camera file that is read: it keeps the values that are not calibrated
-    // now.
+    // -o may name the camera file of --camera: the values that are not calibrated are kept.
     const auto camera = identity_of(arguments.camera.path);
     if (camera && camera == identity_of(arguments.out) && !is_camera_info(arguments.camera.path)) {
         files.updates("-o", arguments.out, Content::yaml);
@@ -283,12 +282,13 @@ int run(CalibrateArguments& arguments) {
     if (!arguments.sources.is_given() && !has_mount) {
         throw BadArgument("no frames given: name 5 to 50 images, or a video or camera");
     }
-    if (arguments.stitch && has_mount) throw BadArgument("--stitch is a job of its own");
+    if (arguments.stitch && has_mount)
+        throw BadArgument("--stitch cannot be combined with --spin or --drive");
     Series series = series_of(arguments);
     require_apart(arguments, series);
     keep_camera_of(arguments.out, arguments.camera);
     use_sheets(arguments);
-    // Checked before the user moves the camera for minutes.
+    // Checks the output before the user spends minutes moving the camera.
     if (arguments.is_live && !arguments.out.empty()) base::require_writable(arguments.out);
     catch_interrupts();
     const std::string report =
@@ -309,7 +309,7 @@ void add_live_options(Command& command, CalibrateArguments& arguments) {
         live->excludes(command.get_option(other));
     command
         .add_flag("--no-window", arguments.live.has_no_window,
-                  "Show it in the terminal, even where there is a display")
+                  "Show it in the terminal, even if there is a display")
         ->needs(live);
     command
         .add_option("--save", arguments.live.save, "Also save the frames that are taken, as PNG")
@@ -329,12 +329,13 @@ void add_calibrate(Command& app, int& exit_code) {
         ->add_option("-o,--out", arguments->out,
                      "Camera file to write (YAML), or - for standard output")
         ->type_name("FILE|-");
-    add_draw_option(*command, arguments->picture,
-                    "Also draw residuals and coverage of the image, with --spin the turn (beside "
-                    "the other, as NAME-spin.svg), with --stitch the sheets before and after");
+    add_draw_option(
+        *command, arguments->picture,
+        "Also draw residuals and coverage of the image; with --spin, the turn (as NAME-spin.svg if "
+        "the lens is drawn, too); with --stitch, the sheets before and after");
     add_camera_option(*command, arguments->camera,
-                      "Camera file to start from: what is not calibrated now is kept, the lens or "
-                      "the mount; without it, the file of -o if it exists");
+                      "Camera file to start from: the values that are not calibrated now (lens or "
+                      "mount) are kept; without --camera, the file of -o if it exists");
     command
         ->add_option("--spin", arguments->spin,
                      "Frames of the robot turning on the spot: find its centre (reference_px)")
@@ -343,21 +344,20 @@ void add_calibrate(Command& app, int& exit_code) {
         ->add_option("--drive", arguments->drive,
                      "Frames of a straight drive ahead, in order: find the heading (theta_offset)")
         ->type_name("SOURCE");
-    Option* stitch = command->add_flag(
-        "--stitch", arguments->stitch,
-        "Find how the sheets of a sheet file lie, from frames that show two, and write it there");
+    Option* stitch = command->add_flag("--stitch", arguments->stitch,
+                                       "Find the poses of the sheets of a sheet file from frames "
+                                       "that show two sheets, and write them into the file");
     Option* sheets = add_sheets_option(*command, arguments->sheets,
-                                       "Sheet file: the code and spacing of the frames are "
-                                       "those of the sheet that they show; with "
-                                       "--stitch, the sheets to stitch");
+                                       "Sheet file with the code and spacing of the sheets that "
+                                       "the frames show; with --stitch, the sheets to stitch");
     command
         ->add_option_function<std::string>(
             "--true-scale",
             [arguments](const std::string& text) {
                 arguments->reference = parse_scale_reference(text);
             },
-            "What print scales are measured by: the mm_per_px of the camera file, or the true "
-            "distance of the first from the last column of dots of a sheet")
+            "Reference of the print scales: the mm_per_px of the camera file, or the true distance "
+            "between the first and the last column of dots of a sheet")
         ->type_name("camera|SHEET=MM")
         ->default_str("the mean of the first sheet")
         ->needs(stitch);

@@ -74,8 +74,7 @@ std::string lens_report(const LensCalibration& calibration, SpacingSource source
     std::string text;
     add(text, "frames      {} of {} located{}, {} dots, {} left out", calibration.located,
         calibration.frames,
-        calibration.duplicates > 0 ? fmt::format(", {} the same as others", calibration.duplicates)
-                                   : "",
+        calibration.duplicates > 0 ? fmt::format(", {} duplicates", calibration.duplicates) : "",
         calibration.dots, calibration.outliers);
     add(text, "code        {}", name(calibration.code));
     add(text, "lens        k {:.4e} +- {:.1e} per px^2: {:+.2f} % in the corner", camera.k_per_px2,
@@ -88,7 +87,7 @@ std::string lens_report(const LensCalibration& calibration, SpacingSource source
         calibration.px_per_spacing, 100 * calibration.dot_width, 100 * calibration.coverage);
     add(text, "residual    {:.4f} px before, {:.4f} px after (rms per axis)",
         calibration.residual_before_px, calibration.residual_px);
-    // Without the view of a mounted camera, the calibration does not depend on the spacing.
+    // The calibration depends on the spacing only if it includes the view of a mounted camera.
     const bool is_assumed = calibration.is_mounted && source == SpacingSource::assumed &&
                             calibration.verdict == CalibrationVerdict::good;
     if (calibration.is_mounted) {
@@ -102,7 +101,7 @@ std::string lens_report(const LensCalibration& calibration, SpacingSource source
 
 std::string corner_report(const Camera& camera) {
     std::string text;
-    add(text, "corner      known to {:.3f} px, where {:g} are enough", corner_sigma_px(camera),
+    add(text, "corner      known to {:.3f} px; {:g} px suffice", corner_sigma_px(camera),
         kWantedCornerSigma_px);
     return text;
 }
@@ -115,7 +114,7 @@ std::string spin_report(const SpinCalibration& calibration) {
     add(text, "reference   {:+.4f}, {:+.4f}{} mm from the image centre ({:.2f}, {:.2f} px)",
         calibration.offset_mm.x_mm, calibration.offset_mm.y_mm, plus_minus(calibration.sigma_mm, 4),
         reference.u, reference.v);
-    add(text, "residual    {:.4f} mm (rms per axis): so well the robot stayed on the spot",
+    add(text, "residual    {:.4f} mm (rms per axis): motion of the turning centre",
         calibration.residual_mm);
     add(text, "verdict     {}: {}", name(calibration.verdict),
         calibration.drift_mm > 0
@@ -133,7 +132,8 @@ std::string drive_report(const DriveCalibration& calibration) {
     add(text, "heading     image x axis {:+.3f}{} degrees",
         calibration.camera.theta_offset_rad * kDegrees,
         plus_minus(calibration.sigma_rad * kDegrees, 3));
-    add(text, "residual    {:.4f} mm (rms): so straight was the drive", calibration.residual_mm);
+    add(text, "residual    {:.4f} mm (rms): deviation from a straight line",
+        calibration.residual_mm);
     add(text, "verdict     good: straight ahead, in order");
     return text;
 }
@@ -145,7 +145,7 @@ std::string print_scale_text(double scale, double sigma) {
                        is_scale_known(sigma) ? "" : " (UNKNOWN)");
 }
 
-/// Appends the print scales of the sheets and the reference by which they were measured.
+/// Appends the print scales of the sheets and the reference of the scales.
 void add_print_scales(std::string& text, const Stitching& stitching) {
     bool is_all_told = true;
     std::string fixed;
@@ -169,13 +169,13 @@ void add_print_scales(std::string& text, const Stitching& stitching) {
             break;
         default:
             add(text,
-                "scale       against that of {}, whose mean stays as it is: only --true-scale "
-                "gives true millimetres",
+                "scale       relative to {}, whose mean scale is kept: only --true-scale gives "
+                "true millimetres",
                 fixed);
     }
     if (!is_all_told) {
         add(text,
-            "UNKNOWN:    scales that these frames do not determine: it takes the camera file of a "
+            "UNKNOWN:    these frames do not determine the scales: use the camera file of a "
             "mounted camera (with mm_per_px) and frames at several angles");
     }
 }

@@ -1,4 +1,4 @@
-/// The text that `dotpose calibrate` prints.
+/// Text reports of `dotpose calibrate`.
 #pragma once
 
 #include <string>
@@ -7,11 +7,12 @@
 
 namespace dotpose::cli {
 
-/// Where the spacing of a calibration comes from.
+/// Origin of the spacing that a calibration uses.
 enum class SpacingSource { assumed, option, sheets };
 
 std::string lens_report(const LensCalibration& calibration, SpacingSource source);
-/// How well the corner of the image is known after a live calibration.
+/// Returns the standard deviation at the corner of the image as a line of text, for live
+/// calibration.
 std::string corner_report(const Camera& camera);
 std::string spin_report(const SpinCalibration& calibration);
 std::string drive_report(const DriveCalibration& calibration);

@@ -18,7 +18,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum number of frames of one source. More take longer and add nothing.
+/// Maximum number of frames from one source. More frames take longer and do not improve the result.
 constexpr std::size_t kMaxChosen = 50;
 
 Follower follower_for(const CalibrateOptions& calibration) {
@@ -92,9 +92,9 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
 }
 
 bool CalibrationFrames::are_mirrored(const CalibrateOptions& options) const {
-    constexpr int kTried = 3;
+    constexpr int kMaxTries = 3;
     Follower follower = follower_for(options);
-    for (int i = 0; i < std::min(count(), kTried); ++i) {
+    for (int i = 0; i < std::min(count(), kMaxTries); ++i) {
         if (follower.locate(flipped(at(i).view())).fix.status == Status::ok) return true;
     }
     return false;

@@ -1,4 +1,4 @@
-/// The frames that `calibrate` works with.
+/// Frames that `dotpose calibrate` uses.
 #pragma once
 
 #include <string>
@@ -9,32 +9,31 @@
 
 namespace dotpose::cli {
 
-/// The error for frames in which the pattern is mirrored.
+/// Error message for frames that show the pattern mirrored.
 inline constexpr const char* kMirrored =
-    "the frames show the pattern as in a mirror: use --flip, which is then written into the camera "
-    "file";
+    "the frames show the pattern mirrored: use --flip, which is then written into the camera file";
 
-/// All images that are named, and of videos, cameras and raw frames at most 50 that show new
-/// places. Images stay on the disk; the chosen frames are kept in memory.
+/// All images that are named, and at most 50 frames of each video, camera or raw stream. The 50
+/// frames show different places. Images stay on disk; the chosen frames are kept in memory.
 class CalibrationFrames {
   public:
-    /// Reads videos and raw frames to their end, and a camera until it has shown enough or an
-    /// interrupt ends it. Throws Error if a source fails, if none of its frames is located, or
-    /// after an interrupt of another source.
+    /// Reads videos and raw frames to their end, and a camera until 50 places were seen. Ctrl-C
+    /// ends the reading of a source earlier. Throws Error if a source fails, if no frame of a
+    /// source is located, or after another signal.
     CalibrationFrames(const SourceArguments& arguments, Sources& sources,
                       const CalibrateOptions& options);
 
     int count() const { return static_cast<int>(frames_.size()); }
 
-    /// Throws Error if the image cannot be read.
+    /// Returns the frame with this index. Throws Error if the image cannot be read.
     GreyImage at(int index) const;
 
-    /// Whether one of the first frames shows the pattern as in a mirror. Throws Error as `at`.
+    /// Returns true if one of the first frames shows the pattern mirrored. Throws Error like `at`.
     bool are_mirrored(const CalibrateOptions& options) const;
 
   private:
     struct Frame {
-        std::string file;  ///< of an image; empty for a frame that is kept
+        std::string file;  ///< path of an image; empty for a frame in memory
         GreyImage image;
     };
 

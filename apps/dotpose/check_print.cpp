@@ -62,14 +62,15 @@ void require_svg(const std::string& path) {
     throw BadArgument(fmt::format("'{}': the name of the map must end in .svg", path));
 }
 
-/// Whether a print scale is one that printer drivers produce. If not, the resolution of the scan is
-/// probably wrong.
-bool is_believable(const PrintScale& scale) {
-    constexpr double kFarthest = 0.25;
-    return std::abs(scale.scale_x - 1) <= kFarthest && std::abs(scale.scale_y - 1) <= kFarthest;
+/// Returns true if a printer driver can produce this print scale. If not, the resolution of the
+/// scan is probably wrong.
+bool is_plausible(const PrintScale& scale) {
+    constexpr double kMaxDeviation = 0.25;
+    return std::abs(scale.scale_x - 1) <= kMaxDeviation &&
+           std::abs(scale.scale_y - 1) <= kMaxDeviation;
 }
 
-/// Throws Error if the scan gives no scale that can be written into a sheet file.
+/// Throws Error if the scan yields no scale that can be written into a sheet file.
 void require_scan(const std::string& scan, const PrintCheck& check) {
     constexpr const char* kRemedy = "; nothing was written: --fit needs a scan from a flatbed";
     if (check.camera) {
@@ -86,25 +87,23 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
                         scan, kRemedy));
     }
     if (!check.fields.empty() && !check.resolution) {
-        throw Error(
-            fmt::format("{} states no resolution that can be true, so that its scale is "
-                        "not known{}",
-                        scan, kRemedy));
+        throw Error(fmt::format("{} states no plausible resolution, so its scale is not known{}",
+                                scan, kRemedy));
     }
     for (const PrintField& field : check.fields) {
-        if (!field.scale || is_believable(*field.scale)) continue;
+        if (!field.scale || is_plausible(*field.scale)) continue;
         throw Error(
-            fmt::format("{}: a page at {:.0f} % of its size is not what was printed: the "
-                        "resolution or the spacing is not true; nothing was written",
+            fmt::format("{}: the page would be printed at {:.0f} % of its size: the resolution or "
+                        "the spacing is wrong; nothing was written",
                         scan, 100 * std::sqrt(field.scale->scale_x * field.scale->scale_y)));
     }
 }
 
-/// Returns a remark on the place of the dots on the page, which a scan does not show as long as the
+/// Returns a remark on the position of the dots on the page, which the scan does not show: the
 /// edges of the paper are not visible.
 std::string offset_remark(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
-    // Usual drivers scale a page about its corner or its middle.
+    // Printer drivers usually scale a page about its corner or its centre.
     const auto shift_mm = [](double scale, double first_mm, double side_mm) {
         return std::abs(1 - scale) * std::max(first_mm, std::abs(side_mm / 2 - first_mm));
     };
@@ -116,8 +115,8 @@ std::string offset_remark(const SheetEntry& entry) {
         shift_mm(entry.print_scale_y, sheet.origin_y_mm, sheet.height_mm));
 }
 
-/// Writes the scale of every field of dots to the sheet that it belongs to, and returns a report.
-/// The fields refer to `sheets` by index.
+/// Writes the scale of each field of dots into the entry of its sheet, and returns a report.
+/// `field.sheet` is an index into `sheets`.
 std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& sheets,
                        const PrintCheck& check) {
     SheetFile file(path, {.tell = tell, .stop = interrupted});
@@ -126,7 +125,7 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
     for (const PrintField& field : check.fields) {
         // A sheet may be visible in several parts; the first one is the largest.
         if (!field.scale || !field.sheet || !fitted.insert(*field.sheet).second) continue;
-        // The entry is read anew, because it may have been changed during the check.
+        // Read the entry again, because another process may have changed it during the check.
         const std::string& name = sheets[*field.sheet].name;
         const auto found = std::ranges::find(file.sheets(), name, &SheetEntry::name);
         if (found == file.sheets().end()) {
@@ -140,7 +139,7 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
                             path, entry.print_scale_x, entry.print_scale_y, offset_remark(entry));
     }
     if (done.empty()) {
-        throw Error(fmt::format("{}: no sheet of it is on the scan with a known scale", path));
+        throw Error(fmt::format("{}: the scan shows none of its sheets with a known scale", path));
     }
     file.save();
     return done;
@@ -186,7 +185,7 @@ void require_apart(const CheckPrintArguments& arguments) {
     files.writes("--draw", arguments.picture, Content::svg);
 }
 
-/// Returns what lets a scan be checked that has too many pixels.
+/// Returns the part of the error message that explains how to check a scan with too many pixels.
 std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution>& resolution,
                        int max_megapixels) {
     const double megapixels = 1e-6 * scan.width_px * scan.height_px;
@@ -206,7 +205,7 @@ std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution
     return remedy + "; or scan the page in parts";
 }
 
-/// Reads the scan, and flips it if that is asked for. Throws Error.
+/// Reads the scan, and flips it if --flip is given. Throws Error.
 GreyImage read_scan(const CheckPrintArguments& arguments, const CheckPrintOptions& options) {
     std::string note;
     try {
@@ -258,7 +257,7 @@ int run(const CheckPrintArguments& arguments) {
 void add_check_print(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<CheckPrintArguments>();
     Command* command =
-        app.add_subcommand("check-print", "Judge a printed sheet by a scan or photo of it");
+        app.add_subcommand("check-print", "Check a printed sheet with a scan or photo of it");
     command->footer(kCheckPrintExamples);
     command->add_option("scan", arguments->scan, "PNG, TIFF, JPEG, BMP or PGM file")
         ->type_name("SCAN")
@@ -285,8 +284,7 @@ void add_check_print(Command& app, int& exit_code) {
     Option* fit = command->add_flag(
         "--fit", arguments->fit, "Write the scale found into the sheet file, for true millimetres");
     Option* sheets =
-        add_sheets_option(*command, arguments->sheets,
-                          "Sheet file that says how the sheets on the scan were printed");
+        add_sheets_option(*command, arguments->sheets, "Sheet file with the sheets on the scan");
     fit->needs(sheets);
     for (const char* own : {"--spacing", "--displacement", "--dot"})
         sheets->excludes(command->get_option(own));

@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Rounds a number to this many decimals for output.
+/// Rounds a number to `decimals` decimals.
 double rounded(double value, int decimals) {
     const double scale = std::pow(10, decimals);
     const double result = std::round(value * scale) / scale;
@@ -75,8 +75,8 @@ void add_field(std::string& text, const CheckedScan& scan, const PrintField& fie
         100 * field.wrong_share());
 }
 
-/// Returns a prefix such as "sheet 'table': ", or one with the cells of the field. It is empty if
-/// there is only one field.
+/// Returns a prefix that names a field: "sheet 'table': ", or "from cell X,Y on: " without a sheet.
+/// The prefix is empty if there is only one field.
 std::string about(const CheckedScan& scan, const PrintCheck& check,
                   std::optional<std::size_t> index) {
     if (!index || check.fields.size() == 1) return "";
@@ -162,9 +162,9 @@ ordered_json json_of(const Pattern& pattern) {
     return {{"spacing_mm", rounded(pattern.spacing_mm, 6)}, {"dot_mm", rounded(pattern.dot_mm, 6)}};
 }
 
-/// Returns a remark to append to the name of a code that was found out, if another code is
-/// possible; empty if that is improbable.
-std::string doubt_of_code(const PrintCheck& check) {
+/// Returns a remark to append to the name of a detected code, or an empty text if no other code is
+/// probable.
+std::string code_remark(const PrintCheck& check) {
     constexpr double kDoubtful = 0.01;
     if (check.code_p_wrong < kDoubtful) return "";
     return fmt::format(" (or another one: too few dots to decide; probability {:.2g})",
@@ -190,7 +190,7 @@ std::string text_report(const CheckedScan& scan, const PrintCheck& check) {
             check.is_mirrored ? "the pattern is mirrored: check it with --flip"
                               : "no pattern was found in this image");
     } else {
-        add(text, "code        {}{}", name(check.code), doubt_of_code(check));
+        add(text, "code        {}{}", name(check.code), code_remark(check));
     }
     if (check.is_test_page) {
         add_patches(text, check);

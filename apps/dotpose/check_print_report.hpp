@@ -1,4 +1,4 @@
-/// The results of `dotpose check-print` as text and as JSON.
+/// Formats the results of `dotpose check-print` as text and as JSON.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace dotpose::cli {
 
-/// The image that was checked.
+/// The image that was checked, and the sheets with which it was compared.
 struct CheckedScan {
     std::string file;
     int page = 1;   ///< number of the page that was checked

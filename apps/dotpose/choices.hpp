@@ -8,11 +8,11 @@
 
 namespace dotpose::cli {
 
-/// Returns the check that a value is one of `names`. The refusal lists them and suggests the
-/// nearest.
+/// Returns a validator that accepts only `names`. Its error message lists the names and suggests
+/// the nearest one.
 Validator one_of(const std::vector<std::string>& names);
 
-/// Returns "a, b or c".
+/// Joins the names as "a, b or c".
 std::string alternatives(const std::vector<std::string>& names);
 
 }  // namespace dotpose::cli

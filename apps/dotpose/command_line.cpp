@@ -11,7 +11,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the words of `text` in lines that end at column 100 at most and begin at `indent`.
+/// Wraps the words of `text` into lines that begin at column `indent` and end at column 100 at
+/// most.
 std::string wrapped(const std::string& text, std::size_t indent) {
     constexpr std::size_t kColumns = 100;
     std::string lines(indent, ' ');
@@ -45,8 +46,9 @@ std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
     return names;
 }
 
-/// Help in two columns: options with their value; and their description, followed in parentheses by
-/// the default, and by the options that they need or exclude.
+/// Formats the help in two columns. The first has an option with its value. The second has its
+/// description, followed in parentheses by the default and by the options that it needs or
+/// excludes.
 class HelpFormatter : public CLI::Formatter {
   public:
     HelpFormatter() {
@@ -87,12 +89,12 @@ class HelpFormatter : public CLI::Formatter {
 };
 
 template <typename Number>
-Validator range(Number least, Number most) {
-    const CLI::Range range(least, most);
-    return Validator([range, least, most](const std::string& value) -> std::string {
+Validator range(Number min, Number max) {
+    const CLI::Range range(min, max);
+    return Validator([range, min, max](const std::string& value) -> std::string {
         std::string tried = value;
         if (range(tried).empty()) return {};
-        return fmt::format("'{}' is not a number from {} to {}", value, least, most);
+        return fmt::format("'{}' is not a number from {} to {}", value, min, max);
     });
 }
 
@@ -103,8 +105,8 @@ std::pair<std::string, std::string> split(const std::string& text, std::string_v
     return {text.substr(0, at), text.substr(at + separator.size())};
 }
 
-/// Returns the message for an error of CLI11, whose own messages name types and counts. Only its
-/// text has the names of options and the values.
+/// Returns the error message for an error of CLI11, whose own messages name types and counts. The
+/// names of options and the values are available only as a part of its text.
 std::string message_of(const CLI::ParseError& error) {
     const std::string text = error.what();
     if (text == "A subcommand is required") return "no command given";
@@ -116,12 +118,12 @@ std::string message_of(const CLI::ParseError& error) {
     }
     if (kind == "ConversionError") {
         const auto [option, value] = split(split(text, "Could not convert: ").second, " = ");
-        return fmt::format("{}: '{}' is not a number that it takes", option, value);
+        return fmt::format("{}: '{}' is not a valid number", option, value);
     }
     if (kind == "ArgumentMismatch") {
         const auto [option, problem] = split(text, ": ");
-        if (problem.ends_with("missing")) return option + " lacks its value";
-        // "At least 2 required but received 1"
+        if (problem.ends_with("missing")) return option + " requires a value";
+        // `problem` has the form "At least 2 required but received 1".
         std::istringstream words(problem);
         std::string word, wanted, given;
         words >> word >> word >> wanted >> word >> word >> word >> given;
@@ -131,7 +133,8 @@ std::string message_of(const CLI::ParseError& error) {
     return text;
 }
 
-/// Calls `parse` and turns what CLI11 throws into what Command::parse promises.
+/// Calls `parse` and translates the exceptions of CLI11. Returns false after printing the help or
+/// the version. Throws UsageError after an error, as Command::parse does.
 bool parsed(CLI::App& app, const std::function<void()>& parse) {
     try {
         parse();
@@ -154,9 +157,9 @@ bool parse_number(const std::string& text, int& number) {
     return CLI::detail::lexical_cast(text, number);
 }
 
-Range::Range(int least, int most) : Validator(range(least, most)) {}
-Range::Range(double least, double most) : Validator(range(least, most)) {}
-Range::Range(std::uint64_t least, std::uint64_t most) : Validator(range(least, most)) {}
+Range::Range(int min, int max) : Validator(range(min, max)) {}
+Range::Range(double min, double max) : Validator(range(min, max)) {}
+Range::Range(std::uint64_t min, std::uint64_t max) : Validator(range(min, max)) {}
 
 Option* Option::type_name(const std::string& name) {
     option_->type_name(name);
@@ -380,7 +383,7 @@ Command* Command::command_of(CLI::App* app) const {
     return command.get();
 }
 
-// The types of values of options.
+// The types of option values for which the templates are compiled.
 template <typename Value>
 using Store = std::function<void(const Value&)>;
 using Text = const std::string&;

@@ -1,7 +1,7 @@
-/// Commands and their options: a thin layer over CLI11, whose names it keeps.
+/// Commands and their options: a thin layer over CLI11, with the names of CLI11.
 ///
-/// The header of CLI11 takes a compiler ten seconds, in every source that includes it. Here only
-/// command_line.cpp does.
+/// The header of CLI11 adds ten seconds of compile time to each source that includes it. Only
+/// command_line.cpp includes it.
 #pragma once
 
 #include <cstddef>
@@ -26,21 +26,22 @@ class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The value of an option is wrong.
+/// An invalid value of an option.
 class ValidationError : public UsageError {
   public:
     ValidationError(const std::string& option, const std::string& why)
         : UsageError(option + ": " + why) {}
 };
 
-/// Parses a number as it is parsed for options. Returns whether all of the text is one.
+/// Parses a number in the same way as the values of options. Returns true if the whole text is a
+/// number.
 bool parse_number(const std::string& text, double& number);
 bool parse_number(const std::string& text, int& number);
 
-/// Returns what is wrong with a value, or an empty text if nothing is.
+/// Returns the reason why a value is invalid, or an empty text if it is valid.
 using Check = std::function<std::string(const std::string& value)>;
 
-/// A check of values, and all values that pass it if these are few.
+/// A check of values. If only a few values are valid, `choices` lists them.
 class Validator {
   public:
     explicit Validator(Check check, std::vector<std::string> choices = {})
@@ -52,15 +53,15 @@ class Validator {
     std::vector<std::string> choices_;
 };
 
-/// A range of numbers, both ends included.
+/// Accepts numbers in a range, including both ends.
 class Range : public Validator {
   public:
-    Range(int least, int most);
-    Range(double least, double most);
-    Range(std::uint64_t least, std::uint64_t most);
+    Range(int min, int max);
+    Range(double min, double max);
+    Range(std::uint64_t min, std::uint64_t max);
 };
 
-/// An option of a command, or an argument without one. Commands own their options.
+/// An option of a command, or a positional argument. Commands own their options.
 class Option {
   public:
     explicit Option(CLI::Option& option) : option_(&option) {}
@@ -81,14 +82,14 @@ class Option {
 
     std::size_t count() const;  ///< number of times the option was given
 
-    std::string get_name() const;  ///< the longest, with the hyphens
+    std::string get_name() const;  ///< longest name, with hyphens
     std::string get_type_name() const;
     std::string get_description() const;
-    std::vector<std::string> get_snames() const;  ///< names of one letter, without the hyphen
-    std::vector<std::string> get_lnames() const;  ///< longer names, without the hyphens
+    std::vector<std::string> get_snames() const;  ///< one-letter names, without the hyphen
+    std::vector<std::string> get_lnames() const;  ///< long names, without the hyphens
     bool get_positional() const;
     int get_items_expected_max() const;  ///< maximum number of values; 0 for a flag
-    /// All values that its validators accept; none if there are others.
+    /// All values that the validators accept; empty if the validators do not list them.
     const std::vector<std::string>& choices() const { return choices_; }
 
   private:
@@ -96,23 +97,23 @@ class Option {
     std::vector<std::string> choices_;
 };
 
-/// A command, or the program with its commands. It owns its commands and options.
+/// A command, or the program itself. Owns its subcommands and options.
 class Command {
   public:
-    /// A program; the name is that of its file if none is given.
+    /// Creates a program. Without `name`, the name of its file is used.
     explicit Command(const std::string& what = "", const std::string& name = "");
-    /// A command within a program.
+    /// Creates a subcommand.
     explicit Command(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
     Command(const Command&) = delete;
     Command& operator=(const Command&) = delete;
 
     Command* add_subcommand(const std::string& name, const std::string& what = "");
-    /// Adds an option whose value is stored in a variable, which must outlive the command. The
-    /// types are those at the end of command_line.cpp.
+    /// Adds an option whose value is stored in a variable, which must outlive the command. The end
+    /// of command_line.cpp lists the possible types.
     template <typename Value>
     Option* add_option(const std::string& names, Value& value, const std::string& help = "");
-    /// Adds an option whose value is handed to a function. The types are those at the end of
-    /// command_line.cpp.
+    /// Adds an option whose value is passed to a function. The end of command_line.cpp lists the
+    /// possible types.
     template <typename Value>
     Option* add_option_function(const std::string& names,
                                 const std::function<void(const Value&)>& store,
@@ -126,14 +127,14 @@ class Command {
     Command* footer(const std::string& text);
     Command* group(const std::string& name);
     Command* require_subcommand(int number);
-    Command* prefix_command();  ///< whatever follows is accepted
+    Command* prefix_command();  ///< accepts any words after the command
     Command* set_help_flag();   ///< removes --help
     Command* set_version_flag(const std::string& name, const std::string& version);
 
     /// Parses the arguments of `main` and runs the callbacks of the commands that are named. Throws
-    /// UsageError. Returns false if the help or the version was asked for; it has been printed.
+    /// UsageError. Returns false after printing the help or the version, if requested.
     bool parse(int argc, const char* const* argv);
-    /// The same for words in reverse order, without the name of the program.
+    /// Overload for words in reverse order, without the name of the program.
     bool parse(std::vector<std::string> words);
 
     std::string get_name() const;
@@ -144,14 +145,14 @@ class Command {
     std::vector<Option*> get_options() const;
     std::vector<Command*> get_all_subcommands() const;
     std::vector<Command*> get_parsed_subcommands() const;
-    std::vector<std::string> remaining() const;  ///< words that were not understood
+    std::vector<std::string> remaining() const;  ///< words that the parser did not accept
 
   private:
     Option* option_of(CLI::Option* option) const;
     Command* command_of(CLI::App* app) const;
 
     std::shared_ptr<CLI::App> app_;
-    // The layer over options and commands, made on first use.
+    // Wrappers of options and commands, created on first use.
     mutable std::map<CLI::Option*, Option> options_;
     mutable std::map<CLI::App*, std::unique_ptr<Command>> commands_;
 };

@@ -1,7 +1,6 @@
-/// The subcommands of the tool, each of which has a file of its own. A command registers itself
-/// with its options. If the user names it, CLI11 runs its callback, which sets `exit_code` unless
-/// it is 0. Callbacks may throw dotpose::Error, which main.cpp turns into a message and an exit
-/// status.
+/// Subcommands of the tool, one source file each. A command registers itself with its options. If
+/// the user names the command, CLI11 runs its callback, which sets `exit_code` if it is not 0. A
+/// callback may throw dotpose::Error; main.cpp converts it into a message and an exit status.
 #pragma once
 
 #include "command_line.hpp"
@@ -21,10 +20,10 @@ void add_listen(Command& app, int& exit_code);
 void add_replay(Command& app, int& exit_code);
 void add_sheets(Command& app, int& exit_code);
 
-/// Registers all of these.
+/// Registers all subcommands.
 void add_commands(Command& app, int& exit_code);
 
-/// Registers the commands that the program in apps/dotpose-live executes, without their options.
+/// Registers the commands that dotpose-live executes, without their options.
 void add_live(Command& app);
 
 }  // namespace dotpose::cli

@@ -26,7 +26,7 @@ const std::map<std::string, DotDrawing> kDrawings = {
     {"strokes", DotDrawing::strokes},
 };
 
-/// The values of --code, besides auto.
+/// The values of --code except auto.
 const std::vector<std::string> kCodes = {"anoto", "libdots", "microdots"};
 
 std::vector<std::string> g_arguments;
@@ -47,29 +47,30 @@ std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, cons
     const auto numbers = whole_numbers(text, ",", limit - 1);
     if (!numbers) {
         throw ValidationError(
-            flag, fmt::format("'{}' must be two whole numbers from 0 to {} with a comma between",
+            flag, fmt::format("'{}' must be two whole numbers from 0 to {}, separated by a comma",
                               text, limit - 1));
     }
     return {(*numbers)[0], (*numbers)[1]};
 }
 
-/// Checks that a number is positive. CLI11's own check prints a limit of 309 digits in its message.
+/// Checks that a number is positive. The check of CLI11 is not used: its message contains an upper
+/// limit of 309 digits.
 std::string require_positive(const std::string& text) {
     double value = 0;
     if (parse_number(text, value) && value > 0 && std::isfinite(value)) return {};
     return "'" + text + "' is not a length in mm above 0";
 }
 
-/// Refuses a spacing that was probably given in micrometres or metres. The smallest one is ten dots
-/// of a printer of 25,000 dpi. With the largest one, 8 x 8 dots, the smallest number that
-/// determines a position, fill most of an A0 poster.
+/// Rejects a spacing that was probably given in micrometres or metres. The minimum is ten dots of a
+/// printer with 25,000 dpi. At the maximum, 8 x 8 dots, the minimum that determines a position,
+/// fill most of an A0 poster.
 std::string require_spacing(const std::string& text) {
     constexpr double kMin_mm = 0.01;
     constexpr double kMax_mm = 100;
     double value_mm = 0;
     if (!parse_number(text, value_mm) || !(value_mm > 0)) return require_positive(text);
     if (value_mm >= kMin_mm && value_mm <= kMax_mm) return {};
-    return fmt::format("'{}' is no spacing of dots in mm, {:g} to {:g}; usual is {:g}", text,
+    return fmt::format("'{}' is not a spacing in mm from {:g} to {:g}; the default is {:g}", text,
                        kMin_mm, kMax_mm, kDefaultSpacing_mm);
 }
 
@@ -91,7 +92,7 @@ void add_code_option(Command& command, std::optional<CodeVariant>& code) {
     command
         .add_option_function<std::string>(
             "--code", [&code](const std::string& asked) { code = code_by_name(asked); },
-            "Code variant that was printed: " + alternatives(kCodes) + "; auto: found out")
+            "Code variant that was printed: " + alternatives(kCodes) + "; auto: detected")
         ->type_name("NAME")
         ->default_str("auto")
         ->check(one_of(names));
@@ -111,7 +112,7 @@ void add_section_option(Command& command, Section& section) {
 }
 
 void add_spacing_option(Command& command, double& spacing_mm) {
-    command.add_option("--spacing", spacing_mm, "Distance of neighbouring grid intersections")
+    command.add_option("--spacing", spacing_mm, "Distance between adjacent grid intersections")
         ->type_name("MM")
         ->capture_default_str()
         ->check(require_spacing);
@@ -143,10 +144,10 @@ Option* add_lens_option(Command& command, FixedLens& lens) {
         .add_option_function<double>(
             "--k",
             [&lens](double k_per_px2) {
-                constexpr double kLargest_k = 1.0 / 512;
-                if (!(std::abs(k_per_px2) < kLargest_k)) {
+                constexpr double kMax_k = 1.0 / 512;
+                if (!(std::abs(k_per_px2) < kMax_k)) {
                     throw ValidationError("--k", fmt::format("{} is not between {:.4f} and {:.4f}",
-                                                             k_per_px2, -kLargest_k, kLargest_k));
+                                                             k_per_px2, -kMax_k, kMax_k));
                 }
                 lens = FixedLens::from_k(k_per_px2);
             },
@@ -157,7 +158,7 @@ Option* add_lens_option(Command& command, FixedLens& lens) {
 
 void add_flip_option(Command& command, bool& flip) {
     command.add_flag("--flip", flip,
-                     "Flip the image first, left to right: for a mirror, or a camera that mirrors");
+                     "First flip the image left to right, for a mirror or a camera that mirrors");
 }
 
 Option* add_camera_option(Command& command, CameraArgument& camera, const std::string& help) {
@@ -173,7 +174,7 @@ Option* add_camera_option(Command& command, CameraArgument& camera, const std::s
 
 void add_attempt_options(Command& command, Options& options) {
     add_named(command, "--decoder", kDecoders, name(options.decoder),
-              "Dots that the position is read from",
+              "Dots from which the position is read",
               [&options](Decoder decoder) { options.decoder = decoder; });
     add_named(command, "--effort", kEfforts, name(options.effort), "How hard to try",
               [&options](Effort effort) { options.effort = effort; });
@@ -212,8 +213,8 @@ void add_drawing_option(Command& command, DotDrawing& drawing) {
     command
         .add_option_function<std::string>(
             "--dots", [&drawing](const std::string& name) { drawing = kDrawings.at(name); },
-            "Dots of a PDF: glyphs are small and fast, strokes are exact at any spacing; auto "
-            "takes glyphs where they are exact at --dpi")
+            "Dots of a PDF: glyphs are small and fast, strokes are exact at any spacing; auto uses "
+            "glyphs if they are exact at --dpi")
         ->type_name("NAME")
         ->default_str("auto")
         ->check(one_of(names));
@@ -221,14 +222,14 @@ void add_drawing_option(Command& command, DotDrawing& drawing) {
 
 std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,
                                                         std::string_view separators,
-                                                        std::uint32_t most) {
+                                                        std::uint32_t max) {
     std::vector<std::uint32_t> numbers;
     const char* next = text.data();
     const char* const end = next + text.size();
     while (true) {
         std::uint32_t& number = numbers.emplace_back();
         const auto [stop, error] = std::from_chars(next, end, number);
-        if (error != std::errc() || number > most) return std::nullopt;
+        if (error != std::errc() || number > max) return std::nullopt;
         const std::size_t done = numbers.size() - 1;
         if (done == separators.size()) return stop == end ? std::optional(numbers) : std::nullopt;
         if (stop == end || *stop != separators[done]) return std::nullopt;
@@ -251,7 +252,7 @@ FrameSize parse_frame_size(const std::string& flag, const std::string& text) {
 }
 
 void refuse_non_finite_numbers(Command& app) {
-    // Values of these types are text: a file may be called "nan".
+    // Options of these types are not numbers: a file may be called "nan".
     const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "FILE|-|DIR", "NAME", "PART",
                                          "RANGE", "SCAN", "SOURCE", "TEXT",       "URL"};
     const auto is_finite = [](const std::string& text) -> std::string {

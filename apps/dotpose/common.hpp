@@ -1,4 +1,4 @@
-/// Options that several subcommands share, with their names and help texts.
+/// Options that several subcommands share, with the same names and help texts.
 #pragma once
 
 #include <cstdint>
@@ -18,39 +18,40 @@
 
 namespace dotpose::cli {
 
-/// Adds --code anoto|libdots|microdots for output. The default is the value of `code`.
+/// Adds --code anoto|libdots|microdots for commands that write a pattern. The default is the value
+/// of `code`.
 void add_code_option(Command& command, CodeVariant& code);
 
-/// Adds --code auto|anoto|libdots|microdots for input. None means auto, which is the default.
+/// Adds --code auto|anoto|libdots|microdots for commands that read a pattern. None means auto,
+/// which is the default.
 void add_code_option(Command& command, std::optional<CodeVariant>& code);
 
-/// Adds --section U,V, each 0 to 62.
+/// Adds --section U,V, two numbers from 0 to 62.
 void add_section_option(Command& command, Section& section);
 
-/// Adds --spacing MM, which must be above 0.
+/// Adds --spacing MM, a spacing in mm from 0.01 to 100.
 void add_spacing_option(Command& command, double& spacing_mm);
 
-/// Adds an option for a cell X,Y, such as --origin; `help` says what the cell means for the
-/// command.
+/// Adds an option for a cell X,Y, such as --origin. `help` explains the cell.
 void add_cell_option(Command& command, const std::string& flag, Cell& cell,
                      const std::string& help);
 
-/// Adds --sheets FILE; `help` says what the command uses the file for.
+/// Adds --sheets FILE. `help` explains what the command does with the file.
 Option* add_sheets_option(Command& command, std::string& path, const std::string& help);
 
 /// Adds --k, the lens distortion in 1/px^2 that `locate` corrects.
 Option* add_lens_option(Command& command, FixedLens& lens);
 
-/// Adds --flip, for frames that show the pattern as in a mirror.
+/// Adds --flip, for frames that show the pattern mirrored.
 void add_flip_option(Command& command, bool& flip);
 
-/// A camera file and its contents.
+/// A camera file: its path and its contents.
 struct CameraArgument {
     std::string path;  ///< empty if no file was given
     std::optional<Camera> camera;
 };
 
-/// Adds --camera FILE; the file is read while the command line is parsed.
+/// Adds --camera FILE. The file is read while the command line is parsed.
 Option* add_camera_option(Command& command, CameraArgument& camera, const std::string& help);
 
 /// Adds --decoder and --effort. `options` must outlive the command.
@@ -59,7 +60,8 @@ void add_attempt_options(Command& command, Options& options);
 /// Adds --size WxH, the size of a simulated frame.
 void add_size_option(Command& command, CameraModel& camera);
 
-/// Adds an option whose value is the name of one of `values`, which must outlive the command.
+/// Adds an option whose value is the name of an element of `values`, which must outlive the
+/// command.
 template <typename Values, typename Store>
 Option* add_named(Command& command, const std::string& flag, const Values& values,
                   const std::string& default_name, const std::string& help, Store store) {
@@ -83,16 +85,16 @@ Option* add_named(Command& command, const std::string& flag, const Values& value
 /// The options --code, --section, --spacing, --displacement and --dot.
 class PatternArguments {
   public:
-    /// Whether the pattern is output or expected in an image. For an expected pattern there is no
-    /// option --section, because the section is read from the image.
+    /// Whether the command makes the pattern or expects it in an image. There is no option
+    /// --section for an expected pattern, because the section is read from the image.
     enum class Use { made, expected };
     void add_to(Command& command, Use use = Use::made);
 
-    /// The pattern that the options describe. Displacement and dot diameter are a sixth of the
-    /// spacing unless they are given.
+    /// Returns the pattern that the options describe. Displacement and dot diameter default to a
+    /// sixth of the spacing.
     Pattern pattern() const;
 
-    /// The code variant that is expected, or none if it is found out from the image.
+    /// Returns the expected code, or none if the code is detected from the image.
     std::optional<CodeVariant> expected_code() const { return expected_code_; }
 
   private:
@@ -102,45 +104,45 @@ class PatternArguments {
     std::optional<double> dot_mm_;
 };
 
-/// Return the name of a way to draw dots, as in --dots, and the way of a name; none if there is no
-/// such name.
+/// Convert between DotDrawing and its names in --dots. `drawing_by_name` returns none for an
+/// unknown name.
 std::string drawing_name(DotDrawing drawing);
 std::optional<DotDrawing> drawing_by_name(const std::string& name);
 
 /// Adds --dots, the way in which a PDF draws dots.
 void add_drawing_option(Command& command, DotDrawing& drawing);
 
-/// Parses integers from 0 to `most` with these separators between them and nothing else: "640x480"
-/// with the separators "x", "10,20,640x480" with ",,x". Returns none for any other text.
+/// Parses integers from 0 to `max`, separated by exactly these separators. For example, "640x480"
+/// has the separators "x", and "10,20,640x480" has ",,x". Returns none for any other text.
 std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,
                                                         std::string_view separators,
-                                                        std::uint32_t most);
+                                                        std::uint32_t max);
 
 struct FrameSize {
     int width_px = 0;
     int height_px = 0;
 };
-/// Parses "WIDTHxHEIGHT". Throws ValidationError that names the flag.
+/// Parses "WIDTHxHEIGHT". Throws ValidationError, which names the flag.
 FrameSize parse_frame_size(const std::string& flag, const std::string& text);
 
-/// Makes every numeric option of every subcommand refuse values that are not finite: nan, inf,
-/// 1e999. Call it after all options have been added.
+/// Makes all numeric options of all subcommands reject values that are not finite: nan, inf, 1e999.
+/// Must be called after all options were added.
 void refuse_non_finite_numbers(Command& app);
 
 /// Stores the arguments of `main` for `command_line`.
 void remember_command_line(int argc, char** argv);
 
-/// Returns the arguments of `main`, without the name of the program.
+/// Returns the arguments of `main` without the name of the program.
 std::vector<std::string> given_arguments();
 
-/// Returns the command line as the user could type it again, quoted where a shell needs it. Options
-/// `without` are left out, with their values.
+/// Returns the command line in a form that can be pasted into a shell, with quotes where necessary.
+/// The options `without` and their values are omitted.
 std::string command_line(const std::set<std::string>& without = {});
 
 /// Describes the page and its region of the code plane in words.
 std::string region_text(const Sheet& sheet);
 
-/// Returns the name of a code variant as --code takes it.
+/// Returns the name of a code variant as accepted by --code.
 const char* code_name(CodeVariant code);
 
 }  // namespace dotpose::cli

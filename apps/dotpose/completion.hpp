@@ -1,4 +1,4 @@
-/// Completions of command lines, which the shells ask for (apps/shell).
+/// Completes command lines for shells. The scripts in apps/shell request the completions.
 #pragma once
 
 #include <string>
@@ -12,8 +12,9 @@ namespace dotpose::cli {
 inline constexpr const char* kComplete = "__complete";
 
 /// Prints the completions of the last of `words`: commands, options or values of an option. Each
-/// line has one completion, a tab and its description. Prints nothing if the word can be any text
-/// or file. For a command of another program, runs the callback of that command.
+/// line contains a completion, a tab and a description. Prints nothing if the word may be any text
+/// or file. For a command of dotpose-live, runs the callback of the command, which starts that
+/// program.
 void print_completions(Command& app, std::vector<std::string> words);
 
 }  // namespace dotpose::cli

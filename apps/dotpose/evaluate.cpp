@@ -44,17 +44,17 @@ constexpr const char* kEvaluateExamples =
     "pictures\n"
     "  dotpose evaluate --protocol paper -o out the paper's own experiment, simulated\n\n"
     "A fix that is off by more than half a grid spacing or 2 degrees, or in another section, is\n"
-    "wrong; errors are those of the others. Exit status 1 if truth.csv or an image cannot be\n"
-    "read, 2 for wrong usage.\n";
+    "wrong; errors are computed from the other fixes. Exit status 1 if truth.csv or an image\n"
+    "cannot be read, 2 for wrong usage.\n";
 
-/// Marks the job that repeats the protocol of the paper's section IV.
+/// Value of --protocol: repeats the protocol of section IV of the paper.
 struct PaperProtocol {};
 constexpr std::array kProtocols = {PaperProtocol{}};
 const char* name(PaperProtocol) {
     return "paper";
 }
 
-/// Whether the poses in truth.csv are those of the image centre or of the robot.
+/// Whether the poses in truth.csv are poses of the image centre or of the robot.
 enum class TruthOf : std::uint8_t { image, robot };
 constexpr std::array kTruths = {TruthOf::image, TruthOf::robot};
 const char* name(TruthOf truth) {
@@ -67,7 +67,7 @@ struct EvaluateArguments {
     std::optional<Preset> preset;
     std::optional<SweepKind> sweep;
     bool protocol = false;
-    ReportArguments report;  ///< of sweep and protocol, `out` is a folder
+    ReportArguments report;  ///< `out` is a folder for --sweep and --protocol
     std::optional<int> frames;
     Setup setup;
     Options options;
@@ -76,8 +76,8 @@ struct EvaluateArguments {
     TruthOf truth_of = TruthOf::image;
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
-    std::optional<CodeVariant> code;  ///< the code variant in which all frames are read
-    bool code_is_found_out = false;   ///< whether to ignore the code variants in truth.csv
+    std::optional<CodeVariant> code;   ///< code in which all frames are read, if --code names one
+    bool ignores_truth_codes = false;  ///< true to ignore the codes in truth.csv
     int threads = 0;
 };
 
@@ -88,7 +88,7 @@ Progress progress_on(ProgressLine& line) {
     };
 }
 
-/// Returns the score as JSON. Statistics without any frame are NaN and become null.
+/// Returns the score as JSON. Statistics over no frames are NaN in `score` and null in JSON.
 nlohmann::ordered_json json_of(const Score& score) {
     nlohmann::ordered_json statuses = nlohmann::ordered_json::object();
     for (std::size_t i = 1; i < score.by_status.size(); ++i) {
@@ -131,7 +131,7 @@ int report(const std::vector<Outcome>& outcomes, const ReportArguments& argument
     return exit_code;
 }
 
-/// Evaluates the frames in batches, to keep those that are done after Ctrl-C.
+/// Evaluates the frames in batches, to keep the complete batches after Ctrl-C.
 std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) {
     const int part = 16 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     std::vector<Outcome> outcomes;
@@ -146,9 +146,9 @@ std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) 
         std::ranges::move(evaluate(run).front(), std::back_inserter(outcomes));
     }
     if (interrupted()) {
-        // Frames of a video that were not read have a problem and are not evaluated.
+        // Frames of a video that were not read have a problem and are removed.
         std::erase_if(outcomes, [](const Outcome& outcome) { return !outcome.problem.empty(); });
-        tell(fmt::format("interrupted; the report is about the first {} of {} frames",
+        tell(fmt::format("interrupted; the report covers the first {} of {} frames",
                          outcomes.size(), all.frames));
     }
     return outcomes;
@@ -158,7 +158,7 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
     ProgressLine line("evaluating " + what);
     run.options = {arguments.options};
     run.any_code = !arguments.code;
-    if (arguments.code_is_found_out) {
+    if (arguments.ignores_truth_codes) {
         run.frame_at = [read = run.frame_at](int index) {
             KnownFrame frame = read(index);
             frame.code.reset();
@@ -171,8 +171,8 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
     return outcomes.size() < static_cast<std::size_t>(run.frames) ? kExitFailed : exit_code;
 }
 
-/// Locates the frames as `locate --camera` does. Images whose size is not that of the camera file
-/// become frames with a problem.
+/// Locates the frames with the camera file, as `locate --camera` does. An image whose size differs
+/// from the size in the camera file becomes a frame with a problem.
 void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameRun& run) {
     run.frame_at = [camera, rows, read = run.frame_at](int index) {
         KnownFrame frame = read(index);
@@ -191,7 +191,7 @@ void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameR
     };
 }
 
-/// Describes the sources in a few words, for the line that shows the progress.
+/// Describes the sources in a few words, for the progress line.
 std::string what_is_read(const SourceArguments& sources) {
     if (sources.names.size() == 1 && sources.list.empty()) return sources.names.front();
     return "the frames";
@@ -269,7 +269,7 @@ int evaluate_sweep(const EvaluateArguments& arguments) {
     write_sweep(arguments.report.out, sweep);
     fmt::print("{0}/sweep-{1}.csv, {0}/sweep-{1}.svg and .png\n", arguments.report.out, kind);
     if (!interrupted()) return 0;
-    tell(fmt::format("interrupted; the sweep has the first {} values", sweep.points.size()));
+    tell(fmt::format("interrupted; the sweep contains the first {} values", sweep.points.size()));
     return kExitFailed;
 }
 
@@ -294,7 +294,8 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
 int run(EvaluateArguments& arguments) {
     const bool writes = arguments.sweep || arguments.protocol;
     const bool has_sources = arguments.sources.is_given();
-    // A preset is a job of its own only without a sweep and the protocol, whose conditions it sets.
+    // --preset selects what to evaluate only without --sweep and --protocol; with them, it sets
+    // their conditions.
     const int jobs = static_cast<int>(has_sources) + static_cast<int>(arguments.sweep.has_value()) +
                      static_cast<int>(arguments.protocol) +
                      static_cast<int>(arguments.preset && !writes);
@@ -378,11 +379,11 @@ void add_evaluate(Command& app, int& exit_code) {
     add_spacing_option(*command, arguments->spacing_mm);
     Option* camera =
         add_camera_option(*command, arguments->camera,
-                          "Camera file that frames are located with, as by locate --camera");
+                          "Camera file with which frames are located, as with locate --camera");
     camera->excludes(add_lens_option(*command, arguments->options.lens));
     add_named(*command, "--truth", kTruths, "image",
-              "Whose pose truth.csv has: that of the image centre, as simulate writes it, or that "
-              "of the camera file's reference_px and theta_offset_rad",
+              "Poses in truth.csv: of the image centre, as simulate writes them, or of the robot, "
+              "by reference_px and theta_offset_rad of the camera file",
               [arguments](TruthOf truth) { arguments->truth_of = truth; })
         ->needs(camera);
     arguments->measured.add_to(*command);
@@ -399,11 +400,11 @@ void add_evaluate(Command& app, int& exit_code) {
         ->capture_default_str();
     add_report_options(*command, arguments->report,
                        "File to write instead of standard output; of a sweep and of the protocol, "
-                       "the folder for the results, which is made if missing");
+                       "the folder for the results, which is created if missing");
     command->get_option("--out")->type_name("FILE|-|DIR");
     command->callback([arguments, command, &exit_code] {
         arguments->spacing_given = command->count("--spacing") > 0;
-        arguments->code_is_found_out = command->count("--code") > 0 && !arguments->code;
+        arguments->ignores_truth_codes = command->count("--code") > 0 && !arguments->code;
         if (const auto& size = arguments->sources.options; size.width_px > 0) {
             arguments->setup.camera.width_px = size.width_px;
             arguments->setup.camera.height_px = size.height_px;

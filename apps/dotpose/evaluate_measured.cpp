@@ -16,7 +16,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns where the reference point is in the frame of the true places; none outside of it.
+/// Returns the place of the reference point in the frame of the true places, or none if the point
+/// is not in that frame.
 std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPlace>& place) {
     if (!place) return std::nullopt;
     const std::string& sheet = place->entry->name;
@@ -26,8 +27,8 @@ std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPl
     return FoundPlace{sheet, 1000 * world->x_m, 1000 * world->y_m, world->yaw_rad};
 }
 
-/// Checks that all true places are in one frame, in which the sheets lie. Returns whether it is the
-/// world.
+/// Throws Error unless all true places are in one frame that contains the sheets. Returns true if
+/// the frame is the world.
 bool require_one_frame(const std::vector<TruthRow>& rows, const std::vector<SheetEntry>& sheets,
                        bool is_aligned) {
     bool is_in_world = false;
@@ -124,8 +125,8 @@ void MeasuredArguments::add_to(Command& command) {
         ->type_name("FILE");
     command
         .add_option("--draw", draw,
-                    "With --sheets: folder for the paper's figures of these frames, which is made "
-                    "if missing")
+                    "With --sheets: folder for the paper's figures of these frames, which is "
+                    "created if missing")
         ->type_name("DIR");
 }
 
@@ -164,8 +165,8 @@ int evaluate_measured(const MeasuredArguments& arguments, const FollowerOptions&
                           found_in(is_in_world, located.place), located.spacing_mm});
     }
     if (interrupted()) {
-        tell(fmt::format("interrupted; the report is about the first {} of {} frames",
-                         frames.size(), known.rows.size()));
+        tell(fmt::format("interrupted; the report covers the first {} of {} frames", frames.size(),
+                         known.rows.size()));
         exit_code = kExitFailed;
     }
     const auto alignment = arguments.is_aligned ? std::optional(align(frames)) : std::nullopt;

@@ -1,4 +1,5 @@
-/// `dotpose evaluate --sheets`: frames with places that were measured on sheets or in the world.
+/// `dotpose evaluate --sheets`: compares frames with places that were measured on sheets or in the
+/// world.
 #pragma once
 
 #include <string>
@@ -14,10 +15,10 @@
 
 namespace dotpose::cli {
 
-/// The options of evaluations with a sheet file.
+/// The options of an evaluation with a sheet file.
 struct MeasuredArguments {
     std::string sheets;      ///< sheet file; empty: poses are in the pattern frame
-    bool is_aligned = true;  ///< whether found places are aligned to the true ones
+    bool is_aligned = true;  ///< whether to align the found places to the true places
     bool alignment_given = false;
     std::string residuals;  ///< CSV file with the error of each frame; empty for none
     std::string draw;       ///< folder for the figures; empty for none
@@ -25,15 +26,15 @@ struct MeasuredArguments {
     void add_to(Command& command);
     void add_files(RunFiles& files) const;
 
-    /// Throws BadArgument for options that need --sheets if it is missing.
+    /// Throws BadArgument if another of these options is given without --sheets.
     void require_sheets() const;
 };
 
-/// Returns {"median": ..., "p95": ..., "max": ...}; what is NaN becomes null.
+/// Returns {"median": ..., "p95": ..., "max": ...}. NaN becomes null.
 nlohmann::ordered_json quantiles_json(const Quantiles& quantiles);
 
-/// Locates the frames one after the other, compares them and writes the report. Returns the exit
-/// status.
+/// Locates the frames in order, compares the poses with the true poses and writes the report.
+/// Returns the exit status.
 int evaluate_measured(const MeasuredArguments& arguments, const FollowerOptions& options,
                       const KnownFrames& known, const ReportArguments& report);
 

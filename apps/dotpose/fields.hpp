@@ -8,33 +8,34 @@
 
 namespace dotpose::cli {
 
-/// The format of output lines; only `locate` writes text.
+/// Format of output lines. Only `locate` writes text.
 enum class RecordFormat { json, csv, text };
 
-/// The version of the JSON lines, which every line begins with. docs/schema/lines-VERSION.json
-/// describes it. Within a version keys may be added, but none goes away or changes its meaning.
+/// Version of the JSON lines, the first field of each line. docs/schema/lines-VERSION.json
+/// describes the lines. Within a version, keys may be added, but no key is removed or changes its
+/// meaning.
 inline constexpr const char* kSchemaVersion = "1";
 
 struct Field {
     std::string name;
     std::string text;  ///< empty if the field has no value in this line
     bool is_string = false;
-    /// Name of the JSON array that the field is an element of. Neighbours with the same name make
-    /// one array; in CSV they are columns of their own.
+    /// Name of the JSON array that contains the field. Adjacent fields with the same name form one
+    /// array. In CSV, each field is a column.
     std::string array = {};
 };
 
-/// Formats a number; returns an empty text for NaN and infinity, which JSON cannot express.
+/// Formats a number. Returns an empty text for NaN and infinity, which JSON cannot represent.
 std::string decimal(double value, int decimals);
 
-/// Formats an angle in degrees, in (-180, 180] even after rounding.
+/// Formats an angle in degrees. The result is in (-180, 180], also after rounding.
 std::string degrees(double angle_rad);
 
-/// Formats the bound of a probability with three digits, rounded up so that it stays a bound.
+/// Formats an upper bound of a probability with three digits, rounded up to remain an upper bound.
 std::string p_wrong_text(double p_wrong);
 
-/// These functions return a line with its line break. JSON has only the fields with a value, CSV
-/// has all columns. In JSON, bytes that are not UTF-8 are replaced.
+/// Format fields as one line with a line break. JSON contains only the fields with a value; CSV
+/// contains all columns. In JSON, bytes that are not UTF-8 are replaced.
 std::string json_line(const std::vector<Field>& fields);
 std::string csv_header(const std::vector<Field>& fields);
 std::string csv_line(const std::vector<Field>& fields);

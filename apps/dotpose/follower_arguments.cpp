@@ -7,22 +7,22 @@
 namespace dotpose::cli {
 namespace {
 
-/// Largest distance of a reference point from the image centre: far outside of any image, but well
-/// within the range of the fixed-point pose.
-constexpr double kFarthestReference_px = 10'000;
+/// Maximum distance of a reference point from the image centre, in px: far outside of any image,
+/// but well within the range of the fixed-point pose.
+constexpr double kMaxReference_px = 10'000;
 
 PixelPoint parse_reference_px(const std::string& text) {
     PixelPoint point;
     const std::size_t comma = text.find(',');
     const auto parse = [](const std::string& number, double& value) {
-        return parse_number(number, value) && std::abs(value) <= kFarthestReference_px;
+        return parse_number(number, value) && std::abs(value) <= kMaxReference_px;
     };
     if (comma == std::string::npos || !parse(text.substr(0, comma), point.u) ||
         !parse(text.substr(comma + 1), point.v)) {
         throw ValidationError(
             "--reference",
-            fmt::format("'{}' must be two numbers from {} to {} with a comma between", text,
-                        -kFarthestReference_px, kFarthestReference_px));
+            fmt::format("'{}' must be two numbers from {} to {}, separated by a comma", text,
+                        -kMaxReference_px, kMaxReference_px));
     }
     return point;
 }
@@ -59,7 +59,7 @@ void add_follower_options(Command& command, FollowerArguments& arguments,
         ->excludes(command.get_option("--code"));
     command.add_flag("--inverted", arguments.is_inverted, "The dots are white on black");
     add_camera_option(command, arguments.camera,
-                      "Camera file, of 'dotpose calibrate' or ROS: lens, reference, heading")
+                      "Camera file from 'dotpose calibrate' or ROS: lens, reference, heading")
         ->excludes(add_lens_option(command, options.locate.lens));
     command
         .add_option_function<std::string>(
@@ -67,7 +67,7 @@ void add_follower_options(Command& command, FollowerArguments& arguments,
             [&options](const std::string& text) {
                 options.reference_px = parse_reference_px(text);
             },
-            "Pixel whose place is wanted; (0, 0) is the centre of the first pixel, undistorted")
+            "Pixel whose place is reported; (0, 0) is the centre of the first pixel, undistorted")
         ->type_name("U,V")
         ->default_str("image centre");
     add_attempt_options(command, options.locate);

@@ -1,4 +1,4 @@
-/// The options of all commands that locate images: code, spacing, sheets, camera, effort.
+/// Options of all commands that locate images: code, spacing, sheets, camera, effort.
 #pragma once
 
 #include <string>
@@ -15,24 +15,24 @@ struct FollowerArguments {
     std::string sheets;  ///< path of the sheet file; empty for none
     CameraArgument camera;
     bool is_inverted = false;
-    FollowerOptions options;  ///< without the files
+    FollowerOptions options;  ///< without the contents of the sheet file and the camera file
 
-    /// Makes the camera file fit the frames of `sources` (SourceArguments::fit_to). With a camera
-    /// file, --reference counts in whole frames.
+    /// Adapts the camera file to the frames of `sources` (SourceArguments::fit_to). With a camera
+    /// file, --reference is a pixel of the whole frame, not of --roi.
     void fit_to(SourceArguments& sources);
 
-    /// Names the files that are read.
+    /// Registers the files that are read.
     void add_files(RunFiles& files) const;
 
     /// Reads the sheet file. Throws Error if it cannot be read or has no sheets.
     FollowerOptions read() const;
 };
 
-/// Adds the options. `sheets_help` says what the sheet file does for this command.
+/// Adds the options. `sheets_help` explains what the command does with the sheet file.
 void add_follower_options(Command& command, FollowerArguments& arguments,
                           const std::string& sheets_help);
 
-/// Makes white dots on black dark dots on white.
+/// Inverts the grey levels: white dots on black become dark dots on white.
 void invert(GreyImage& image);
 
 }  // namespace dotpose::cli

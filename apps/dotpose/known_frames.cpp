@@ -21,14 +21,14 @@ namespace {
 namespace fs = std::filesystem;
 using capture::SourceKind;
 
-/// Whether a path ends with all components of another one.
+/// Returns true if the last components of `path` are all components of `end`.
 bool ends_with(const fs::path& path, const fs::path& end) {
     const std::vector<fs::path> all(path.begin(), path.end());
     const std::vector<fs::path> last(end.begin(), end.end());
     return last.size() <= all.size() && std::equal(last.rbegin(), last.rend(), all.rbegin());
 }
 
-/// Finds the poses of images in files of poses, each of which is read once.
+/// Looks up the poses of images in truth files. Each file is read once.
 class Poses {
   public:
     Poses(std::string given, std::optional<double> spacing_mm)
@@ -101,10 +101,10 @@ KnownFrames known_images(const std::vector<std::string>& names,
     return known;
 }
 
-/// Frames that can only be read one after the other, for threads that want them almost in order.
+/// Frames that can only be read in order, for threads that request them almost in order.
 class FramesInOrder {
   public:
-    /// Opens the first source. Throws Error or BadArgument if that fails.
+    /// Opens the first source. Throws Error or BadArgument if the source cannot be opened.
     FramesInOrder(std::vector<std::string> names, capture::SourceOptions options)
         : names_(std::move(names)), list_([this] { return next_name(); }, std::move(options)) {
         list_.open();
@@ -161,10 +161,11 @@ class FramesInOrder {
     std::size_t next_name_ = 0;
     std::mutex mutex_;
     capture::SourceList list_;
-    std::map<std::int64_t, GreyImage> waiting_;  ///< read, but not asked for yet
-    std::int64_t read_ = 0;                      ///< number after that of the newest frame
+    /// Frames that were read but not requested yet, by index.
+    std::map<std::int64_t, GreyImage> waiting_;
+    std::int64_t read_ = 0;  ///< index after the newest frame
     bool is_over_ = false;
-    std::string problem_;  ///< why the frames ended early
+    std::string problem_;  ///< reason why reading stopped early
 };
 
 }  // namespace

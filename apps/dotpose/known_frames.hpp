@@ -1,4 +1,4 @@
-/// The frames of `evaluate`, each with its true pose.
+/// Frames with true poses, for `dotpose evaluate`.
 #pragma once
 
 #include <functional>
@@ -12,16 +12,19 @@
 namespace dotpose::cli {
 
 struct KnownFrames {
-    std::vector<TruthRow> rows;     ///< of each frame; `file` is its path or name
-    dotpose::FrameSource frame_at;  ///< one that cannot be read has a `problem`
-    /// Writes to standard error if there are more frames than poses. Called at the end.
+    std::vector<TruthRow> rows;  ///< true pose of each frame; `file` is its path or name
+    /// Returns a frame; if it cannot be read, its `problem` says why.
+    dotpose::FrameSource frame_at;
+    /// Must be called after the last frame. Warns on standard error if there are more frames than
+    /// poses.
     std::function<void()> finish = [] {};
 };
 
-/// Poses are read from `poses`, or without it from truth.csv beside the images or the video: of a
-/// folder, all of that file; of other images, the rows whose `file` is theirs. If a video, a camera
-/// or raw frames are among the sources, row N is that of frame N over all sources. Throws Error if
-/// no poses are found, or an image is not among them.
+/// Returns the frames of the sources with their poses. The poses are read from `poses` or, without
+/// it, from truth.csv beside the images or the video. A folder has the frames of all rows of its
+/// file; another image has the row whose `file` names it. If a video, a camera or raw frames are
+/// among the sources, row N belongs to frame N, counted over all sources. Throws Error if there are
+/// no poses, or no pose of an image.
 KnownFrames known_frames(const SourceArguments& arguments, const std::string& poses,
                          std::optional<double> spacing_mm);
 

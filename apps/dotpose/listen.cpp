@@ -34,8 +34,8 @@ constexpr const char* kListenExamples =
     "  dotpose listen /dev/ttyUSB0 --baud 115200\n"
     "  dotpose listen packets.bin --format csv -o poses.csv\n"
     "  nc robot 4000 | dotpose listen -\n\n"
-    "One line per packet. Packets that arrive damaged are left out and counted at the end, on\n"
-    "standard error. docs/pose-packet.md describes the format.\n";
+    "One line per packet. Damaged packets are skipped; their number is printed on standard\n"
+    "error at the end. docs/pose-packet.md describes the format.\n";
 
 struct Baud {
     int rate = 0;
@@ -106,11 +106,11 @@ class ByteSource {
 
     std::string name_;
     int descriptor_ = STDIN_FILENO;
-    bool is_line_ = false;  ///< whether it is a serial device, which has no end
+    bool is_line_ = false;  ///< true for a serial device, which has no end
     std::array<std::uint8_t, 4096> buffer_{};
 };
 
-/// Returns the pose of a packet in the frame of the units, or none if it has no fix.
+/// Returns the pose of a packet in the frame of `units`, or none if the packet has no fix.
 std::optional<PlanePose> pose_of(const PosePacket& packet, double spacing_mm, Units units) {
     if (packet.status != Status::ok) return std::nullopt;
     const PlanePose pose{
@@ -118,10 +118,10 @@ std::optional<PlanePose> pose_of(const PosePacket& packet, double spacing_mm, Un
     return units == Units::ros ? with_other_y(pose) : pose;
 }
 
-/// The larger standard deviation of x and y.
+/// Returns the field with the larger of the standard deviations of x and y.
 Field deviation_field(const PosePacket& packet, double spacing_mm, Units units) {
     const double sigma_mm = packet.deviation_q12 * spacing_mm / 4096;
-    // The value 255 also stands for larger deviations, so the deviation is not known then.
+    // The value 255 also represents all larger deviations, so it is not reported.
     const bool is_known = packet.status == Status::ok && packet.deviation_q12 < 255;
     if (units == Units::ros) return {"sigma_m", is_known ? metres(sigma_mm) : ""};
     return {"sigma_mm", is_known ? decimal(sigma_mm, 6) : ""};
@@ -156,8 +156,8 @@ std::vector<Field> fields(const PosePacket& packet, double spacing_mm, Units uni
 class LossCounter {
   public:
     void count(const PosePacket& packet) {
-        // A small step back in the sequence is a packet that arrived twice or late; a large one
-        // means that the device was switched on again.
+        // Maximum backward step of the sequence number for a repeated or late packet. A larger step
+        // means that the device was restarted.
         constexpr int kMaxLate = 16;
         const int step = last_ ? static_cast<std::int16_t>(packet.sequence - *last_) : 1;
         if (step > 1) lost_ += static_cast<std::uint64_t>(step - 1);
@@ -168,8 +168,8 @@ class LossCounter {
         if (arrived_ == 0 || damaged > 0 || lost_ > 0) {
             tell(fmt::format("{} packets, {} stretches damaged, {} packets lost{}", arrived_,
                              damaged, lost_,
-                             arrived_ == 0 ? "; is it what a device or 'dotpose watch --packets' "
-                                             "sent, and the --baud of the line right?"
+                             arrived_ == 0 ? "; were the bytes sent by a device or 'dotpose watch "
+                                             "--packets', and is --baud right?"
                                            : ""));
         }
     }
@@ -215,7 +215,8 @@ void add_baud_option(Command& command, Baud& baud) {
                     }
                 }
                 throw ValidationError(
-                    "--baud", fmt::format("{} is no usual rate, such as 115200 or 921600", rate));
+                    "--baud",
+                    fmt::format("{} is not a usual rate, such as 115200 or 921600", rate));
             },
             "Baud rate of a serial device")
         ->type_name("RATE")

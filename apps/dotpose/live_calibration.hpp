@@ -1,5 +1,5 @@
-/// `dotpose calibrate --live`, which is in the program that has windows. Each of the two programs
-/// defines this function.
+/// `dotpose calibrate --live`, which runs in dotpose-live because it opens a window. Each of the
+/// two programs has its own definition of this function.
 #pragma once
 
 #include <string>
@@ -10,14 +10,15 @@
 namespace dotpose::cli {
 
 struct LiveCalibrationOptions {
-    bool has_no_window = false;  ///< whether to use the terminal even where there is a display
-    std::string save;            ///< folder for the frames that are taken; empty: they are not kept
+    bool has_no_window = false;  ///< true to use the terminal even if there is a display
+    /// Folder for the frames that are taken. Empty: the frames are not saved.
+    std::string save;
 };
 
 /// Takes frames while the user moves the camera, shows what is still missing, and calibrates the
-/// lens, until the frames are enough, the source ends or the user ends it. In `dotpose`, replaces
-/// this process by dotpose-live. Throws Error if the source fails or the frames are too few for a
-/// calibration of verdict `good`; its message then says what was missing.
+/// lens. Ends when the frames suffice, the source ends or the user stops it. In `dotpose`, replaces
+/// this process with dotpose-live. Throws Error if the source fails, or if the frames are too few
+/// for the verdict `good`; the message then says what was missing.
 LensCalibration calibrate_live(const SourceArguments& arguments, Sources& sources,
                                const CalibrateOptions& calibration,
                                const LiveCalibrationOptions& options);

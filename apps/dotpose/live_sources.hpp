@@ -1,5 +1,5 @@
-/// Cameras and videos, which the program in apps/dotpose-live reads and writes, as it loads the
-/// module for them. Each of the two programs defines these functions.
+/// Access to cameras and videos. Only dotpose-live reads and writes them, because it loads the
+/// video module. Each of the two programs has its own definitions of these functions.
 #pragma once
 
 #include <memory>
@@ -10,19 +10,19 @@
 
 namespace dotpose::cli {
 
-/// In `dotpose`, replaces this process by dotpose-live with the same command line. Throws Error if
-/// that program is missing. In dotpose-live, does nothing.
+/// In `dotpose`, replaces this process with dotpose-live and passes on the command line. Throws
+/// Error if dotpose-live is missing. Does nothing in dotpose-live.
 void hand_over();
 
 /// Like `hand_over`, but returns if dotpose-live is missing.
 void hand_over_if_possible();
 
-/// Opens a camera or video. In `dotpose`, throws Error that says what is missing.
+/// Opens a camera or video. In `dotpose`, throws Error, which says what is missing.
 std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
                                                 const capture::SourceOptions& options);
 
 /// Creates a video: H.264 if the name ends in .mp4, Motion JPEG if it ends in .avi. In `dotpose`,
-/// throws Error that says what is missing.
+/// throws Error, which says what is missing.
 std::unique_ptr<video::GreyVideo> create_video(const std::string& path, double fps);
 
 }  // namespace dotpose::cli

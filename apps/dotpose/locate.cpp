@@ -53,13 +53,13 @@ constexpr const char* kLocateExamples =
 struct LocateArguments {
     SourceArguments sources;
     LineArguments lines;
-    std::optional<Columns> columns;  ///< of CSV; none: not given
+    std::optional<Columns> columns;  ///< columns of CSV; none if not given
     std::string draw;                ///< NAME.svg or a folder; empty for no pictures
     FollowerArguments follower;
     int threads = 1;
 };
 
-/// Locates one image after the other.
+/// Locates images in order.
 class ImageLocator {
   public:
     ImageLocator(const LocateArguments& arguments, const RunFiles& files)
@@ -69,8 +69,8 @@ class ImageLocator {
 
     bool has_sheets() const { return !follower_.sheets().empty(); }
 
-    /// Throws Error if the image does not have the size in the camera file. The image must exist
-    /// until it has been drawn. `bits_per_px` is that of its source.
+    /// Locates an image. The image must exist until it has been drawn. `bits_per_px` describes the
+    /// source of the image. Throws Error if the size of the image differs from the camera file.
     Record operator()(const std::string& name, GreyImage& image, double bits_per_px) {
         if (arguments_.follower.is_inverted) invert(image);
         const auto start = steady_clock::now();
@@ -90,8 +90,7 @@ class ImageLocator {
         return record;
     }
 
-    /// Returns the record of an image that is refused because of its header, without reading
-    /// pixels.
+    /// Returns the record of an image that was rejected by its header, before its pixels were read.
     Record too_large(const std::string& name, const ImageTooLarge& image) const {
         Record record;
         record.file = name;
@@ -102,7 +101,7 @@ class ImageLocator {
         return record;
     }
 
-    /// Draws the image just located, if pictures are wanted. Throws Error.
+    /// Draws the newest image, if --draw was given. Throws Error.
     void draw(const Record& record) {
         if (!pictures_) return;
         pictures_->add(record.file, follower_.image(), follower_.trace(),
@@ -138,8 +137,7 @@ class ImageLocator {
 
     const LocateArguments& arguments_;
     Follower follower_;
-    std::unique_ptr<LargeMemory>
-        scratch_;  ///< memory for the advice on images that were not located
+    std::unique_ptr<LargeMemory> scratch_;  ///< memory for advice on images that were not located
     std::optional<PictureFolder> pictures_;
 };
 
@@ -154,7 +152,8 @@ RunFiles files_of(const LocateArguments& arguments, const Sources& sources) {
     return files;
 }
 
-/// One run over all frames. After a frame or source that fails, it goes on with the next one.
+/// Locates all frames of a run. After a failed frame or source, the run continues with the next
+/// one.
 class LocateRun {
   public:
     LocateRun(const LocateArguments& arguments, Sources& sources)
@@ -169,7 +168,8 @@ class LocateRun {
           frames_(sources.open(options_of(arguments))),
           images_(sources.number_of_images()),
           progress_("locating", arguments.lines.out) {
-        // While the tool waits for a name in a pipe, a signal must end it. The lines are written.
+        // While the tool waits for a name from a pipe, a signal must end it immediately. No line is
+        // lost, because each line is flushed.
         if (!sources.has_pipe()) catch_interrupts();
     }
 
@@ -195,18 +195,19 @@ class LocateRun {
     }
 
   private:
-    /// The record of an image, or the reason why there is none.
+    /// The record of an image, or the reason why the image has no record.
     using Outcome = std::variant<Record, Error>;
 
     capture::SourceOptions options_of(const LocateArguments& arguments) {
         return options_of(arguments, [this](Outcome outcome) { return take(outcome); });
     }
 
-    /// Options of the source, which passes on what becomes of images that cannot be read.
+    /// Returns the options of the source. `pass_on` receives the outcome of each image that cannot
+    /// be read.
     capture::SourceOptions options_of(const LocateArguments& arguments,
                                       std::function<bool(Outcome)> pass_on) {
         capture::SourceOptions options = arguments.sources.options;
-        // Images that are too large are reduced, unless a camera file gives their size.
+        // Large images are reduced, unless a camera file determines the image size.
         if (!arguments.follower.camera.camera) options.max_pixels = kDefaultImagePixels;
         options.tell = tell;
         options.stop = interrupted;
@@ -230,7 +231,7 @@ class LocateRun {
         return true;
     }
 
-    /// Locates images in several threads, each of which has a source and a locator of its own.
+    /// Locates images in several threads. Each thread has its own source and locator.
     int in_threads() {
         const std::vector<std::string> images = sources_.all_images();
         const std::size_t threads = arguments_.threads > 0
@@ -263,7 +264,8 @@ class LocateRun {
         return exit_code_;
     }
 
-    /// Gets the next frame of any source that can be read. Returns false after the last one.
+    /// Reads the next frame, and skips sources that cannot be read. Returns false after the last
+    /// frame.
     bool next(capture::Frame& frame) {
         while (true) {
             try {
@@ -307,7 +309,7 @@ class LocateRun {
     const LocateArguments& arguments_;
     Sources& sources_;
     std::unique_ptr<capture::SourceList> frames_;
-    std::int64_t images_;  ///< number of all frames; 0 if it is not known
+    std::int64_t images_;  ///< number of frames of all sources; 0 if unknown
     ProgressLine progress_;
     int exit_code_ = 0;
 };
@@ -325,7 +327,7 @@ int run(const LocateArguments& arguments) {
     Sources sources(arguments.sources);
     if (is_picture_name(arguments.draw) && sources.number_of_images() != 1) {
         throw BadArgument(fmt::format(
-            "--draw {} is the picture of a single image: name a folder for those of several",
+            "--draw {} is the picture of a single image: name a folder for several images",
             arguments.draw));
     }
     return LocateRun(arguments, sources)();
@@ -335,7 +337,7 @@ int run(const LocateArguments& arguments) {
 
 void add_locate(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<LocateArguments>();
-    Command* command = app.add_subcommand("locate", "Find where images look on the pattern");
+    Command* command = app.add_subcommand("locate", "Find the position of images on the pattern");
     command->footer(kLocateExamples);
     arguments->sources.add_to(*command);
     add_follower_options(*command, arguments->follower,
@@ -354,14 +356,13 @@ void add_locate(Command& app, int& exit_code) {
     Option* draw =
         command
             ->add_option("--draw", arguments->draw,
-                         "Also write a picture (SVG) of what was seen: NAME.svg of one image, or a "
-                         "folder for those of several, which is made if missing (not its parents)")
+                         "Also draw dots, grid and pose (SVG): NAME.svg for one image, or a folder "
+                         "for several images, which is created if missing (not its parents)")
             ->type_name("FILE|DIR");
     command
         ->add_option(
             "--threads", arguments->threads,
-            "Threads that locate images at the same time, 0: all cores; the lines keep their "
-            "order")
+            "Number of threads that locate images, 0 for all cores; the lines keep their order")
         ->type_name("N")
         ->capture_default_str()
         ->check(Range(0, 256))

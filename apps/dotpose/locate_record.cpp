@@ -21,7 +21,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// The pose in the pattern, which is a brief column only without sheets.
+/// The pose in the pattern frame: columns of the brief format only without sheets.
 constexpr std::array<std::string_view, 6> kPatternPose = {
     "x_mm", "y_mm", "theta_deg", "x_pattern_m", "y_pattern_m", "yaw_pattern_rad"};
 constexpr std::array<std::string_view, 18> kBriefColumns = {
@@ -33,12 +33,12 @@ double sigma(const Fix& fix, std::size_t axis) {
     return std::sqrt(static_cast<double>(fix.covariance[axis][axis]));
 }
 
-/// Returns a pose of the paper, whose y points down, in the frame of these units.
+/// Converts a pose of the paper, whose y points down, into the frame of `units`.
 std::optional<PlanePose> in_frame_of(Units units, const std::optional<PlanePose>& pose) {
     return pose && units == Units::ros ? std::optional(with_other_y(*pose)) : pose;
 }
 
-/// The fields that `--sheets` adds.
+/// Returns the fields that `--sheets` adds.
 std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place, Units units) {
     std::optional<PlanePose> pose;
     if (place) pose = PlanePose{place->x_mm, place->y_mm, place->theta_rad, place->covariance};
@@ -51,27 +51,28 @@ std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place, Units un
     return fields;
 }
 
-/// Explains in words and numbers why a position is refused as not certain.
-std::string doubt(const Record& record) {
+/// Explains, with numbers, why a position is rejected as not certain.
+std::string uncertainty_reason(const Record& record) {
     const Fix& fix = record.fix;
     if (fix.p_wrong_log2 <= record.max_p_wrong_log2) {
         return fmt::format(
-            "{} of the bits read contradict it, and the dots lie too far from where it "
-            "has them; paper that is bent, or two patterns, look so",
+            "{} of the bits read contradict it, and the dots are too far from their predicted "
+            "places; causes are bent paper or two patterns",
             fix.bit_errors);
     }
     const std::string odds =
-        fix.p_wrong_log2 >= 0 ? "others are as likely"
+        fix.p_wrong_log2 >= 0 ? "other positions are as likely"
                               : fmt::format("{} instead of at most {}", p_wrong_text(fix.p_wrong()),
                                             p_wrong_text(std::ldexp(1.0, record.max_p_wrong_log2)));
-    // Bits are read in all cells, also in those where no dot was found: not two for each dot seen.
+    // Bits are also read in cells without a detected dot, so their number is not twice the number
+    // of dots.
     if (fix.bit_errors > 0) {
         return fmt::format("{}; {} of the bits read contradict it", odds, fix.bit_errors);
     }
     if (!record.advice.empty()) return fmt::format("{}; no bit contradicts it", odds);
     return fmt::format(
-        "{}; no bit contradicts it, but of {} dots too few could be read for sure: "
-        "show more of the sheet, larger, sharper or in better light",
+        "{}; no bit contradicts it, but too few of {} dots could be read with certainty: show more "
+        "of the sheet, larger, sharper or in better light",
         odds, fix.dots_seen);
 }
 
@@ -88,7 +89,7 @@ std::string in_one_line(const std::array<std::string, kWarnings>& warnings) {
     return line;
 }
 
-/// The fields of the code variant and, if two code variants are possible, of the positions in both.
+/// Returns the fields of the code and, if two codes are possible, of the positions in both codes.
 std::vector<Field> code_fields(const Record& record, Units units) {
     const CodeReading& reading = record.reading;
     const Fix& fix = reading.fix;
@@ -122,7 +123,7 @@ std::vector<Field> code_fields(const Record& record, Units units) {
     };
 }
 
-/// Returns the text if the fix has what the covariance is estimated from, else an empty one.
+/// Returns `text` if the fix is valid and has a covariance, otherwise an empty text.
 std::string if_judged(const Fix& fix, std::string text) {
     return fix.status == Status::ok && fix.has_covariance() ? std::move(text) : std::string();
 }
@@ -140,7 +141,7 @@ Field evidence(bool is_known, const char* key, Value value) {
     return {key, is_known ? text : "", kIsName};
 }
 
-/// The fields of the place in the code and of the evidence for it.
+/// Returns the fields of the place in the code and of its evidence.
 std::vector<Field> evidence_fields(const Fix& fix) {
     const bool ok = fix.status == Status::ok;
     const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
@@ -155,7 +156,7 @@ std::vector<Field> evidence_fields(const Fix& fix) {
     };
 }
 
-/// The fields of the standard deviations, in mm and degrees.
+/// Returns the fields of the standard deviations, in mm and degrees.
 std::vector<Field> deviation_fields(const Record& record) {
     const Fix& fix = record.fix;
     const auto text = [&fix](double value) { return if_judged(fix, decimal(value, 6)); };
@@ -166,7 +167,7 @@ std::vector<Field> deviation_fields(const Record& record) {
     };
 }
 
-/// The fields of residual, scale and time.
+/// Returns the fields of residual, scale and time.
 std::vector<Field> image_fields(const Record& record) {
     const Fix& fix = record.fix;
     const bool ok = fix.status == Status::ok;
@@ -176,7 +177,7 @@ std::vector<Field> image_fields(const Record& record) {
     };
 }
 
-/// Explains why there is no fix, without advice; empty if there is one.
+/// Explains why there is no fix, without advice. Empty if there is a fix.
 std::string plain_reason(const Record& record) {
     const Fix& fix = record.fix;
     switch (fix.status) {
@@ -200,7 +201,7 @@ std::string plain_reason(const Record& record) {
             return fmt::format("found {} dots; at least {} are needed", fix.dots_seen,
                                record.min_dots);
         case Status::not_certain:
-            return fmt::format("{}: {}", message(fix.status), doubt(record));
+            return fmt::format("{}: {}", message(fix.status), uncertainty_reason(record));
         case Status::ambiguous_code:
             return fmt::format(
                 "codes {} and {} explain the dots about equally well, at different places: name "
@@ -217,7 +218,7 @@ std::string code_warning(const Record& record) {
     const std::string place =
         reading.fix.status == Status::ok
             ? (reading.other_cell == reading.fix.cell ? "at this place" : "at another place")
-            : "where this one has nothing certain";
+            : "where this code gives no certain position";
     return fmt::format(
         "code {} explains the dots {} without a contradiction; is the sheet of code "
         "{}?",
@@ -233,7 +234,7 @@ std::string spacing_warning(const Record& record) {
     const double camera_mm = record.camera_spacing_mm;
     if (!contradicts(camera_mm, record.spacing_mm)) return {};
     return fmt::format(
-        "the camera file measures a spacing of {:.3f} mm, and lengths are computed with {:g} mm: "
+        "the camera file gives a spacing of {:.3f} mm, but lengths are computed with {:g} mm: "
         "correct the spacing ({}), or calibrate the camera again",
         camera_mm, record.spacing_mm, record.has_sheets ? "of the sheet file" : "--spacing");
 }

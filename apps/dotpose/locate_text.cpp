@@ -1,4 +1,4 @@
-// The line of `locate --format text`.
+// Formats the lines of `locate --format text`.
 #include <cmath>
 #include <string>
 
@@ -11,13 +11,13 @@
 namespace dotpose::cli {
 namespace {
 
-/// Formats a value and its standard deviation, which is left out if it is 0: not known.
+/// Formats a value and its standard deviation `sigma`. A `sigma` of 0 means unknown and is omitted.
 std::string with_deviation(double value, double sigma, int decimals, const std::string& unit) {
     const std::string deviation = sigma > 0 ? fmt::format(" ± {:.2g}", sigma) : std::string();
     return fmt::format("{}{} {}", decimal(value, decimals), deviation, unit);
 }
 
-/// Formats x, y and angle of a pose in mm and rad.
+/// Formats x, y and angle of a pose, given in mm and rad.
 std::string pose_text(PlanePose pose, Units units) {
     const bool is_ros = units == Units::ros;
     if (is_ros) pose = with_other_y(pose);

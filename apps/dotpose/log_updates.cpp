@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// Names of the columns of a pose, the units of its values in metres and radians (y down: below 0
-/// for y and the angle), and the name of its covariance.
+/// Column names of a pose and its covariance. `units` are the factors from the columns to metres
+/// and radians; they are negative for y and the angle if y points down.
 struct PoseColumns {
     const char* x;
     const char* y;
@@ -59,7 +59,8 @@ std::optional<ros::PlanarCovariance> covariance_in(const LogCells& row,
     return covariance;
 }
 
-/// Of the velocities the log has one standard deviation for both axes and one for the turn.
+/// Returns the pose and the velocities of a row. The log contains one standard deviation for both
+/// velocity axes and one for the turn rate.
 ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
                             const PoseColumns& columns) {
     const auto value = [&row](const char* column) { return row.number(column).value_or(0); };
@@ -89,7 +90,7 @@ std::int64_t time_ns_in(const LogCells& row) {
     if (!(t_s >= 0 && t_s <= double{std::numeric_limits<std::int32_t>::max()})) {
         throw Error(fmt::format("t_s {} is no time of a message, which is 0 to 2^31 - 1", t_s));
     }
-    // The log has whole microseconds, which the text gives back exactly.
+    // The log has whole microseconds; rounding recovers them exactly from the decimal text.
     return std::llround(t_s * 1e6) * 1000;
 }
 
@@ -103,8 +104,8 @@ ros::RobotUpdate update_of(const LogCells& row) {
     const std::string_view plane = row.text("plane");
     ros::RobotUpdate update;
     update.time_ns = time_ns_in(row);
-    // While the robot is lost there is no plane; with a sheet file that has a world, fixes have
-    // x_m.
+    // A lost robot has no plane. Its fixes are in the world if they have x_m, which requires a
+    // sheet file with a world.
     const bool is_in_world = plane == "world" || (plane.empty() && row.number("x_m"));
     const PoseColumns& columns = is_in_world ? kInWorld : kInPattern;
     if (row.text("status") == "ok") {

@@ -1,4 +1,4 @@
-/// Reads the states of a robot from a log of `dotpose watch --log`, for messages of ROS.
+/// Converts the rows of a log of `dotpose watch --log` into robot states, for ROS messages.
 #pragma once
 
 #include "dotpose/tools/robot_messages.hpp"

@@ -5,7 +5,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the word in small letters (ASCII), without hyphens at its start.
+/// Returns the word in lower case (ASCII) and without leading hyphens.
 std::string bare(std::string_view word) {
     word.remove_prefix(std::min(word.find_first_not_of('-'), word.size()));
     std::string result(word);
@@ -31,7 +31,7 @@ std::string only_continuation(const std::string& word, const std::vector<std::st
 }  // namespace
 
 int edit_distance(std::string_view a, std::string_view b) {
-    // distance[i][j] is the distance of the first i characters of a and the first j of b.
+    // distance[i][j] is the distance between the first i characters of a and the first j of b.
     std::vector<std::vector<int>> distance(a.size() + 1, std::vector<int>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i)
         distance[i][0] = static_cast<int>(i);
@@ -53,16 +53,16 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
     const std::string asked = bare(word);
     std::string nearest;
-    // Longer words are certainly no names, and their table would take memory.
+    // Longer words match no name, and the distance table would need much memory.
     constexpr std::size_t kMaxCharacters = 64;
     if (asked.size() > kMaxCharacters) return nearest;
-    int least = static_cast<int>(kMaxCharacters);
+    int min_distance = static_cast<int>(kMaxCharacters);
     for (const std::string& name : names) {
         const std::string known = bare(name);
         const int distance = edit_distance(asked, known);
         const std::size_t longer = std::max(asked.size(), known.size());
-        if (distance < least && distance <= static_cast<int>(longer / 3)) {
-            least = distance;
+        if (distance < min_distance && distance <= static_cast<int>(longer / 3)) {
+            min_distance = distance;
             nearest = name;
         }
     }

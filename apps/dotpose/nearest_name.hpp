@@ -1,4 +1,4 @@
-/// Finds the known name that is nearest to a misspelt word.
+/// Finds the known name that is most similar to a misspelt word.
 #pragma once
 
 #include <string>
@@ -7,16 +7,19 @@
 
 namespace dotpose::cli {
 
-/// Returns how many characters have to be inserted, removed, replaced or exchanged with their
-/// neighbour to make one word of the other. No character is changed twice, so "ca" is 3 from "abc".
+/// Returns the minimum number of edits that turn one word into the other. An edit inserts, removes
+/// or replaces a character, or swaps two adjacent characters. No character is edited twice, so the
+/// distance from "ca" to "abc" is 3.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// Returns the name that `word` was probably meant to be: the nearest one, if their distance is at
-/// most a third of the longer one, else the only one that begins with the word. Capitals and
-/// hyphens at the start do not count. Returns an empty string if no name is like the word.
+/// Returns the name that was probably meant by `word`. This is the nearest name if the edit
+/// distance is at most a third of the length of the longer word, otherwise the only name that
+/// begins with `word`. Case and leading hyphens are ignored. Returns an empty string if no name is
+/// similar.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
 
-/// Returns "; did you mean 'NAME'?" with the nearest name, or an empty string if there is none.
+/// Returns "; did you mean 'NAME'?" with the nearest name, or an empty string if no name is
+/// similar.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace dotpose::cli

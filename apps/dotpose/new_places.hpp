@@ -1,4 +1,4 @@
-/// Selects frames that show a new place of a sheet. Calibration gains little from others.
+/// Selects frames that show a new place of a sheet. Other frames add little to a calibration.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@ namespace dotpose::cli {
 
 class NewPlaces {
   public:
-    /// Whether a frame differs from all that were taken before: its centre by a quarter of the
-    /// shorter side of the frame, its direction by 15 degrees, or its distance from the paper by
-    /// 10 %. If so, it is taken. A frame without a fix is none of these.
+    /// Returns true and stores the place if the frame differs from all stored places: its centre by
+    /// a quarter of the shorter side of the frame, its direction by 15 degrees, or its distance
+    /// from the paper by 10 %. Returns false for a frame without a fix.
     bool take(const Fix& fix, ImageView image);
 
     std::size_t count() const { return places_.size(); }
 
-    /// Forgets every second place, and takes only places that are twice as far apart from now on.
+    /// Removes every second place and doubles the minimum differences from now on.
     void thin_out();
 
   private:
@@ -31,10 +31,10 @@ class NewPlaces {
     };
 
     std::vector<Place> places_;
-    double far_ = 1;  ///< factor of all the differences
+    double factor_ = 1;  ///< factor on the minimum differences
 };
 
-/// Removes every second element: those with odd indices.
+/// Removes the elements with odd indices.
 template <typename T>
 void remove_every_second(std::vector<T>& all) {
     std::size_t kept = 0;

@@ -1,4 +1,4 @@
-/// Work on a list by several threads, whose results come in the order of the list.
+/// Processes the items of a list in several threads and returns the results in list order.
 #pragma once
 
 #include <condition_variable>
@@ -16,12 +16,13 @@
 
 namespace dotpose::cli {
 
-/// Thread `i` of `n` works on the items i, i + n, i + 2n and so on, and gives one result for each.
+/// Thread `i` of `n` processes the items i, i + n, i + 2n and so on, and emits one result for each
+/// item.
 template <typename Result>
 class OrderedThreads {
   public:
-    /// Passes on a result. Waits while the results before it have not been taken. Returns false if
-    /// no more results are wanted; the thread then ends.
+    /// Passes on a result. Blocks while too many results of the thread are waiting. Returns false
+    /// if no more results are wanted; the thread must then end.
     using Emit = std::function<bool(Result)>;
     using Work = std::function<void(std::size_t thread, const Emit& emit)>;
 
@@ -41,7 +42,7 @@ class OrderedThreads {
         }
     }
 
-    /// Returns the next result, or none after the last one. Throws what the thread threw.
+    /// Returns the next result, or none after the last one. Rethrows the exception of a thread.
     std::optional<Result> next() {
         Lane& lane = *lanes_[next_lane_++ % lanes_.size()];
         std::optional<Result> result = lane.take();
@@ -50,7 +51,7 @@ class OrderedThreads {
     }
 
   private:
-    /// One thread and its results that have not been taken.
+    /// A thread and its results that are waiting to be taken.
     struct Lane {
         static constexpr std::size_t kMaxResults = 16;
 
@@ -82,8 +83,8 @@ class OrderedThreads {
         std::condition_variable_any changed;
         std::deque<Result> results;
         bool has_ended = false;
-        std::exception_ptr failure;  ///< written before `has_ended`
-        std::jthread thread;         ///< last, because it uses the other members
+        std::exception_ptr failure;  ///< set before `has_ended`
+        std::jthread thread;         ///< last member, because the thread uses the other members
     };
 
     std::vector<std::unique_ptr<Lane>> lanes_;

@@ -1,5 +1,5 @@
-/// The options of output, which have the same names and values in all commands: --format, --units,
-/// --draw, and -o, where - is standard output.
+/// Output options with the same names and values in all commands: --format, --units, --draw and -o,
+/// whose value "-" is standard output.
 #pragma once
 
 #include <cstdio>
@@ -12,54 +12,56 @@
 
 namespace dotpose::cli {
 
-/// The options of commands that write a line for each frame or packet.
+/// Options of commands that write a line for each frame or packet.
 struct LineArguments {
     std::string out;  ///< file to write; empty or "-" for standard output
     RecordFormat format = RecordFormat::json;
     Units units = Units::mm;
 };
 
-/// Adds --format json|csv, --units mm|ros and -o; with `has_text` also --format text. The ending
-/// .csv of -o chooses csv.
+/// Adds --format json|csv, --units mm|ros and -o. With `has_text`, adds --format text. If the name
+/// of -o ends in .csv, the default format is csv.
 void add_line_options(Command& command, LineArguments& arguments, bool has_text = false);
 
-/// The options of commands that write one report.
+/// Options of commands that write one report.
 struct ReportArguments {
     std::string out;  ///< file to write; empty or "-" for standard output
     bool as_json = false;
 };
 
-/// Adds --format text|json, and -o with `out_help`. The ending .json of -o chooses json.
+/// Adds --format text|json, and -o with the help `out_help`. If the name of -o ends in .json, the
+/// default format is json.
 void add_report_options(Command& command, ReportArguments& arguments,
                         const std::string& out_help = "File to write instead of standard output");
 
-/// Writes the report to the file of -o or to standard output, there in colour if it is text and
-/// the terminal wants it. Throws Error.
+/// Writes the report to the file of -o or to standard output. A text report on a terminal is
+/// coloured. Throws Error.
 void write_report(const ReportArguments& arguments, const std::string& report);
 
-/// Adds --draw FILE, a picture to draw as well.
+/// Adds --draw FILE, an additional picture.
 Option* add_draw_option(Command& command, std::string& path, const std::string& help);
 
-/// Where a document that goes to a named file in the library is written: there, or if it is to go
-/// to standard output, into a temporary file that is copied there at the end.
+/// Destination of a document that the library can only write to a named file. If the output is
+/// standard output, the library writes a temporary file, which is copied to standard output at the
+/// end.
 class DocumentOutput {
   public:
-    /// `out` is what the user gave for -o, `ending` that of the format, such as ".pdf". Throws
-    /// Error if no temporary file can be made.
+    /// `out` is the value of -o; `ending` is the file extension of the format, such as ".pdf".
+    /// Throws Error if no temporary folder can be created.
     DocumentOutput(std::string out, const std::string& ending);
 
-    /// Removes the temporary file.
+    /// Removes the temporary folder.
     ~DocumentOutput();
     DocumentOutput(const DocumentOutput&) = delete;
     DocumentOutput& operator=(const DocumentOutput&) = delete;
 
-    /// The file for the library to write.
+    /// Returns the path of the file that the library must write.
     const std::string& path() const { return path_; }
 
-    /// Copies the document to standard output if it is to go there. Throws Error.
+    /// Copies the document to standard output if -o is "-". Throws Error.
     void finish() const;
 
-    /// Where the command reports what it wrote: standard error if the document goes to standard
+    /// Returns the stream for reports: standard error if the document is written to standard
     /// output.
     std::FILE* report_stream() const { return folder_.empty() ? stdout : stderr; }
 

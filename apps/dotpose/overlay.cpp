@@ -40,9 +40,9 @@ constexpr const char* kOverlayExamples =
     "copies\n"
     "of two pages, the last one is form-60. With --paper, small pages become cards: as many as "
     "fit\n"
-    "are printed on one page, with marks to cut them apart; each card is a sheet of its own.\n\n"
+    "are printed on one page, with marks to cut them apart; each card is a separate sheet.\n\n"
     "Black ink hides dots from infrared cameras: --cmy-black prints the document's black from\n"
-    "cyan, magenta and yellow, which they do not see.\n";
+    "cyan, magenta and yellow, which these cameras do not see.\n";
 
 void require_apart(const OverlayArguments& arguments) {
     RunFiles files;
@@ -51,8 +51,8 @@ void require_apart(const OverlayArguments& arguments) {
     files.writes("-o", arguments.out, Content::own);
 }
 
-/// Returns the command for the dots of a page, for its entry in the sheet file, without the
-/// password.
+/// Returns the print settings of a page for its entry in the sheet file. The command does not
+/// contain the password.
 SheetPrint print_of(const OverlayArguments& arguments, int document_page, int pages) {
     std::set<std::string> left_out = SheetEntryArguments::options_of_entering();
     left_out.insert({"--password", "--copies", "--paper"});
@@ -115,7 +115,7 @@ void add_ink_options(Command& command, OverlayOptions& options) {
                      "Print the document's black without black ink");
     command
         .add_option("--lighten", options.lighten,
-                    "Part of its ink that the document gives up, 0 to under 1")
+                    "Fraction of the ink of the document to remove, 0 to below 1")
         ->type_name("PART")
         ->capture_default_str();
 }
@@ -127,14 +127,15 @@ void add_overlay(Command& app, int& /*exit_code*/) {
     OverlayOptions& options = arguments->options;
     Command* command = app.add_subcommand("overlay", "Lay dots over the pages of a PDF");
     command->footer(kOverlayExamples);
-    command->add_option("pdf", arguments->in, "Document that gets dots")
+    command->add_option("pdf", arguments->in, "Document to lay the dots over")
         ->type_name("FILE")
         ->required();
     command->add_option("-o,--out", arguments->out, "PDF to write, or - for standard output")
         ->type_name("FILE|-")
         ->required();
     command
-        ->add_option("--pages", options.pages, "Pages that get dots, such as 1-3,7; z is the last")
+        ->add_option("--pages", options.pages,
+                     "Pages to lay dots over, such as 1-3,7; z is the last")
         ->type_name("RANGE")
         ->default_str("all");
     command
@@ -152,7 +153,7 @@ void add_overlay(Command& app, int& /*exit_code*/) {
     command->add_option("--password", options.password, "Password of an encrypted document")
         ->type_name("TEXT");
     add_ink_options(*command, options);
-    command->add_option("--margin", options.margin_mm, "Kept free of dots on all sides")
+    command->add_option("--margin", options.margin_mm, "Margin without dots on all sides")
         ->type_name("MM")
         ->capture_default_str();
     arguments->pattern.add_to(*command);
@@ -161,11 +162,11 @@ void add_overlay(Command& app, int& /*exit_code*/) {
     arguments->entries.add_to(*command);
     command
         ->add_option("--max-content", options.max_content_mb,
-                     "Most that a page's content may take when it is unpacked")
+                     "Maximum size of the unpacked content of a page")
         ->type_name("MB")
         ->capture_default_str()
         ->check(Range(1, 1'000'000));
-    command->add_option("--dpi", options.dpi, "The printer's own resolution")
+    command->add_option("--dpi", options.dpi, "Native resolution of the printer")
         ->type_name("N")
         ->capture_default_str();
     add_drawing_option(*command, options.drawing);

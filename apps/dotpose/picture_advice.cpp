@@ -19,7 +19,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the 90 % quantile of the grey levels, which is that of paper if the image shows any.
+/// Returns the 90 % quantile of the grey levels. It is the level of the paper if the image shows
+/// any paper.
 int paper_level(ImageView image) {
     std::array<std::int64_t, 256> counts{};
     for (int v = 0; v < image.height_px; ++v) {
@@ -33,9 +34,9 @@ int paper_level(ImageView image) {
     return level;
 }
 
-/// Returns an image of `width_px` x `height_px`, interpolated linearly between the pixels of
-/// another one: `in_image(u, v)` is the point of that at which pixel (u, v) is taken. Outside of
-/// the image, it repeats the pixels of the border.
+/// Resamples an image to `width_px` x `height_px` with bilinear interpolation. `in_image(u, v)`
+/// returns the point of the original image for pixel (u, v) of the result. Points outside of the
+/// image are moved to its border.
 template <typename InImage>
 GreyImage resampled(const ImageView& image, int width_px, int height_px, InImage in_image) {
     GreyImage result{{}, width_px, height_px};
@@ -54,7 +55,8 @@ GreyImage resampled(const ImageView& image, int width_px, int height_px, InImage
     return result;
 }
 
-/// Returns the middle of an image, at most `side_px` wide and high, enlarged.
+/// Returns the centre of an image, at most `side_px` wide and high before it is enlarged by the
+/// factor `by`.
 GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
     const int width_px = std::min(image.width_px, side_px) - 1;
     const int height_px = std::min(image.height_px, side_px) - 1;
@@ -66,7 +68,8 @@ GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
     });
 }
 
-/// Returns the spacing in the image if the pattern can be read after the image is enlarged.
+/// Returns the spacing of the dots in px if the pattern can be read only after the image is
+/// enlarged.
 std::optional<double> too_small_spacing_px(ImageView image, const Options& options,
                                            LargeMemory& scratch) {
     constexpr int kMiddle_px = 320;
@@ -90,7 +93,8 @@ struct Stretch {
     double angle_rad = 0;
     double by = 1;
 
-    /// Returns the pixel of the image for an offset from the middle of the stretched image.
+    /// Converts an offset from the centre of the stretched image into an offset from the centre of
+    /// the original image, in px.
     PixelPoint in_image(PixelPoint step) const {
         const double c = std::cos(angle_rad);
         const double s = std::sin(angle_rad);
@@ -99,7 +103,7 @@ struct Stretch {
     }
 };
 
-/// Returns the stretched middle of an image, a square of at most `side_px`, whose corners may be
+/// Returns the centre of the stretched image, a square of at most `side_px`. Its corners may be
 /// outside of the image.
 GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& stretch) {
     const int side = std::min({image.width_px, image.height_px, side_px});
@@ -110,7 +114,8 @@ GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& s
     });
 }
 
-/// Returns the tilt of the sheet if the pattern can be read after the image is stretched.
+/// Returns the tilt of the sheet in degrees if the pattern can be read after the image is
+/// stretched.
 std::optional<double> large_tilt_degrees(ImageView image, const Options& options,
                                          LargeMemory& scratch) {
     constexpr int kMiddle_px = 480;
@@ -124,7 +129,7 @@ std::optional<double> large_tilt_degrees(ImageView image, const Options& options
             const GreyImage straight = stretched_middle(image, kMiddle_px, stretch);
             const Fix fix = Locator(scratch, once).locate(straight.view());
             if (fix.status != Status::ok) continue;
-            // Cells per px of the image, by stretching first.
+            // Map from px of the original image to cells: the stretch, then the fitted plane.
             const double c = std::cos(stretch.angle_rad);
             const double s = std::sin(stretch.angle_rad);
             const PlaneFromImage& plane = fix.pattern_from_image;
@@ -137,7 +142,8 @@ std::optional<double> large_tilt_degrees(ImageView image, const Options& options
             };
             const auto a = seen(1, 0);
             const auto b = seen(0, 1);
-            // The singular values of (a b) are the lengths of a pixel along and across the tilt.
+            // The singular values of the matrix (a b) are the lengths of a pixel on the paper, in
+            // cells, along and across the tilt.
             const double sum = a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1];
             const double area = std::abs(a[0] * b[1] - a[1] * b[0]);
             const double root = std::sqrt(std::max(sum * sum - 4 * area * area, 0.0));
@@ -148,10 +154,10 @@ std::optional<double> large_tilt_degrees(ImageView image, const Options& options
     return std::nullopt;
 }
 
-/// Returns the mean squared second difference of the grey levels over a distance: between a pixel
-/// and the mean of the pixels at this distance on both sides. Noise adds the same value at every
-/// distance, and a linear fall of light adds nothing.
-double bend(ImageView image, int step_px) {
+/// Returns the mean squared second difference of the grey levels: the difference between a pixel
+/// and the mean of the two pixels at `step_px` on opposite sides. Noise adds the same value at all
+/// distances; a linear brightness gradient adds nothing.
+double second_difference(ImageView image, int step_px) {
     std::int64_t squares = 0;
     for (int v = step_px; v + step_px < image.height_px; ++v) {
         for (int u = step_px; u + step_px < image.width_px; ++u) {
@@ -165,20 +171,21 @@ double bend(ImageView image, int step_px) {
     return static_cast<double>(squares) / (4 * samples);
 }
 
-/// Whether the image has details, but only large ones. The second difference over 2 px is compared
-/// with those over 8 and 16 px: it is at least a sixth of them in a picture in focus, even with a
-/// tilt of 70 degrees, and less than a twentieth if the dots are too blurred to be read.
+/// Returns true if the image has details, but only large ones. Compares the second difference over
+/// 2 px with the larger of those over 8 and 16 px. The ratio is at least 1/6 in a picture in focus,
+/// even at a tilt of 70 degrees, and less than 1/20 if the dots are too blurred to be read.
 bool is_out_of_focus(ImageView image) {
     constexpr double kMinDetail = 0.4;
     constexpr double kFocused = 0.06;
-    constexpr int kFarthest_px = 16;
-    if (std::min(image.width_px, image.height_px) <= 2 * kFarthest_px) return false;
-    const double noise = bend(image, 1);
-    const double detail = std::max(bend(image, 8), bend(image, kFarthest_px)) - noise;
-    return detail > kMinDetail && bend(image, 2) - noise < kFocused * detail;
+    constexpr int kMaxStep_px = 16;
+    if (std::min(image.width_px, image.height_px) <= 2 * kMaxStep_px) return false;
+    const double noise = second_difference(image, 1);
+    const double detail =
+        std::max(second_difference(image, 8), second_difference(image, kMaxStep_px)) - noise;
+    return detail > kMinDetail && second_difference(image, 2) - noise < kFocused * detail;
 }
 
-/// Returns the image reduced by a factor: means of squares of pixels.
+/// Reduces the image by the factor `by`: each pixel is the mean of a square of pixels.
 GreyImage reduced_by(ImageView image, int by) {
     GreyImage small{{}, image.width_px / by, image.height_px / by};
     for (int v = 0; v < small.height_px; ++v) {
@@ -192,15 +199,16 @@ GreyImage reduced_by(ImageView image, int by) {
     return small;
 }
 
-/// Returns the spacing in the image if its dots lie on a grid once the image is reduced.
+/// Returns the spacing of the dots in px if the dots of the reduced image lie on a grid and the
+/// spacing is too large.
 std::optional<double> too_large_spacing_px(ImageView image, const Options& options,
                                            LargeMemory& scratch) {
     constexpr double kMaxSpacing_px = 60;
-    // The camera may be so near that few dots are left in view.
+    // A camera that is too near shows only a few dots.
     constexpr int kMinDots = 16;
     Options blobs;
     blobs.code = options.code;
-    blobs.effort = Effort::device;  // It leaves the grid of its blobs in the trace.
+    blobs.effort = Effort::device;  // stores the grid of its blobs in the trace
     blobs.lattice.min_dots = kMinDots;
     for (const int by : {2, 4, 8, 16}) {
         if (std::min(image.width_px, image.height_px) / by < kMinFrameSide_px) break;
@@ -220,7 +228,7 @@ std::optional<double> too_large_spacing_px(ImageView image, const Options& optio
     return std::nullopt;
 }
 
-/// Whether the dots are white on black.
+/// Returns true if the dots are white on black.
 bool is_inverted(ImageView image, const Options& options, LargeMemory& scratch) {
     GreyImage inverted = reduced_by(image, 1);
     for (std::uint8_t& grey : inverted.pixels)
@@ -230,8 +238,8 @@ bool is_inverted(ImageView image, const Options& options, LargeMemory& scratch) 
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
-/// Advises on a position that is not certain because the code was not given: it is certain if the
-/// places in the other codes are left out.
+/// Advises on a position that is not certain only because the code is not given: without the places
+/// in the other codes, the position is certain.
 std::string advice_on_code(ImageView image, const Options& options, LargeMemory& scratch) {
     for (const CodeVariant code :
          {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {
@@ -240,9 +248,8 @@ std::string advice_on_code(ImageView image, const Options& options, LargeMemory&
         const Fix fix = Locator(scratch, given).locate(image);
         if (fix.status != Status::ok) continue;
         return fmt::format(
-            "the reason is that the code is not known: in {0} alone the position is certain "
-            "(p_wrong {1}), so name it with --code {0} if that was printed, or show more of the "
-            "sheet",
+            "the reason is that the code is not known: in code {0} alone, the position is certain "
+            "(p_wrong {1}); give --code {0} if this code was printed, or show more of the sheet",
             name(code), p_wrong_text(fix.p_wrong()));
     }
     return {};
@@ -270,15 +277,16 @@ std::string advice_on_distance(ImageView image, const Options& options, LargeMem
 std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeMemory& scratch) {
     if (const auto tilt_degrees = large_tilt_degrees(image, facts.options, scratch)) {
         return fmt::format(
-            "the sheet is tilted too much, by about {:.0f} degrees: look more straight down on it",
+            "the sheet is tilted too much, by about {:.0f} degrees: look straight down on it",
             *tilt_degrees);
     }
-    // H.264 and HEVC of sharp frames lose the first dots at 0.1 bits per px (docs/live.md).
+    // In videos of sharp frames, H.264 and HEVC begin to lose dots at 0.1 bits per px
+    // (docs/live.md).
     constexpr double kTooFewBits_per_px = 0.15;
     if (facts.bits_per_px > 0 && facts.bits_per_px < kTooFewBits_per_px) {
         return fmt::format(
-            "the video is compressed too much, to {:.2g} bits per pixel, so that its dots are "
-            "blurred: record it with a higher quality, in H.264 with a CRF of 28 or less",
+            "the video is compressed too much, to {:.2g} bits per pixel, which blurs its dots: "
+            "record it with a higher quality, in H.264 with a CRF of 28 or less",
             facts.bits_per_px);
     }
     if (is_out_of_focus(image)) {
@@ -287,8 +295,8 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
                "page";
     }
     if (facts.status != Status::no_grid) return {};
-    return "a sheet that is out of focus, too far away (under 6 px from dot to dot) or strongly "
-           "tilted looks so: focus, come closer, and look straight down";
+    return "the sheet may be out of focus, too far away (under 6 px from dot to dot) or strongly "
+           "tilted: focus, come closer, and look straight down";
 }
 
 }  // namespace
@@ -301,23 +309,24 @@ std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& s
         return {};
     }
     if (status == Status::mirrored) {
-        return "a mirror, a projection from behind or a camera that mirrors its picture shows it "
-               "so: locate with --flip, or 'flip: true' in the camera file";
+        return "the cause is a mirror, a projection from behind or a camera that mirrors: locate "
+               "with --flip, or 'flip: true' in the camera file";
     }
     if (is_inverted(image, options, scratch)) {
         return "the dots are white on black: locate with --inverted";
     }
-    // Blur may reduce the contrast of dots to a quarter, which must still be min_contrast.
+    // Blur may reduce the contrast of dots to a quarter. The remaining contrast must be at least
+    // min_contrast.
     const int darkest_paper = 4 * options.threshold.min_contrast;
     if (const int level = paper_level(image); level < darkest_paper) {
         return fmt::format(
-            "the picture is too dark, its paper has grey level {} of 255: more light, "
-            "or a longer exposure, helps",
+            "the picture is too dark, its paper has grey level {} of 255: use more light or a "
+            "longer exposure",
             level);
     }
     if (status == Status::no_contrast) {
-        return "dots that are pale, far out of focus or much too small in the picture look so: "
-               "more light, focus, or come closer";
+        return "the dots may be pale, far out of focus or much too small in the picture: use more "
+               "light, focus, or come closer";
     }
     if (std::string advice = advice_on_distance(image, options, scratch); !advice.empty())
         return advice;

@@ -1,4 +1,4 @@
-/// Finds out from a picture of a sheet why it could not be located, and what would help.
+/// Diagnoses why a picture of a sheet could not be located, and suggests a remedy.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace dotpose::cli {
 
-/// The result for a picture, and the settings that advice depends on.
+/// The result for a picture, and the settings on which the advice depends.
 struct PictureFacts {
     Status status = Status::ok;  ///< result of `locate` with `options`
     Options options;
-    bool code_is_given = true;  ///< whether only one code was tried
-    /// Bits per pixel of a compressed video (capture/frame_source.hpp); 0 if they are not known.
+    bool code_is_given = true;  ///< true if only one code was tried
+    /// Bits per pixel of a compressed video (capture/frame_source.hpp); 0 if unknown.
     double bits_per_px = 0;
 };
 
-/// Returns a sentence without a full stop, or an empty text if the picture gives no reason.
-/// `scratch` is overwritten.
+/// Returns advice as a sentence without a full stop, or an empty text if no reason is found.
+/// Overwrites `scratch`.
 std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& scratch);
 
 }  // namespace dotpose::cli

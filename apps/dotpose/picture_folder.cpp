@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns the name of an image without its ending, or drive-17 for the frame drive.mp4#17.
+/// Returns the name of an image without its file extension, or drive-17 for the frame drive.mp4#17.
 std::string stem_of(const std::string& name) {
     const std::size_t mark = name.rfind('#');
     if (mark == std::string::npos ||
@@ -31,7 +31,8 @@ PictureFolder::PictureFolder(fs::path path, const RunFiles& files)
     : path_(std::move(path)), files_(files) {
     if (is_picture_name(path_)) return;
     std::error_code error;
-    // Only the last folder of the path is created: if others are missing, the name is mistyped.
+    // Creates only the last folder of the path. A missing parent folder means that the name is
+    // mistyped.
     fs::create_directory(path_, error);
     if (!fs::is_directory(path_)) {
         throw Error(fmt::format("cannot create the folder {}: {}", path_.string(),

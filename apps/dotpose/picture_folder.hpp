@@ -1,4 +1,4 @@
-/// The pictures of `--draw`: a folder, which gets one picture per image, or NAME.svg for one image.
+/// Pictures of `--draw`: a folder with one picture per image, or NAME.svg for one image.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +12,20 @@
 
 namespace dotpose::cli {
 
-/// Whether a path is the name of a picture, NAME.svg, and not that of a folder.
+/// Returns true if a path is the name of a picture, NAME.svg, and not of a folder.
 bool is_picture_name(const std::filesystem::path& path);
 
 class PictureFolder {
   public:
-    /// Creates the folder, whose parent must exist, unless `path` is the name of a picture. Throws
-    /// Error if that fails. `files` checks that no picture overwrites a file of the same run.
+    /// Creates the folder, unless `path` is the name of a picture. The parent folder must exist.
+    /// Throws Error if the folder cannot be created. `files` is used to check that no picture
+    /// overwrites a file of the same run.
     PictureFolder(std::filesystem::path path, const RunFiles& files);
 
-    /// Writes the picture, or in a folder STEM.svg, where STEM is the name of the image without its
-    /// ending, or drive-17 for the frame drive.mp4#17; STEM-2.svg and so on if an earlier image had
-    /// the same stem. The title of the options is replaced. Throws Error if it cannot be written.
+    /// Writes the picture; in a folder, to STEM.svg. STEM is the name of the image without its file
+    /// extension, or drive-17 for the frame drive.mp4#17. If an earlier image had the same stem,
+    /// the name is STEM-2.svg and so on. The name of the image replaces the title of the options.
+    /// Throws Error if the picture cannot be written.
     void add(const std::string& image_name, ImageView image, const Trace& trace,
              DrawOptions options);
 

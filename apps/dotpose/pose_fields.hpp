@@ -10,27 +10,27 @@
 
 namespace dotpose::cli {
 
-/// The units and frames of poses in the output. World poses are in metres and radians in both.
+/// Units and frames of poses in the output. World poses are always in metres and radians.
 enum class Units {
     mm,   ///< mm and degrees, y down and angles clockwise as on the paper
     ros,  ///< metres and radians, y up, z out of the paper, counter-clockwise (ROS REP 103)
 };
 
-/// A pose in a plane in mm and rad.
+/// A pose in a plane, in mm and rad.
 struct PlanePose {
     double x_mm = 0;
     double y_mm = 0;
     double theta_rad = 0;
-    PoseCovariance covariance{};  ///< of the three, in mm and rad; all 0 if it is not known
+    PoseCovariance covariance{};  ///< of x, y and theta, in mm and rad; all 0 if unknown
 };
 
 /// Returns the pose of a fix in the pattern frame. The fix must be ok.
 PlanePose pattern_pose(const Fix& fix, double spacing_mm);
 
-/// Returns the same pose with y and angle reversed: up instead of down, or down instead of up.
+/// Returns the pose with y and angle negated, to convert between y down and y up.
 PlanePose with_other_y(const PlanePose& pose);
 
-/// Names of the fields of a pose, such as x_mm, y_mm, theta_deg and covariance_mm_deg.
+/// Field names of a pose and its covariance, such as x_mm, y_mm, theta_deg and covariance_mm_deg.
 struct PoseNames {
     std::string x;
     std::string y;
@@ -38,14 +38,14 @@ struct PoseNames {
     std::string covariance;
 };
 
-/// Returns the names of a pose in the pattern frame, the sheet frame or of the track.
+/// Return the field names of poses in the pattern frame, in the sheet frame and of the track.
 PoseNames pattern_names(Units units);
 PoseNames sheet_names(Units units);
 PoseNames track_names(Units units);
 
-/// Return the three fields of a pose and the nine of its covariance, row by row; they are empty
-/// without a pose, and those of the covariance also if it is not known. The pose is written as it
-/// is, in mm and degrees or in metres and radians.
+/// Return the three fields of a pose, and the nine fields of its covariance in row-major order. All
+/// fields are empty without a pose; the covariance is also empty if it is unknown. Converts only
+/// the units, to mm and degrees or metres and radians, not the frame.
 std::vector<Field> pose_fields(const PoseNames& names, Units units,
                                const std::optional<PlanePose>& pose);
 std::vector<Field> covariance_fields(const PoseNames& names, Units units,
@@ -54,10 +54,10 @@ std::vector<Field> covariance_fields(const PoseNames& names, Units units,
 /// Returns the fields x_m, y_m, yaw_rad and covariance_m_rad.
 std::vector<Field> world_fields(const std::optional<WorldPlace>& place);
 
-/// Formats a length in metres; `mm` is its value in mm.
+/// Formats a length in metres. `mm` is the length in mm.
 std::string metres(double mm);
 
-/// Appends fields to others.
+/// Appends `more` to `fields`.
 void append(std::vector<Field>& fields, std::vector<Field> more);
 
 }  // namespace dotpose::cli

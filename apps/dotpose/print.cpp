@@ -25,7 +25,7 @@ namespace {
 
 struct PrintArguments {
     std::string out;
-    std::string ending;  ///< of the format that was asked for, such as ".pdf"; empty for none
+    std::string ending;  ///< file extension of --format, such as ".pdf"; empty without --format
     std::string paper = "A4";
     bool landscape = false;
     SheetOptions sheet;
@@ -46,14 +46,14 @@ constexpr const char* kPrintExamples =
     "  dotpose print -o table.pdf --sheets sheets.json --name table\n"
     "  dotpose print -o test.pdf --test-page\n"
     "  dotpose print -o - --format pdf | lp\n\n"
-    "Print at 100 %, without \"fit to page\". Give each sheet an origin of its own, or let a\n"
-    "sheet file do so: it is made if missing, and 'dotpose locate --sheets' reads it.\n";
+    "Print at 100 %, without \"fit to page\". Give each sheet its own origin, or let a sheet\n"
+    "file do so: it is created if missing, and 'dotpose locate --sheets' reads it.\n";
 
-/// The formats, named after the endings of their files.
+/// The formats, named after their file extensions.
 const std::vector<std::string> kFormats = {"pdf", "svg", "png", "tif", "txt"};
 
-/// Returns the format of the output. Throws BadArgument if it is not known, or if the name of the
-/// file is that of another one.
+/// Returns the format of the output. Throws BadArgument if the format is unknown or contradicts the
+/// name of the file.
 PrintFormat format_of(const PrintArguments& arguments) {
     if (arguments.out == kStandardOutput) {
         if (arguments.ending.empty()) {
@@ -73,8 +73,8 @@ bool has_resolution(PrintFormat format) {
     return format != PrintFormat::text && format != PrintFormat::svg;
 }
 
-/// Returns the default margin: labels and rulers of a PDF need more than the margin that printers
-/// cannot print.
+/// Returns the default margin in mm. The labels and rulers of a PDF need a wider margin than the
+/// one that printers cannot print.
 double default_margin_mm(PrintFormat format, const Paper& paper) {
     constexpr double kWithLabels_mm = 10;
     constexpr double kSmallPage_mm = 60;
@@ -89,7 +89,7 @@ std::string title_of(const PrintArguments& arguments) {
     return std::filesystem::path(arguments.out).stem().string();
 }
 
-/// Returns how a page of the document is printed, for its entry in the sheet file.
+/// Returns the print settings of a page for its entry in the sheet file.
 SheetPrint print_of(const PrintArguments& arguments) {
     SheetPrint print;
     print.title = title_of(arguments);
@@ -208,17 +208,20 @@ void add_print(Command& app, int& /*exit_code*/) {
                      "A0 to A6, Letter, Legal, Tabloid or WIDTHxHEIGHT in mm")
         ->type_name("SIZE")
         ->capture_default_str();
-    command->add_flag("--landscape", arguments->landscape, "Longer side across");
-    command->add_option("--margin", arguments->margin_mm, "Kept free of dots on all sides")
+    command->add_flag("--landscape", arguments->landscape,
+                      "Landscape: the longer side is horizontal");
+    command->add_option("--margin", arguments->margin_mm, "Margin without dots on all sides")
         ->type_name("MM")
         ->default_str("5, in a .pdf 10 on pages over 60 mm");
-    command->add_option("--pages", arguments->pages, "Pages of a .pdf, each with cells of its own")
+    command
+        ->add_option("--pages", arguments->pages,
+                     "Number of pages of a .pdf, each with its own cells")
         ->type_name("N")
         ->capture_default_str();
     arguments->pattern.add_to(*command);
     add_cell_option(*command, "--origin", arguments->sheet.origin,
                     "Cell of the code plane at the top left");
-    command->add_option("--dpi", arguments->print.dpi, "The printer's own resolution")
+    command->add_option("--dpi", arguments->print.dpi, "Native resolution of the printer")
         ->type_name("N")
         ->capture_default_str();
     add_drawing_option(*command, arguments->print.drawing);
@@ -226,9 +229,9 @@ void add_print(Command& app, int& /*exit_code*/) {
         "--no-labels", [arguments] { arguments->print.labels = false; },
         "No text and rulers in the margins of a .pdf");
     arguments->entries.add_to(*command);
-    Option* test_page = command->add_flag(
-        "--test-page", arguments->test_page,
-        "Patches of dot sizes and spacings, to find what suits a printer with check-print");
+    Option* test_page = command->add_flag("--test-page", arguments->test_page,
+                                          "Patches with several dot sizes and spacings, to find "
+                                          "the best ones for a printer with check-print");
     for (const char* own :
          {"--spacing", "--dot", "--displacement", "--origin", "--section", "--pages", "--sheets"}) {
         test_page->excludes(command->get_option(own));

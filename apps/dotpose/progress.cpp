@@ -23,10 +23,10 @@ constexpr auto kBetween = 100ms;
 constexpr const char* kEraseLine = "\r\033[K";
 
 volatile std::sig_atomic_t signal_seen = 0;
-std::atomic<std::int64_t> signal_ns = 0;  ///< when the first signal came
+std::atomic<std::int64_t> signal_ns = 0;  ///< time of the first signal, on the monotonic clock
 std::atomic<bool> is_line_visible = false;
 
-/// Time on the monotonic clock; may be called by a signal handler.
+/// Returns the time of the monotonic clock in ns. Safe to call from a signal handler.
 std::int64_t now_ns() {
     timespec time{};
     clock_gettime(CLOCK_MONOTONIC, &time);

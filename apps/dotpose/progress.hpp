@@ -1,4 +1,4 @@
-/// Shows the progress of long computations on a terminal, and lets Ctrl-C stop them.
+/// Shows the progress of long computations on a terminal, and handles Ctrl-C.
 #pragma once
 
 #include <chrono>
@@ -7,36 +7,40 @@
 
 namespace dotpose::cli {
 
-/// Ignores SIGPIPE: if the reader of an output closes it, the write fails and the program goes on.
+/// Ignores SIGPIPE: if the reader of an output closes it, the write fails but the program
+/// continues.
 void ignore_broken_pipes();
 
-/// Makes SIGINT, SIGTERM and SIGHUP set `interrupted` instead of ending the program, so that it can
-/// remove its temporary files. A second signal ends it, if it comes more than half a second later.
+/// Makes SIGINT, SIGTERM and SIGHUP set `interrupted` instead of ending the program, so the program
+/// can remove its temporary files. A second signal ends the program if it arrives more than half a
+/// second after the first.
 void catch_interrupts();
 bool interrupted();
 
-/// Whether Ctrl-C was pressed (SIGINT, no other signal). If so, it is forgotten: `interrupted` is
-/// false again, and the next signal counts as the first.
+/// Returns true if Ctrl-C was pressed (SIGINT, no other signal), and resets `interrupted`. The next
+/// signal then counts as the first.
 bool take_ctrl_c();
 
-/// Returns a duration in words of two units at most, such as "12 s", "3 min 05 s" or "2 h 10 min",
-/// rounded up.
+/// Formats a duration with two units at most, such as "12 s", "3 min 05 s" or "2 h 10 min", rounded
+/// up.
 std::string duration_text(double seconds);
 
-/// A line such as "printing sheet.png: 42 %, 12 s left" on standard error. It is shown if standard
-/// error is a terminal and the work takes more than a second, and removed at the end. Messages of
-/// `tell` remove it until the next update. At most one line at a time.
+/// A progress line on standard error, such as "printing sheet.png: 42 %, 12 s left". It appears if
+/// standard error is a terminal and the work takes more than a second, and is removed at the end. A
+/// message of `tell` hides the line until the next update. There is at most one progress line at a
+/// time.
 class ProgressLine {
   public:
-    /// `out` is the file that gets lines while the work goes on, or empty or "-" for standard
-    /// output: if that is a terminal, its lines show the progress, and this one is not shown.
+    /// `out` is the file to which the work writes lines; empty or "-" is standard output. If
+    /// standard output is a terminal, its lines show the progress, and the progress line is not
+    /// shown.
     ProgressLine(std::string what, const std::string& out);
     explicit ProgressLine(std::string what);
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    /// Shows how much is done. If the total is not known (0), it shows the number alone.
+    /// Shows the number of finished items, and the percentage if `total` is known (not 0).
     void update(std::int64_t done, std::int64_t total);
 
   private:
@@ -46,7 +50,7 @@ class ProgressLine {
     std::chrono::steady_clock::time_point next_;
 };
 
-/// Removes the progress line from the terminal, so that a message can be written there.
+/// Removes the progress line from the terminal before a message is written.
 void hide_progress();
 
 }  // namespace dotpose::cli

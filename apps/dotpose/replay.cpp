@@ -37,7 +37,7 @@ struct ReplayArguments {
     ReportArguments report;
 };
 
-/// Whether -o names a recording instead of a file for the report.
+/// Returns true if -o names a recording and not a file for the report.
 bool is_recording(const std::string& out) {
     return print::lower_case(std::filesystem::path(out).extension().string()) == ".mcap";
 }
@@ -53,7 +53,7 @@ double share(std::int64_t part, std::int64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
-/// Returns the frames of the poses in words, with the remedy if they are not in the world.
+/// Describes the frames of the poses, with a remedy if the poses are not in the world.
 std::string frames_of_poses(const RunStatistics& run) {
     std::string text;
     for (const std::string& plane : run.planes)
@@ -142,17 +142,16 @@ void run(const ReplayArguments& arguments) {
 void add_replay(Command& app, int&) {
     const auto arguments = std::make_shared<ReplayArguments>();
     Command* command =
-        app.add_subcommand("replay", "Figures and a picture of a run that watch kept");
+        app.add_subcommand("replay", "Statistics and a picture of a run that watch recorded");
     command->footer(kReplayExamples);
     command
-        ->add_option("log", arguments->log,
-                     "What dotpose watch --log wrote (CSV), or its lines (JSON)")
+        ->add_option("log", arguments->log, "Log of dotpose watch --log (CSV), or its lines (JSON)")
         ->type_name("FILE")
         ->required();
     add_report_options(*command, arguments->report,
-                       "File to write instead of standard output; NAME.mcap: messages of ROS 2");
+                       "File to write instead of standard output; NAME.mcap: ROS 2 messages");
     add_draw_option(*command, arguments->picture, "Also draw the run (SVG)");
-    add_robot_option(*command, arguments->robot, "Name of the robot in topics of ROS");
+    add_robot_option(*command, arguments->robot, "Name of the robot in ROS topics");
     add_frame_prefix_option(*command, arguments->frame_prefix);
     command->callback([arguments] { run(*arguments); });
 }

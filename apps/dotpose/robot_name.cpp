@@ -12,10 +12,11 @@ void add_robot_option(Command& command, std::string& robot, const std::string& h
         ->type_name("NAME")
         ->capture_default_str()
         ->check([](const std::string& name) {
-            constexpr std::size_t kLongest_bytes = 128;  // `fleet` ignores longer ones
+            constexpr std::size_t kMaxBytes = 128;  // `fleet` ignores longer names
             const bool is_bad = name.empty() || name.find_first_of("/+#") != std::string::npos ||
-                                name.size() > kLongest_bytes || printable(name) != name;
-            return is_bad ? "a robot's name is not empty, holds none of / + #, and can be printed"
+                                name.size() > kMaxBytes || printable(name) != name;
+            return is_bad ? "the name of a robot must not be empty, must not contain / + #, and "
+                            "must be printable"
                           : std::string();
         });
 }
@@ -23,7 +24,7 @@ void add_robot_option(Command& command, std::string& robot, const std::string& h
 void add_frame_prefix_option(Command& command, std::string& prefix) {
     command
         .add_option("--frame-prefix", prefix,
-                    "Before the names of the robot's frames in ROS, such as anna/, where several "
+                    "Prefix of the names of the robot's frames in ROS, such as anna/, if several "
                     "robots share one tree of transforms")
         ->type_name("PREFIX");
 }

@@ -1,4 +1,4 @@
-/// Names of robots, which brokers and ROS have in their topics.
+/// Options for the names of robots, which are part of the topics of brokers and ROS.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@ namespace dotpose::cli {
 
 class Command;
 
-/// Adds --robot NAME, and refuses names that no topic can have.
+/// Adds --robot NAME. Rejects names that are not valid in topics.
 void add_robot_option(Command& command, std::string& robot, const std::string& help);
 
-/// Adds --frame-prefix PREFIX. ros::with_prefix refuses prefixes that ROS does not allow.
+/// Adds --frame-prefix PREFIX. ros::with_prefix rejects prefixes that are not valid in ROS.
 void add_frame_prefix_option(Command& command, std::string& prefix);
 
 }  // namespace dotpose::cli

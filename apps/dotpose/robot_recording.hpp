@@ -1,4 +1,4 @@
-/// Records the messages of a robot in an MCAP file, under the topics of ROS.
+/// Records the messages of a robot in an MCAP file, with the topics of ROS.
 #pragma once
 
 #include <optional>
@@ -21,8 +21,8 @@ struct RobotTopics {
     static constexpr const char* kTfStatic = "/tf_static";
 };
 
-/// Returns a robot's name as ROS allows it in topics: letters, digits and underscores, no digit
-/// first.
+/// Converts the name of a robot into a valid name in ROS topics: letters, digits and underscores,
+/// not beginning with a digit.
 std::string ros_name(const std::string& robot);
 
 class RobotRecording {
@@ -32,11 +32,11 @@ class RobotRecording {
 
     /// Records the messages of a frame. Throws Error.
     void take(const ros::RobotMessages& messages, std::int64_t time_ns);
-    /// Records the mount of the camera, or an image.
+    /// Record the mount of the camera, and an image.
     void take_mount(const ros::TransformStamped& mount, std::int64_t time_ns);
     void take_image(const ros::CompressedImage& image, std::int64_t time_ns);
 
-    /// Writes what is left. Throws Error.
+    /// Writes the rest of the file. Throws Error.
     void finish() { file_.finish(); }
 
   private:
@@ -46,7 +46,7 @@ class RobotRecording {
 
     McapFile file_;
     RobotTopics topics_;
-    // Channels appear with their first message.
+    // A channel is created with its first message.
     std::optional<McapChannel> poses_;
     std::optional<McapChannel> odometry_;
     std::optional<McapChannel> tf_;

@@ -48,17 +48,17 @@ void require_fitting_name(const std::string& label, const std::string& path, Con
     const std::string ending = print::lower_case(fs::path(path).extension().string());
     if (content == Content::own || (content == Content::svg && ending == ".svg")) return;
     if (std::ranges::find(kImagesAndVideos, ending) == kImagesAndVideos.end()) return;
-    throw BadArgument(fmt::format(
-        "{}: the name ends like that of an image or video ({}), and the file would hold {}; was "
-        "the name of the output left out?",
-        label, ending, name(content)));
+    throw BadArgument(
+        fmt::format("{}: the name ends like that of an image or video ({}), and the file would "
+                    "contain {}; was the name of the output left out?",
+                    label, ending, name(content)));
 }
 
 std::string label_of(const std::string& option, const std::string& path) {
     return option.empty() ? path : option + " " + path;
 }
 
-/// Returns the path of an input; "-" is standard input.
+/// Returns the path of an input. "-" is standard input.
 std::string input_path(const std::string& path) {
     return path == "-" ? "/dev/stdin" : path;
 }

@@ -1,5 +1,5 @@
-/// Checks the files of one run: no output may be one of its inputs, and two outputs must not be the
-/// same file. Every command registers its files here before it opens any.
+/// Checks the files of one run: an output must not be one of the inputs, and two outputs must not
+/// be the same file. Every command registers its files here before it opens one of them.
 ///
 ///     RunFiles files;
 ///     files.reads("--sheets", arguments.sheets);
@@ -19,58 +19,58 @@
 
 namespace dotpose::cli {
 
-/// The kind of data in an output file; `own` means that the ending of its name chooses the format.
+/// The kind of data in an output file. With `own`, the file extension selects the format.
 enum class Content { json, csv, yaml, svg, packets, mcap, text, own };
 
 Content content_of(RecordFormat format);
 Content content_of(const ReportArguments& report);
 
-/// Identity of a file: names with equal identities refer to one file, whatever links and folders
-/// they contain. Names of new files that differ only in upper and lower case have equal identities.
+/// Identity of a file. Two names have equal identities if they refer to the same file, even through
+/// links and different folders. Names of new files that differ only in case have equal identities.
 struct FileIdentity {
     dev_t device = 0;
     ino_t inode = 0;       ///< inode of the file, or of the folder if the file does not exist yet
-    std::string new_name;  ///< in lower case; empty if the file exists
+    std::string new_name;  ///< file name in lower case; empty if the file exists
     auto operator<=>(const FileIdentity&) const = default;
 };
 
-/// Returns the identity of a file, or none for devices, pipes and names in folders that do not
+/// Returns the identity of a file, or none for a device, a pipe or a name in a folder that does not
 /// exist.
 std::optional<FileIdentity> identity_of(const std::string& path);
 
-/// An empty name means that there is no file. The functions throw BadArgument that names both
-/// options if they refuse a file.
+/// The files of one run. An empty name means that there is no file. If a file is rejected, the
+/// functions throw BadArgument, which names both options.
 class RunFiles {
   public:
-    /// Registers an input. `option` is its flag, or empty for an argument without a flag; "-" is
+    /// Registers an input. `option` is its flag; it is empty for a positional argument. "-" is
     /// standard input.
     void reads(const std::string& option, const std::string& path);
     void reads(const std::string& option, const std::vector<std::string>& paths);
 
-    /// Registers an output. It is refused if the ending of its name is that of an image or video
-    /// of another kind than `content`: with `-o frames/*.png`, where the name of the output is
-    /// missing, the first frame would be overwritten. "-" is standard output for `-o`, and refused
-    /// for other options.
+    /// Registers an output. Rejects a file extension of an image or video of another kind than
+    /// `content`: in `-o frames/*.png`, where the name of the output is missing, the first frame
+    /// would be overwritten. "-" is standard output for `-o` and is rejected for other options.
     void writes(const std::string& option, const std::string& path, Content content);
 
-    /// Registers the output of lines to the file of `-o`, or to standard output without it.
+    /// Registers the output of lines: the file of `-o`, or standard output without `-o`.
     void writes_lines(const std::string& path, Content content);
 
-    /// Registers a file that is read, changed and written, or created if it does not exist.
+    /// Registers a file that is read, changed and written. The file is created if it does not
+    /// exist.
     void updates(const std::string& option, const std::string& path, Content content);
 
-    /// Checks an input like `reads` without keeping its name, for runs with any number of inputs.
+    /// Checks an input like `reads` without storing its name, for runs with any number of inputs.
     void require_not_written(const std::string& path) const;
 
-    /// Checks an output like `writes` without keeping its name, for generated names, which differ
-    /// from each other.
+    /// Checks an output like `writes` without storing its name, for generated names, which are all
+    /// different.
     void require_free(const std::string& option, const std::string& path) const;
 
   private:
     void add_output(const std::string& label, const std::string& path);
     void require_free(const std::string& label, const FileIdentity& identity) const;
 
-    std::map<FileIdentity, std::string> inputs_;  ///< with the names that the user gave them
+    std::map<FileIdentity, std::string> inputs_;  ///< names as given by the user
     std::map<FileIdentity, std::string> outputs_;
 };
 

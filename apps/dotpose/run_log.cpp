@@ -20,16 +20,17 @@ namespace {
 
 using csv::cells_of;
 
-/// Converts an integer below 2^53, which a double represents exactly. Throws Error otherwise.
+/// Converts a whole number below 2^53, which a double represents exactly. Throws Error for other
+/// numbers.
 std::int64_t whole(double value, const char* column) {
     if (!(value >= 0 && value < 9007199254740992.0) || value != std::floor(value)) {
-        throw Error(fmt::format("{} is no whole number from 0 on", column));
+        throw Error(fmt::format("{} is not a whole number of at least 0", column));
     }
     return static_cast<std::int64_t>(value);
 }
 
-/// Maximum number of rows: at 100 frames per second the log of half a day, which takes about a
-/// gigabyte of memory.
+/// Maximum number of rows: half a day at 100 frames per second. The rows then use about 1 GB of
+/// memory.
 constexpr std::size_t kMaxLogRows = 5'000'000;
 
 LogRow log_row(const LogCells& row) {
@@ -79,7 +80,7 @@ std::optional<double> LogCells::number(std::string_view column) const {
     const char* end = cell.data() + cell.size();
     const auto [stop, error] = std::from_chars(cell.data(), end, value);
     if (error != std::errc() || stop != end || !std::isfinite(value)) {
-        throw Error(fmt::format("'{}' is no number of {}", cell, column));
+        throw Error(fmt::format("'{}' is not a number of {}", cell, column));
     }
     return value;
 }
@@ -114,7 +115,7 @@ std::optional<LogCells> LogReader::next_row() {
     std::string line;
     if (!files::next_line(file_, line)) return std::nullopt;
     ++line_;
-    if (file_.eof()) return std::nullopt;  // a last line without a line break was cut off
+    if (file_.eof()) return std::nullopt;  // a last line without a line break is incomplete
     if (is_json_) return row_of_json(line);
     auto cells = cells_of(line);
     if (cells.size() != width_) {
@@ -123,8 +124,8 @@ std::optional<LogCells> LogReader::next_row() {
     return LogCells(columns_, std::move(cells));
 }
 
-/// Returns the values of a JSON line as the cells of a CSV row. Elements of a matrix of 3 x 3
-/// become cells whose names end with row and column.
+/// Converts a JSON line into the cells of a CSV row. The elements of a 3 x 3 matrix become cells
+/// whose names end with row and column.
 LogCells LogReader::row_of_json(const std::string& line) {
     const nlohmann::json object = files::parse_json(line);
     if (!object.is_object()) throw Error("it is not an object");
@@ -146,7 +147,7 @@ LogCells LogReader::row_of_json(const std::string& line) {
 
 void LogReader::refuse(const Error& error) const {
     throw Error(
-        fmt::format("{}:{}: no log of dotpose watch: {}", path_.string(), line_, error.what()));
+        fmt::format("{}:{}: not a log of dotpose watch: {}", path_.string(), line_, error.what()));
 }
 
 std::vector<LogRow> read_log(const std::filesystem::path& path) {
@@ -196,7 +197,7 @@ RunStatistics statistics_of(const std::vector<LogRow>& rows) {
         const double step_s = row.t_s - before.t_s;
         if (row.state == "stationary") {
             run.stationary_s += step_s;
-            continue;  // motion below the noise is not counted as distance
+            continue;  // motion of a stationary robot is noise, not distance
         }
         moving_s += step_s;
         run.distance_mm += std::hypot(*row.x_mm - *before.x_mm, *row.y_mm - *before.y_mm);

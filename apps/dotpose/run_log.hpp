@@ -1,5 +1,5 @@
-/// Reads a log of `dotpose watch`: the CSV of `--log`, or its JSON lines. It has one row for each
-/// frame, with a fix or without.
+/// Reads a log of `dotpose watch`: the CSV of `--log`, or its JSON lines. The log has one row for
+/// each frame, including frames without a fix.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@
 
 namespace dotpose::cli {
 
-/// A row whose cells are looked up by the names in the header.
+/// A row of a log. Its cells are looked up by the names in the header.
 class LogCells {
   public:
-    /// Maps names to places in a row.
+    /// Maps column names to indices in a row.
     using Columns = std::map<std::string, std::size_t, std::less<>>;
 
     LogCells(const Columns& columns, std::vector<std::string> cells)
@@ -29,8 +29,8 @@ class LogCells {
 
     /// Returns the text of a cell; empty if the log has no such column.
     std::string_view text(std::string_view column) const;
-    /// Returns none if the cell is empty or the log has no such column. Throws Error if it holds
-    /// something else than a number.
+    /// Returns the number in a cell, or none if the cell is empty or the log has no such column.
+    /// Throws Error if the cell is not a number.
     std::optional<double> number(std::string_view column) const;
     double required(std::string_view column) const;
 
@@ -39,14 +39,14 @@ class LogCells {
     std::vector<std::string> cells_;
 };
 
-/// Reads a log row by row. Functions throw Error with the number of the line if the file is not a
-/// valid log. A last line that is incomplete, for example after a loss of power, is ignored.
+/// Reads a log row by row. If the file is not a valid log, the functions throw Error with the line
+/// number. An incomplete last line, for example after a power failure, is ignored.
 class LogReader {
   public:
     explicit LogReader(const std::filesystem::path& path);
 
-    /// Returns what `parse` makes of the next row, or none at the end of the file. Errors that
-    /// `parse` throws get the number of the line.
+    /// Returns `parse(next row)`, or none at the end of the file. The line number is added to
+    /// errors that `parse` throws.
     template <typename Parse>
     auto next(Parse parse) -> std::optional<decltype(parse(std::declval<const LogCells&>()))> {
         try {
@@ -68,20 +68,20 @@ class LogReader {
     int line_ = 0;
     bool is_json_ = false;
     std::size_t width_ = 0;
-    LogCells::Columns columns_;  ///< of JSON lines, those of the newest row
+    LogCells::Columns columns_;  ///< for JSON lines, the columns of the newest row
 };
 
 struct LogRow {
     std::int64_t frame = 0;
     double t_s = 0;
     std::string status;
-    std::string events;  ///< names of events, separated by blanks
+    std::string events;  ///< names of events, separated by spaces
     std::string verdict;
-    std::string state;  ///< lost, moving, stationary
-    std::string plane;  ///< pattern or world; empty while lost
+    std::string state;  ///< lost, moving or stationary
+    std::string plane;  ///< pattern or world; empty while the robot is lost
     int dots_seen = 0;
     std::optional<double> p_wrong;
-    // The pose of the track in mm, degrees and mm/s; none while it is lost.
+    // Pose of the track in mm and degrees, and its speed in mm/s; none while the robot is lost.
     std::optional<double> x_mm;
     std::optional<double> y_mm;
     double speed_mm_s = 0;
@@ -100,11 +100,11 @@ struct RunStatistics {
     std::map<std::string, std::int64_t> without_fix;  ///< number of frames by status
     std::map<std::string, std::int64_t> events;       ///< number of events by name
     std::map<std::string, std::int64_t> verdicts;
-    std::int64_t gaps = 0;  ///< stretches of frames without a fix
+    std::int64_t gaps = 0;  ///< number of sequences of frames without a fix
     double longest_gap_s = 0;
     double stationary_s = 0;
-    double distance_mm = 0;      ///< length of the path without jumps
-    double mean_speed_mm_s = 0;  ///< mean of the frames in which it moves
+    double distance_mm = 0;      ///< length of the path, without jumps
+    double mean_speed_mm_s = 0;  ///< mean over the frames in which the robot moves
     double largest_speed_mm_s = 0;
     double largest_p_wrong = 0;
     std::set<std::string> planes;  ///< frames of the poses: pattern, world
@@ -112,7 +112,8 @@ struct RunStatistics {
 
 RunStatistics statistics_of(const std::vector<LogRow>& rows);
 
-/// Draws the path, and speed, dots and certainty over time with gaps marked, as SVG.
+/// Draws the path, and plots of speed, dots and certainty over time in which gaps are marked, as
+/// SVG.
 std::string draw_run(const std::vector<LogRow>& rows, const std::string& title);
 
 }  // namespace dotpose::cli

@@ -1,4 +1,4 @@
-// Draws a run: the path on the left, and quantities over time on the right.
+// Draws a run: the path on the left, and plots over time on the right.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -25,7 +25,7 @@ bool jumps(const LogRow& row) {
            row.events.find("fix") != std::string::npos;
 }
 
-/// Returns the path. Points that are NaN interrupt it where the robot was lost or put elsewhere.
+/// Returns the path. NaN points interrupt it where the robot was lost or was moved by hand.
 std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     std::vector<Point> path;
     for (const LogRow& row : rows) {
@@ -35,8 +35,9 @@ std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     return path;
 }
 
-/// Returns what is subtracted from the coordinates of an axis: whole millimetres near its middle
-/// where its numbers would differ in their last digits only, as in the pattern, otherwise 0.
+/// Returns the offset in mm to subtract from the coordinates of an axis. If the numbers on the axis
+/// would differ only in their last digits, as in the pattern frame, the offset is the centre of the
+/// axis in whole mm, otherwise 0.
 double offset_mm(double middle_mm, double reach_mm) {
     constexpr double kMaxReaches = 1000;
     return std::abs(middle_mm) > kMaxReaches * reach_mm ? std::round(middle_mm) : 0;
@@ -47,7 +48,7 @@ std::string axis_label(const char* name, double offset_mm) {
     return fmt::format("{} {} {:.0f} [mm]", name, offset_mm < 0 ? '+' : '-', std::abs(offset_mm));
 }
 
-/// Draws the path with axes of equal scale.
+/// Draws the path. Both axes have the same scale.
 void draw_path(Svg& svg, const std::vector<LogRow>& rows) {
     std::vector<Point> path = path_of(rows);
     Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
@@ -73,7 +74,7 @@ void draw_path(Svg& svg, const std::vector<LogRow>& rows) {
     axes.curve(path, {.colour = draw::colour::kWindow, .has_marks = false});
 }
 
-/// Draws red stripes where there was no fix.
+/// Draws red stripes over the times without a fix.
 void draw_gaps(const Axes& axes, const std::vector<LogRow>& rows, double low, double high) {
     for (std::size_t i = 0; i < rows.size();) {
         std::size_t end = i;
@@ -93,12 +94,12 @@ void draw_gaps(const Axes& axes, const std::vector<LogRow>& rows, double low, do
 void draw_over_time(Svg& svg, const std::vector<LogRow>& rows, double top, const char* label,
                     const std::function<double(const LogRow&)>& value, bool has_time) {
     std::vector<Point> curve;
-    double largest = 0;
+    double max_value = 0;
     for (const LogRow& row : rows) {
         curve.push_back({row.t_s, value(row)});
-        if (std::isfinite(curve.back().y)) largest = std::max(largest, curve.back().y);
+        if (std::isfinite(curve.back().y)) max_value = std::max(max_value, curve.back().y);
     }
-    const double limit = plot::rounded_up(largest);
+    const double limit = plot::rounded_up(max_value);
     const double end_s = std::max(rows.back().t_s, rows.front().t_s + 1e-3);
     const Axes axes(svg, {850, top, 600, 170}, {rows.front().t_s, end_s}, {0, limit});
     axes.draw_y(label);

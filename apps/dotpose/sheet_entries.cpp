@@ -12,7 +12,8 @@ namespace dotpose::cli {
 
 void SheetEntryArguments::add_to(Command& command) {
     Option* sheets = add_sheets_option(
-        command, path_, "Sheet file to add the pages to, in free regions unless --origin");
+        command, path_,
+        "Sheet file to which the pages are added, in free regions unless --origin is given");
     Option* name = command.add_option("--name", name_, "Name in the sheet file");
     name->type_name("NAME")->needs(sheets);
     sheets->needs(name);

@@ -1,4 +1,4 @@
-/// The options --sheets FILE --name NAME --wait SECONDS, with which commands enter what they print
+/// The options --sheets FILE --name NAME --wait SECONDS of commands that print pages and enter them
 /// in a sheet file.
 #pragma once
 
@@ -14,39 +14,40 @@ namespace dotpose::cli {
 
 class SheetEntryArguments {
   public:
-    /// Adds the options. Call it after the option --origin of the command has been added.
+    /// Adds the options. The option --origin of the command must be added first.
     void add_to(Command& command);
 
-    /// Whether a sheet file was given; the functions below require one.
+    /// Returns true if a sheet file was given. The functions below require a sheet file.
     bool given() const { return !path_.empty(); }
     const std::string& path() const { return path_; }
     const std::string& name() const { return name_; }
 
     /// A page of the document.
     struct Page {
-        int number = 1;  ///< from 1
+        int number = 1;  ///< page number, counted from 1
         bool is_only = true;
     };
 
     /// Returns the name of a page in the file: NAME, or NAME-NUMBER if there are several pages.
     std::string page_name(Page page) const;
 
-    /// Reserves the regions of all pages that `enter_all` enters, before any page is written.
+    /// Reserves the regions of all pages that `enter_all` enters, before a page is written.
     void reserve(const std::function<void(SheetFile&)>& enter_all,
                  std::optional<SheetReservation>& reservation) const;
 
-    /// Adds a page to the file, in the next free region unless the user chose an origin, and how it
-    /// was printed, where the command lacks --origin. Returns the sheet with its new origin.
+    /// Adds a page to the file, with its print settings. The page is placed in the next free
+    /// region, unless the user gave --origin. `print.command` must not contain --origin; it is
+    /// added. Returns the sheet with its new origin.
     Sheet enter(SheetFile& file, const Sheet& sheet, Page page, SheetPrint print) const;
 
-    /// Returns a command that makes the dots of one page, with the option --origin that it lacks.
+    /// Appends --origin to `command`, for a command that prints the dots of one page.
     static std::string with_origin(const std::string& command, Cell origin);
 
-    /// The options that such a command must not have: the page has its region by now, and the sheet
-    /// file would refuse the name a second time.
+    /// Returns the options that such a command must not contain: the page already has its region,
+    /// and the sheet file would reject the name.
     static std::set<std::string> options_of_entering();
 
-    /// Marks the reserved pages as written, to `out`. Throws Error if the file cannot be changed.
+    /// Marks the reserved pages as written to `out`. Throws Error if the file cannot be changed.
     void confirm(SheetReservation& reservation, const std::string& out) const;
 
     /// Returns ", sheet 'NAME' of FILE", or an empty text if there is no sheet file.

@@ -21,7 +21,7 @@ PrintOptions options_of(const SheetPrint& print) {
     return options;
 }
 
-/// Returns what is most likely for a page whose entry does not say how it was printed.
+/// Returns the most likely print options of a page whose entry does not contain them.
 PrintOptions likely_options(const SheetEntry& entry) {
     PrintOptions options;
     options.name = entry.name;
@@ -34,8 +34,8 @@ PrintOptions likely_options(const SheetEntry& entry) {
 void reprint_sheet(const SheetEntry& entry, const std::string& out) {
     if (entry.print && !entry.print->document.empty()) {
         throw Error(
-            fmt::format("the dots of '{}' lay over the document {}, which a sheet file does not "
-                        "hold; lay them over it again: {}",
+            fmt::format("the dots of '{}' were laid over the document {}, which the sheet file "
+                        "does not contain; lay them over it again: {}",
                         entry.name, entry.print->document, entry.print->command));
     }
     PrintOptions options = entry.print ? options_of(*entry.print) : likely_options(entry);

@@ -7,9 +7,9 @@
 
 namespace dotpose::cli {
 
-/// Writes the page of a sheet again, from its entry alone. Reports what an entry of an earlier
-/// version leaves open. Throws Error if the dots were laid over a document, which the entry does
-/// not contain, and as `write_sheet`.
+/// Prints the page of a sheet again from its entry alone. Reports the print options that are
+/// missing in an entry of an earlier version. Throws Error if the dots were printed over a
+/// document, which the entry does not contain. Also throws like `write_sheet`.
 void reprint_sheet(const SheetEntry& entry, const std::string& out);
 
 }  // namespace dotpose::cli

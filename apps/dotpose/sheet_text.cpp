@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMmPerM = 1000;
 
-/// Returns a number of at most `decimals` decimals, without zeros at its end and without -0.
+/// Formats a number with at most `decimals` decimals, without trailing zeros. -0 becomes 0.
 std::string short_number(double value, int decimals) {
     std::string text = fmt::format("{:.{}f}", value, decimals);
     text.erase(text.find_last_not_of('0') + 1);
@@ -70,8 +70,8 @@ std::optional<CodeVariant> common_code(const std::string& file,
 }
 
 std::string world_text(const SheetEntry& entry) {
-    if (!entry.world) return "where it lies in the world is not known";
-    return fmt::format("its top left corner lies at x {} mm, y {} mm in the world, yaw {} deg",
+    if (!entry.world) return "its pose in the world is not known";
+    return fmt::format("its top left corner is at x {} mm, y {} mm in the world, yaw {} deg",
                        short_number(kMmPerM * entry.world->x_m, 3),
                        short_number(kMmPerM * entry.world->y_m, 3),
                        short_number(entry.world->yaw_rad * 180 / std::numbers::pi, 4));

@@ -1,4 +1,4 @@
-// Shows and changes a sheet file.
+// `dotpose sheets`: shows and changes a sheet file.
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -66,7 +66,7 @@ struct SheetsArguments {
     SheetFileWait wait() const { return {wait_s, tell, interrupted}; }
 };
 
-/// Refuses a file that does not exist: to change it would make a new one.
+/// Throws Error if the sheet file does not exist, because changing it would create a new one.
 void require_there(const SheetsArguments& arguments) {
     std::error_code error;
     if (std::filesystem::exists(arguments.sheets, error)) return;
@@ -81,8 +81,8 @@ std::vector<SheetEntry> sheets_of(const SheetsArguments& arguments) {
     return read_sheets(arguments.sheets);
 }
 
-/// Calls `change` with the entry of the sheet that the user named, while the file is locked, and
-/// saves the file.
+/// Locks the sheet file, calls `change` with the entry of the sheet that the user named, and saves
+/// the file.
 template <typename Change>
 void change_sheet(const SheetsArguments& arguments, const Change& change) {
     require_there(arguments);
@@ -130,8 +130,8 @@ void remove(const SheetsArguments& arguments) {
     change_sheet(arguments, [&](SheetFile& file, const SheetEntry& entry) {
         file.remove(entry.name);
         fmt::print(
-            "{} is removed: its cells may be given to other pages, so do not use this one "
-            "any more\n",
+            "{} is removed: its cells may be given to other pages, so do not use its page any "
+            "more\n",
             printable(entry.name));
     });
 }
@@ -170,7 +170,7 @@ void add_out_option(Command& command, const Arguments& arguments, const std::str
     command.add_option("-o,--out", arguments->out, help)->type_name("FILE")->required();
 }
 
-/// Adds a subcommand with the options that all have.
+/// Adds a subcommand with the options that all subcommands have.
 Command& add_command(Command& sheets, const Arguments& arguments, const char* name,
                      const char* what, void (*run)(const SheetsArguments&)) {
     Command* command = sheets.add_subcommand(name, what)->group("Commands");
@@ -198,7 +198,7 @@ void add_wait_option(Command& command, const Arguments& arguments) {
 
 void add_scale(Command& sheets, const Arguments& arguments) {
     Command& command = add_command_of_one(sheets, arguments, "scale",
-                                          "Enter how long the printed page really is", scale);
+                                          "Enter the true length of the printed page", scale);
     command.footer(kScale);
     add_wait_option(command, arguments);
     const auto add = [&](const char* flag, double& length_mm, const char* help) {
@@ -216,18 +216,18 @@ void add_scale(Command& sheets, const Arguments& arguments) {
 }
 
 void add_place(Command& sheets, const Arguments& arguments) {
-    Command& command = add_command_of_one(
-        sheets, arguments, "place", "Enter where the page of a sheet lies in the world", place);
+    Command& command = add_command_of_one(sheets, arguments, "place",
+                                          "Enter the pose of a sheet in the world", place);
     command.footer(kFrames);
     add_wait_option(command, arguments);
     Option* unknown = command.add_flag("--unknown", arguments->is_unknown,
-                                       "Where the page lies is not known any more");
+                                       "The pose of the page is no longer known");
     const auto add = [&](const char* flag, std::optional<double>& value, const char* unit,
                          const char* help) {
         command.add_option(flag, value, help)->type_name(unit)->excludes(unknown);
     };
     add("--x", arguments->x_mm, "MM", "x of the page's top left corner in the world");
-    add("--y", arguments->y_mm, "MM", "y of this corner; y is up where x is to the right");
+    add("--y", arguments->y_mm, "MM", "y of this corner; y points up if x points right");
     add("--yaw", arguments->yaw_deg, "DEG", "Direction of the page's upper edge");
 }
 
@@ -242,27 +242,24 @@ void add_sheets(Command& app, int& /*exit_code*/) {
         fmt::print("{}", list_text(sheets_of(given)));
     });
     add_command_of_one(
-        *command, arguments, "show", "Show all that is known of a sheet",
+        *command, arguments, "show", "Show all properties of a sheet",
         [](const SheetsArguments& given) {
             fmt::print("{}", sheet_text(named_sheet(sheets_of(given), given.name, given.sheets)));
         });
     add_place(*command, arguments);
     add_scale(*command, arguments);
-    Command& renaming =
-        add_command_of_one(*command, arguments, "rename", "Give a sheet another name", rename);
-    renaming.add_option("new_name", arguments->new_name, "Name that it gets")
-        ->type_name("NAME")
-        ->required();
+    Command& renaming = add_command_of_one(*command, arguments, "rename", "Rename a sheet", rename);
+    renaming.add_option("new_name", arguments->new_name, "New name")->type_name("NAME")->required();
     add_wait_option(renaming, arguments);
     add_wait_option(
         add_command_of_one(*command, arguments, "remove", "Remove a sheet from the file", remove),
         arguments);
     Command& reprinting = add_command_of_one(*command, arguments, "reprint",
-                                             "Make the very same page of a sheet again", reprint);
+                                             "Print the same page of a sheet again", reprint);
     add_out_option(reprinting, arguments, "File to write: .pdf, .svg, .png, .tif or .txt");
     add_wait_option(reprinting, arguments);
     add_out_option(
-        add_command(*command, arguments, "map", "Draw how the sheets lie in the world", draw_map),
+        add_command(*command, arguments, "map", "Draw the sheets in the world", draw_map),
         arguments, "Picture to draw (SVG), or - for standard output");
 }
 

@@ -39,7 +39,7 @@ constexpr const char* kSimulateExamples =
     "  dotpose simulate -o foreign --scene plain_grid\n"
     "  dotpose simulate -o drive.mp4 --drive --sheets sheets.json --speed 200 --size 320x240\n";
 
-// An imperfection that is a single number and has an option of its own.
+// An imperfection that is a single number and has its own option.
 struct NumberOption {
     const char* flag;
     const char* unit;
@@ -52,19 +52,21 @@ constexpr NumberOption kNumberOptions[] = {
     {"--ink", "FRACTION", "Reflectance of ink, relative to paper", &Imperfections::ink_reflectance},
     {"--palest-ink", "FRACTION", "Contrast of the palest of four inks, one for each direction",
      &Imperfections::palest_ink},
-    {"--ink-variation", "FRACTION", "Deviation of the ink from dot to dot",
+    {"--ink-variation", "FRACTION", "Standard deviation of the ink from dot to dot",
      &Imperfections::ink_variation},
     {"--vignetting", "FRACTION", "Loss of light in the corners", &Imperfections::vignetting},
     {"--fall", "FRACTION", "Change of light from side to side", &Imperfections::fall},
     {"--blur", "PX", "Sigma of the lens's blur", &Imperfections::blur_sigma_px},
     {"--noise", "LEVELS", "Sigma of the sensor's noise", &Imperfections::noise_sigma},
     {"--salt-pepper", "FRACTION", "Black or white pixels", &Imperfections::salt_and_pepper},
-    {"--jitter", "MM", "Deviation of each dot's place, per axis", &Imperfections::jitter_mm},
+    {"--jitter", "MM", "Standard deviation of the dot positions, per axis",
+     &Imperfections::jitter_mm},
     {"--missing", "FRACTION", "Dots that are missing", &Imperfections::missing},
-    {"--texture", "FRACTION", "Deviation of the paper's reflectance", &Imperfections::texture},
+    {"--texture", "FRACTION", "Standard deviation of the paper's reflectance",
+     &Imperfections::texture},
 };
 
-// Two numbers in one argument, as "A,B".
+// Two numbers in one argument, "A,B".
 struct Pair {
     std::vector<double> values;
     bool given() const { return values.size() == 2; }
@@ -97,7 +99,7 @@ Vec2 to_vec(const Pair& pair) {
     return {pair.values[0], pair.values[1]};
 }
 
-// Returns the shot of a frame, in which the values that the user gave replace random ones.
+// Returns the shot of a frame. Values that the user gave replace the random ones.
 Shot shot_of(const SimulateArguments& arguments, int index) {
     Shot shot = draw_shot(arguments.setup, static_cast<std::uint64_t>(index));
     Imperfections& seen = shot.imperfections;
@@ -111,7 +113,7 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
 
     CameraPose& pose = shot.pose;
     if (arguments.angle_deg) {
-        // The result is in (-180, 180] degrees.
+        // Normalizes the angle to (-180, 180] degrees.
         pose.theta_rad = -std::remainder(-*arguments.angle_deg, 360) / kDegrees;
     }
     if (arguments.tilt_deg.given()) {
@@ -138,13 +140,13 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
     return shot;
 }
 
-/// The true pose and the pattern of a simulated frame.
+/// True pose and pattern of a simulated frame.
 struct Truth {
     std::optional<CameraPose> pose;  ///< none for scenes and the table, which have no pose
     Pattern pattern;
 };
 
-/// Returns a row of the true poses. A frame without a pose leaves its columns empty.
+/// Returns a row of truth.csv. The pose columns are empty for a frame without a pose.
 std::string truth_row(const SimulateArguments& arguments, const std::string& file,
                       const Truth& truth) {
     const Pattern& pattern = truth.pattern;
@@ -208,8 +210,8 @@ std::vector<MadeFrame> make_frames(const SimulateArguments& arguments,
     return frames;
 }
 
-/// Returns the drive over the sheets of a file, or none if it is not asked for. The imperfections
-/// of all its frames are those of one shot.
+/// Returns the drive over the sheets of the file, or none without --drive. All frames have the
+/// imperfections of one shot.
 std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_length) {
     if (!arguments.drives) return std::nullopt;
     const std::vector<SheetEntry> sheets = read_sheets(arguments.sheets);
@@ -246,8 +248,7 @@ void run(SimulateArguments& arguments, const Command& command, int& exit_code) {
     int done = 0;
     {
         ProgressLine line("simulating " + arguments.out);
-        // Frames are written in short batches, so that Ctrl-C works soon and the true poses are up
-        // to date.
+        // Short batches, to react quickly to Ctrl-C and to keep the true poses up to date.
         const int batch = 4 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
         while (done < arguments.frames && truth && !interrupted()) {
             const int end = std::min(arguments.frames, done + batch);
@@ -292,7 +293,7 @@ void add_camera_options(Command& command, CameraModel& camera) {
         ->capture_default_str();
 }
 
-// Adds options for everything that is otherwise random in each frame.
+// Adds options for all values that are random in each frame by default.
 void add_overrides(Command& command, SimulateArguments& arguments) {
     command.add_option("--angle", arguments.angle_deg, "Angle of the camera on the page")
         ->type_name("DEG");
@@ -308,12 +309,12 @@ void add_overrides(Command& command, SimulateArguments& arguments) {
         command.add_option(option.flag, arguments.numbers[i], option.help)->type_name(option.unit);
     }
     add_pair(command, "--covered", "FROM,TO", arguments.covered,
-             "Share of the frame that has dots, along a border or in a corner");
+             "Fraction of the frame that shows dots, along a border or in a corner");
     command
         .add_option("--islands", arguments.islands, "Rectangles of dots in each frame, else none")
         ->type_name("N");
     command.add_flag("--table", arguments.on_table,
-                     "The sheet ends in the frame, a dark table is beyond");
+                     "Show the edge of the sheet, with a dark table beyond it");
     command.add_option("--dirt", arguments.dirt_blobs, "Dark specks in each frame")->type_name("N");
     command.add_option("--graphics", arguments.graphics, "Thick strokes or words in each frame")
         ->type_name("N");
@@ -346,7 +347,7 @@ void add_drive_options(Command& command, SimulateArguments& arguments) {
 void add_simulate(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<SimulateArguments>();
     Command* command =
-        app.add_subcommand("simulate", "Make camera frames whose pose is known exactly");
+        app.add_subcommand("simulate", "Render camera frames with exactly known poses");
     command->footer(kSimulateExamples);
     command
         ->add_option("-o,--out", arguments->out,
@@ -366,7 +367,8 @@ void add_simulate(Command& app, int& exit_code) {
     arguments->pattern.add_to(*command);
     command->get_option("--section")->default_str("random");
     add_overrides(*command, *arguments);
-    add_named(*command, "--scene", kScenes, "", "Something other than the pattern, to be refused",
+    add_named(*command, "--scene", kScenes, "",
+              "A scene that is not a valid pattern and must be rejected",
               [arguments](Scene s) { arguments->scene = s; });
     command
         ->add_option("--density", arguments->density,

@@ -1,4 +1,4 @@
-/// Where `dotpose simulate` writes frames: images in a folder, or a video.
+/// Destination of the frames of `dotpose simulate`: images in a folder, or a video.
 #pragma once
 
 #include <filesystem>
@@ -18,9 +18,9 @@ class SimulateOutput {
   public:
     virtual ~SimulateOutput() = default;
 
-    /// File for the true poses.
+    /// Returns the path of the file of true poses.
     virtual std::filesystem::path truth_path() const = 0;
-    /// Name of a frame in that file.
+    /// Returns the name of a frame in the file of true poses.
     virtual std::string name(int index) const = 0;
     /// Writes the next frame. Throws Error.
     virtual void write(int index, const GreyImage& image) = 0;
@@ -28,11 +28,11 @@ class SimulateOutput {
     virtual void finish() = 0;
 };
 
-/// Whether a name is that of a video.
+/// Returns true if `out` is the name of a video.
 bool is_video_name(const std::string& out);
 
-/// Opens a video, or makes a folder if there is none and removes the frames of an earlier run from
-/// it. Throws Error if the folder has frames of another origin.
+/// Opens a video or a folder. Creates the folder if it does not exist, and removes the frames of an
+/// earlier run from it. Throws Error if the folder contains frames from another source.
 std::unique_ptr<SimulateOutput> open_simulate_output(const std::string& out, double fps);
 
 }  // namespace dotpose::cli

@@ -9,9 +9,9 @@ namespace {
 
 constexpr double kMm_per_m = 1000;
 constexpr double kExposure_s = 1e-4;
-constexpr int kSteps = 4096;  ///< of the path's phase
+constexpr int kSteps = 4096;  ///< number of steps of the phase of the path
 
-/// Coordinates on a page, from its top left corner, y down.
+/// Converts a point of the world into mm on a page, from its top left corner, y down.
 Vec2 on_page(const SheetEntry& entry, Vec2 world_mm) {
     const WorldPose& pose = *entry.world;
     const double x = world_mm.x - pose.x_m * kMm_per_m;
@@ -29,13 +29,13 @@ Vec2 in_world(const SheetEntry& entry, Vec2 page_mm) {
             pose.y_m * kMm_per_m + s * page_mm.x - c * page_mm.y};
 }
 
-/// Distance of a point from the page, in mm; 0 on the page.
+/// Returns the distance of a point from the page in mm; 0 on the page.
 double distance_mm(const Sheet& sheet, Vec2 page_mm) {
     return std::hypot(std::max({-page_mm.x, page_mm.x - sheet.width_mm, 0.0}),
                       std::max({-page_mm.y, page_mm.y - sheet.height_mm, 0.0}));
 }
 
-/// Distance of a point of the page from the first intersection, in intersections.
+/// Returns the offset of a point on the page from the first intersection, in grid spacings.
 Vec2 from_origin(const SheetEntry& entry, Vec2 page_mm) {
     const Sheet& sheet = entry.sheet;
     return {(page_mm.x - sheet.origin_x_mm) / (sheet.pattern.spacing_mm * entry.print_scale_x),
@@ -50,7 +50,8 @@ PageArea page_area(const SheetEntry& entry) {
             (last.x - first.x) / 2, (last.y - first.y) / 2, 0};
 }
 
-/// Radius of a circle around the image centre that contains all that the camera sees.
+/// Returns the radius in mm of a circle around the image centre that contains the whole view of the
+/// camera.
 double reach_mm(const CameraModel& camera) {
     return std::hypot(camera.width_px, camera.height_px) / 2 * camera.mm_per_px;
 }
@@ -68,14 +69,14 @@ SimulatedDrive::SimulatedDrive(const std::vector<SheetEntry>& sheets, const Driv
         sheets_.push_back(sheets.front());
         sheets_.front().world = WorldPose{};
     }
-    // The scene moves against the direction of travel, which is the image's x axis.
+    // The scene moves against the direction of travel, the x axis of the image.
     imperfections_.motion_px = {-options.speed_mm_s * kExposure_s / camera.mm_per_px, 0};
     lay_path();
 }
 
 void SimulatedDrive::lay_path() {
     constexpr double kMargin_mm = 5;
-    constexpr double kSmallest = 0.25;  // of the width or height
+    constexpr double kMinFraction = 0.25;  // fraction of the width or height
     Vec2 low{1e9, 1e9};
     Vec2 high{-1e9, -1e9};
     for (const SheetEntry& entry : sheets_) {
@@ -88,7 +89,7 @@ void SimulatedDrive::lay_path() {
         }
     }
     const auto amplitude = [&](double length_mm) {
-        return std::max(kSmallest * length_mm, length_mm / 2 - reach_mm(camera_) - kMargin_mm);
+        return std::max(kMinFraction * length_mm, length_mm / 2 - reach_mm(camera_) - kMargin_mm);
     };
     centre_mm_ = {(low.x + high.x) / 2, (low.y + high.y) / 2};
     amplitude_mm_ = {amplitude(high.x - low.x), amplitude(high.y - low.y)};
@@ -160,7 +161,7 @@ GreyImage SimulatedDrive::image(int frame) const {
     for (const SheetEntry& entry : sheets_) {
         const Vec2 place = on_page(entry, {now.x_mm, now.y_mm});
         if (&entry == main.entry || distance_mm(entry.sheet, place) > reach_mm(camera_)) continue;
-        // Where another page is in view, the pixels are those of that page.
+        // Pixels that show another page are copied from the view of that page.
         const Vec2 offset = from_origin(entry, place);
         CameraPose its_pose = main.pose;
         its_pose.cell = entry.sheet.origin;

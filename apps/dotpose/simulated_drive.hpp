@@ -1,4 +1,4 @@
-/// A simulated robot that drives over the sheets of a sheet file, and what its camera sees.
+/// A simulated robot that drives over the sheets of a sheet file, and the view of its camera.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +18,17 @@ struct DriveOptions {
 /// Pose of the camera on a sheet.
 struct PoseOnSheet {
     const SheetEntry* entry = nullptr;
-    CameraPose pose;          ///< in the pattern of the sheet
-    bool is_on_page = false;  ///< false: the image centre shows the table
+    CameraPose pose;          ///< in the pattern frame of the sheet
+    bool is_on_page = false;  ///< false if the image centre shows the table
 };
 
-/// The robot drives a figure of eight at constant speed, again and again, and its camera faces
-/// ahead. The eight fills the rectangle of all sheets whose place in the world is known, or the
-/// first sheet if there is none. Between the sheets there is a dark table. The frames do not depend
-/// on each other; threads may make them at the same time.
+/// A robot that repeatedly drives a figure of eight at constant speed, with its camera aligned to
+/// the direction of travel. The figure fills the bounding rectangle of all sheets whose pose in the
+/// world is known, or the first sheet if there is none. Between the sheets there is a dark table.
+/// The frames are independent of each other and may be rendered in several threads.
 class SimulatedDrive {
   public:
-    /// The imperfections are those of all frames; the motion blur is that of the speed. Throws
+    /// `imperfections` apply to all frames; the motion blur is computed from the speed. Throws
     /// BadArgument if there are no sheets.
     SimulatedDrive(const std::vector<SheetEntry>& sheets, const DriveOptions& options,
                    const CameraModel& camera, const Imperfections& imperfections,
@@ -40,7 +40,7 @@ class SimulatedDrive {
     GreyImage image(int frame) const;
 
   private:
-    /// A point of the path, in mm, y up, and the direction of travel.
+    /// A point of the path in mm, y up, and the direction of travel in rad.
     struct Waypoint {
         double x_mm = 0;
         double y_mm = 0;
@@ -52,15 +52,15 @@ class SimulatedDrive {
     Waypoint waypoint(int frame) const;
     GreyImage view(const SheetEntry& entry, const CameraPose& pose, int frame) const;
 
-    std::vector<SheetEntry> sheets_;  ///< all with a place in the world
+    std::vector<SheetEntry> sheets_;  ///< all sheets with a pose in the world
     DriveOptions options_;
     CameraModel camera_;
     Imperfections imperfections_;
     std::uint64_t seed_;
     Vec2 centre_mm_;
     Vec2 amplitude_mm_;
-    bool is_upright_ = false;         ///< whether the eight is higher than wide
-    std::vector<double> lengths_mm_;  ///< length of the path up to each of equal steps of its phase
+    bool is_upright_ = false;         ///< true if the figure of eight is higher than wide
+    std::vector<double> lengths_mm_;  ///< path length from the start to each step of the phase
 };
 
 }  // namespace dotpose::cli

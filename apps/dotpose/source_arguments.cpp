@@ -70,7 +70,7 @@ void SourceArguments::add_frame_options(Command& command) {
     command
         .add_option_function<std::string>(
             "--roi", [this](const std::string& text) { options.region = parse_region(text); },
-            "Part of the frame to look at")
+            "Part of the frame to use")
         ->type_name("X,Y,WxH");
 }
 
@@ -108,7 +108,7 @@ void Sources::add_files(RunFiles& files) const {
         try {
             its_files = capture::files_of(name);
         } catch (const Error&) {
-            continue;  // it is reported when the source is opened
+            continue;  // reported when the source is opened
         }
         files.reads("", its_files);
     }
@@ -123,7 +123,7 @@ std::int64_t Sources::number_of_images() const {
         try {
             images += static_cast<std::int64_t>(capture::files_of(name).size());
         } catch (const Error&) {
-            return 0;  // it is reported when the source is opened
+            return 0;  // reported when the source is opened
         }
     }
     return images;

@@ -9,21 +9,21 @@
 
 namespace dotpose::cli {
 
-/// Returns all names one after the other: first those on the command line and in a list file, which
-/// are known from the start, then those of a list in a pipe, which are read as they arrive.
+/// Returns names one by one: first the names on the command line and in a list file, which are
+/// known from the start, then the names from a pipe, as they arrive.
 class SourceNames {
   public:
-    /// `list` is a file with one name per line, "-" for standard input, or empty for none. Throws
+    /// `list` is a file with one name per line; "-" is standard input; empty means no list. Throws
     /// Error if the list cannot be read or a line is too long.
     SourceNames(std::vector<std::string> names, const std::string& list);
 
     const std::vector<std::string>& known() const { return known_; }
 
-    /// Whether names may follow that are not known yet.
+    /// Returns true if a pipe may deliver further names.
     bool has_pipe() const { return is_pipe_; }
 
-    /// Returns the next name, or none after the last one. Throws Error like the constructor; then
-    /// there are no more names.
+    /// Returns the next name, or none after the last one. Throws Error like the constructor; there
+    /// are no more names after an error.
     std::optional<std::string> next();
 
   private:

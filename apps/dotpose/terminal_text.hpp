@@ -1,4 +1,5 @@
-/// Messages on the terminal, which may contain text from files, file names or networks, and colour.
+/// Messages and colour on the terminal. Messages may contain text from files, file names or
+/// networks.
 #pragma once
 
 #include <cstdio>
@@ -12,25 +13,24 @@ namespace dotpose::cli {
 using base::printable;
 using base::with_escaped_controls;
 
-/// Writes to standard error, after what standard output still holds. Unlike fmt::print, it does not
-/// throw if the stream is closed.
+/// Writes to standard error after flushing standard output. Unlike fmt::print, does not throw if
+/// the stream is closed.
 void write_to_stderr(const std::string& text);
 
-/// Writes "dotpose: MESSAGE" to standard error, as one printable line.
+/// Writes "dotpose: MESSAGE" to standard error as one printable line.
 void tell(std::string_view message);
 
-/// Writes the message why the program ends, like `tell`, but where colour is wanted in red.
+/// Writes the reason why the program ends, like `tell`, but in red if colour is enabled.
 void tell_failure(std::string_view message);
 
-/// Whether the stream is a terminal that shows colours and the user has not refused them:
-/// no NO_COLOR (no-color.org), and TERM is not "dumb".
+/// Returns true if the stream is a terminal with colours and the user has not disabled them.
+/// NO_COLOR (no-color.org) and the TERM "dumb" disable colours.
 bool wants_colour(std::FILE* stream);
 
-/// Returns the report with colour at the beginning of the lines that report a fault, a note or a
-/// good result.
+/// Colours the beginning of lines that report a fault, a note or a good result.
 std::string in_colour(const std::string& report);
 
-/// Returns `in_colour(report)` if standard output wants colour, else the report.
+/// Returns `in_colour(report)` if standard output supports colour, otherwise `report`.
 std::string for_standard_output(const std::string& report);
 
 }  // namespace dotpose::cli

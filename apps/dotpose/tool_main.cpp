@@ -22,13 +22,13 @@ namespace {
 
 constexpr const char* kVersion = "dotpose " DOTPOSE_VERSION;
 
-/// The commands that the help suggests to a new user.
-constexpr const char* kFirstDay =
+/// Commands that the help suggests to a new user.
+constexpr const char* kFirstSteps =
     "  dotpose print -o sheet.pdf   a sheet of dots; print it at 100 %\n"
-    "  dotpose locate photo.jpg     where on it a picture was taken\n"
-    "  dotpose watch 0              where on it a camera is, live\n";
+    "  dotpose locate photo.jpg     the position of a photo on the sheet\n"
+    "  dotpose watch 0              the position of a camera on the sheet, live\n";
 
-/// Returns where the documents are, which are installed beside the tool.
+/// Returns a text with the path of the documents, which are installed beside the tool.
 std::string places_of_documents() {
     std::error_code failed;
     const auto tool = std::filesystem::read_symlink("/proc/self/exe", failed);
@@ -39,8 +39,8 @@ std::string places_of_documents() {
                        folder.string());
 }
 
-/// Adds the commands `help` and `version`. The first stores the words that ask for the help wanted
-/// in `help_words`, which must outlive the app, the last one first.
+/// Adds the commands `help` and `version`. `help` stores the words that request the help, in
+/// reverse order, in `help_words`, which must outlive the app.
 void add_help_and_version(Command& app, std::vector<std::string>& help_words) {
     std::vector<std::string> names;
     for (const Command* command : app.get_all_subcommands())
@@ -83,8 +83,8 @@ int run(int argc, char** argv, const AddCommands& add) {
         }
     }
     app.footer(fmt::format(
-        "A first day:\n{}\ndotpose COMMAND --help has all options and more examples.\n{}",
-        kFirstDay, places_of_documents()));
+        "First steps:\n{}\ndotpose COMMAND --help has all options and more examples.\n{}",
+        kFirstSteps, places_of_documents()));
     try {
         app.parse(argc, argv);
         if (!help_words.empty()) app.parse(help_words);

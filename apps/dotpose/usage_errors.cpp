@@ -36,7 +36,7 @@ std::vector<std::string> long_options(const Command& command) {
     return names;
 }
 
-/// Returns the words that the command did not understand, those that look like options first.
+/// Returns the words that the command does not know. Words that look like options come first.
 std::vector<std::string> unknown_words(const Command& command) {
     std::vector<std::string> words = command.remaining();
     std::erase(words, "--");
@@ -56,7 +56,7 @@ std::string unknown_to(const Command& command, const std::string& word) {
                        did_you_mean(option, long_options(command)));
 }
 
-/// Returns the commands that were parsed, as words: "dotpose sheets list".
+/// Returns the parsed commands as text, such as "dotpose sheets list".
 std::string parsed_commands(const Command& app) {
     std::string words = "dotpose";
     for (const Command* command = &app; !command->get_parsed_subcommands().empty();) {
@@ -66,7 +66,8 @@ std::string parsed_commands(const Command& app) {
     return words;
 }
 
-/// Describes a word before the command, or in its place; commands may have commands of their own.
+/// Describes an unknown word before a command or in its place. `parent` is the program or a command
+/// with subcommands.
 std::string unknown_before_command(const Command& app, const Command& parent,
                                    const std::string& word) {
     if (!is_option(word)) {

@@ -1,4 +1,4 @@
-# Completions of dotpose for fish. The tool prints them, a line for each with its description after a tab.
+# Completions of dotpose for fish. The tool prints one completion per line, followed by a tab and a description.
 function __dotpose_complete
     set -l words (commandline -opc)
     set -l offers ($words[1] __complete $words[2..-1] (commandline -ct) 2>/dev/null)

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kFileHeader = 14;
 constexpr std::size_t kOldHeader = 12;  // for OS/2 and Windows 2
 
-/// Offsets from the start of the file.
+/// Offsets of the header fields from the start of the file.
 enum Offset : std::size_t {
     pixels_offset = 10,
     header_size = 14,
@@ -31,7 +31,7 @@ enum Offset : std::size_t {
     x_per_metre = 38,
     y_per_metre = 42,
     palette_size = 46,
-    masks = 54,  ///< red, green, blue, opacity
+    masks = 54,  ///< of red, green, blue and opacity
 };
 
 enum Compression : std::uint32_t { none = 0, bit_fields = 3, bit_fields_with_opacity = 6 };
@@ -47,7 +47,7 @@ struct BmpHeader {
     std::size_t palette_count;
     std::size_t palette_entry_bytes;
     std::array<std::uint32_t, 4>
-        masks;  ///< red, green, blue, opacity, of 16 or 32 bits; 0 if missing
+        masks;  ///< of red, green, blue and opacity, for 16 or 32 bits per pixel; 0 if missing
 };
 
 [[noreturn]] void fail_short() {
@@ -96,11 +96,12 @@ BmpHeader read_header(Bytes file) {
         case 4:
         case 8:
         case 24:
-            if (kind != Compression::none) fail("compressed pixels are not read");
+            if (kind != Compression::none) fail("compressed pixels are not supported");
             break;
         case 16:
         case 32:
-            if (kind != Compression::none && !has_fields) fail("compressed pixels are not read");
+            if (kind != Compression::none && !has_fields)
+                fail("compressed pixels are not supported");
             header.masks = masks_of(file, header.bits_per_pixel, kind);
             break;
         default:
@@ -118,7 +119,7 @@ BmpHeader read_header(Bytes file) {
     return header;
 }
 
-/// Returns the bits selected by a mask, scaled to 0 to 255.
+/// Returns the bits selected by `mask`, scaled to 0 to 255.
 std::uint8_t level_of(std::uint32_t pixel, std::uint32_t mask) {
     if (mask == 0) return 0;
     const std::uint64_t full = mask >> std::countr_zero(mask);
@@ -128,7 +129,7 @@ std::uint8_t level_of(std::uint32_t pixel, std::uint32_t mask) {
 
 using Colour = std::array<std::uint8_t, 4>;  // red, green, blue, opacity
 
-/// Reads the pixels of rows.
+/// Reads the pixels row by row.
 class Pixels {
   public:
     Pixels(Bytes file, const BmpHeader& header) : header_(header) {

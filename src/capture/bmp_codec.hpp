@@ -1,5 +1,5 @@
-/// Reads BMP: the headers of Windows 3 to 5 and of OS/2, palettes of 1, 4 and 8 bits, 16, 24 and 32
-/// bits, uncompressed. The layout is documented by Microsoft under BITMAPV5HEADER.
+/// Reads BMP: the headers of Windows 3 to 5 and of OS/2; palettes of 1, 4 and 8 bits; 16, 24 and 32
+/// bits without compression. Microsoft documents the layout under BITMAPV5HEADER.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// Finds the EXIF data of JPEG, PNG and TIFF, and a camera's entries in them. The layout is that of
-// TIFF 6.0, the tags are those of the Exif standard (CIPA DC-008).
+// Finds the EXIF data of JPEG, PNG and TIFF files, and the entries that cameras write. The layout
+// is specified by TIFF 6.0, the tags by the Exif standard (CIPA DC-008).
 #include "capture/exif.hpp"
 
 #include <algorithm>
@@ -20,19 +20,19 @@ bool holds_text(Bytes bytes, std::size_t offset, std::string_view text) {
                       [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
-/// Returns the EXIF data of a JPEG: the content of its segment APP1 of this name.
+/// Returns the EXIF data of a JPEG: the contents of its APP1 segment named Exif.
 Bytes exif_of_jpeg(Bytes file) {
     using namespace std::string_view_literals;
     constexpr std::string_view kName = "Exif\0\0"sv;
     constexpr std::uint8_t kApp1 = 0xE1;
     constexpr std::uint8_t kStartOfScan = 0xDA;
     constexpr std::size_t kMarker = 2;
-    // Each segment has a marker (FF and its type) and a length that includes the length field.
+    // Each segment has a marker (FF and a type) and a length that includes the length field itself.
     std::size_t offset = kMarker;
     while (holds(file, offset, 2 * kMarker) && file[offset] == 0xFF) {
         const std::uint8_t type = file[offset + 1];
         if (type == kStartOfScan) break;
-        if (type == 0xFF) {  // a fill byte
+        if (type == 0xFF) {  // padding
             ++offset;
             continue;
         }
@@ -48,11 +48,11 @@ Bytes exif_of_jpeg(Bytes file) {
     return {};
 }
 
-/// Returns the EXIF data of a PNG: the content of its chunk eXIf.
+/// Returns the EXIF data of a PNG: the contents of its eXIf chunk.
 Bytes exif_of_png(Bytes file) {
     constexpr std::size_t kSignature = 8;
     constexpr std::size_t kBefore = 8;       // length and type
-    constexpr std::size_t kChunkFrame = 12;  // these and a checksum
+    constexpr std::size_t kChunkFrame = 12;  // length, type and checksum
     std::size_t offset = kSignature;
     while (holds(file, offset, kChunkFrame)) {
         const auto length = static_cast<std::size_t>(integer(file, offset, 4, true));
@@ -63,7 +63,7 @@ Bytes exif_of_png(Bytes file) {
     return {};
 }
 
-/// Directories of EXIF data, or of a TIFF file.
+/// The directories of EXIF data or of a TIFF file.
 class Directories {
   public:
     explicit Directories(Bytes bytes) : bytes_(bytes) {}
@@ -91,7 +91,8 @@ class Directories {
         return static_cast<std::uint32_t>(integer(bytes_, offset, size, bytes_[0] == 'M'));
     }
 
-    /// Returns the value, or the offset of the values, of an entry in the directory at an offset.
+    /// Returns the value of an entry, or the offset of its values. `directory` is the offset of the
+    /// directory.
     std::optional<std::uint32_t> entry(std::uint32_t directory, std::uint32_t tag) const {
         constexpr std::size_t kCount = 2;
         constexpr std::size_t kEntry = 12;  // tag, type, number of values, value

@@ -6,8 +6,9 @@
 
 namespace dotpose::capture {
 
-/// Whether a file has EXIF data of a camera: exposure time, f-number, sensitivity or focal length,
-/// which scanners do not write. Truncated or damaged data count as missing.
+/// Returns true if the EXIF data contain an entry that cameras write, but scanners do not: exposure
+/// time, f-number, sensitivity or focal length. Truncated or damaged EXIF data are treated as
+/// missing.
 bool is_from_camera(ImageFormat format, Bytes file);
 
 }  // namespace dotpose::capture

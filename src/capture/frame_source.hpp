@@ -1,5 +1,5 @@
-// Sources of frames: images, folders of images, raw grey frames in a pipe, and, through the layer
-// `video`, cameras and video files.
+// Sources of frames: images, folders of images and raw grey frames from a pipe. The layer `video`
+// adds cameras and video files.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@
 namespace dotpose::capture {
 
 struct Frame {
-    GreyImage image;           ///< empty while the camera delivers no frames
-    std::int64_t time_us = 0;  ///< time of the frame on the source's clock; increases
-    std::int64_t index = 0;    ///< number of the frame from 0; dropped frames are counted too
-    std::string file;          ///< path of an image; empty for frames of other sources
-    bool is_live = false;      ///< whether `time_us` is on this computer's monotonic clock
+    GreyImage image;           ///< empty if the camera delivers no frames
+    std::int64_t time_us = 0;  ///< time on the clock of the source; increases from frame to frame
+    std::int64_t index = 0;    ///< number of the frame from 0, including dropped frames
+    std::string file;          ///< path of an image; empty for other sources
+    bool is_live = false;      ///< true if `time_us` is on the monotonic clock of this computer
 };
 
 /// A rectangle of a frame, in px.
@@ -36,21 +36,21 @@ class FrameSource {
   public:
     virtual ~FrameSource() = default;
 
-    /// Gets the next frame, or the newest one of a camera. Returns false at the end or when
-    /// `SourceOptions::stop` returns true. Throws Error if the source fails, after all
-    /// frames before the failure have been returned.
+    /// Gets the next frame, or the newest frame of a camera. Returns false at the end or when
+    /// `SourceOptions::stop` returns true. Throws Error if the source fails, after returning all
+    /// frames before the failure.
     virtual bool next(Frame& frame) = 0;
 
     /// Number of frames that were captured but not returned by `next`.
     virtual std::int64_t dropped() const { return 0; }
 
-    /// Frame rate that the source reports, in frames per second; 0 if not known.
+    /// Frame rate reported by the source, in frames per second; 0 if unknown.
     virtual double rate() const { return 0; }
 
-    /// Mean number of bits per pixel of the compressed frames so far; 0 if not known or not lossy.
+    /// Mean number of bits per pixel of the compressed frames so far; 0 if unknown or lossless.
     virtual double bits_per_px() const { return 0; }
 
-    /// Number of all frames that the source reports; 0 if not known.
+    /// Number of frames reported by the source; 0 if unknown.
     virtual std::int64_t length() const { return 0; }
 };
 
@@ -61,22 +61,23 @@ struct SourceOptions {
     /// Frame rate requested from a camera. For other sources, the frame rate from which times are
     /// computed; it overrides the times in a video file.
     std::optional<double> fps;
-    std::optional<double> exposure;  ///< in the driver's own unit
-    std::optional<double> gain;      ///< in the driver's own unit
-    bool flip = false;               ///< whether frames are flipped, left to right, before `region`
-    std::optional<Region> region;    ///< the part of each frame that is kept
-    /// Required size of whole frames if `region` refers to the image of a camera file.
+    std::optional<double> exposure;  ///< in the unit of the driver
+    std::optional<double> gain;      ///< in the unit of the driver
+    /// True to flip frames left to right, before `region` is applied.
+    bool flip = false;
+    std::optional<Region> region;  ///< part of each frame that is kept; none: all
+    /// Required size of whole frames, if `region` refers to the images of a camera file.
     std::optional<std::pair<int, int>> whole_size_px;
-    /// Maximum number of pixels; larger images throw ImageTooLarge before they are decoded.
+    /// Maximum number of pixels. A larger image throws ImageTooLarge before it is decoded.
     int max_pixels = kMaxFrameSide_px * kMaxFrameSide_px;
-    /// Called from time to time; when it returns true, the source ends.
+    /// Called periodically. The source ends if it returns true.
     std::function<bool()> stop = [] { return false; };
-    /// Called with messages for the user, for example that a camera was unplugged; the source
+    /// Called with messages for the user, for example if a camera was unplugged. The source
     /// continues.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
-    /// Called with the path of each image or video before it is opened; may throw Error.
+    /// Called with the path of each image or video before it is opened. May throw Error.
     std::function<void(const std::string&)> before_reading = [](const std::string&) {};
-    /// Called for an image that cannot be read; the source continues with the next image.
+    /// Called for an image that cannot be read. The source continues with the next image.
     std::function<void(const std::string& file, const Error&)> on_unreadable =
         [](const std::string&, const Error&) {};
     /// Opens cameras and video files (video/module.hpp), or throws Error.
@@ -84,21 +85,22 @@ struct SourceOptions {
         open_live;
 };
 
-/// Returns a part of an image. Throws BadArgument if it extends beyond the image.
+/// Returns a region of an image. Throws BadArgument if the region extends beyond the image.
 GreyImage cropped(const GreyImage& image, const Region& region);
 
-/// Flips and crops a frame as the options say. Throws BadArgument if the region extends beyond the
-/// frame, and Error with the name of the frame if the frame does not have the size `whole_size_px`.
+/// Flips and crops a frame according to the options. Throws BadArgument if the region extends
+/// beyond the frame. Throws Error, which contains `name`, if the frame does not have the size
+/// `whole_size_px`.
 void prepare(const SourceOptions& options, const std::string& name, GreyImage& image);
 
-/// Returns the time of a frame in microseconds from its number and the frame rate.
+/// Returns index / fps in microseconds.
 std::int64_t time_of(std::int64_t index, double fps);
 
-/// Returns a source of raw 8-bit grey frames on standard input. Throws BadArgument if their size is
-/// not given.
+/// Opens raw 8-bit grey frames on standard input. Throws BadArgument if the options do not contain
+/// their size.
 std::unique_ptr<FrameSource> open_raw(const SourceOptions& options);
 
-/// Returns a source of the images at the paths that `next_path` returns, until it returns none.
+/// Opens the images at the paths that `next_path` returns, until it returns none.
 std::unique_ptr<FrameSource> open_images(std::function<std::optional<std::string>()> next_path,
                                          const SourceOptions& options);
 

@@ -12,16 +12,16 @@
 
 namespace dotpose::capture {
 
-/// Decodes an image. `note` is set as in `read_image`, without the name of the file. Throws Error
+/// Decodes an image. `note` is set as by `read_image`, without the name of the file. Throws Error
 /// with only the reason; the caller adds the name of the file.
 GreyImage decode_image(ImageFormat format, Bytes file, int max_pixels, std::string& note,
                        int page = 1);
 
-/// Returns the resolution in the file, without decoding the pixels. Throws Error with only the
-/// reason.
+/// Returns the resolution stored in the file, without decoding the pixels. Throws Error with only
+/// the reason.
 std::optional<Resolution> decode_resolution(ImageFormat format, Bytes file, int page = 1);
 
-/// Returns the number of pages, which is 1 except for TIFF. Throws Error with only the reason.
+/// Returns the number of pages: 1 unless the file is a TIFF. Throws Error with only the reason.
 int pages_of(ImageFormat format, Bytes file);
 
 }  // namespace dotpose::capture

@@ -24,8 +24,8 @@ namespace {
 using capture::ImageFormat;
 using Bytes = std::vector<std::uint8_t>;
 
-/// Returns the maximum size of a file, which is above the size of any image with 16 bits and four
-/// channels. The limit ends the reading of endless files.
+/// Returns the maximum size of a file in bytes: more than any image with 16 bits and four channels
+/// needs. The limit stops the reading of endless files.
 std::size_t max_file_bytes(int max_pixels) {
     return std::size_t{8} * static_cast<std::size_t>(max_pixels) + (std::size_t{1} << 20);
 }
@@ -48,7 +48,7 @@ std::string system_reason() {
     }
 }
 
-/// Appends up to `count` bytes of the file to `bytes`; fewer only at the end of the file.
+/// Appends `count` bytes of the file to `bytes`, or fewer at the end of the file.
 void append(std::FILE* file, std::size_t count, Bytes& bytes) {
     const std::size_t before = bytes.size();
     bytes.resize(before + count);
@@ -63,7 +63,7 @@ struct Content {
     Bytes bytes;
 };
 
-/// Returns advice for a known file type that is not an image, or an empty string.
+/// Returns advice for a known type of file that is not an image, or an empty string.
 std::string advice_for(const Bytes& bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with("%PDF"))
@@ -87,7 +87,7 @@ Content read_file(const std::filesystem::path& path, int max_pixels) {
                     ", which is not read: convert it first, for example with " + other->remedy);
     }
     if (!format) throw Error("not a PNM, PNG, JPEG, BMP or TIFF image" + advice_for(bytes));
-    // The file is read to its end, because pipes have no size.
+    // Reads to the end of the file instead of using its size, because pipes have no size.
     const std::size_t max_bytes = max_file_bytes(max_pixels);
     std::size_t chunk = std::size_t{1} << 16;
     while (std::feof(file.get()) == 0) {
@@ -105,7 +105,7 @@ void write_file(const std::filesystem::path& path, const Bytes& bytes) {
     File file(std::fopen(path.c_str(), "wb"));
     const bool written =
         file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    // Closing flushes the buffer, which fails if the disk is full.
+    // fclose flushes the buffer, which fails if the disk is full.
     const bool closed = file && std::fclose(file.release()) == 0;
     if (!written || !closed) throw Error(system_reason());
 }
@@ -132,7 +132,7 @@ auto with_name(const char* verb, const std::filesystem::path& path, Action actio
     }
 }
 
-/// Throws Error, with only the reason, if there is no page with this number.
+/// Throws Error with only the reason if the file has no page with this number.
 void require_page(const Content& content, int page) {
     if (page == 1) return;
     const int pages = capture::pages_of(content.format, content.bytes);
@@ -141,9 +141,9 @@ void require_page(const Content& content, int page) {
                 ", and no page " + std::to_string(page));
 }
 
-/// Whether a resolution is a default of cameras and programs, which does not describe the page.
+/// Returns true for default resolutions of cameras and programs, which do not describe the page.
 bool is_of_screen(const Resolution& resolution) {
-    // PNG and BMP store whole pixels per metre, so resolutions are rounded.
+    // PNG and BMP store whole pixels per metre, so the comparison needs a tolerance.
     const auto is = [&](double dpi) {
         return std::abs(resolution.x_dpi - dpi) < 0.1 && std::abs(resolution.y_dpi - dpi) < 0.1;
     };

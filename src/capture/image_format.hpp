@@ -18,22 +18,22 @@ inline constexpr std::size_t kMagicBytes = 12;
 inline constexpr double kMetresPerInch = 0.0254;
 inline constexpr double kCentimetresPerInch = 2.54;
 
-/// Converts a resolution to dots per inch. Returns none for 0 or less, which means that it is not
-/// stated.
+/// Converts a resolution to dots per inch. Returns none for values of 0 or less, which mean an
+/// unknown resolution.
 std::optional<Resolution> resolution_from(double x, double y, double units_per_inch);
 
-/// Throws Error if a side exceeds the limit, and ImageTooLarge if there are too many pixels.
+/// Throws Error if a side exceeds the limit, and ImageTooLarge if the image has too many pixels.
 void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixels);
 
-/// Returns the format that the first bytes of a file indicate, or none.
+/// Detects the format from the first bytes of a file. Returns none for unknown bytes.
 std::optional<ImageFormat> sniff(std::span<const std::uint8_t> bytes);
 
 /// An unsupported image format.
 struct OtherFormat {
-    const char* name;    ///< such as "a WebP image"
-    const char* remedy;  ///< how to convert it to a supported format
+    const char* name;    ///< for example "a WebP image"
+    const char* remedy;  ///< instructions for converting it to a supported format
 };
-/// Returns the unsupported format that the first bytes of a file indicate, or none.
+/// Detects an unsupported format from the first bytes of a file. Returns none for other files.
 std::optional<OtherFormat> sniff_other(std::span<const std::uint8_t> bytes);
 
 /// Returns "PNM", "PNG", "JPEG", "BMP" or "TIFF".

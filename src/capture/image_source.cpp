@@ -41,7 +41,7 @@ class ImageSource : public FrameSource {
 
   private:
     void tell_of_pages(const std::string& path) const {
-        // Only TIFF has pages; other files are not read twice.
+        // Only TIFF has several pages. Other files are not read twice.
         const std::string ending = std::filesystem::path(path).extension().string();
         if (!ending.starts_with(".t") && !ending.starts_with(".T")) return;
         const int pages = count_pages(path);

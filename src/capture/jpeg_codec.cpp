@@ -3,7 +3,7 @@
 #include <array>
 #include <csetjmp>
 #include <cstddef>
-#include <cstdio>  // jpeglib.h needs it
+#include <cstdio>  // required by jpeglib.h
 #include <cstdlib>
 #include <memory>
 #include <utility>
@@ -17,13 +17,13 @@ namespace dotpose::capture {
 namespace {
 
 constexpr int kQuality = 95;
-// Maximum number of scans; progressive images of cameras have about ten. Each scan processes all
-// pixels, so a small file could otherwise occupy the decoder for hours.
+// Maximum number of scans. Progressive images of cameras have about ten. Each scan processes all
+// pixels, so without a limit a small file could occupy the decoder for hours.
 constexpr int kMaxScans = 100;
 
-/// Collects the messages of libjpeg. Its error handler must not return: it jumps to `leave`. Every
-/// call that can fail is therefore preceded by setjmp(leave), and the code in between must not have
-/// objects with destructors.
+/// Collects the messages of libjpeg. Its error handler must not return, so it jumps to `leave`.
+/// Each call that may fail is therefore preceded by setjmp(leave), and no objects with destructors
+/// may be created in between.
 struct Report : jpeg_error_mgr {
     std::jmp_buf leave;
     std::array<char, JMSG_LENGTH_MAX> message{};
@@ -35,7 +35,7 @@ struct Report : jpeg_error_mgr {
             report.format_message(jpeg, report.message.data());
             std::longjmp(report.leave, 1);
         };
-        // Warnings have levels below 0. The first one is kept.
+        // Warnings have levels below 0. Only the first warning is kept.
         emit_message = [](j_common_ptr jpeg, int level) {
             auto& report = *static_cast<Report*>(jpeg->err);
             if (level >= 0) return;
@@ -45,7 +45,7 @@ struct Report : jpeg_error_mgr {
     }
 };
 
-/// The bytes of a file, followed by an end marker in case it is missing.
+/// The bytes of a file, followed by an end marker in case the file has none.
 struct Source : jpeg_source_mgr {
     bool is_short = false;
 
@@ -125,10 +125,10 @@ class JpegReader {
             }
             jpeg_finish_decompress(&jpeg_);
         });
-        // libjpeg makes up pixels that are missing or damaged, and warns.
+        // libjpeg replaces missing or damaged pixels by invented values, with a warning.
         if (report_.num_warnings > 0) fail();
         if (source_.is_short) {
-            // Whole scans may be missing without a warning.
+            // In progressive files, whole scans may be missing without a warning.
             if (jpeg_.progressive_mode != FALSE) fail();
             note = "the JPEG image lacks its end marker; its pixels are complete";
         }
@@ -136,7 +136,7 @@ class JpegReader {
     }
 
   private:
-    /// The luma of YCbCr is used directly instead of being computed from RGB.
+    /// Requests the luma of YCbCr directly instead of converting to RGB and back.
     J_COLOR_SPACE output_space() const {
         switch (jpeg_.jpeg_color_space) {
             case JCS_GRAYSCALE:
@@ -150,7 +150,7 @@ class JpegReader {
         }
     }
 
-    /// Converts CMYK, which files store inverted: 255 is no ink.
+    /// Converts CMYK to RGB. Files store CMYK inverted: 255 means no ink.
     static Samples<std::uint8_t> rgb_of(const Samples<std::uint8_t>& inks) {
         Samples<std::uint8_t> rgb{inks.width_px, inks.height_px, 3, {}};
         rgb.values.reserve(inks.values.size() / 4 * 3);
@@ -180,7 +180,7 @@ class JpegReader {
     jpeg_decompress_struct jpeg_{};
 };
 
-/// Frees what libjpeg has allocated for the encoded bytes.
+/// Frees the buffer of encoded bytes that libjpeg allocates.
 struct Freed {
     unsigned char* bytes = nullptr;
     unsigned long count = 0;
@@ -198,7 +198,7 @@ void compress(ImageView image, jpeg_compress_struct& jpeg, Freed& encoded) {
     jpeg_set_quality(&jpeg, kQuality, TRUE);
     jpeg_start_compress(&jpeg, TRUE);
     for (int v = 0; v < image.height_px; ++v) {
-        // libjpeg does not change the pixels.
+        // libjpeg does not modify the pixels.
         JSAMPROW row = const_cast<JSAMPROW>(image.row(v));
         jpeg_write_scanlines(&jpeg, &row, 1);
     }

@@ -1,4 +1,4 @@
-/// Reads and writes JPEG by libjpeg.
+/// Reads and writes JPEG with libjpeg.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace dotpose::capture {
 
-/// These functions throw Error with only the reason. `note` is set if only the end marker is
+/// These functions throw Error with only the reason. Decoding sets `note` if only the end marker is
 /// missing.
 GreyImage decode_jpeg(Bytes file, int max_pixels, std::string& note);
 std::optional<Resolution> jpeg_resolution(Bytes file);
 
-/// Encodes an image, which must not be empty, in grey with a quality of 95.
+/// Encodes a non-empty image in grey with quality 95.
 std::vector<std::uint8_t> encode_jpeg(ImageView image);
 
 }  // namespace dotpose::capture

@@ -16,8 +16,8 @@
 namespace dotpose::capture {
 namespace {
 
-/// Reads a PNG file. libpng leaves its functions by longjmp on an error, so only `guarded` calls
-/// them, and its scope has no objects with destructors.
+/// Reads a PNG file. libpng reports errors with longjmp. Only `guarded` calls its functions, and no
+/// objects with destructors may be created in the scope of that call.
 class PngReader {
   public:
     explicit PngReader(Bytes file)
@@ -32,7 +32,7 @@ class PngReader {
         if (info_ == nullptr) throw std::bad_alloc();
         png_set_read_fn(png_, this, on_read);
         guarded([&] {
-            // Raises libpng's own limits: `require_size` then reports the size.
+            // Raises the limits of libpng, so that `require_size` can report the size.
             png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
             png_read_info(png_, info_);
         });
@@ -52,7 +52,8 @@ class PngReader {
         const png_uint_32 height = png_get_image_height(png_, info_);
         require_size(width, height, max_pixels);
         guarded([&] {
-            png_set_expand(png_);  // palettes, levels of less than 8 bits, a transparent colour
+            // Converts palettes, levels of less than 8 bits and a transparent colour.
+            png_set_expand(png_);
             if (std::endian::native == std::endian::little) png_set_swap(png_);
             png_set_interlace_handling(png_);
             png_read_update_info(png_, info_);
@@ -128,13 +129,13 @@ std::optional<Resolution> png_resolution(Bytes file) {
 }
 
 std::vector<std::uint8_t> encode_png(ImageView image) {
-    // The simplified interface of libpng returns errors instead of leaving by longjmp.
+    // The simplified interface of libpng returns error codes and does not use longjmp.
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     png.width = static_cast<png_uint_32>(image.width_px);
     png.height = static_cast<png_uint_32>(image.height_px);
     png.format = PNG_FORMAT_GRAY;
-    png.flags = PNG_IMAGE_FLAG_FAST;  // more effort hardly reduces noisy frames
+    png.flags = PNG_IMAGE_FLAG_FAST;  // slower compression hardly makes noisy frames smaller
     png_alloc_size_t size_bytes = PNG_IMAGE_PNG_SIZE_MAX(png);
     std::vector<std::uint8_t> bytes(size_bytes);
     const auto stride_bytes = static_cast<png_int_32>(image.stride_bytes);

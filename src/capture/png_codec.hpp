@@ -1,4 +1,4 @@
-/// Reads and writes PNG by libpng.
+/// Reads and writes PNG with libpng.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace dotpose::capture {
 GreyImage decode_png(Bytes file, int max_pixels);
 std::optional<Resolution> png_resolution(Bytes file);
 
-/// Encodes an image, which must not be empty, in 8-bit grey. Equal images give equal bytes.
+/// Encodes a non-empty image in 8-bit grey. Equal images yield equal bytes.
 std::vector<std::uint8_t> encode_png(ImageView image);
 
 }  // namespace dotpose::capture

@@ -25,7 +25,7 @@ bool is_space(char character) {
     return character == ' ' || (character >= '\t' && character <= '\r');
 }
 
-/// Reads bytes and numbers in order.
+/// Reads bytes and numbers sequentially.
 class Reader {
   public:
     explicit Reader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
@@ -47,8 +47,8 @@ class Reader {
         return character;
     }
 
-    /// Reads a decimal number and the white space after it. The white space is required: without
-    /// it, digits of the number may be missing.
+    /// Reads a decimal number and the required white space after it. Without white space, digits of
+    /// the number may be missing.
     std::uint32_t number() {
         std::uint32_t value = 0;
         char character = symbol();
@@ -63,14 +63,14 @@ class Reader {
         return value;
     }
 
-    /// Skips the line feed of a header with lines that end with a carriage return and a line feed.
-    /// Then one byte more than the pixels take is left.
+    /// Skips the line feed at the end of a header whose lines end with a carriage return and a line
+    /// feed. In this case, one byte more than `pixel_bytes` is left.
     void finish_line_break(std::size_t pixel_bytes) {
         if (ended_by_return_ && rest_.size() > pixel_bytes && rest_.front() == '\n') byte();
     }
 
   private:
-    /// Reads one character; a comment is read as the line break at its end.
+    /// Reads one character. A comment is read as the line break at its end.
     char text() {
         char character = static_cast<char>(byte());
         if (character != '#') return character;
@@ -80,10 +80,10 @@ class Reader {
     }
 
     std::span<const std::uint8_t> rest_;
-    bool ended_by_return_ = false;  ///< whether a carriage return followed the last number
+    bool ended_by_return_ = false;  ///< true if a carriage return followed the last number
 };
 
-/// The contents of the header.
+/// Contents of the header.
 struct Header {
     bool is_text = false;
     bool is_bitmap = false;
@@ -111,7 +111,7 @@ Header read_header(Reader& reader, int max_pixels) {
     return header;
 }
 
-/// Returns the minimum number of bytes of the pixels, which is compared with the size of the file
+/// Returns the minimum number of bytes that encode the pixels. It is compared with the file size
 /// before memory is allocated.
 std::size_t min_bytes(const Header& header) {
     const std::size_t samples = header.width_px * header.height_px * header.channels;
@@ -150,7 +150,8 @@ std::uint32_t read_level(Reader& reader, const Header& header) {
     return level;
 }
 
-/// Returns the level of white. The levels after the header are read once to find it.
+/// Returns the level of white. `reader` is passed by value, because the search for the maximum
+/// level must not advance the caller's reader.
 std::uint32_t white_of(Reader reader, const Header& header) {
     if (header.max_level < kMaxLevel) return header.max_level;
     std::uint32_t largest = 0;

@@ -1,4 +1,4 @@
-/// Reads PBM, PGM and PPM, text and binary (P1 to P6), as netpbm specifies them, and writes PGM.
+/// Reads PBM, PGM and PPM, text and binary (P1 to P6), as specified by netpbm. Writes PGM.
 #pragma once
 
 #include <cstdint>

@@ -39,7 +39,7 @@ class RawSource : public FrameSource {
     double rate() const override { return options_.fps.value_or(0); }
 
   private:
-    /// Reads one frame. Returns false if the input ends before its first byte, or when
+    /// Reads one frame. Returns false if the input ends before the first byte of the frame, or when
     /// `SourceOptions::stop` returns true.
     bool fill(std::vector<std::uint8_t>& pixels) {
         constexpr int kPatience_ms = 100;

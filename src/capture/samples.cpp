@@ -9,7 +9,7 @@
 namespace dotpose::capture {
 namespace {
 
-/// Returns the grey level of one pixel of `Channels` samples.
+/// Returns the grey level of a pixel with `Channels` samples.
 template <int Channels, typename Sample>
 std::uint8_t grey_of(const Sample* pixel) {
     constexpr std::uint64_t kFull = std::numeric_limits<Sample>::max();
@@ -69,9 +69,9 @@ GreyImage to_grey(Samples<std::uint16_t> samples) {
     return converted(samples);
 }
 
-std::uint32_t white_level(std::uint32_t largest) {
+std::uint32_t white_level(std::uint32_t max_level) {
     constexpr int kMaxBits = 12;
-    const int bits = std::max(static_cast<int>(std::bit_width(largest)), 8);
+    const int bits = std::max(static_cast<int>(std::bit_width(max_level)), 8);
     return (1U << (bits > kMaxBits ? 16 : bits)) - 1;
 }
 

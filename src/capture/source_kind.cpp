@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 24> kVideoEndings = {
     ".m2ts", ".mpg", ".mpeg", ".m2v",  ".wmv",  ".flv",  ".ogv", ".3gp",
     ".mjpg", ".nut", ".y4m",  ".h264", ".264",  ".hevc", ".gif", ".mjpeg"};
 
-/// Returns the ending of a name in lower case, with its dot.
+/// Returns the file extension in lower case, with its dot.
 std::string ending_of(const fs::path& path) {
     std::string ending = path.extension().string();
     std::ranges::transform(ending, ending.begin(),
@@ -38,8 +38,8 @@ bool has_ending(const fs::path& path, const Endings& endings) {
     return std::ranges::find(endings, ending_of(path)) != endings.end();
 }
 
-/// Whether a file has the signature of MP4, Matroska or AVI. Pipes are not examined, because that
-/// would consume bytes.
+/// Returns true if the file has the signature of MP4, Matroska or AVI. Pipes are not examined,
+/// because this would consume bytes.
 bool begins_like_video(const std::string& name) {
     std::error_code failed;
     if (!fs::is_regular_file(name, failed)) return false;

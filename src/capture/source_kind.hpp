@@ -9,24 +9,24 @@ namespace dotpose::capture {
 enum class SourceKind {
     raw,     ///< "-": raw frames on standard input
     camera,  ///< a number, /dev/video..., or a URL
-    image,   ///< one image file, or anything else
+    image,   ///< an image file, or any other name
     images,  ///< a folder, or a glob that is not the name of a file
-    video,   ///< a file with the name ending or the signature of a video
+    video,   ///< a file with the extension or the signature of a video
 };
 
 SourceKind kind_of(const std::string& name);
 
-/// Whether the name is the URL of a network source.
+/// Returns true if the name is the URL of a network source.
 bool is_url(const std::string& name);
 
-/// Whether the source is a camera or a video, which only the layer `video` can open.
+/// Returns true for cameras and videos, which only the layer `video` can open.
 bool needs_video_libraries(SourceKind kind);
 
-/// Returns the images of a folder or glob, sorted by name. Throws Error if the folder cannot be
-/// read or there are no images.
+/// Returns the images in a folder or matching a glob, sorted by name. Throws Error if the folder
+/// cannot be read or there are no images.
 std::vector<std::string> images_at(const std::string& name);
 
-/// Returns the files of a source: images, a video, or "-"; empty for a camera. Throws Error like
+/// Returns the files of a source: images, a video, or "-". Empty for a camera. Throws Error like
 /// `images_at`.
 std::vector<std::string> files_of(const std::string& name);
 

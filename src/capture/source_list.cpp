@@ -43,7 +43,7 @@ bool SourceList::open() {
     return true;
 }
 
-/// Returns the next image of adjacent images, folders and globs.
+/// Returns the path of the next image in a sequence of images, folders and globs.
 std::optional<std::string> SourceList::next_image() {
     while (next_image_ == images_.size()) {
         auto name = take_name();
@@ -97,12 +97,13 @@ void SourceList::put_in_order(Frame& frame) {
         first_index_ = next_index_;
         offset_us_ = is_first_source_ ? 0 : next_time_us_ - frame.time_us;
     }
-    constexpr double kUsualRate = 30;
+    constexpr double kDefaultRate = 30;
     frame.index += first_index_;
     frame.time_us += offset_us_;
-    if (offset_us_ != 0) frame.is_live = false;  // its times continue those of another source
+    // The times continue the times of the previous source.
+    if (offset_us_ != 0) frame.is_live = false;
     next_index_ = frame.index + 1;
-    next_time_us_ = frame.time_us + time_of(1, rate() > 0 ? rate() : kUsualRate);
+    next_time_us_ = frame.time_us + time_of(1, rate() > 0 ? rate() : kDefaultRate);
 }
 
 std::int64_t SourceList::dropped() const {

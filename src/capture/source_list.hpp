@@ -11,18 +11,18 @@
 
 namespace dotpose::capture {
 
-/// Numbers and times of the frames continue from one source to the next.
+/// Concatenates sources. The numbers and times of frames continue from one source to the next.
 class SourceList : public FrameSource {
   public:
     /// `next_name` returns the name of the next source (source_kind.hpp), or none after the last.
     SourceList(std::function<std::optional<std::string>()> next_name, SourceOptions options);
 
-    /// Opens the first source, which makes its rate available; otherwise `next` opens it. Returns
-    /// false if there are no names. Throws Error if the source does not exist or cannot be read,
-    /// and BadArgument if the size of raw frames is not given.
+    /// Opens the first source, to make its rate available before the first frame. Otherwise, `next`
+    /// opens the source. Returns false if there are no names. Throws Error if the source does not
+    /// exist or cannot be read, and BadArgument if the size of raw frames is missing.
     bool open();
 
-    /// Gets the next frame of all sources. If a source fails, throws Error, and the following call
+    /// Gets the next frame of all sources. Throws Error if a source fails; the following call
     /// continues with the next source. Throws BadArgument if the region extends beyond the frame.
     bool next(Frame& frame) override;
     std::int64_t dropped() const override;
@@ -32,8 +32,8 @@ class SourceList : public FrameSource {
     /// Number of frames of the open source.
     std::int64_t length() const override { return source_ ? source_->length() : 0; }
 
-    /// Returns the name of the newest frame: the path of an image, or SOURCE#N for frame N, from 0,
-    /// of another source.
+    /// Returns the name of the newest frame: the path of an image, or SOURCE#N for frame N of
+    /// another source, counted from 0.
     std::string name_of_frame() const;
 
   private:
@@ -49,14 +49,14 @@ class SourceList : public FrameSource {
     std::size_t next_image_ = 0;
     std::unique_ptr<FrameSource> source_;
     std::string name_;        ///< name of the open source
-    Frame newest_;            ///< newest frame without its image, with the number in its source
-    double bits_per_px_ = 0;  ///< value of the newest source with a frame
+    Frame newest_;            ///< newest frame without its image; `index` counts in its source
+    double bits_per_px_ = 0;  ///< of the newest source that returned a frame
     std::int64_t dropped_before_ = 0;
     std::int64_t next_index_ = 0;
     std::int64_t next_time_us_ = 0;
     std::int64_t first_index_ = 0;  ///< index of the first frame of the open source
-    std::int64_t offset_us_ = 0;    ///< from the clock of this source to that of the list
-    bool has_first_ = false;        ///< whether this source has returned a frame
+    std::int64_t offset_us_ = 0;    ///< added to the time of the open source
+    bool has_first_ = false;        ///< true if the open source has returned a frame
     bool is_first_source_ = true;
 };
 

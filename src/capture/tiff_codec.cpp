@@ -22,7 +22,7 @@
 namespace dotpose::capture {
 namespace {
 
-/// A file in memory, with the errors of libtiff.
+/// A file in memory, and the first error of libtiff.
 struct Input {
     Bytes file;
     std::uint64_t at = 0;
@@ -57,7 +57,7 @@ toff_t on_size(thandle_t handle) {
 }
 int on_error(TIFF*, void* user, const char*, const char* format, std::va_list arguments) {
     auto& message = static_cast<Input*>(user)->message;
-    // The first error is the cause of later errors.
+    // Keep the first error, which causes the later ones.
     if (message[0] == '\0') std::vsnprintf(message.data(), message.size(), format, arguments);
     return 1;
 }
@@ -77,7 +77,7 @@ class TiffReader {
         TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), tmsize_t{8} * kMaxImagePixels);
         tiff_.reset(TIFFClientOpenExt("image", "r", &input_, on_read, on_write, on_seek, on_close,
                                       on_size, nullptr, nullptr, options.get()));
-        // libtiff reads a truncated directory as the last one.
+        // libtiff treats a truncated directory as the last one.
         if (!tiff_ || input_.is_short) fail();
     }
 
@@ -119,14 +119,14 @@ class TiffReader {
         void operator()(TIFF* tiff) const { TIFFClose(tiff); }
     };
 
-    /// Returns the value of a 16-bit tag with a default.
+    /// Returns the value of a 16-bit tag, or its default.
     std::uint16_t tag(std::uint32_t name) const {
         std::uint16_t value = 0;
         TIFFGetFieldDefaulted(tiff_.get(), name, &value);
         return value;
     }
 
-    /// Returns the type of the first sample after the colours, such as EXTRASAMPLE_UNASSALPHA.
+    /// Returns the type of the first sample after the colours, for example EXTRASAMPLE_UNASSALPHA.
     std::uint16_t extra_sample() const {
         std::uint16_t count = 0;
         const std::uint16_t* kinds = nullptr;
@@ -136,8 +136,8 @@ class TiffReader {
 
     int colours() const { return tag(TIFFTAG_PHOTOMETRIC) == PHOTOMETRIC_RGB ? 3 : 1; }
 
-    /// Whether the samples are interleaved grey or RGB of 8 or 16 bits. libtiff converts other
-    /// formats to RGB of 8 bits.
+    /// Returns true if the samples are interleaved grey or RGB with 8 or 16 bits. Other formats are
+    /// converted to 8-bit RGB by libtiff.
     bool has_plain_samples() const {
         const std::uint16_t bits = tag(TIFFTAG_BITSPERSAMPLE);
         std::uint16_t photometric = PHOTOMETRIC_PALETTE;
@@ -199,8 +199,8 @@ class TiffReader {
         }
     }
 
-    /// Keeps the colours and the opacity of each pixel. Premultiplied colours are composited on
-    /// white here.
+    /// Keeps the colours and the opacity of each pixel, and drops other samples. Premultiplied
+    /// colours are composited onto white.
     template <typename Sample>
     Samples<Sample> plain(std::vector<Sample> stored, std::size_t per_pixel) const {
         const auto colours = static_cast<std::size_t>(this->colours());
@@ -224,7 +224,8 @@ class TiffReader {
         return samples;
     }
 
-    /// Reads formats that libtiff converts: palettes, fewer than 8 bits, fax, YCbCr, CMYK, planes.
+    /// Reads formats that libtiff converts: palettes, fewer than 8 bits, fax, YCbCr, CMYK and
+    /// planes.
     GreyImage read_rgba() {
         std::array<char, 1024> reason{};
         TIFFRGBAImage image{};
@@ -234,7 +235,7 @@ class TiffReader {
                 std::copy_n(reason.begin(), input_.message.size() - 1, input_.message.begin());
             fail();
         }
-        // The orientation is ignored, as for all formats.
+        // The orientation is ignored, as in all formats.
         image.orientation = ORIENTATION_TOPLEFT;
         image.req_orientation = ORIENTATION_TOPLEFT;
         const auto width = static_cast<std::uint32_t>(width_px_);

@@ -1,4 +1,4 @@
-/// Reads TIFF by libtiff.
+/// Reads TIFF with libtiff.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace dotpose::capture {
 
-/// These functions throw Error with only the reason. `page` counts from 1.
+/// The functions throw Error with only the reason. `page` is counted from 1.
 GreyImage decode_tiff(Bytes file, int max_pixels, int page);
 std::optional<Resolution> tiff_resolution(Bytes file, int page);
 

@@ -19,13 +19,13 @@ namespace {
 using evaluate_detail::spread_of;
 using Complex = std::complex<double>;
 
-/// A found and a true place, as complex numbers.
+/// A found and a true place in mm, as complex numbers x + iy.
 struct Pair {
     Complex found;
     Complex truth;
 };
 
-/// true = offset + factor * found.
+/// A similarity: truth = offset + factor * found.
 struct Map {
     Complex factor = 1;
     Complex offset = 0;
@@ -38,7 +38,7 @@ double wrapped(double angle_rad) {
     return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
 
-/// Whether the frame can be compared: both places are known and on the same sheet.
+/// Returns true if both places of the frame are known and on the same sheet.
 bool is_comparable(const MeasuredFrame& frame) {
     return frame.truth && frame.found &&
            (frame.truth->sheet.empty() || frame.truth->sheet == frame.found->sheet);
@@ -52,7 +52,7 @@ double median_of(std::vector<double> values) {
     return quantiles_of(std::move(values)).median;
 }
 
-/// Least squares; without a spread of the true places only the offset is fitted.
+/// Fits a similarity by least squares. If all true places coincide, fits only the offset.
 Map fit(std::span<const Pair> pairs) {
     constexpr double kMinSpread_mm = 1e-6;
     const auto count = static_cast<double>(pairs.size());
@@ -83,14 +83,14 @@ double median_residual(std::span<const Pair> pairs, const Map& map) {
     return median_of(std::move(residuals));
 }
 
-/// Returns the maximum residual of pairs that are not outliers.
+/// Returns the residual above which a pair is an outlier: 5 times the median residual.
 double near_limit(std::span<const Pair> pairs, const Map& map) {
     constexpr double kNear_medians = 5;
     return kNear_medians * median_residual(pairs, map) + 1e-9;
 }
 
-/// Fits the pairs without outliers: starts with the map through two pairs that has the smallest
-/// median residual, and fits all pairs near it.
+/// Fits a similarity to the pairs without outliers. Starts with the map through two pairs that has
+/// the smallest median residual, then repeatedly fits all pairs within the outlier limit.
 Map fit_most(std::span<const Pair> pairs) {
     constexpr std::size_t kTries = 500;
     constexpr int kRounds = 5;
@@ -99,7 +99,7 @@ Map fit_most(std::span<const Pair> pairs) {
     const std::size_t n = pairs.size();
     const std::size_t all = n * (n - 1) / 2;
     for (std::size_t k = 0; k < std::min(all, kTries); ++k) {
-        // Frames far apart in the list are usually far apart on the sheet.
+        // Two frames that are far apart in the list are usually far apart on the sheet.
         const std::size_t apart = 1 + (n / 2 + 7 * (k / n)) % (n - 1);
         const Map map = fit(std::array{pairs[k % n], pairs[(k + apart) % n]});
         const double median = median_residual(pairs, map);
@@ -141,7 +141,7 @@ MeasuredError error_of(const MeasuredFrame& frame, const std::optional<Similarit
     return error;
 }
 
-/// Marks errors far above the median error.
+/// Marks frames as wrong if their error is far above the median.
 void mark_wrong(const std::vector<MeasuredFrame>& frames,
                 std::vector<std::optional<MeasuredError>>& errors) {
     constexpr double kWrongFrom_medians = 10;
@@ -198,7 +198,7 @@ Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Simil
         if (frame.truth) result.is_in_world = frame.truth->is_in_world;
         result.errors.push_back(frame.found ? std::optional(error_of(frame, alignment))
                                             : std::nullopt);
-        // A fix without a place in the truth's frame is wrong.
+        // A fix without a place in the frame of the true places counts as wrong.
         if (frame.status == Status::ok && !frame.found) ++result.wrong;
     }
     mark_wrong(frames, result.errors);

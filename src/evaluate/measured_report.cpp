@@ -1,4 +1,4 @@
-// Writes the comparison with measured places: report, errors per frame, figures.
+// Writes the results of a comparison with measured places: report, errors per frame, figures.
 #include <cmath>
 #include <functional>
 #include <map>
@@ -27,7 +27,7 @@ std::string numbers(const Quantiles& quantiles, int decimals) {
                        number(quantiles.p95, decimals), number(quantiles.max, decimals));
 }
 
-/// The errors of the frames of one station.
+/// The errors of all frames of one station.
 struct Samples {
     Station station;
     std::vector<double> x_mm;
@@ -35,8 +35,8 @@ struct Samples {
     std::vector<double> theta_deg;
 };
 
-/// Returns the stations in the order of their first visits. `key_of` returns equal values for
-/// frames of the same station.
+/// Returns the stations in the order of their first visit. `key_of` returns the same value for all
+/// frames of a station.
 std::vector<Station> stations_of(const Measurement& measurement,
                                  const std::function<std::string(const TruePlace&)>& key_of) {
     std::vector<Samples> all;

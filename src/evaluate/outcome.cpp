@@ -6,7 +6,6 @@
 #include "base/degrees.hpp"
 
 namespace dotpose {
-namespace {}  // namespace
 
 Deviation deviation_of(const Fix& fix, const Truth& truth) {
     return {fix.x_grid() - truth.x_grid, fix.y_grid() - truth.y_grid,

@@ -50,14 +50,14 @@ double Scale::at(double value) const {
 std::vector<double> Scale::ticks(int min_count) const {
     std::vector<double> result;
     if (!is_log) {
-        // An axis may run downwards, as y does on a page.
+        // `last` may be below `first`, as for y on a page.
         const auto [low, high] = std::minmax(first, last);
         const double step = tick_step(high - low, min_count);
         for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
-            result.push_back(i * step + 0.0);  // the sum turns -0 into 0
+            result.push_back(i * step + 0.0);  // adding 0 turns -0 into 0
         return result;
     }
-    // Over several decades, fewer multiples of each power of ten have labels.
+    // On an axis over several decades, only powers of ten have labels.
     const bool is_long = last / first > 150;
     for (double power = std::pow(10, std::floor(std::log10(first))); power <= last; power *= 10) {
         for (const double factor : {1.0, 2.0, 5.0}) {

@@ -1,4 +1,4 @@
-/// Draws axes with ticks in a rectangle of a drawing, and curves over them.
+/// Draws axes with ticks in a rectangle of a drawing, and curves in their coordinates.
 #pragma once
 
 #include <span>
@@ -30,7 +30,7 @@ double tick_step(double range, int min_count);
 /// that is at least `value`.
 double rounded_up(double value);
 
-/// One axis; converts data values to drawing units.
+/// Scale of one axis, which converts data values to drawing units.
 struct Scale {
     double first = 0;
     double last = 1;  ///< may be below `first`, unless `is_log`
@@ -42,7 +42,7 @@ struct Scale {
     std::vector<double> ticks(int min_count) const;
 };
 
-/// Returns a logarithmic scale with round ends, which are at least 10 % beyond both values.
+/// Returns a logarithmic scale from `min` to `max`, extended by at least 10 % to round numbers.
 Scale log_scale(double min, double max);
 
 /// A rectangle with an x axis below and a y axis to the left.
@@ -57,7 +57,7 @@ class Axes {
 
     Axes(Svg& svg, const Area& area, Scale x, Scale y);
 
-    /// Draws grid lines, numbers and the label, which is above the axis on the left.
+    /// Draws grid lines, numbers and the label. The label is above the left end of the axis.
     void draw_y(std::string_view label) const;
     void draw_x(std::string_view label) const;
 
@@ -67,11 +67,11 @@ class Axes {
         const char* colour = draw::colour::kInk;
         bool is_dashed = false;
         bool has_marks = true;
-        bool is_wide = false;  ///< whether it is wide enough to be visible under another curve
+        bool is_wide = false;  ///< true if the line must remain visible under another curve
     };
-    /// Draws a curve through the points. It is interrupted where a coordinate is not a number.
+    /// Draws a curve through the points. NaN coordinates interrupt the curve.
     void curve(std::span<const Point> data, const Line& line) const;
-    /// Fills the area between two curves over the same x.
+    /// Fills the area between two curves with the same x coordinates.
     void band(std::span<const Point> low, std::span<const Point> high, const char* colour) const;
 
   private:
@@ -84,11 +84,10 @@ class Axes {
 /// Draws the title of a picture in bold at its top, and a line of text below it.
 void draw_title(Svg& svg, double left, std::string_view title, std::string_view below = "");
 
-/// Draws an entry of a legend: a short line and its meaning. Returns the x at which the next entry
-/// may start.
+/// Draws an entry of a legend: a short line and a text. Returns the x coordinate of the next entry.
 double legend_entry(Svg& svg, Point at, const Axes::Line& line, std::string_view text);
 
-/// Estimates the width of a text from its number of letters.
+/// Estimates the width of a text from its number of characters.
 double text_width(std::string_view text, double font);
 
 }  // namespace dotpose::plot

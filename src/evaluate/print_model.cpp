@@ -11,18 +11,19 @@ namespace dotpose {
 PrintModel::PrintModel(double worst_x_mm, double worst_y_mm) {
     using namespace evaluate_detail;
     constexpr double kPitch_mm = kSide_mm / (kPositionsPerSide - 1);
-    // The maximum shifts at the positions of the protocol with all amplitudes equal to 1.
-    Vec2 largest;
+    // Maximum shifts over the positions of the protocol if all amplitudes are 1.
+    Vec2 max_shift;
     for (const Step step : spiral(kPositionsPerSide)) {
         const Vec2 shift = shift_mm({step.x * kPitch_mm, step.y * kPitch_mm});
-        largest = {std::max(largest.x, std::abs(shift.x)), std::max(largest.y, std::abs(shift.y))};
+        max_shift = {std::max(max_shift.x, std::abs(shift.x)),
+                     std::max(max_shift.y, std::abs(shift.y))};
     }
-    amplitude_mm_ = {worst_x_mm / largest.x, worst_y_mm / largest.y};
+    amplitude_mm_ = {worst_x_mm / max_shift.x, worst_y_mm / max_shift.y};
 }
 
 Vec2 PrintModel::shift_mm(Vec2 from_middle_mm) const {
-    // Along the feed (y), the model has rollers that turn unevenly and a feed that slips more on
-    // one side. Across the feed, it has a scan line that is bowed and slightly stretched.
+    // Along the feed (y), the model contains rollers that turn unevenly and a feed that slips more
+    // on one side. Across the feed, it contains a scan line that is bowed and slightly stretched.
     constexpr double kTurn = 2 * std::numbers::pi;
     const double x = from_middle_mm.x / kSide_mm;
     const double y = from_middle_mm.y / kSide_mm;

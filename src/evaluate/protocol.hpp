@@ -13,19 +13,19 @@ namespace dotpose::evaluate_detail {
 inline constexpr int kPositionsPerSide = 11;
 inline constexpr int kAngles = 36;
 
-/// Column and row of a position, counted from the middle; y is down.
+/// Column and row of a position relative to the centre; y points down.
 struct Step {
     int x = 0;
     int y = 0;
     friend constexpr bool operator==(const Step&, const Step&) = default;
 };
 
-/// Returns all positions of a square with an odd side in a spiral from the middle outwards, first
-/// to the right and then clockwise as seen on the page.
+/// Returns all positions of a square with an odd side, in a spiral from the centre outwards: first
+/// to the right, then clockwise as seen on the page.
 std::vector<Step> spiral(int side);
 
-/// Returns the mean and the sample standard deviation (with n - 1), which is 0 for fewer than two
-/// values.
+/// Returns the mean and the sample standard deviation (divisor n - 1). The deviation of fewer than
+/// two values is 0.
 Spread spread_of(std::span<const double> values);
 
 /// Best, mean and worst accuracy, and the worst precision, over the stations with fixes.
@@ -39,7 +39,7 @@ struct Summary {
 using SpreadOf = std::function<Spread(const Station&)>;
 Summary summary_of(std::span<const Station> stations, const SpreadOf& spread);
 
-/// Draws figure 13, 14 or 15 of the paper for measured poses, in one panel.
+/// Draws figure 13, 14 or 15 of the paper with measured poses, as one panel.
 void draw_measured_figure(std::ostream& out, int figure, std::span<const Station> stations,
                           bool is_in_world);
 

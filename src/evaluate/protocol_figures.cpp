@@ -1,5 +1,5 @@
-// Draws figures 13, 14 and 15 of the paper: simulated for a perfect page on the left and for the
-// printer model on the right, or measured.
+// Draws figures 13, 14 and 15 of the paper. Simulated figures show a perfect page on the left and
+// the printer model on the right. Measured figures show one page.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,7 +21,7 @@ constexpr double kLeft = 80;
 constexpr double kTop = 150;
 constexpr double kHeight = kTop + kPanel + 150;
 
-/// One page of a figure, with the spread of its stations in the unit of the figure.
+/// One page of a figure, and the spread of its stations in the unit of the figure.
 struct FigurePage {
     std::string name;
     std::span<const Station> stations;
@@ -36,15 +36,15 @@ struct Coordinate {
     const char* unit;
 };
 
-/// The texts of a figure.
-struct Words {
+/// The labels of a figure.
+struct Labels {
     const char* how;       ///< origin of the poses
     std::string stations;  ///< number of stations
     const char* y_label;
     bool is_y_up = false;
 };
 
-/// The square of the page in a panel.
+/// Bounds of the square region of the page in a panel.
 struct Extent {
     Vec2 middle_mm;
     double side_mm = 1;
@@ -106,11 +106,12 @@ const char* colour_of(double bias) {
 constexpr double kMaxMark = 16;
 
 double mark_radius(double bias, double scale) {
-    // The area of a mark is proportional to its value; marks of small values stay visible.
+    // The area of a mark is proportional to the bias. Marks of small values are enlarged to stay
+    // visible.
     return std::max(1.2, kMaxMark * std::sqrt(std::abs(bias) / scale));
 }
 
-/// The axes of a page, with y in the direction of its coordinates.
+/// The axes of a page. The y axis has the direction of the coordinates on the page.
 struct PageScale {
     Scale x;
     Scale y;
@@ -170,10 +171,10 @@ void draw_mark_legend(const Panel& panel, double scale) {
     }
 }
 
-void draw_map(const Panel& panel, const FigurePage& page, const Words& words) {
+void draw_map(const Panel& panel, const FigurePage& page, const Labels& labels) {
     draw_summary(panel, page.name, page.decimals);
-    const PageScale on_page(extent_of(panel.stations), panel.corner, words.is_y_up);
-    draw_page_axes(panel, on_page, words.y_label);
+    const PageScale on_page(extent_of(panel.stations), panel.corner, labels.is_y_up);
+    draw_page_axes(panel, on_page, labels.y_label);
     std::string path;
     for (const Station& station : panel.stations) {
         const Point at = on_page.at(station.place_mm);
@@ -250,25 +251,25 @@ Coordinate coordinate_of(int figure) {
 }
 
 /// Draws the pages side by side.
-void draw_figure(std::ostream& out, const Coordinate& coordinate, const Words& words,
+void draw_figure(std::ostream& out, const Coordinate& coordinate, const Labels& labels,
                  std::span<const FigurePage> pages) {
     const bool is_rose = coordinate.figure == kAngleFigure;
     const auto count = static_cast<double>(pages.size());
     constexpr double kMinWidth = 800;
     const double width = std::max(2 * kLeft + count * kPanel + (count - 1) * kGap - 40, kMinWidth);
     const std::string title = fmt::format("Accuracy of {} at rest, {} (paper: Figure {})",
-                                          coordinate.name, words.how, coordinate.figure);
+                                          coordinate.name, labels.how, coordinate.figure);
     Svg svg(width, is_rose ? kHeight - 70 : kHeight, title);
     draw_head(svg, title,
               fmt::format("{}; a {} is the mean of found minus true, red above 0, blue below",
-                          words.stations, is_rose ? "bar" : "mark's area"));
+                          labels.stations, is_rose ? "bar" : "mark's area"));
     double left = kLeft;
     for (const FigurePage& page : pages) {
         const Panel panel{svg, {left, kTop}, page.stations, coordinate.spread, coordinate.unit};
         if (is_rose) {
             draw_rose(panel, page);
         } else {
-            draw_map(panel, page, words);
+            draw_map(panel, page, labels);
         }
         left += kPanel + kGap;
     }

@@ -1,4 +1,4 @@
-// Writes Table III of the paper and the files of the protocol.
+// Writes Table III of the paper and the CSV files of the protocol.
 #include <cmath>
 #include <ostream>
 
@@ -14,7 +14,7 @@ namespace {
 
 using namespace evaluate_detail;
 
-/// Returns the cells "accuracy | precision" of one coordinate.
+/// Returns the table cells "accuracy | precision" of one coordinate.
 std::string cells(const Summary& summary, const char* unit, int decimals) {
     return fmt::format("{0:.{1}f}{3} | ± {2:.{1}f}{3}", summary.worst, decimals,
                        summary.worst_sigma, unit);
@@ -81,7 +81,7 @@ void write_stations_csv(std::ostream& out, std::span<const Station> stations) {
         out << fmt::format("{:.3f},{:.3f},{:.3f},{},{},{}", s.place_mm.x, s.place_mm.y, s.theta_deg,
                            s.samples, s.located, s.wrong);
         for (const Spread& spread : {s.x_mm, s.y_mm, s.theta}) {
-            // Without fixes, the cells are empty.
+            // The cells are empty if there are no fixes.
             out << (s.located > 0 ? fmt::format(",{:.6f},{:.6f}", spread.bias, spread.sigma)
                                   : std::string(",,"));
         }

@@ -1,4 +1,4 @@
-// Converts drawings to pixels for programs without SVG.
+// Converts drawings to PNG, for programs that do not show SVG.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace dotpose::draw {
 /// written.
 void write_png(const std::filesystem::path& path, const std::string& svg);
 
-/// Writes NAME.svg and NAME.png into a folder; `draw` writes the SVG. Throws Error if a file cannot
+/// Writes NAME.svg and NAME.png into a folder. `draw` writes the SVG. Throws Error if a file cannot
 /// be written.
 void write_figure(const std::filesystem::path& folder, const std::string& name,
                   const std::function<void(std::ostream&)>& draw);

@@ -63,7 +63,8 @@ void cover(GreyImage& image, double share, double direction_rad) {
 
 KnownFrame sweep_frame(SweepKind kind, double value, const Setup& setup, std::uint64_t index) {
     Shot shot = draw_shot(setup, index);
-    // A separate generator; the shot's own random numbers are then equal for all values.
+    // The random generator is separate, so all other random values of the shot are the same for all
+    // values of the condition.
     Rng rng(setup.seed ^ shot.seed);
     const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
     switch (kind) {
@@ -140,7 +141,7 @@ Sweep run_sweep(SweepKind kind, const SweepOptions& options) {
             const auto outcomes = evaluate(run);
             sweep.points.push_back({value, score_of(outcomes[0]), score_of(outcomes[1])});
         } catch (const Error&) {
-            // After an interrupt, the complete values are kept.
+            // After an interrupt, keep the values that are complete.
             if (goes_on || sweep.points.size() < 2) throw;
             break;
         }

@@ -1,4 +1,4 @@
-/// Parts of a sweep for its tests.
+/// Parts of a sweep that its tests call.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@ namespace dotpose::evaluate_detail {
 
 std::span<const double> sweep_values(SweepKind kind);
 
-/// Returns frame `index` with the condition at `value`.
+/// Returns frame `index` of the sweep, with the condition set to `value`.
 KnownFrame sweep_frame(SweepKind kind, double value, const Setup& setup, std::uint64_t index);
 
-/// Darkens a fraction of the pixels: all pixels beyond a straight edge, on the side opposite to
-/// `direction_rad`, an angle in the image from +u towards +v.
+/// Darkens the fraction `share` of the pixels: all pixels beyond a straight edge, on the side
+/// opposite to `direction_rad`, an angle in the image from +u towards +v.
 void cover(GreyImage& image, double share, double direction_rad);
 
 }  // namespace dotpose::evaluate_detail

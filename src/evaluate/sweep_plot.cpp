@@ -1,4 +1,5 @@
-// Draws a sweep: the share of located frames above, the errors below, over the same condition.
+// Draws a sweep: the fraction of located frames at the top and the errors at the bottom, over the
+// same condition.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -74,7 +75,7 @@ void draw_head(Svg& svg, const Sweep& sweep) {
     legend_entry(svg, {x, 39}, {style::kWindow, false, false, true}, "8 x 8 window (paper)");
 }
 
-/// Marks values at which fixes were wrong with a red disc and their number.
+/// Marks values with wrong fixes by a red disc and the number of wrong fixes.
 void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder) {
     for (const SweepPoint& point : sweep.points) {
         const Score& score = decoder == Decoder::window ? point.window : point.all;
@@ -86,7 +87,7 @@ void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder)
     }
 }
 
-/// Returns a logarithmic scale that contains all errors and whose ends are round numbers.
+/// Returns a logarithmic scale that contains all errors. Its ends are round numbers.
 Scale error_scale(const Sweep& sweep) {
     double low_um = 1e300;
     double high_um = 0;
@@ -116,8 +117,8 @@ void draw_sweep(std::ostream& out, const Sweep& sweep) {
     const Axes below(svg, {kLeft, 390, kPlotWidth, 220}, x, error_scale(sweep));
     below.draw_y("position error of the fixes, µm: median (solid) and 95 % (dashed)");
     below.draw_x(words.x_label);
-    // The curves of the decoder `window` are drawn first and wider, and stay visible where both are
-    // equal.
+    // The curves of the decoder `window` are drawn first and wider, to remain visible where the
+    // curves of both decoders coincide.
     for (const Decoder decoder : kDecoders) {
         const bool is_window = decoder == Decoder::window;
         const char* colour = is_window ? style::kWindow : style::kAll;

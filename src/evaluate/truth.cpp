@@ -17,7 +17,7 @@
 namespace dotpose {
 namespace {
 
-/// Returns the trimmed cells of a line.
+/// Splits a line into cells and trims them.
 std::vector<std::string> trimmed_cells_of(const std::string& line) {
     std::vector<std::string> cells = csv::cells_of(line);
     for (std::string& cell : cells) {
@@ -49,7 +49,7 @@ class TruthReader {
         throw Error(fmt::format("{}, line {}: {}", name_, line_number_, what));
     }
 
-    /// Reads the next line that is not empty into `cells_`; returns false at the end of the file.
+    /// Reads the next non-empty line into `cells_`. Returns false at the end of the file.
     bool next_line() {
         std::string line;
         while (std::getline(stream_, line)) {
@@ -58,7 +58,7 @@ class TruthReader {
             cells_ = trimmed_cells_of(line);
             if (cells_.size() > 1 || !cells_[0].empty()) return true;
         }
-        // A directory can be opened but not read.
+        // Opening a directory succeeds; reading it fails.
         if (!stream_.eof()) throw Error("cannot read " + name_);
         return false;
     }
@@ -83,7 +83,7 @@ class TruthReader {
 
     bool has(const std::string& column) const { return columns_.contains(column); }
 
-    /// Returns a cell of the current line, or an empty string if there is no such column or cell.
+    /// Returns a cell of the current line, or an empty string if the column or the cell is missing.
     std::string text(const std::string& column) const {
         const auto found = columns_.find(column);
         return found != columns_.end() && found->second < cells_.size() ? cells_[found->second]
@@ -130,7 +130,7 @@ class TruthReader {
         return value;
     }
 
-    /// Returns the pose on a sheet or in the world; none if its cells are empty.
+    /// Returns the pose on a sheet or in the world, or none if its cells are empty.
     std::optional<TruePlace> place() const {
         TruePlace place;
         place.is_in_world = in_world_;

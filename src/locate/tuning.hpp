@@ -86,8 +86,8 @@ inline constexpr float kOutlier = 8.3F;
 /// part. Above this distance, small centroid windows miss a part of the offsets, and the dots are
 /// measured again.
 inline constexpr float kFar = 0.055F;
-/// Maximum number of measurements of the dots. docs/accuracy.md, "Dots that fall on the pixels
-/// alike", lists the remaining errors.
+/// Maximum number of measurements of the dots. docs/accuracy.md, "Dots with the same sub-pixel
+/// phase", lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
 /// Fraction of the paper level below which windows are dropped, because they are on the table
 /// beyond the sheet, where noise is as dark as dots.

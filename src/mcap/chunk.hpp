@@ -1,4 +1,4 @@
-// A chunk: consecutive messages, with an index per channel.
+// A chunk: consecutive messages with an index for each channel.
 #pragma once
 
 #include <algorithm>
@@ -9,26 +9,27 @@
 
 namespace dotpose::mcap {
 
-/// Entry of a chunk in the summary.
+/// Summary entry of a chunk.
 struct ChunkEntry {
     std::uint64_t first_ns = 0;
     std::uint64_t last_ns = 0;
     std::uint64_t start = 0;                              ///< offset of the chunk in the file
-    std::uint64_t length = 0;                             ///< bytes of the record
-    std::map<std::uint16_t, std::uint64_t> index_starts;  ///< offsets of the indexes, by channel
-    std::uint64_t index_length = 0;                       ///< bytes of all indexes
-    std::uint64_t size = 0;                               ///< bytes of the message records
+    std::uint64_t length = 0;                             ///< length of the record in bytes
+    std::map<std::uint16_t, std::uint64_t> index_starts;  ///< offset of the index of each channel
+    std::uint64_t index_length = 0;                       ///< length of all indexes in bytes
+    /// Length of the message records in bytes.
+    std::uint64_t size = 0;
 };
 
-/// Collects records and writes them as a chunk.
+/// Collects message records and writes them as a chunk.
 class Chunk {
   public:
     bool is_empty() const { return records_.empty(); }
     std::size_t size() const { return records_.size(); }
-    /// Time from the earliest to the latest message.
+    /// Time from the earliest to the latest message in ns.
     std::uint64_t duration_ns() const { return is_timeless() ? 0 : last_ns_ - first_ns_; }
 
-    /// The records, for appending schemas and channels before the messages that need them.
+    /// Returns the records, to append schemas and channels before the messages that use them.
     Bytes& records() { return records_; }
 
     void add_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns,
@@ -37,16 +38,16 @@ class Chunk {
         append_record(records_, Op::message, [&](Members& message) {
             message.put(channel);
             message.put(sequence);
-            message.put(time_ns);  // logged
-            message.put(time_ns);  // published
+            message.put(time_ns);  // log time
+            message.put(time_ns);  // publish time
             message.put_raw(data);
         });
         first_ns_ = std::min(first_ns_, time_ns);
         last_ns_ = std::max(last_ns_, time_ns);
     }
 
-    /// Appends the chunk and its indexes to `out`, which will be at the offset `place` in the file,
-    /// and begins a new chunk.
+    /// Appends the chunk and its indexes to `out`, and begins a new chunk. `place` is the offset of
+    /// the appended bytes in the file.
     ChunkEntry append_to(Bytes& out, std::uint64_t place) {
         ChunkEntry entry;
         entry.first_ns = is_timeless() ? 0 : first_ns_;
@@ -59,7 +60,7 @@ class Chunk {
             chunk.put(entry.last_ns);
             chunk.put(std::uint64_t{records_.size()});
             chunk.put(crc32(records_));
-            chunk.put(std::string_view());  // not compressed
+            chunk.put(std::string_view());  // no compression
             chunk.put(std::uint64_t{records_.size()});
             chunk.put_raw(records_);
         });
@@ -76,7 +77,7 @@ class Chunk {
   private:
     struct IndexedMessage {
         std::uint64_t time_ns = 0;
-        std::uint64_t offset = 0;  ///< within the records
+        std::uint64_t offset = 0;  ///< offset within the records
     };
 
     bool is_timeless() const { return index_.empty(); }

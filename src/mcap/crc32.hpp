@@ -1,4 +1,4 @@
-// The checksum of MCAP, zlib and PNG: CRC-32 by ISO 3309.
+// CRC-32 according to ISO 3309, the checksum of MCAP, zlib and PNG.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ inline constexpr std::array<std::uint32_t, 256> kTable = table();
 
 }  // namespace crc_detail
 
-/// Checksum of bytes that are added in parts.
+/// Computes the checksum of bytes that are added in parts.
 class Crc32 {
   public:
     void add(std::span<const std::uint8_t> bytes) {

@@ -16,9 +16,9 @@ using namespace mcap;
 
 namespace {
 
-/// Returns the list of qualities of service that rosbag2 stores with a channel, as YAML. Policies
-/// are the numbers of rmw, which all versions of rosbag2 read: history 1 keeps the last messages,
-/// reliability 1 is reliable, durability 1 transient local and 2 volatile, liveliness 1 automatic.
+/// Returns the list of QoS profiles that rosbag2 stores with a channel, as YAML. The policies are
+/// the numbers of rmw, which all versions of rosbag2 can read: history 1 is keep last, reliability
+/// 1 is reliable, durability 1 is transient local and 2 is volatile, liveliness 1 is automatic.
 std::string offered_profiles(const McapQuality& quality) {
     const std::string durability = quality.is_transient_local ? "1" : "2";
     const std::string forever = "\n    sec: 9223372036\n    nsec: 854775807\n";
@@ -74,7 +74,8 @@ class McapFile::Writer {
         const auto id = static_cast<std::uint16_t>(channel);
         const std::uint64_t number = contents_.messages.at(id)++;
         chunk_.add_message(id, static_cast<std::uint32_t>(number), time_ns, cdr);
-        // A chunk is at least as large as the end of the file, which is rewritten with each chunk.
+        // A chunk is at least as long as the end of the file, because the end is rewritten after
+        // each chunk.
         const bool is_long =
             chunk_.duration_ns() >= static_cast<std::uint64_t>(options_.chunk_ns) &&
             chunk_.size() >= end_bytes_;
@@ -112,8 +113,8 @@ class McapFile::Writer {
         write_at_end(std::move(bytes));
     }
 
-    /// Writes data over the end of the file, and a new end, in one write. The file never becomes
-    /// shorter, because the new end contains the old one.
+    /// Writes `bytes` over the end of the file, followed by a new end, in one write. The file never
+    /// becomes shorter, because the new end contains the contents of the old one.
     void write_at_end(Bytes bytes) {
         const std::size_t data_bytes = bytes.size();
         data_.add(bytes);
@@ -138,10 +139,10 @@ class McapFile::Writer {
     McapOptions options_;
     int descriptor_;
     Crc32 data_;
-    std::uint64_t size_ = 0;     ///< bytes of the file before its end
-    std::size_t end_bytes_ = 0;  ///< bytes of the end
+    std::uint64_t size_ = 0;     ///< length of the file without its end, in bytes
+    std::size_t end_bytes_ = 0;  ///< length of the end in bytes
     Contents contents_;
-    std::map<std::string, std::uint16_t> schemas_;  ///< numbers by name
+    std::map<std::string, std::uint16_t> schemas_;  ///< schema IDs by name
     Chunk chunk_;
 };
 
@@ -151,7 +152,7 @@ McapFile::McapFile(const std::filesystem::path& path, const McapOptions& options
 McapFile::~McapFile() {
     try {
         finish();
-    } catch (const Error&) {  // call `finish` to get this error
+    } catch (const Error&) {  // call `finish` to get the error
     }
 }
 

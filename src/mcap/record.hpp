@@ -1,5 +1,5 @@
-// The records of an MCAP file: a type byte, the length of the rest, and the members, little endian
-// and packed.
+// Records of an MCAP file: a type byte, the length of the rest, and the members, little endian
+// without padding.
 #pragma once
 
 #include <concepts>
@@ -14,7 +14,7 @@ namespace dotpose::mcap {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// The first byte of a record.
+/// Type of a record, its first byte.
 enum class Op : std::uint8_t {
     header = 0x01,
     footer = 0x02,
@@ -29,7 +29,7 @@ enum class Op : std::uint8_t {
     data_end = 0x0F,
 };
 
-/// Appends members to bytes.
+/// Appends the members of a record to a buffer.
 class Members {
   public:
     explicit Members(Bytes& bytes) : bytes_(bytes) {}
@@ -42,11 +42,11 @@ class Members {
         put(static_cast<std::uint32_t>(text.size()));
         bytes_.insert(bytes_.end(), text.begin(), text.end());
     }
-    /// Appends bytes without their count.
+    /// Appends bytes without their length.
     void put_raw(std::span<const std::uint8_t> bytes) {
         bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
     }
-    /// Appends a map after its size in bytes.
+    /// Appends a map, preceded by its size in bytes.
     template <typename Value>
     void put(const std::map<std::uint16_t, Value>& map) {
         put(static_cast<std::uint32_t>(map.size() * (sizeof(std::uint16_t) + sizeof(Value))));

@@ -35,18 +35,18 @@ void append_chunk_index(Bytes& out, const ChunkEntry& entry) {
         index.put(entry.length);
         index.put(entry.index_starts);
         index.put(entry.index_length);
-        index.put(std::string_view());  // not compressed
+        index.put(std::string_view());  // no compression
         index.put(entry.size);
         index.put(entry.size);
     });
 }
 
-/// Appends groups of records of one type, and stores their offsets.
+/// Appends groups of records with the same type, and stores their offsets.
 class Summary {
   public:
     Summary(Bytes& out, std::uint64_t place) : out_(out), base_(place - out.size()) {}
 
-    /// Offset of the next record in the file.
+    /// Returns the offset of the next record in the file.
     std::uint64_t here() const { return base_ + out_.size(); }
 
     template <typename Append>
@@ -103,7 +103,7 @@ void append_end(Bytes& out, std::uint64_t place, const Contents& contents, const
         footer.put(offsets_start);
         footer.put(std::uint32_t{0});
     });
-    // The checksum covers the summary and the footer up to the checksum.
+    // The checksum covers the summary and the footer up to the checksum itself.
     constexpr std::size_t kCrcBytes = sizeof(std::uint32_t);
     const std::size_t crc_at = out.size() - kCrcBytes;
     const std::uint32_t crc = crc32(std::span(out).subspan(summary_at, crc_at - summary_at));

@@ -16,18 +16,18 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Maximum time that `start` waits for the broker's answer.
+/// Maximum time for which `start` waits for the answer of the broker.
 constexpr auto kPatience = 3s;
 /// Time between attempts to reach a broker that does not answer.
 constexpr auto kBetweenAttempts = 500ms;
-/// Maximum number of messages in flight in libmosquitto, which sends them in order.
+/// Maximum number of messages that libmosquitto has not sent yet. It sends them in order.
 constexpr std::size_t kMaxUnderWay = 20;
 /// Quality of service of presence messages: at least once.
 constexpr int kPresenceQos = 1;
-/// Maximum wait for something to send or receive.
+/// Maximum time of one wait for the socket.
 constexpr int kWait_ms = 100;
 
-/// Initialises libmosquitto, once per program.
+/// Initializes libmosquitto once per program.
 struct Library {
     Library() { mosquitto_lib_init(); }
     ~Library() { mosquitto_lib_cleanup(); }
@@ -37,8 +37,8 @@ std::string reason_of(int code) {
     return code == MOSQ_ERR_ERRNO ? std::strerror(errno) : mosquitto_strerror(code);
 }
 
-/// Whether the other side has closed the connection. With TLS, libmosquitto notices a closed
-/// connection only after its keep-alive interval; the operating system reports it immediately.
+/// Returns true if the peer closed the connection. With TLS, libmosquitto notices a closed
+/// connection only after its keep-alive interval, but the operating system reports it immediately.
 bool is_hung_up(int socket) {
     pollfd state{socket, 0, 0};
     return socket >= 0 && poll(&state, 1, 0) > 0 && (state.revents & (POLLHUP | POLLERR)) != 0;
@@ -89,7 +89,7 @@ void parse_url(const std::string& url, MqttOptions& options) {
     options.host = rest;
 }
 
-/// The C callbacks of libmosquitto, which call methods of the object.
+/// C callbacks of libmosquitto, which call the methods of the object.
 struct MqttClient::Callbacks {
     static MqttClient& client(void* object) { return *static_cast<MqttClient*>(object); }
     static void on_connect(mosquitto*, void* object, int code) { client(object).answered(code); }
@@ -147,7 +147,8 @@ void MqttClient::set_up_security() {
 
 void MqttClient::start() {
     set_up_security();
-    // Without this, TCP may delay a small message by up to 40 ms to send it together with the next.
+    // Without this option, TCP may delay a small message by up to 40 ms to combine it with the next
+    // one.
     require(mosquitto_int_option(mosquitto_, MOSQ_OPT_TCP_NODELAY, 1), "cannot set the connection");
     if (!options_.presence_topic.empty()) {
         const std::string will = options_.presence(Presence::broken);
@@ -159,9 +160,9 @@ void MqttClient::start() {
     mosquitto_disconnect_callback_set(mosquitto_, Callbacks::on_disconnect);
     mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
     mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
-    // One more than `publish` uses, because presence messages must not wait.
+    // One more message than `publish` uses, because presence messages must not wait.
     mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMaxUnderWay + 1));
-    // Other threads than the thread of `run` publish messages.
+    // Messages are published by other threads than the thread of `run`.
     mosquitto_threaded_set(mosquitto_, true);
     constexpr int kKeepAlive_s = 10;
     const int code =
@@ -184,7 +185,7 @@ void MqttClient::start() {
         stop();
         throw Error(place() + " refuses the connection: " + refusal);
     }
-    if (!is_connected) options_.tell("cannot reach " + place() + ": " + failure + "; trying on");
+    if (!is_connected) options_.tell("cannot reach " + place() + ": " + failure + "; trying again");
 }
 
 void MqttClient::stop() {
@@ -203,7 +204,7 @@ int MqttClient::work() {
     return mosquitto_loop(mosquitto_, kWait_ms, 1);
 }
 
-// Replaces the thread of libmosquitto, which ends if it cannot reach the broker at first.
+// Replaces the thread of libmosquitto, which ends if the first connection fails.
 void MqttClient::run() {
     for (;;) {
         int code = is_connected() ? work() : mosquitto_loop(mosquitto_, kWait_ms, 1);
@@ -214,8 +215,8 @@ void MqttClient::run() {
             code = MOSQ_ERR_NO_CONN;
             reason = "no connection";
         }
-        // The disconnect message must be sent before the thread ends, or the broker publishes the
-        // last will.
+        // The thread must not end before the disconnect message is sent. Otherwise the broker
+        // publishes the last will.
         const bool has_left = !is_connected_ || code != MOSQ_ERR_SUCCESS;
         if (ends_ && (has_left || std::chrono::steady_clock::now() > ends_by_)) return;
         if (code == MOSQ_ERR_SUCCESS) continue;
@@ -261,18 +262,18 @@ MqttPublisher::MqttPublisher(MqttOptions options) : MqttClient(std::move(options
 }
 
 MqttPublisher::~MqttPublisher() {
-    if (!options_.presence_topic.empty()) say_goodbye();
+    if (!options_.presence_topic.empty()) send_offline();
     stop();
 }
 
-// The connection must not be closed before the broker has acknowledged all messages; otherwise the
-// broker sees a broken connection and publishes the last will.
-void MqttPublisher::say_goodbye() {
+// Waits until the broker has acknowledged all presence messages before the connection is closed.
+// Otherwise the broker detects a broken connection and publishes the last will.
+void MqttPublisher::send_offline() {
     constexpr std::chrono::seconds kPatience(1);
     {
         std::unique_lock lock(mutex_);
-        done_.wait_for(lock, kPatience, [this] { return said_online_ || has_failed(); });
-        if (!said_online_) return;
+        done_.wait_for(lock, kPatience, [this] { return is_online_published_ || has_failed(); });
+        if (!is_online_published_) return;
     }
     send_presence(Presence::offline);
     std::unique_lock lock(mutex_);
@@ -283,7 +284,7 @@ void MqttPublisher::on_connected() {
     send_presence(Presence::online);
     {
         const std::lock_guard lock(mutex_);
-        said_online_ = true;
+        is_online_published_ = true;
     }
     done_.notify_all();
     send_waiting();
@@ -347,7 +348,7 @@ void MqttPublisher::on_published(int id) {
 void MqttPublisher::on_disconnected() {
     {
         const std::lock_guard lock(mutex_);
-        said_online_ = false;
+        is_online_published_ = false;
     }
     // After reconnecting, libmosquitto resends messages with QoS 1 and drops messages with QoS 0.
     if (options_.qos > 0) return;
@@ -397,7 +398,7 @@ void MqttSubscriber::on_message(std::string_view topic, std::string_view payload
 }
 
 // mosquitto_loop processes one message with eight system calls. Processing all available messages
-// together saves some of these calls and sends the answers together.
+// together needs fewer system calls and combines the acknowledgements.
 int MqttSubscriber::work() {
     const int socket = mosquitto_socket(handle());
     const bool has_answers = mosquitto_want_write(handle());
@@ -408,14 +409,13 @@ int MqttSubscriber::work() {
     const std::int64_t taken = received_ - before;
     if (code == MOSQ_ERR_SUCCESS) code = send_all(taken > 1 ? socket : -1);
     if (code == MOSQ_ERR_SUCCESS) code = mosquitto_loop_misc(handle());
-    // Waking up for each message takes longer than processing it, so messages may accumulate for 1
-    // ms.
+    // Waking up for each message takes longer than processing it, so messages accumulate for 1 ms.
     if (code == MOSQ_ERR_SUCCESS && taken > 0) std::this_thread::sleep_for(1ms);
     return code;
 }
 
 int MqttSubscriber::receive_all() {
-    constexpr int kMaxBatch = 256;  // then send the answers
+    constexpr int kMaxBatch = 256;  // acknowledgements are sent after each batch
     for (int i = 0; i < kMaxBatch; ++i) {
         const std::int64_t before = received_;
         const int code = mosquitto_loop_read(handle(), 1);
@@ -424,7 +424,8 @@ int MqttSubscriber::receive_all() {
     return MOSQ_ERR_SUCCESS;
 }
 
-// With a socket, several answers share network packets; `socket` is -1 if there is only one answer.
+// Sends the acknowledgements. If `socket` is not -1, several of them are combined in one network
+// packet.
 int MqttSubscriber::send_all(int socket) {
     if (!mosquitto_want_write(handle())) return MOSQ_ERR_SUCCESS;
     const auto hold_back = [socket](int yes) {

@@ -1,5 +1,5 @@
 // Sends MQTT messages from a bounded queue, and receives messages by subscription, with
-// libmosquitto. Publisher and subscriber connect in the background, and reconnect when the
+// libmosquitto. Publisher and subscriber connect in the background and reconnect after the
 // connection breaks.
 #pragma once
 
@@ -22,39 +22,39 @@ struct mosquitto;
 
 namespace dotpose::publish {
 
-/// Whether a publisher is connected to its broker.
+/// Connection state of a publisher, for presence messages.
 enum class Presence {
-    online,   ///< it is connected
-    offline,  ///< it has ended
-    broken,   ///< its connection broke
+    online,   ///< the publisher is connected
+    offline,  ///< the publisher disconnected
+    broken,   ///< the connection of the publisher broke
 };
 
 struct MqttOptions {
     std::string host = "localhost";
     int port = 1883;
-    std::string user;  ///< empty for none
+    std::string user;  ///< empty: no user name
     std::string password;
     bool has_tls = false;
-    std::string ca_file;    ///< certificates to trust; empty for those of the system
+    std::string ca_file;    ///< trusted certificates; empty: the certificates of the system
     int qos = 0;            ///< 0: at most once, 1: at least once
-    std::string client_id;  ///< empty if the broker chooses
+    std::string client_id;  ///< empty: the broker chooses an ID
     /// Topic of the presence messages of a publisher; empty for none. The broker retains the newest
-    /// message for later subscribers. The message for a broken connection is the last will.
+    /// message for later subscribers. The last will is the message for a broken connection.
     std::string presence_topic;
-    /// Returns a presence message. Both threads call it, but never at the same time.
+    /// Returns a presence message. Called by two threads, but never at the same time.
     std::function<std::string(Presence)> presence;
-    /// Maximum number of messages that are kept without a connection; then the oldest are
-    /// dropped.
+    /// Maximum number of messages that are queued without a connection. Beyond it, the oldest
+    /// messages are dropped.
     std::size_t queue = 50;
-    /// Called with messages for the user, for example that the connection is lost or back.
+    /// Called with messages for the user, for example that the connection is lost or restored.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
-/// Sets options from "mqtt://[USER[:PASSWORD]@]HOST[:PORT]", or mqtts:// for TLS. The default ports
-/// are 1883 and 8883. Throws BadArgument if the URL is invalid.
+/// Parses "mqtt://[USER[:PASSWORD]@]HOST[:PORT]", or mqtts:// for TLS, into `options`. The default
+/// ports are 1883 and 8883. Throws BadArgument if the URL is invalid.
 void parse_url(const std::string& url, MqttOptions& options);
 
-/// The connection and its thread: base class of publisher and subscriber.
+/// A connection and its thread: base class of publisher and subscriber.
 class MqttClient {
   public:
     MqttClient(const MqttClient&) = delete;
@@ -69,23 +69,24 @@ class MqttClient {
     explicit MqttClient(MqttOptions options);
     virtual ~MqttClient();
 
-    /// Connects, and waits a short time for the answer. Throws Error if the broker refuses the user
-    /// or the certificates cannot be read. If the broker does not answer, reports it through
+    /// Connects and waits up to 3 s for the answer. Throws Error if the broker refuses the user or
+    /// the certificates cannot be read. If the broker does not answer, reports this through
     /// `MqttOptions::tell`, and the thread keeps trying.
     void start();
-    /// Ends the connection and the thread; after this, no virtual function is called.
+    /// Ends the connection and the thread. No virtual function is called afterwards.
     void stop();
 
-    // These functions are called by the thread, without the lock.
+    // Called by the thread, without the lock.
     virtual void on_connected() {}
     virtual void on_disconnected() {}
     virtual void on_published(int) {}
     virtual void on_message(std::string_view, std::string_view) {}
-    /// Sends and receives once while connected; waits a short time for something to do. Returns an
-    /// error code of libmosquitto.
+    /// Sends and receives once while connected. Waits a short time for the socket. Returns an error
+    /// code of libmosquitto.
     virtual int work();
 
-    /// Whether the newest attempt to connect failed, or the connection is lost. Needs the lock.
+    /// Returns true if the newest attempt to connect failed or the connection is lost. Requires the
+    /// lock.
     bool has_failed() const {
         return (was_reached_ && !is_connected_) || !failure_.empty() || !refusal_.empty();
     }
@@ -119,18 +120,18 @@ class MqttPublisher : public MqttClient {
     explicit MqttPublisher(MqttOptions options);
     ~MqttPublisher() override;
 
-    /// Sends a message, or queues it until there is a connection; does not block. After an
+    /// Sends a message, or queues it until there is a connection. Does not block. After an
     /// interruption, the newest messages are sent first.
     void publish(std::string topic, std::string payload);
 
-    /// Waits until all messages are sent. Returns false if that takes longer than `patience`.
+    /// Waits until all messages are sent, at most for `patience`. Returns false on timeout.
     bool flush(std::chrono::milliseconds patience);
 
     std::int64_t sent() const;
     /// Number of messages in the queue or being sent.
     std::int64_t unsent() const;
-    /// Number of messages that were never sent because newer messages replaced them in the queue,
-    /// they were invalid, or (QoS 0) the connection broke while they were being sent.
+    /// Number of messages that were never sent: newer messages replaced them in the queue, they
+    /// were invalid, or the connection broke while they were being sent (QoS 0).
     std::int64_t dropped() const;
 
   private:
@@ -143,13 +144,14 @@ class MqttPublisher : public MqttClient {
     void on_published(int id) override;
     void send_waiting();
     void send_presence(Presence presence);
-    void say_goodbye();
+    void send_offline();
 
     std::deque<Message> waiting_;
     std::set<int>
-        under_way_;  ///< messages in libmosquitto, not yet sent (QoS 0) or acknowledged (QoS 1)
+        /// Messages in libmosquitto: not yet sent (QoS 0) or not yet acknowledged (QoS 1).
+        under_way_;
     std::set<int> presence_under_way_;  ///< presence messages that are not yet acknowledged
-    bool said_online_ = false;          ///< whether `online` was published on this connection
+    bool is_online_published_ = false;  ///< true if `online` was published on this connection
     std::condition_variable done_;
     std::int64_t sent_ = 0;
     std::int64_t dropped_ = 0;
@@ -159,12 +161,12 @@ class MqttSubscriber : public MqttClient {
   public:
     using Handler = std::function<void(std::string_view topic, std::string_view payload)>;
 
-    /// Subscribes to topics; `handle` is called by another thread. Throws Error like
+    /// Subscribes to topics. `handle` is called by another thread. Throws Error like
     /// MqttClient::start.
     MqttSubscriber(MqttOptions options, std::vector<std::string> topics, Handler handle);
     ~MqttSubscriber() override;
 
-    /// Ends the connection. The handler is not called any more.
+    /// Ends the connection. The handler is not called afterwards.
     void disconnect() { stop(); }
 
   private:

@@ -1,4 +1,4 @@
-// Serialises messages as OMG CDR, in the version and with the header of ROS 2.
+// Serializes messages as OMG CDR, in the version and with the header that ROS 2 uses.
 #include <algorithm>
 #include <bit>
 #include <concepts>
@@ -9,7 +9,7 @@
 namespace dotpose::ros {
 namespace {
 
-/// Appends values, each aligned to its size relative to the end of the header.
+/// Appends values. Each value is aligned to its size, relative to the end of the header.
 class CdrWriter {
   public:
     void put(std::unsigned_integral auto value) {
@@ -39,7 +39,7 @@ class CdrWriter {
     std::vector<std::uint8_t> take() { return std::move(bytes_); }
 
   private:
-    /// Plain CDR, little endian, and two unused bytes of options.
+    /// Plain CDR, little endian, followed by two unused option bytes.
     static constexpr std::array<std::uint8_t, 4> kHeader = {0, 1, 0, 0};
     std::vector<std::uint8_t> bytes_{kHeader.begin(), kHeader.end()};
 };
@@ -111,7 +111,7 @@ Time ros_time(std::int64_t time_ns) {
         std::numeric_limits<std::int32_t>::max() * kSecond_ns + kSecond_ns - 1;
     const std::int64_t fitting = std::clamp(time_ns, kEarliest, kLatest);
     std::int64_t seconds = fitting / kSecond_ns;
-    if (fitting % kSecond_ns < 0) --seconds;  // nanoseconds are never negative
+    if (fitting % kSecond_ns < 0) --seconds;  // nanoseconds must not be negative
     return {static_cast<std::int32_t>(seconds),
             static_cast<std::uint32_t>(fitting - seconds * kSecond_ns)};
 }

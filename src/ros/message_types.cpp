@@ -1,5 +1,5 @@
-// The definitions of the message types, as text in the format of ROS 2's .msg files (ros2msg): the
-// type itself, then each type that it contains, after a line of equal signs.
+// Definitions of the message types as text in the format of the .msg files of ROS 2 (ros2msg): the
+// type itself, then each type that it contains, preceded by a line of equal signs.
 #include <algorithm>
 #include <array>
 #include <sstream>
@@ -63,7 +63,7 @@ const Definition& definition(std::string_view full_name) {
     return *found;
 }
 
-/// Appends the names of all types that `members` contain, each once.
+/// Appends the names of all types that occur in `members`, each once.
 void collect(std::string_view members, std::vector<std::string>& names) {
     std::istringstream lines{std::string(members)};
     std::string type;

@@ -1,4 +1,4 @@
-// Poses in a plane as rigid motions.
+// Composition of poses in a plane.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace dotpose::ros {
 
-/// Returns the angle in [-pi, pi].
+/// Wraps an angle to [-pi, pi].
 inline double wrapped(double angle_rad) {
     return std::remainder(angle_rad, 2 * std::numbers::pi);
 }

@@ -10,9 +10,9 @@
 namespace dotpose::ros {
 namespace {
 
-constexpr std::size_t kSize = 6;  ///< rows and columns of the covariances of messages
+constexpr std::size_t kSize = 6;  ///< number of rows and columns of the covariances in messages
 
-/// The indices of x, y and yaw in (x, y, z, roll, pitch, yaw).
+/// Indices of x, y and yaw in (x, y, z, roll, pitch, yaw).
 constexpr std::array<std::size_t, 3> kPlanar = {0, 1, 5};
 
 Quaternion rotation_about_z(double yaw_rad) {
@@ -40,7 +40,7 @@ TransformStamped transform_of(const Header& header, std::string child, const Pla
         header, std::move(child), {{planar.x_m, planar.y_m, 0}, rotation_about_z(planar.yaw_rad)}};
 }
 
-/// The derivatives of three values by (x, y, yaw, vx, vy, turn).
+/// Derivatives of three values with respect to (x, y, yaw, vx, vy, turn).
 using Jacobian = std::array<std::array<double, 6>, 3>;
 
 PlanarCovariance propagated(const Jacobian& by, const PlanarMotion& motion) {
@@ -56,16 +56,16 @@ PlanarCovariance propagated(const Jacobian& by, const PlanarMotion& motion) {
     return result;
 }
 
-/// Returns the covariance of a pose in a frame that is turned by `yaw_rad` in the plane of the
-/// motion.
+/// Returns the covariance of the pose in a frame that is rotated by `yaw_rad` relative to the frame
+/// of `motion`.
 PlanarCovariance turned_covariance(const PlanarMotion& motion, double yaw_rad) {
     const double c = std::cos(yaw_rad);
     const double s = std::sin(yaw_rad);
     return propagated({{{c, s, 0, 0, 0, 0}, {-s, c, 0, 0, 0, 0}, {0, 0, 1, 0, 0, 0}}}, motion);
 }
 
-/// Returns the velocities in the frame of the robot; the uncertainty of the yaw makes their
-/// directions uncertain.
+/// Returns the velocities in the frame of the robot. Their covariance includes the uncertainty of
+/// the yaw, which makes their directions uncertain.
 TwistWithCovariance twist_of(const PlanarMotion& motion) {
     const double c = std::cos(motion.pose.yaw_rad);
     const double s = std::sin(motion.pose.yaw_rad);
@@ -112,8 +112,8 @@ RobotMessages RobotMessenger::messages(const RobotUpdate& update) {
     return result;
 }
 
-/// Updates `odom_from_base_`, or, if the motion does not continue the previous one,
-/// `map_from_odom_`.
+/// Updates `odom_from_base_`. Updates `map_from_odom_` instead if the motion does not continue the
+/// previous motion.
 void RobotMessenger::follow(const RobotUpdate& update) {
     const PlanarPose& map_from_base = update.motion->pose;
     if (update.is_found_again || plane_ != update.plane) {
@@ -151,14 +151,14 @@ std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFr
     if (!camera.paper) return std::nullopt;
     const PixelPoint centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
     const CameraPoint reference = from_image_centre(camera, camera.reference_px.value_or(centre));
-    // The robot's place and heading along the image axes, with y up.
+    // Position and heading of the robot along the image axes, with y up.
     const PlanarPose camera_from_base = {reference.x_mm / 1000, -reference.y_mm / 1000,
                                          -camera.theta_offset_rad};
     const PlanarPose base_from_camera = inverse(camera_from_base);
     const double height_m = camera.focal_px.value_or(0) *
                             std::sqrt(camera.paper->mm_per_px_x * camera.paper->mm_per_px_y) / 1000;
     const double half_rad = base_from_camera.yaw_rad / 2;
-    // Rotated about z by the yaw, then about the new x axis by half a turn: z points down.
+    // Rotation about z by the yaw, then about the new x axis by half a turn, so z points down.
     TransformStamped mount;
     mount.header.frame_id = frames.base;
     mount.child_frame_id = frames.camera;

@@ -1,4 +1,5 @@
-// Converts the results of a frame, in mm with y down or in the world, to metres with y up.
+// Converts the results of a frame from mm with y down, or from the world frame, to metres with y
+// up.
 #include <cmath>
 #include <cstdio>
 
@@ -8,7 +9,7 @@
 namespace dotpose::ros {
 namespace {
 
-/// If y points down in the plane, y and all angles are negated.
+/// Signs of y and angles: both are negated if y points down in the plane.
 struct Axes {
     bool is_y_up = true;
 

@@ -10,15 +10,15 @@ namespace {
 // same errors in every frame.
 struct DotErrors {
     double presence;  // uniform in [0, 1)
-    Vec2 jitter;      // normal, deviation 1
-    double ink;       // normal, deviation 1
+    Vec2 jitter;      // normal, standard deviation 1
+    double ink;       // normal, standard deviation 1
 };
 
 DotErrors errors_of(const Page& page, Cell cell) {
     const Section section = page.pattern.section;
     const std::uint64_t sheet = page.seed * 4096 + section.u * std::uint64_t{64} + section.v;
     Rng rng(sheet, (std::uint64_t{cell.x} << 32) | cell.y);
-    // All random numbers are always drawn, because switching one imperfection must not change the
+    // All random numbers are always drawn, so disabling one imperfection does not change the
     // others.
     DotErrors errors{};
     errors.presence = rng.uniform();
@@ -50,8 +50,8 @@ Vec2 shift_of(const Page& page, Cell cell) {
     return page.shift_mm({static_cast<double>(cell.x), static_cast<double>(cell.y)});
 }
 
-/// Returns the reflectance of a dot. Dots may have four inks by the direction of their
-/// displacement: right is the darkest, then down, left and up.
+/// Returns the reflectance of a dot. The direction of the displacement may select one of four inks:
+/// right is the darkest, then down, left and up.
 double reflectance_of(Vec2 displacement, const Imperfections& imperfections) {
     const double paleness = displacement.x > 0   ? 0
                             : displacement.y > 0 ? 1
@@ -72,7 +72,9 @@ View::View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperf
 
 OffsetBox visible_offsets(const View& view) {
     constexpr int kSteps =
-        16;  // points per side; a curved side has its extremes near the corners or its middle
+        // Points per side, because a distorted side may have its extremes at the corners or in the
+        // middle.
+        16;
     OffsetBox box{{1e300, 1e300}, {-1e300, -1e300}};
     const auto include = [&](double along_u, double along_v) {
         const Vec2 offset = view.projection.offset_from_pixel(
@@ -100,8 +102,8 @@ void add_disc(Ink& ink, const View& view, Vec2 offset_mm, double radius_mm, doub
     if (away_u > view.camera.width_px / 2.0 + reach_px) return;
     if (away_v > view.camera.height_px / 2.0 + reach_px) return;
 
-    // The dot's image is computed as an ellipse, as if the projection were linear across the dot.
-    // With 3 degrees of tilt this moves its centroid by less than 0.001 px even at 60 px per
+    // The image of the dot is an ellipse if the projection is linear across the dot. At 3 degrees
+    // of tilt, this approximation moves the centroid by less than 0.001 px, even at 60 px per
     // spacing.
     const auto half = [&](Vec2 step) {
         const Vec2 ahead =
@@ -122,7 +124,7 @@ void add_dots(Ink& ink, const View& view, const Page& page, const Imperfections&
     const OffsetBox box = visible_offsets(view);
     const CameraPose& pose = view.pose;
     // Cells are relative to the cell of the pose, so offsets are exact anywhere on the plane. The
-    // range has a further cell on each side for dots that are displaced or jittered into view.
+    // range includes one more cell on each side, for dots that are displaced or jittered into view.
     const AxisScale scale = page.print_scale;
     const Vec2 spacing_mm{scale.x * pattern.spacing_mm, scale.y * pattern.spacing_mm};
     const auto first = [](double low, double fraction) {

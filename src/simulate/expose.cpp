@@ -16,11 +16,11 @@
 namespace dotpose::simulate {
 namespace {
 
-// Number of pixels whose sums are computed together, with vector instructions.
+// Number of pixels that are processed together with vector instructions.
 constexpr std::size_t kLanes = 4;
 
-// Computes the light in each pixel as the light of bare paper minus the light absorbed by ink. Ink
-// covers only a few percent of the sub-pixels, and only these are spread over neighbouring pixels.
+// Computes the light in each pixel as the light of bare paper minus the light absorbed by ink. Only
+// the sub-pixels with ink, a few percent, are spread over neighbouring pixels.
 class Sensor {
   public:
     Sensor(const CameraModel& camera, const Kernel& kernel, const std::vector<float>& paper)
@@ -29,13 +29,14 @@ class Sensor {
           border_(static_cast<std::size_t>(kernel.border_px)),
           kernel_(kernel),
           paper_(paper),
-          // A reach may begin at any pixel and is extended to a multiple of kLanes.
+          // A range may begin at any pixel, and its length is rounded up to a multiple of kLanes.
           row_(whole_lanes(width_ + 2 * border_ + kernel.taps) + kLanes),
           levels_(row_.size() * static_cast<std::size_t>(camera.height_px)) {
         collect_paper();
     }
 
-    // Subtracts the light absorbed by ink in a sub-row, numbered from the top of the border.
+    // Subtracts the light absorbed by the ink in a sub-row. Sub-rows are numbered from the top of
+    // the border.
     void absorb(int sub_row, std::span<const Raster::Spot> spots) {
         if (spots.empty()) return;
         const int row = sub_row / kernel_.per_pixel;
@@ -59,7 +60,7 @@ class Sensor {
     }
 
   private:
-    // A range of elements of row_; its length is a multiple of kLanes.
+    // A range of elements of row_. Its length is a multiple of kLanes.
     struct Reach {
         std::size_t from, to;
     };
@@ -72,7 +73,8 @@ class Sensor {
         return paper_.data() + (static_cast<std::size_t>(row) * (width_ + 2 * border_));
     }
 
-    // Converts the ink of a row to lost light and finds the ranges of row_ that it contributes to.
+    // Converts the ink of a row to lost light, and computes the ranges of row_ that this light
+    // affects.
     void gather(std::span<const Raster::Spot> spots, const float* paper) {
         losses_.assign(spots.begin(), spots.end());
         reaches_.clear();
@@ -113,8 +115,8 @@ class Sensor {
         }
     }
 
-    // The number of phases is a template parameter, so the compiler can unroll the loop over phases
-    // and load and store each pixel once.
+    // The number of phases is a template parameter, so the compiler can unroll the loop over
+    // phases, and each pixel is loaded and stored only once.
     template <std::size_t kPhases>
     void spread_phases(const Kernel::Weights& weights) {
         std::array<const float*, kPhases> of_phase;
@@ -134,8 +136,8 @@ class Sensor {
         }
     }
 
-    // Adds a range of row_ to all pixel rows that row `row` contributes to. Rows are numbered from
-    // the edge of the border.
+    // Adds a range of row_ to all pixel rows to which row `row` contributes. Rows are numbered from
+    // the top of the border.
     void add_row(int row, const std::vector<float>& weights, Reach reach) {
         const int top = row - 2 * kernel_.border_px;
         const int first = std::max(0, -top);
@@ -152,14 +154,14 @@ class Sensor {
         }
     }
 
-    // Convolves the light of bare paper. It is constant over each pixel, so the weights of the
-    // pixel's sub-pixels are summed first. Both passes keep the sums of a part of a row in
-    // registers.
+    // Convolves the light of bare paper with the kernel. The light is constant over each pixel, so
+    // the weights of the sub-pixels of a pixel are summed first. Both passes keep the sums of a
+    // part of a row in registers.
     void collect_paper() {
         const auto height = static_cast<std::size_t>(height_);
         const std::size_t reach = 2 * border_ + 1;
         const std::size_t stride = row_.size();
-        // The first elements are zeros for the taps to the left of the first pixel.
+        // The leading zeros are read by the taps to the left of the first pixel.
         std::vector<float> light(2 * border_ + stride);
         std::vector<float> along_rows(stride * (height + 2 * border_));
         for (const Kernel::Moment& moment : kernel_.moments) {
@@ -218,13 +220,14 @@ class Sensor {
     std::size_t border_;
     const Kernel& kernel_;
     const std::vector<float>& paper_;
-    std::vector<Raster::Spot> losses_;  // darkness times the light there
+    std::vector<Raster::Spot> losses_;  // darkness times the light of bare paper
     std::vector<Reach> reaches_;        // disjoint, from left to right
-    std::vector<float> row_;     // one sub-row spread over pixels, with two borders on each side
-    std::vector<float> levels_;  // rows as long as row_
+    // One sub-row after horizontal spreading, with two borders on each side.
+    std::vector<float> row_;
+    std::vector<float> levels_;  // rows with the same length as row_
 };
 
-// Samples the ink of a page image in the sub-rows of a frame.
+// Samples the ink of a page image along the sub-rows of a frame.
 class ImageRows {
   public:
     ImageRows(const PageImage& page, const View& view, const Imperfections& imperfections,
@@ -260,7 +263,7 @@ class ImageRows {
     }
 
     float darkness_at(Vec2 offset_mm) const {
-        // Half a pixel is subtracted because pixel centres have integer coordinates.
+        // Subtract half a pixel, because pixel centres have integer coordinates.
         const double u = (page_.centre_mm.x + offset_mm.x) / page_.mm_per_px - 0.5;
         const double v = (page_.centre_mm.y + offset_mm.y) / page_.mm_per_px - 0.5;
         if (!(u > -1 && v > -1 && u < page_.image.width_px && v < page_.image.height_px)) return 0;
@@ -319,7 +322,7 @@ std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
 
 std::vector<float> expose(const PageImage& page, const View& view,
                           const Imperfections& imperfections) {
-    // The sub-pixels are as fine as for dots of the default pattern.
+    // The sub-pixels are as fine as for the dots of the default pattern.
     const Kernel kernel = make_kernel(imperfections, Pattern{}.dot_mm / view.camera.mm_per_px);
     const std::vector<float> paper = bare_paper(view, Page{}, imperfections, kernel.border_px);
     ImageRows rows(page, view, imperfections, kernel);

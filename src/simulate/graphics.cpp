@@ -9,7 +9,7 @@
 namespace dotpose::simulate {
 namespace {
 
-// Capital letters as strokes: four digits each, x y x y, on a raster 2 wide and 4 high, y upwards.
+// Capital letters as strokes of four digits each, x y x y, on a grid 2 wide and 4 high, y up.
 constexpr std::array<std::string_view, 14> kLetters = {
     "001414200121",      // A
     "000404240020",      // C
@@ -58,7 +58,7 @@ Vec2 random_offset(const View& view, Rng& rng) {
 
 void add_stroke(Ink& ink, const View& view, const Stroke& stroke, double reflectance) {
     const Vec2 span{stroke.to_mm.x - stroke.from_mm.x, stroke.to_mm.y - stroke.from_mm.y};
-    // Short pieces, because the lens bends straight lines.
+    // The strokes are split into short pieces, because lens distortion bends straight lines.
     const double piece_mm = 24 * view.camera.mm_per_px;
     const int pieces = std::max(1, static_cast<int>(std::hypot(span.x, span.y) / piece_mm));
     for (int piece = 0; piece < pieces; ++piece) {

@@ -1,4 +1,4 @@
-/// Ink as shapes in the image of a lens without blur.
+/// Ink as shapes in an image without blur.
 #pragma once
 
 #include <functional>
@@ -12,14 +12,14 @@ namespace dotpose::simulate {
 /// The image of a round dot.
 struct InkEllipse {
     Vec2 centre_px;
-    /// The outline is the set of p with (p - centre)^T M^-1 (p - centre) = 1, M = [xx xy; xy yy].
+    /// Outline: all p with (p - centre)^T M^-1 (p - centre) = 1, where M = [xx xy; xy yy].
     double xx = 0;
     double xy = 0;
     double yy = 0;
     double reflectance = 0;  ///< reflected light relative to bare paper, 0 to 1
 };
 
-/// The image of a convex area; its corners are in clockwise or counter-clockwise order.
+/// The image of a convex area. The corners are in clockwise or counter-clockwise order.
 struct InkPolygon {
     std::vector<Vec2> corners_px;
     double reflectance = 0;
@@ -35,8 +35,8 @@ struct View {
     CameraModel camera;
     CameraPose pose;
     Projection projection;
-    double margin_px;  ///< maximum distance at which ink outside the image contributes by blur and
-                       ///< motion
+    /// Maximum distance at which ink outside of the image contributes, due to blur and motion.
+    double margin_px;
 
     View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperfections& blurred);
 };
@@ -48,14 +48,14 @@ struct OffsetBox {
 };
 OffsetBox visible_offsets(const View& view);
 
-/// Adds the image of a disc, unless it is out of view.
+/// Adds the image of a disc if it is in view.
 void add_disc(Ink& ink, const View& view, Vec2 offset_mm, double radius_mm, double reflectance);
 
 /// Returns the offset of the dot of a cell from its intersection, in units of the displacement
 /// length.
 using DisplacementOf = std::function<Vec2(Cell)>;
 
-/// Adds the page's dots in view, with their printing errors.
+/// Adds the visible dots of the page, with their printing errors.
 void add_dots(Ink& ink, const View& view, const Page& page, const Imperfections& imperfections,
               const DisplacementOf& displacement_of);
 
@@ -69,7 +69,7 @@ struct Stroke {
 };
 void add_stroke(Ink& ink, const View& view, const Stroke& stroke, double reflectance);
 
-/// Letters on a line; `at_mm` is the offset of the bottom left corner of the first letter from the
+/// Letters on a line. `at_mm` is the offset of the bottom left corner of the first letter from the
 /// pose point.
 struct Word {
     Vec2 at_mm;
@@ -78,7 +78,7 @@ struct Word {
     int letters = 0;
     double stroke_mm = 0;
 };
-/// Width of a letter and the gap after it, in letter heights.
+/// Width of a letter and the gap after it, as a fraction of the letter height.
 inline constexpr double kLetterAdvance = 0.75;
 void add_word(Ink& ink, const View& view, const Word& word, double reflectance, Rng& rng);
 

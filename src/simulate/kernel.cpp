@@ -7,8 +7,8 @@
 namespace dotpose::simulate {
 namespace {
 
-// Returns the integral of the cumulative normal distribution with standard deviation `sigma` from
-// minus infinity to x; for sigma 0 the distribution is a step.
+// Returns the integral of the cumulative normal distribution with standard deviation `sigma`, from
+// minus infinity to x. For sigma = 0, the distribution is a step.
 double integral_of_edge(double x, double sigma) {
     if (sigma < 1e-6) return std::max(x, 0.0);
     const double z = x / sigma;
@@ -17,12 +17,12 @@ double integral_of_edge(double x, double sigma) {
 }
 
 // Returns the weights for a scene shifted by `shift_px`. The response of a pixel is a box of 1 px
-// convolved with the Gaussian blur of the lens; the weight of a sub-pixel is the integral of the
+// convolved with the Gaussian blur of the lens. The weight of a sub-pixel is the integral of the
 // response over the sub-pixel.
 Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, double share) {
     const auto pixels = static_cast<std::size_t>(2 * kernel.border_px + 1);
     const auto per_pixel = static_cast<std::size_t>(kernel.per_pixel);
-    // The integral of the response up to each border between sub-pixels within the kernel.
+    // edges[i] is the integral of the response up to the border before sub-pixel i of the kernel.
     std::vector<double> edges;
     for (std::size_t i = 0; i <= (pixels + 1) * per_pixel; ++i) {
         edges.push_back(integral_of_edge(
@@ -39,16 +39,16 @@ Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, 
     }
     Kernel::Weights result(per_pixel, std::vector<float>(kernel.taps));
     for (std::size_t i = 0; i < exact.size(); ++i) {
-        // The order is reversed: light of a sub-pixel further right in the kernel goes to a pixel
-        // further left.
+        // The order is reversed, because light of a sub-pixel further right in the kernel
+        // contributes to a pixel further left.
         result[i % per_pixel][pixels - 1 - i / per_pixel] =
             static_cast<float>(exact[i] * share / sum);
     }
     return result;
 }
 
-// Returns the number of sub-pixels per pixel, at most 8, for about 6 sub-pixels or more across a
-// dot. Sampling then moves the centroid of a dot by less than 0.003 px.
+// Returns the number of sub-pixels per pixel and axis, at most 8, to have at least about 6
+// sub-pixels across a dot. Sampling then moves the centroid of a dot by less than 0.003 px.
 int sub_pixels_for(double dot_px) {
     if (dot_px < 1.5) return 8;
     return dot_px < 6 ? 4 : 2;
@@ -63,16 +63,16 @@ Kernel make_kernel(const Imperfections& imperfections, double dot_px) {
     Kernel kernel;
     kernel.per_pixel =
         imperfections.sub_pixels > 0 ? imperfections.sub_pixels : sub_pixels_for(dot_px);
-    // Drawing on sub-pixels blurs like a triangle of twice their width, with a variance of 1/6. The
-    // Gaussian adds the rest of the requested blur.
+    // Drawing on sub-pixels blurs like a triangle of twice their width, whose variance is 1/6 of a
+    // squared sub-pixel. The Gaussian adds the rest of the requested blur.
     const double raster_variance = 1.0 / (6.0 * kernel.per_pixel * kernel.per_pixel);
     const double sigma_px = std::sqrt(
         std::max(0.0, imperfections.blur_sigma_px * imperfections.blur_sigma_px - raster_variance));
     kernel.border_px = static_cast<int>(
         std::ceil(4 * sigma_px + std::max(std::abs(motion_px.x), std::abs(motion_px.y)) / 2));
     kernel.taps = (static_cast<std::size_t>(2 * kernel.border_px + 1) + 3) / 4 * 4;
-    // Motion is approximated by moments with a fixed scene; between two moments it moves by at most
-    // one sub-pixel.
+    // Motion is approximated by moments with a fixed scene. The scene moves by at most one
+    // sub-pixel between two moments.
     const int moments = std::max(1, static_cast<int>(std::ceil(length_px * kernel.per_pixel)));
     for (int moment = 0; moment < moments; ++moment) {
         const double time = (moment + 0.5) / moments - 0.5;

@@ -1,4 +1,4 @@
-/// The point spread function of lens, motion and pixel area, as weights over sub-pixels.
+/// Point spread function of lens, motion and pixel area, as weights of sub-pixels.
 #pragma once
 
 #include <vector>
@@ -10,24 +10,24 @@ namespace dotpose::simulate {
 struct Kernel {
     static constexpr int kMaxPerPixel = 8;
     int per_pixel = 2;     ///< sub-pixels per pixel and axis: 2, 4 or 8
-    int border_px = 0;     ///< number of pixels that the kernel extends beyond its own
+    int border_px = 0;     ///< number of pixels by which the kernel extends beyond its centre pixel
     std::size_t taps = 1;  ///< 2 * border_px + 1, rounded up to a multiple of 4
 
-    /// weights[phase][j] is the fraction of the light on sub-pixel `phase` of pixel u that pixel u
-    /// + j - border_px collects, for j from 0 to 2 * border_px; the other weights up to `taps` are
-    /// zero.
+    /// weights[phase][j] is the fraction of the light on sub-pixel `phase` of pixel u that
+    /// contributes to pixel u + j - border_px, for j from 0 to 2 * border_px. The remaining weights
+    /// up to `taps` are zero.
     using Weights = std::vector<std::vector<float>>;
 
-    /// The weights of the scene at one moment of the exposure.
+    /// Weights for the scene at one moment of the exposure.
     struct Moment {
         Weights x;
-        Weights y;  ///< includes the fraction of this moment in the exposure
+        Weights y;  ///< includes the fraction of the exposure time that this moment represents
     };
     std::vector<Moment> moments;
 };
 
-/// Computes the kernel. `dot_px` is the diameter of a dot in the image, which determines the size
-/// of the sub-pixels.
+/// Computes the kernel. `dot_px`, the diameter of a dot in the image, determines the size of the
+/// sub-pixels.
 Kernel make_kernel(const Imperfections& imperfections, double dot_px);
 
 }  // namespace dotpose::simulate

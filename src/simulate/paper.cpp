@@ -17,16 +17,16 @@ double PageArea::distance(double x, double y) const {
 namespace simulate {
 namespace {
 
-// Rounds down without std::floor, which is a function call on the baseline processor.
+// Rounds down. std::floor is a function call on the baseline processor and is therefore slower.
 std::int64_t floor_of(double x) {
-    // Points near the horizon of an extreme tilt are too far away for a 64-bit integer.
+    // Points near the horizon of an extreme tilt exceed the range of a 64-bit integer.
     if (!(std::abs(x) < 4e18)) return 0;
     const auto towards_zero = static_cast<std::int64_t>(x);
     return towards_zero - (x < static_cast<double>(towards_zero) ? 1 : 0);
 }
 
-// Reflectance of bare paper: random values at the nodes of a lattice on the page, interpolated
-// linearly.
+// Reflectance of bare paper: random values at the nodes of a lattice on the page, with linear
+// interpolation.
 class Texture {
   public:
     Texture(const Page& page, const View& view, double deviation)
@@ -35,7 +35,7 @@ class Texture {
           origin_{x_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_,
                   y_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_},
           // A uniform value in [-1, 1) has the standard deviation 1/sqrt(3), and interpolation
-          // multiplies it by 2/3.
+          // reduces it to 2/3.
           amplitude_(deviation * std::sqrt(3.0) * 1.5) {
         if (deviation > 0) tabulate(view);
     }
@@ -65,8 +65,8 @@ class Texture {
         return nodes_[static_cast<std::size_t>(row * columns_ + column)];
     }
 
-    // Precomputes the values of the nodes in view, because about 36 pixels use each. Under a strong
-    // tilt there can be more nodes than pixels; then there is no table.
+    // Precomputes the values of the nodes in view, because each node is used by about 36 pixels.
+    // Under a strong tilt, there may be more nodes than pixels; no table is made then.
     void tabulate(const View& view) {
         const OffsetBox box = visible_offsets(view);
         const double width = (box.high_mm.x - box.low_mm.x) * nodes_per_mm_ + 3;
@@ -93,8 +93,8 @@ class Texture {
     std::vector<double> nodes_;
 };
 
-/// The table under the paper, which is visible beyond the edge of the paper. Pixels on the edge mix
-/// paper and table.
+/// The table, which is visible beyond the edge of the paper. Pixels on the edge mix paper and
+/// table.
 class Table {
   public:
     Table(const Page& page, const View& view)

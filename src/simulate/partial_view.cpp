@@ -1,4 +1,4 @@
-// Draws partly covered views: edges of sheets, and islands of pattern.
+// Generates partly covered views: edges of sheets, and islands of pattern.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,7 +9,7 @@
 namespace dotpose {
 namespace {
 
-/// Returns the points of the page under evenly spaced pixels of the image, in units of the spacing.
+/// Returns the points of the page at evenly spaced pixels of the image, in grid spacings.
 std::vector<Vec2> sample_points(const Shot& shot) {
     constexpr int kColumns = 64;
     constexpr int kRows = 48;
@@ -42,18 +42,20 @@ double intersections(const Shot& shot) {
     return shot.camera.width_px * shot.camera.height_px / (spacing_px(shot) * spacing_px(shot));
 }
 
-/// Draws a direction along an axis of the pattern or of the image.
+/// Draws a random direction along an axis of the pattern or of the image, in rad.
 double draw_direction(const Shot& shot, Rng& rng) {
     const double of_image = rng.uniform() < 0.5 ? shot.pose.theta_rad : 0;
     return of_image + static_cast<double>(rng.below(4)) * std::numbers::pi / 2;
 }
 
-/// Returns half the side of a square that is large enough for at most one corner in view.
+/// Returns half the side of a square, in grid spacings, that is large enough to have at most one
+/// corner in view.
 double endless(const Shot& shot) {
     return 8 * std::hypot(shot.camera.width_px, shot.camera.height_px) / spacing_px(shot);
 }
 
-/// Draws a sheet with a side or a corner in view that covers a given fraction of the view.
+/// Draws a random sheet with an edge or a corner in view. `share` is the fraction of the view that
+/// the sheet covers.
 PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     const std::vector<Vec2> points = sample_points(shot);
     const double size = endless(shot);
@@ -62,10 +64,10 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     area.angle_rad = draw_direction(shot, rng);
     const bool is_corner = rng.uniform() < 0.5;
     const Vec2 along{std::cos(area.angle_rad), std::sin(area.angle_rad)};
-    // A corner moves into the view along a line near the diagonal of the square.
+    // The corner moves into the view along a line near the diagonal of the square.
     const double across = is_corner ? rng.uniform(0.6, 1.0) : 0;
     const auto advance = [&](double by) {
-        // The square is placed so that its edge, or corner, is `by` beyond the image centre.
+        // Moves the square until its edge or corner is `by` beyond the image centre.
         const double u = by - size;
         const double v = is_corner ? across * by - size : 0;
         area.x_grid = x_grid(shot.pose) + u * along.x - v * along.y;
@@ -81,7 +83,7 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     return area;
 }
 
-/// Draws a rectangle inside the view that contains enough dots.
+/// Draws a random rectangle inside the view with enough dots.
 PageArea draw_island(const Shot& shot, Rng& rng) {
     constexpr double kMinDots = PartialView::kFewestIslandDots * 1.05;
     PageArea area;
@@ -99,8 +101,8 @@ PageArea draw_island(const Shot& shot, Rng& rng) {
     return area;
 }
 
-/// Whether two areas are some spacings apart. The extent of `a` is approximated by a circle through
-/// about its corners.
+/// Returns true if two areas are at least about two spacings apart. The area `a` is approximated by
+/// a circle.
 bool are_apart(const PageArea& a, const PageArea& b) {
     constexpr double kGap = 2;
     const double reach = std::hypot(a.half_width, a.half_height);
@@ -135,7 +137,7 @@ void cover_partly(Shot& shot, const PartialView& view) {
         }
         return;
     }
-    // The margin of 15 % is for the dots at the border, which are not completely visible.
+    // The factor 1.15 compensates for dots at the border, which are only partly visible.
     const double min_share =
         std::max(view.least_share, 1.15 * view.fewest_dots / intersections(shot));
     const double share = rng.uniform(min_share, std::max(min_share, view.most_share));

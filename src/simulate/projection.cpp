@@ -16,8 +16,8 @@ Projection::Projection(const CameraModel& camera, const CameraPose& pose)
       k_(camera.k),
       focal_px_(camera.working_distance_mm / camera.mm_per_px),
       distance_mm_(camera.working_distance_mm) {
-    // The axes s and t of the paper are parallel to the image axes before the tilt. The tilt turns
-    // them first about the image y axis, then about the image x axis.
+    // The axes s and t of the paper are parallel to the image axes before the tilt. The tilt
+    // rotates them first about the image y axis, then about the image x axis.
     const double cx = std::cos(pose.tilt_x_rad);
     const double sx = std::sin(pose.tilt_x_rad);
     const double cy = std::cos(pose.tilt_y_rad);
@@ -25,15 +25,15 @@ Projection::Projection(const CameraModel& camera, const CameraPose& pose)
     const std::array<double, 3> s_axis{cy, sx * sy, -cx * sy};
     const std::array<double, 3> t_axis{0, cx, sx};
 
-    // Near the pose point, a step along the image x axis corresponds on the paper to the (s, t)
-    // that solves s * s_axis + t * t_axis = (1, 0, any). Theta is the angle of this step in the
-    // pattern.
+    // Near the pose point, a step along the image x axis corresponds to the step (s, t) on the
+    // paper that solves s * s_axis + t * t_axis = (1, 0, any). Theta is the angle of this step in
+    // the pattern.
     const double step_angle_rad = std::atan2(-sx * sy / cx, 1);
     const double turn_rad = pose.theta_rad - step_angle_rad;
     const double c = std::cos(turn_rad);
     const double s = std::sin(turn_rad);
     for (std::size_t i = 0; i < 3; ++i) {
-        // offset = R(turn) * (s, t), so the pattern's axes are the columns of R(-turn).
+        // offset = R(turn) * (s, t), so the axes of the pattern are the columns of R(-turn).
         x_axis_[i] = c * s_axis[i] - s * t_axis[i];
         y_axis_[i] = s * s_axis[i] + c * t_axis[i];
     }
@@ -54,7 +54,8 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
     if (discriminant < 0) return kInvisible;
     const double scale = 2 / (1 + std::sqrt(discriminant));
     const Vec2 seen{scale * undistorted.x, scale * undistorted.y};
-    // Its row, seen.y + time * readout.y, is read at `time`, a fraction of the readout.
+    // The row seen.y + time * readout.y is read at `time`, measured from the middle of the readout
+    // as a fraction of its duration.
     const double time = seen.y / (height_px_ - readout_px_.y);
     return {centre_px_.x + seen.x + time * readout_px_.x,
             centre_px_.y + seen.y + time * readout_px_.y};
@@ -77,7 +78,7 @@ Vec2 Projection::offset_from_pixel(Vec2 pixel) const {
     return {(d * rx - b * ry) * factor, (a * ry - c * rx) * factor};
 }
 
-// Flattened: without a call per pixel it takes half the time.
+// With all calls inlined, this takes half the time.
 [[gnu::flatten]] void Projection::offsets_from_row(Vec2 first_pixel,
                                                    std::span<Vec2> offsets_mm) const {
     for (std::size_t i = 0; i < offsets_mm.size(); ++i)

@@ -18,7 +18,7 @@ Raster::Raster(const Ink& ink, const Layout& layout)
         ellipses_.push_back({place(dot.centre_px.x), place(dot.centre_px.y), dot.xy / dot.yy,
                              std::sqrt(narrow) * scale, std::sqrt(dot.yy) * scale,
                              1 - dot.reflectance});
-        tallest_ = std::max(tallest_, ellipses_.back().half_height);
+        max_half_height_ = std::max(max_half_height_, ellipses_.back().half_height);
     }
     // The sort is stable because the order of the ellipses affects the rounding of sums.
     std::stable_sort(ellipses_.begin(), ellipses_.end(),
@@ -61,9 +61,9 @@ void Raster::draw_band(int top) {
     band_top_ = top;
     const double bottom = top + layout_.band_rows;
 
-    auto dot = std::lower_bound(ellipses_.begin(), ellipses_.end(), top - tallest_,
+    auto dot = std::lower_bound(ellipses_.begin(), ellipses_.end(), top - max_half_height_,
                                 [](const Ellipse& a, double y) { return a.y < y; });
-    for (; dot != ellipses_.end() && dot->y <= bottom + tallest_; ++dot) {
+    for (; dot != ellipses_.end() && dot->y <= bottom + max_half_height_; ++dot) {
         fill(dot->y - dot->half_height, dot->y + dot->half_height, dot->darkness, [&](double y) {
             const double t = (y - dot->y) / dot->half_height;
             const double half = dot->half_width * std::sqrt(std::max(0.0, 1 - t * t));
@@ -88,9 +88,10 @@ void Raster::draw_band(int top) {
     }
 }
 
-// Darkens each sub-pixel by the fraction of its area that a convex shape covers. The area is exact
-// along the row and a Gauss quadrature with four chords across it, with an error below 0.1 % even
-// at the round ends of a dot. `chord_at(y)` returns the left and right end of the chord at y.
+// Darkens each sub-pixel in proportion to the area that a convex shape covers. The area is exact
+// along the row. Across the row, it is a Gauss quadrature with four chords, with an error below 0.1
+// % even at the round ends of a dot. `chord_at(y)` returns the left and right end of the chord at
+// y.
 template <typename ChordAt>
 void Raster::fill(double top, double bottom, double darkness, const ChordAt& chord_at) {
     struct Line {
@@ -118,7 +119,7 @@ void Raster::fill(double top, double bottom, double darkness, const ChordAt& cho
         float* out = row(row_index - band_top_);
         for (int x = touched_.from; x < touched_.to; ++x) {
             double& coverage = coverage_[static_cast<std::size_t>(x)];
-            // Overlapping shapes do not add: the darker one counts.
+            // Overlapping shapes do not add up: the darker one determines the level.
             out[x] = std::max(out[x], static_cast<float>(coverage * darkness));
             coverage = 0;
         }

@@ -15,32 +15,33 @@ class Raster {
     struct Layout {
         int per_pixel = 1;
         int border_px = 0;
-        int width = 0;  ///< sub-pixels per row of whole pixels, with the border
+        /// Sub-pixels per row, including the border; a multiple of `per_pixel`.
+        int width = 0;
         int band_rows = 0;
     };
 
     Raster(const Ink& ink, const Layout& layout);
 
-    /// Draws the sub-rows `top` to `top + band_rows - 1`, numbered from the top of the border. Call
-    /// `take_row` for all rows of the previous band first.
+    /// Draws the sub-rows `top` to `top + band_rows - 1`, numbered from the top of the border. All
+    /// rows of the previous band must have been taken with `take_row`.
     void draw_band(int top);
 
     /// The sub-pixels of one pixel in a sub-row.
     struct Spot {
         std::size_t pixel = 0;  ///< numbered from the left of the border
-        /// Fraction of the light that the ink absorbs in each sub-pixel; zero from index
-        /// Layout::per_pixel.
+        /// Fraction of the light that the ink absorbs in each sub-pixel. Zero from index
+        /// Layout::per_pixel on.
         std::array<float, Kernel::kMaxPerPixel> darkness{};
     };
 
-    /// Returns the pixels with ink in a row of the band, without duplicates, and clears the row.
+    /// Returns the pixels with ink in a row of the band, each once, and clears the row.
     std::span<const Spot> take_row(int row_in_band);
 
   private:
-    // Sub-pixel coordinates: sub-pixel i covers [i, i + 1).
+    // An ellipse in sub-pixel coordinates: sub-pixel i covers [i, i + 1).
     struct Ellipse {
         double x, y;
-        double slant;       // change of the x of a chord's middle per y
+        double slant;       // change of the x coordinate of the middle of a chord per unit of y
         double half_width;  // half the length of the chord through the centre
         double half_height;
         double darkness;  // 1 - reflectance
@@ -57,18 +58,18 @@ class Raster {
 
     Layout layout_;
     std::vector<Ellipse> ellipses_;  // sorted by y
-    double tallest_ = 0;             // largest half_height
+    double max_half_height_ = 0;     // of all ellipses
     std::vector<Polygon> polygons_;
     int band_top_ = 0;
-    // Most sub-pixels have no ink; only the sub-pixels in `spans_` of their row are read.
+    // A range of sub-pixels with ink. Most sub-pixels have no ink, and only the ranges are read.
     struct Span {
         int from, to;
     };
     float* row(int row_in_band);
     std::vector<float> band_;
     std::vector<std::vector<Span>> spans_;  // may overlap
-    std::vector<double> coverage_;          // covered fractions in the current row
-    Span touched_{};                        // the non-zero part of coverage_
+    std::vector<double> coverage_;          // covered fraction of each sub-pixel in the current row
+    Span touched_{};                        // range of non-zero elements of coverage_
     std::vector<Spot> spots_;
 };
 

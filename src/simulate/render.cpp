@@ -12,7 +12,7 @@ void require(bool holds, const std::string& otherwise) {
     if (!holds) throw BadArgument(otherwise);
 }
 
-// Whether a value is between `low` and `high`; false for NaN.
+// Returns true if the value is between `low` and `high`. False for NaN.
 bool within(double value, double low, double high) {
     return value >= low && value <= high;
 }
@@ -39,8 +39,9 @@ void check_camera(const CameraModel& camera, const CameraPose& pose) {
     require(within(pose.theta_rad, -1e6, 1e6) && within(pose.fraction_x, -1e6, 1e6) &&
                 within(pose.fraction_y, -1e6, 1e6),
             "the pose is not a number");
-    // Along the tilt, depth grows by `slope` per mm. The ray of the image corner moves sideways by
-    // `widest` mm per mm of depth. It meets the paper only if the product of both is below 1.
+    // Along the tilt, depth grows by `slope` per mm on the paper. The ray of the image corner moves
+    // sideways by `widest` mm per mm of depth. The ray meets the paper only if the product of
+    // `slope` and `widest` is below 1.
     const double widest = std::sqrt(corner_square) / std::min(1.0, 1 + camera.k * corner_square) *
                           camera.mm_per_px / camera.working_distance_mm;
     const double slope = std::hypot(std::tan(pose.tilt_x_rad),

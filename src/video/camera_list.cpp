@@ -17,7 +17,7 @@ namespace dotpose::video {
 namespace {
 
 constexpr int kMaxDevices = 64;
-/// Maximum number of entries of each kind; the list of a broken driver might never end.
+/// Maximum number of entries of each kind, because a faulty driver might return entries endlessly.
 constexpr std::uint32_t kMaxEntries = 256;
 
 class Device {
@@ -32,7 +32,7 @@ class Device {
 
     bool is_open() const { return descriptor_ >= 0; }
 
-    /// Returns false if the driver does not answer.
+    /// Sends a request to the driver. Returns false if the driver does not support it.
     template <typename Question>
     bool ask(unsigned long request, Question& question) const {
         int result = -1;
@@ -46,7 +46,7 @@ class Device {
     int descriptor_;
 };
 
-/// Requests entries 0, 1, ... until the driver has no more.
+/// Calls the driver for entries 0, 1, ... until there are no more.
 template <typename Entry>
 void for_each_entry(const Device& device, unsigned long request, Entry entry,
                     const std::function<void(const Entry&)>& use) {
@@ -57,7 +57,7 @@ void for_each_entry(const Device& device, unsigned long request, Entry entry,
     }
 }
 
-/// Returns the text in an array of a driver, which may lack the terminating zero.
+/// Returns the text in an array that a driver filled. The terminating zero may be missing.
 template <std::size_t size>
 std::string text_of(const std::uint8_t (&bytes)[size]) {
     const char* text = reinterpret_cast<const char*>(bytes);
@@ -86,7 +86,7 @@ std::vector<double> rates_at(const Device& device, std::uint32_t format, std::ui
     for_each_entry<v4l2_frmivalenum>(
         device, VIDIOC_ENUM_FRAMEINTERVALS, asked, [&rates](const v4l2_frmivalenum& found) {
             const bool is_one = found.type == V4L2_FRMIVAL_TYPE_DISCRETE;
-            // For a range, the shortest interval.
+            // A range is represented by its shortest interval.
             rates.push_back(rate_of(is_one ? found.discrete : found.stepwise.min));
         });
     return rates;
@@ -132,7 +132,7 @@ std::vector<CameraSize> sizes_of(const Device& device) {
     return sizes;
 }
 
-/// Returns the kernel's name of a device that cannot be opened.
+/// Returns the name of the device in the kernel, if the device cannot be opened.
 std::string name_in_sysfs(int number) {
     std::ifstream file(fmt::format("/sys/class/video4linux/video{}/name", number));
     std::string name;

@@ -1,5 +1,5 @@
-// Cameras, videos and windows: the module dotpose-video.so beside the program. OpenCV and FFmpeg
-// take a third of a second to load, so the module is loaded at its first use.
+// Cameras, videos and windows, implemented in the module dotpose-video.so beside the program.
+// OpenCV and FFmpeg take a third of a second to load, so the module is loaded on first use.
 #pragma once
 
 #include <functional>
@@ -18,13 +18,13 @@ using Tell = std::function<void(const std::string&)>;
 class GreyVideo {
   public:
     virtual ~GreyVideo() = default;
-    /// Throws Error, for example if the disk is full or the frames differ in size.
+    /// Appends a frame. Throws Error, for example if the disk is full or the frames differ in size.
     virtual void write(ImageView image) = 0;
-    /// Throws Error if the file is not complete.
+    /// Completes the file. Throws Error if the file is incomplete.
     virtual void finish() = 0;
 };
 
-/// The functions of the module. Each throws Error if it fails.
+/// Functions of the module. Each function throws Error if it fails.
 struct Module {
     using OpenSource = std::unique_ptr<capture::FrameSource>(const std::string& name,
                                                              const capture::SourceOptions& options);
@@ -36,7 +36,7 @@ struct Module {
     std::unique_ptr<ScreenOutput> (*open_screen)(const ScreenOptions& options);
 };
 
-/// Loads the module at the first call, and returns it. Throws Error if that fails.
+/// Returns the module, which is loaded by the first call. Throws Error if that fails.
 const Module& module();
 
 }  // namespace dotpose::video

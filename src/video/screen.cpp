@@ -27,9 +27,9 @@ bool Screen::is_wanted() {
 }
 
 bool has_display() {
-    // Qt, which draws the window, ends the program if it cannot reach an X server, so the
-    // connection is tested first. The library is a dependency of Qt and is loaded here; dotpose
-    // does not link it.
+    // Tests the connection to the X server before Qt opens the window, because Qt ends the program
+    // if it cannot connect. The X library is a dependency of Qt; dotpose loads it here and does not
+    // link it.
     void* library = dlopen("libX11.so.6", RTLD_LAZY);
     if (library == nullptr) return false;
     const auto connect = reinterpret_cast<void* (*)(const char*)>(dlsym(library, "XOpenDisplay"));

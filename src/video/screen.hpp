@@ -19,18 +19,18 @@
 
 namespace dotpose::video {
 
-/// A point of the path in some plane; after a jump, the path is drawn as a new stroke.
+/// A point of the path in a plane. After a jump, the path continues as a new stroke.
 struct PathMark {
     double x = 0;
     double y = 0;
     bool is_jump = false;
 };
 
-/// Progress towards one requirement.
+/// A gauge: progress towards one goal.
 struct Gauge {
     std::string label;
-    std::string text;  ///< the present value
-    double share = 0;  ///< fraction of the requirement, up to 1
+    std::string text;  ///< current value
+    double share = 0;  ///< fraction of the goal, at most 1
     bool is_reached = false;
 };
 
@@ -40,20 +40,20 @@ struct CalibrationScene {
 
     CalibrationCoverage coverage;
     std::vector<Gauge> gauges;
-    std::optional<double> theta_rad;  ///< direction of the frame; none if it is not located
-    bool is_taken = false;            ///< whether this frame was taken
+    std::optional<double> theta_rad;  ///< direction of the frame; none if it was not located
+    bool is_taken = false;            ///< true if this frame was taken
 };
 
-/// The contents of the picture of one frame.
+/// Contents of the picture of one frame.
 struct Scene {
     ImageView image;
     Trace trace;                             ///< trace of this image
-    bool is_good = false;                    ///< colour of the captions
+    bool is_good = false;                    ///< selects the colour of the captions
     std::vector<std::string> lines;          ///< captions: pose, rate, quality
     std::span<const PathMark> path;          ///< the path up to this frame
     std::span<const draw::MapSheet> sheets;  ///< the sheets in the plane of the path
-    bool y_up = false;                       ///< whether y points up in this plane
-    /// The calibration, which replaces the plan of sheets and path.
+    bool y_up = false;                       ///< true if y points up in the plane
+    /// Calibration gauges, which replace the view of sheets and path.
     std::optional<CalibrationScene> calibration;
 };
 
@@ -61,11 +61,11 @@ struct ScreenOptions {
     bool has_window = false;
     std::string record;  ///< path of the video file; empty for none
     double fps = 30;     ///< frame rate of the video file
-    /// Called with a message if the format of the recording is not the preferred one for its name.
+    /// Called with a message if the recording does not have the preferred format for its name.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
-/// Draws into the window and writes the file. The module implements it.
+/// Draws into the window and writes the file. Implemented by the module.
 class ScreenOutput {
   public:
     virtual ~ScreenOutput() = default;
@@ -77,27 +77,31 @@ class ScreenOutput {
 
 class Screen {
   public:
-    /// Throws Error if the window or file cannot be opened. Both are opened with the first scene.
+    /// Throws Error if the window or the file cannot be opened. Both are opened for the first
+    /// scene.
     explicit Screen(const ScreenOptions& options);
 
-    /// Whether there is a window or a recording.
+    /// Returns true if there is a window or a recording.
     bool is_on() const;
 
-    /// Draws, shows and records a scene if the screen is on. Returns false if the user closed the
-    /// window or pressed q or Escape in it. Throws Error if this fails.
+    /// Draws, shows and records a scene if `is_on()`. Returns false if the user closed the window
+    /// or pressed q or Escape in it. Throws Error if this fails.
     bool show(const Scene& scene);
 
-    /// Closes the recording. Throws Error if it is incomplete, for example if the disk is full.
+    /// Closes the recording. Throws Error if it is incomplete, for example because the disk is
+    /// full.
     void finish();
 
-    /// Handles window events when there is nothing new to show. Returns false like `show`.
+    /// Handles window events while there is no new scene. Returns false like `show`.
     bool is_wanted();
 
   private:
-    std::unique_ptr<ScreenOutput> output_;  ///< null if there is nothing to show
+    /// Null if neither a window nor a recording is requested.
+    std::unique_ptr<ScreenOutput> output_;
 };
 
-/// Whether a window can be opened: an X server answers, possibly in a Wayland session.
+/// Returns true if a window can be opened, that is, if an X server answers (possibly in a Wayland
+/// session).
 bool has_display();
 
 }  // namespace dotpose::video

@@ -181,7 +181,7 @@ TEST_F(CalibrateCommand, KeepsTheMountOfTheFileThatItReplaces) {
     simulate("frames", 6);
     std::ofstream(directory_ / "camera.yaml") << kMountedCamera;
     ASSERT_EQ(run("calibrate frames/*.pgm -o camera.yaml"), 0) << errors_;
-    EXPECT_THAT(errors_, HasSubstr("camera.yaml exists: what is not calibrated now"));
+    EXPECT_THAT(errors_, HasSubstr("camera.yaml exists: values that are not calibrated now"));
     EXPECT_THAT(file("camera.yaml"), HasSubstr("theta_offset_rad: 0.25"));
     EXPECT_THAT(file("camera.yaml"), HasSubstr("reference_px: ["));
     EXPECT_THAT(file("camera.yaml"), HasSubstr("gain: 3"));

@@ -106,7 +106,7 @@ TEST_F(CheckPrintCommand, fit_makes_the_millimetres_of_the_sheet_file_true) {
     const std::string before = file("sheets.json");
     write_jpeg("other.jpg", scan_of_60_x_50_mm(settings), 600);
     EXPECT_EQ(run("check-print other.jpg --fit --sheets sheets.json"), 1);
-    EXPECT_THAT(errors_, HasSubstr("no sheet of it is on the scan"));
+    EXPECT_THAT(errors_, HasSubstr("the scan shows none of its sheets"));
     EXPECT_EQ(file("sheets.json"), before);
     EXPECT_EQ(run("check-print other.jpg --fit"), 2);
 }
@@ -139,12 +139,12 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     const GreyImage scan = test::scan_page(sheet, {});
     write_jpeg("scan.jpg", scan, 0);
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json"), 1);
-    EXPECT_THAT(errors_, HasSubstr("scan.jpg states no resolution that can be true"));
+    EXPECT_THAT(errors_, HasSubstr("scan.jpg states no plausible resolution"));
     write_jpeg("screen.jpg", scan, 72);
     EXPECT_EQ(run("check-print screen.jpg --fit --sheets sheets.json"), 1);
-    EXPECT_THAT(errors_, HasSubstr("screen.jpg states no resolution that can be true"));
+    EXPECT_THAT(errors_, HasSubstr("screen.jpg states no plausible resolution"));
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json --dpi 400"), 1);
-    EXPECT_THAT(errors_, HasSubstr("scan.jpg: a page at 150 % of its size is not what was"));
+    EXPECT_THAT(errors_, HasSubstr("scan.jpg: the page would be printed at 150 % of its size"));
     EXPECT_EQ(file("sheets.json"), before);
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json --dpi 600"), 0) << errors_;
 }

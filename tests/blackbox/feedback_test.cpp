@@ -91,7 +91,7 @@ TEST_F(Feedback, CtrlCKeepsTheFramesThatEvaluateHasSeen) {
                             "evaluate --preset nominal --frames 1000000 --format json",
                         "[ \"$(cut -d ' ' -f 14 /proc/$(cat pid)/stat)\" -gt 30 ]"),
               1);
-    EXPECT_THAT(errors_, ContainsRegex("the report is about the first [1-9][0-9]* of 1000000"));
+    EXPECT_THAT(errors_, ContainsRegex("the report covers the first [1-9][0-9]* of 1000000"));
     const json report = json::parse(output_);
     EXPECT_GT(report["frames"], 0);
     EXPECT_LT(report["frames"], 1'000'000);

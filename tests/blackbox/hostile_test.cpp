@@ -141,7 +141,7 @@ TEST_F(Hostile, EndlessFilesAreRefused) {
     EXPECT_THAT(errors_, HasSubstr("the list /dev/zero: a line has more than 64 KB"));
     EXPECT_EQ(run("replay /dev/zero"), 1);
     EXPECT_THAT(errors_,
-                HasSubstr("/dev/zero:1: no log of dotpose watch: a line has more than 64 KB"));
+                HasSubstr("/dev/zero:1: not a log of dotpose watch: a line has more than 64 KB"));
     put("run.csv", "frame,t_s\n" + std::string(100'000, '1'));
     EXPECT_EQ(run("replay run.csv"), 1);
 }
@@ -186,7 +186,7 @@ TEST_F(Hostile, AbsurdNumbersOfALogAreRefused) {
                             "1,0,ok,1e300,,,,,,,,,", "nan,0,ok,1,,,,,,,,,"}) {
         put("run.csv", header + row + "\n");
         EXPECT_EQ(run("replay run.csv"), 1) << row;
-        EXPECT_THAT(errors_, HasSubstr("run.csv:2: no log of dotpose watch")) << row;
+        EXPECT_THAT(errors_, HasSubstr("run.csv:2: not a log of dotpose watch")) << row;
     }
 }
 

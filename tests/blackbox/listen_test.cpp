@@ -133,7 +133,7 @@ TEST_F(Listen, RefusesWhatItCannotRead) {
     EXPECT_EQ(run("listen nowhere"), 1);
     EXPECT_THAT(errors_, HasSubstr("cannot read nowhere: No such file"));
     EXPECT_EQ(run("listen x --baud 123"), 2);
-    EXPECT_THAT(errors_, HasSubstr("--baud: 123 is no usual rate"));
+    EXPECT_THAT(errors_, HasSubstr("--baud: 123 is not a usual rate"));
     EXPECT_EQ(run("listen"), 2);
 }
 

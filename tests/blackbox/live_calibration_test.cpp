@@ -63,7 +63,7 @@ TEST_F(LiveCalibration, EndsByItselfOnceNothingIsMissing) {
     expect_paper_lens();
     EXPECT_THAT(errors_, HasSubstr("dotpose: 1 frame taken; "));
     EXPECT_THAT(errors_, HasSubstr("next: "));
-    EXPECT_THAT(errors_, Not(HasSubstr("would gain")));
+    EXPECT_THAT(errors_, Not(HasSubstr("could be improved")));
     EXPECT_THAT(output_, HasSubstr("verdict     good"));
     EXPECT_THAT(output_, HasSubstr("corner      known to 0.09"));
     EXPECT_GE(used(), 5);
@@ -83,7 +83,7 @@ TEST_F(LiveCalibration, SaysWhatWasMissingAndWritesNothing) {
     EXPECT_EQ(calibrate("frames"), 1);
     EXPECT_FALSE(has_file());
     EXPECT_THAT(errors_,
-                HasSubstr("not enough was seen, and no file is written: of 3 frames 3 "
+                HasSubstr("not enough was seen, and no file was written: of 3 frames, 3 "
                           "were located and 3 taken (0 out of focus, 0 moving); missing: "));
     EXPECT_THAT(errors_, HasSubstr("take more frames (3 of 5)"));
     EXPECT_EQ(output_, "");
@@ -158,8 +158,8 @@ TEST_F(LiveCalibration, AnInterruptUsesWhatWasTaken) {
     put_raw("resting.raw");
     ASSERT_EQ(shell(interrupted_after(7)), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("frames      7 of 7 located"));
-    EXPECT_THAT(errors_, HasSubstr("the calibration can be used, but would gain: move to new "
-                                   "places (uncertainty in the corner "));
+    EXPECT_THAT(errors_, HasSubstr("the calibration can be used, but could be improved: move "
+                                   "to new places (uncertainty in the corner "));
     expect_paper_lens();
 }
 

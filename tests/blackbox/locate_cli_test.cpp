@@ -272,7 +272,7 @@ TEST_F(LocateCommand, draws_one_image_into_a_file) {
     EXPECT_EQ(exit_code_, 2);
     run("--draw picture.png a.pgm");
     EXPECT_EQ(exit_code_, 2);
-    EXPECT_THAT(errors_, HasSubstr("would hold an SVG picture"));
+    EXPECT_THAT(errors_, HasSubstr("would contain an SVG picture"));
     EXPECT_FALSE(fs::exists(directory_ / "picture.png"));
     fs::create_directory(directory_ / "folder.svg");
     run("--draw folder.svg a.pgm flat.pgm");
@@ -356,7 +356,7 @@ TEST_F(LocateCommand, a_spacing_in_another_unit_is_refused) {
     for (const std::string spacing : {"508", "0.0005", "100.1", "0.0099"}) {
         run("--spacing " + spacing + " a.pgm");
         EXPECT_EQ(exit_code_, 2) << spacing;
-        EXPECT_THAT(errors_, HasSubstr("'" + spacing + "' is no spacing of dots in mm")) << spacing;
+        EXPECT_THAT(errors_, HasSubstr("'" + spacing + "' is not a spacing in mm from")) << spacing;
         EXPECT_THAT(output_, IsEmpty()) << spacing;
     }
     for (const std::string spacing : {"100", "0.01"}) {

@@ -34,7 +34,7 @@ constexpr Mistake kMistakes[] = {
     {"OneHyphen", "print -out a.pdf", 2, "unknown option '-out'", "did you mean '--out'?"},
     {"MisspeltValue", "locate --code anotto a.pgm", 2, "'anotto'", "did you mean 'anoto'?"},
     {"OtherFormat", "locate --format xml a.pgm", 2, "'xml' is not", "csv"},
-    {"ValueLeftOut", "calibrate frames --camera", 2, "--camera lacks its value",
+    {"ValueLeftOut", "calibrate frames --camera", 2, "--camera requires a value",
      "dotpose calibrate --help"},
     {"OptionBeforeCommand", "--spacing 0.5 locate a.pgm", 2, "unknown option '--spacing'",
      "dotpose locate --spacing"},
@@ -69,7 +69,7 @@ constexpr Mistake kMistakes[] = {
     {"SimulateIntoFile", "simulate -o notes.txt", 1, "notes.txt is a file", "name a folder"},
     {"OverlayOfImage", "overlay a.pgm -o b.pdf", 1, "a.pgm is not a PDF", "as a PDF"},
     {"ReplayOfFolder", "replay frames", 1, "cannot read frames", "dotpose watch --log"},
-    {"ReplayOfText", "replay notes.txt", 1, "no log of dotpose watch", "notes.txt"},
+    {"ReplayOfText", "replay notes.txt", 1, "not a log of dotpose watch", "notes.txt"},
     {"EvaluateWithoutTruth", "evaluate plain", 1, "no plain/truth.csv", "--poses"},
     // Units, sizes, numbers.
     {"SpacingInMicrometres", "locate --spacing 508 a.pgm", 2, "'508'", "usual is 0.508"},

@@ -87,13 +87,13 @@ TEST_F(Replay, ReadsTheJsonLinesOfWatch) {
 TEST_F(Replay, RefusesJsonLinesThatAreNotOfWatchInMm) {
     put("{\"schema\":1,\"file\":\"a.pgm\",\"status\":\"ok\"}\n");
     EXPECT_EQ(run("replay run.csv"), 1);
-    EXPECT_THAT(errors_, HasSubstr("run.csv:1: no log of dotpose watch: frame is missing"));
+    EXPECT_THAT(errors_, HasSubstr("run.csv:1: not a log of dotpose watch: frame is missing"));
     put("{\"frame\":0,\"t_s\":0.0,\"status\":\"ok\",\"track_x_m\":1.5}\n");
     EXPECT_EQ(run("replay run.csv"), 1);
     EXPECT_THAT(errors_, HasSubstr("its lengths are in m; write it in --units mm"));
     put("{broken\n");
     EXPECT_EQ(run("replay run.csv"), 1);
-    EXPECT_THAT(errors_, HasSubstr("run.csv:1: no log of dotpose watch: "));
+    EXPECT_THAT(errors_, HasSubstr("run.csv:1: not a log of dotpose watch: "));
 }
 
 TEST_F(Replay, PrintsAndDraws) {
@@ -148,13 +148,14 @@ TEST_F(Replay, RefusesWhatIsNoLog) {
     EXPECT_THAT(errors_, HasSubstr("cannot read nowhere.csv"));
     put("a,b\n1,2\n");
     EXPECT_EQ(run("replay run.csv"), 1);
-    EXPECT_EQ(errors_, "dotpose: run.csv:1: no log of dotpose watch: no column frame\n");
+    EXPECT_EQ(errors_, "dotpose: run.csv:1: not a log of dotpose watch: no column frame\n");
     put(std::string(kHeader) + "1,2\n");
     EXPECT_EQ(run("replay run.csv"), 1);
-    EXPECT_EQ(errors_, "dotpose: run.csv:2: no log of dotpose watch: 2 values instead of 14\n");
+    EXPECT_EQ(errors_, "dotpose: run.csv:2: not a log of dotpose watch: 2 values instead of 14\n");
     put(std::string(kHeader) + "0,soon,,ok,150,1e-20,moving,fix,accepted,world,0,0,0,0\n");
     EXPECT_EQ(run("replay run.csv"), 1);
-    EXPECT_EQ(errors_, "dotpose: run.csv:2: no log of dotpose watch: 'soon' is no number of t_s\n");
+    EXPECT_EQ(errors_,
+              "dotpose: run.csv:2: not a log of dotpose watch: 'soon' is not a number of t_s\n");
     put("");
     EXPECT_EQ(run("replay run.csv"), 1);
 }

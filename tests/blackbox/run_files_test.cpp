@@ -103,19 +103,19 @@ TEST_F(RunFiles, no_two_outputs_are_one_file) {
 
 TEST_F(RunFiles, text_and_drawings_are_not_written_to_names_of_images) {
     expect_refused({
-        {"locate -o g/*.pgm", "would hold JSON"},
-        {"locate --format csv -o g/*.pgm", "would hold CSV"},
-        {"locate -o new.PNG g/frame_000000.pgm", "would hold JSON"},
-        {"calibrate -o g/*.pgm", "would hold YAML"},
-        {"calibrate g/*.pgm --draw g/frame_000000.pgm", "would hold an SVG picture"},
-        {"watch g --no-window --log d.mp4", "would hold CSV"},
-        {"watch g --no-window --draw new.png", "would hold an SVG picture"},
-        {"watch g --no-window --packets new.jpeg", "would hold pose packets"},
-        {"listen p.bin -o g/frame_000000.pgm", "would hold JSON"},
-        {"replay run.csv -o new.tiff", "would hold a report"},
-        {"replay run.csv --format json -o new.tiff", "would hold JSON"},
-        {"replay run.csv --draw new.tiff", "would hold an SVG picture"},
-        {"print -o new.svg --paper 40x40 --sheets new.png --name a", "would hold JSON"},
+        {"locate -o g/*.pgm", "would contain JSON"},
+        {"locate --format csv -o g/*.pgm", "would contain CSV"},
+        {"locate -o new.PNG g/frame_000000.pgm", "would contain JSON"},
+        {"calibrate -o g/*.pgm", "would contain YAML"},
+        {"calibrate g/*.pgm --draw g/frame_000000.pgm", "would contain an SVG picture"},
+        {"watch g --no-window --log d.mp4", "would contain CSV"},
+        {"watch g --no-window --draw new.png", "would contain an SVG picture"},
+        {"watch g --no-window --packets new.jpeg", "would contain pose packets"},
+        {"listen p.bin -o g/frame_000000.pgm", "would contain JSON"},
+        {"replay run.csv -o new.tiff", "would contain a report"},
+        {"replay run.csv --format json -o new.tiff", "would contain JSON"},
+        {"replay run.csv --draw new.tiff", "would contain an SVG picture"},
+        {"print -o new.svg --paper 40x40 --sheets new.png --name a", "would contain JSON"},
     });
 }
 

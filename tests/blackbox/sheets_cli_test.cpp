@@ -38,9 +38,8 @@ TEST_F(SheetsTool, a_place_is_entered_listed_shown_and_taken_back) {
     print_small("shelf");
     edit_sheet(0, [](json& sheet) { sheet["room"] = "kitchen"; });
     ASSERT_EQ(sheets_tool("place table --x 1250 --y -500.5 --yaw 90"), 0) << errors_;
-    EXPECT_EQ(
-        output_,
-        "table: its top left corner lies at x 1250 mm, y -500.5 mm in the world, yaw 90 deg\n");
+    EXPECT_EQ(output_,
+              "table: its top left corner is at x 1250 mm, y -500.5 mm in the world, yaw 90 deg\n");
     const json world = sheets().at(0)["world"];
     EXPECT_DOUBLE_EQ(world["x_m"], 1.25);
     EXPECT_DOUBLE_EQ(world["y_m"], -0.5005);
@@ -74,7 +73,7 @@ TEST_F(SheetsTool, a_new_name_keeps_all_else) {
     ASSERT_EQ(sheets_tool("rename shelf table"), 0) << errors_;
     EXPECT_FALSE(sheets().at(1).contains("room"));
     ASSERT_EQ(sheets_tool("remove desk"), 0) << errors_;
-    EXPECT_THAT(output_, HasSubstr("do not use this one"));
+    EXPECT_THAT(output_, HasSubstr("do not use its page"));
     ASSERT_EQ(sheets().size(), 1U);
     EXPECT_EQ(sheets().at(0)["name"], "table");
 }

@@ -254,8 +254,7 @@ TEST_F(Sources, AreFlippedForAllCommands) {
     ASSERT_EQ(run("evaluate --flip mirrored --format json"), 0);
     EXPECT_EQ(json::parse(output_)["located"], kFrames);
     EXPECT_EQ(run("calibrate mirrored -o camera.yaml"), 1);
-    EXPECT_THAT(errors_,
-                StartsWith("dotpose: the frames show the pattern as in a mirror: use --flip"));
+    EXPECT_THAT(errors_, StartsWith("dotpose: the frames show the pattern mirrored: use --flip"));
     ASSERT_EQ(run("calibrate --flip mirrored -o camera.yaml"), 0) << errors_;
     EXPECT_THAT(file("camera.yaml"), HasSubstr("flip: true"));
     ASSERT_EQ(run("locate --camera camera.yaml mirrored"), 0);

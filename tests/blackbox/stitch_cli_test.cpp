@@ -87,7 +87,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_THAT(output_, HasSubstr("sheet       left: stays where it is"));
     // Without a camera file, whose mm per px are known.
     EXPECT_THAT(output_, HasSubstr("(UNKNOWN) along x"));
-    EXPECT_THAT(output_, HasSubstr("UNKNOWN:    scales that these frames do not determine"));
+    EXPECT_THAT(output_, HasSubstr("UNKNOWN:    these frames do not determine the scales"));
     const auto sheets = read_sheets(directory_ / "sheets.json");
     EXPECT_EQ(sheets[0].world->x_m, 2);
     EXPECT_NEAR(sheets[1].world->x_m, 2 + kRight_mm / 1000, 3e-5);

@@ -90,15 +90,15 @@ TEST_F(Usage, ValuesThatDoNotExist) {
 }
 
 TEST_F(Usage, ValuesThatAreMissingOrNoNumbers) {
-    expect_refusal("print -o", "--out lacks its value", "dotpose print --help");
-    expect_refusal("print -o a.pdf --pages few", "--pages: 'few' is not a number that it takes",
+    expect_refusal("print -o", "--out requires a value", "dotpose print --help");
+    expect_refusal("print -o a.pdf --pages few", "--pages: 'few' is not a valid number",
                    "dotpose print --help");
     expect_refusal("simulate -o a --at 5", "--at takes 2 values, not 1", "dotpose simulate --help");
     expect_refusal("simulate -o a --at 5,6,7", "--at takes 2 values, not 3",
                    "dotpose simulate --help");
     expect_refusal("simulate -o a --frames 0", "--frames: '0' is not a number from 1 to 1000000",
                    "dotpose simulate --help");
-    expect_refusal("print -o a.pdf --pages 2.5", "--pages: '2.5' is not a number that it takes",
+    expect_refusal("print -o a.pdf --pages 2.5", "--pages: '2.5' is not a valid number",
                    "dotpose print --help");
 }
 

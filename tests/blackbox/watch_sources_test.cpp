@@ -57,11 +57,11 @@ TEST_F(WatchSources, SaysInWhichFrameTheRobotIsTracked) {
     ASSERT_EQ(run("sheets place right --unknown"), 0) << errors_;
     EXPECT_THAT(
         messages_with(kTrack),
-        HasSubstr("counts as lost on sheets without a place in the world, such as 'right'"));
+        HasSubstr("the robot is lost on sheets without a place in the world, such as 'right'"));
     ASSERT_EQ(run("sheets place left --unknown"), 0) << errors_;
     EXPECT_THAT(messages_with(kTrack),
-                HasSubstr("no sheet has a place in the world, so that the robot is tracked in the "
-                          "frame of the pattern (y down, angles clockwise)"));
+                HasSubstr("no sheet has a place in the world, so the robot is tracked in the frame "
+                          "of the pattern (y down, angles clockwise)"));
     EXPECT_THAT(messages_with("--mcap run.mcap"),
                 HasSubstr("poses are published in the frame of the pattern"));
     EXPECT_THAT(messages_with(""), Not(HasSubstr("frame of the pattern")));
@@ -104,7 +104,7 @@ TEST_F(WatchSources, SaysWhatIsWrongWithTheSource) {
                 testing::StartsWith("dotpose: cannot open the camera 99: there is none; "));
     std::ofstream(directory_ / "text.mp4") << "this is no video";
     EXPECT_EQ(run("watch text.mp4"), 1);
-    EXPECT_EQ(errors_, "dotpose: text.mp4 is no video, or of a kind that is not known\n");
+    EXPECT_EQ(errors_, "dotpose: text.mp4 is not a video, or its format is not known\n");
     EXPECT_EQ(run("watch 'nothing*.png'"), 1);
     EXPECT_EQ(errors_, "dotpose: no images at nothing*.png\n");
     EXPECT_EQ(run("watch -"), 2);

@@ -290,7 +290,9 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
     video.erase(video.size() / 2, video.size() / 50);
     std::ofstream(directory_ / "lacking.avi", std::ios::binary) << video;
     EXPECT_EQ(run(std::string("watch lacking.avi ") + kTrack), 1);
-    EXPECT_THAT(errors_, HasSubstr("frames were read; times after the damage are only counted\n"));
+    EXPECT_THAT(
+        errors_,
+        HasSubstr("frames were read; times after the damage are counted from frame numbers\n"));
 }
 
 }  // namespace

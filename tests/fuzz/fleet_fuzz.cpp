@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     if (fleet.counts().messages + fleet.bad() > taken) std::abort();
     fleet.latency();
-    for (const char c : cli::table_of(fleet, cli::Gets::all, kNow_us)) {
+    for (const char c : cli::table_of(fleet, cli::Delivery::all, kNow_us)) {
         if (static_cast<unsigned char>(c) < ' ' && c != '\n') std::abort();
     }
     for (const auto& [name, robot] : fleet.robots())

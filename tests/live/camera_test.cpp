@@ -141,7 +141,7 @@ TEST_F(Cameras, ThatIsNotThere) {
     const std::string url = fmt::format("http://127.0.0.1:{}/stream", free_port());
     EXPECT_EQ(run("watch --no-window " + url), 1);
     EXPECT_EQ(errors_, "dotpose: cannot open the camera " + url +
-                           ": nothing answers there, or what does is no video\n");
+                           ": there is no answer, or the answer is not a video\n");
 }
 
 TEST_F(Cameras, AreListedWithSizesAndRates) {

@@ -245,7 +245,7 @@ TEST_F(Fleet, NeedsABroker) {
     EXPECT_EQ(run("fleet --mqtt nonsense"), 2);
     EXPECT_THAT(errors_, HasSubstr("'nonsense' is not mqtt://HOST or mqtts://HOST"));
     EXPECT_EQ(run("watch nowhere.mp4 --robot a/b"), 2);
-    EXPECT_THAT(errors_, HasSubstr("holds none of / + #"));
+    EXPECT_THAT(errors_, HasSubstr("must not contain / + #"));
 }
 
 }  // namespace

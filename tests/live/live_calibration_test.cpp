@@ -64,7 +64,7 @@ TEST_F(LiveCalibration, HasAWindowAndEndsWithAKey) {
         1)
         << errors_;
     EXPECT_THAT(output_, HasSubstr("Geometry: 1200x"));
-    EXPECT_THAT(errors_, HasSubstr("no file is written"));
+    EXPECT_THAT(errors_, HasSubstr("no file was written"));
     EXPECT_THAT(errors_, HasSubstr("take more frames (2 of 5)"));
     EXPECT_FALSE(fs::exists(directory_ / "camera.yaml"));
 }

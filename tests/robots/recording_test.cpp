@@ -165,7 +165,7 @@ TEST_F(Recording, NeverReplacesAnInput) {
     EXPECT_THAT(errors_, HasSubstr("--mcap sheets.json would overwrite the input --sheets"));
     EXPECT_EQ(file("sheets.json"), sheets);
     EXPECT_EQ(run("watch - --size 320x240 --mcap drive.avi", "drive.raw"), 2);
-    EXPECT_THAT(errors_, HasSubstr("would hold a recording (MCAP)"));
+    EXPECT_THAT(errors_, HasSubstr("would contain a recording (MCAP)"));
     EXPECT_EQ(run("watch - --size 320x240 --mcap-images", "drive.raw"), 2);
     EXPECT_THAT(errors_, HasSubstr("--mcap-images needs a file"));
     std::ofstream(directory_ / "run.mcap") << "frame,t_s\n";

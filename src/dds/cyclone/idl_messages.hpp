@@ -11,8 +11,8 @@
 
 namespace dotpose::dds {
 
-// The structs point to the texts and sequences of the messages and must not outlive them; DDS only
-// reads them.
+// The structs contain pointers into the messages and must not outlive them. DDS does not modify the
+// messages.
 
 inline char* idl(const std::string& text) {
     return const_cast<char*>(text.c_str());
@@ -55,7 +55,7 @@ inline diagnostic_msgs_msg_dds__KeyValue_ idl(const ros::KeyValue& pair) {
     return {idl(pair.key), idl(pair.value)};
 }
 
-/// Converts a sequence of a message to a DDS sequence with the storage `buffer`.
+/// Converts a sequence of a message to a DDS sequence that points into `buffer`.
 template <typename Sequence, typename Element>
 Sequence sequence_in(std::vector<Element>& buffer) {
     const auto size = static_cast<std::uint32_t>(buffer.size());

@@ -16,25 +16,26 @@ dds_entity_t require(dds_entity_t entity, const std::string& what) {
     return entity;
 }
 
-/// Number of messages of a reliable topic that are kept until all readers have received them.
+/// Number of messages of a reliable topic that are stored until all readers have received them.
 constexpr int kDepth = 100;
 
 /// Quality of service of a topic, with the values of ROS.
 struct Quality {
     bool is_reliable = true;
-    bool is_kept = false;  ///< whether messages are kept for later readers
+    bool is_kept = false;  ///< true if messages are stored for later readers
     int depth = kDepth;
 };
 
-/// Maximum time that a reliable message waits for room, which delays the frame.
+/// Maximum time for which a reliable message waits for space in the queue. The wait delays the
+/// frame.
 constexpr dds_duration_t kMaxWait_ns = DDS_MSECS(10);
 
 /// Maximum time to wait for slow readers. A reader that ended without disconnecting is dropped
 /// after this time.
 constexpr dds_duration_t kPatience_ns = DDS_SECS(10);
 
-/// Returns a domain limited to this computer, with the settings of ROS's rmw_cyclonedds.
-/// CYCLONEDDS_URI is appended and overrides them.
+/// Creates a domain that is limited to this computer, with the settings of rmw_cyclonedds.
+/// CYCLONEDDS_URI is appended and can override them.
 dds_entity_t local_domain(int number) {
     std::string settings =
         "<General><AllowMulticast>false</AllowMulticast></General>"
@@ -59,10 +60,10 @@ dds_entity_t writer_of(dds_entity_t participant, const dds_topic_descriptor_t& t
     dds_qset_durability(qos,
                         quality.is_kept ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, quality.depth);
-    // Nodes since ROS 2 Iron warn about topics without a type hash.
+    // ROS 2 nodes since Iron warn about topics without a type hash.
     const std::string user_data = "typehash=" + type_hash + ';';
     dds_qset_userdata(qos, user_data.data(), user_data.size());
-    // Readers of ROS 2 up to Humble need plain CDR.
+    // ROS 2 readers up to Humble require plain CDR.
     const std::array<dds_data_representation_id_t, 1> plain = {DDS_DATA_REPRESENTATION_XCDR1};
     dds_qset_data_representation(qos, plain.size(), plain.data());
     const dds_entity_t writer = dds_create_writer(participant, entity, qos, nullptr);
@@ -77,7 +78,7 @@ class Publisher::Writers {
     Writers(const std::string& robot, const PublisherOptions& options)
         : domain_(options.is_local ? local_domain(options.domain) : 0) {
         const Quality sensor = {options.is_reliable, false, options.is_reliable ? kDepth : 5};
-        // ROS prefixes its topics with "rt".
+        // ROS adds the prefix "rt" to its topics.
         const std::string prefix = "rt/" + robot;
         try {
             participant_ =
@@ -116,8 +117,8 @@ class Publisher::Writers {
         ++unconfirmed_frames_;
     }
 
-    /// Waits until reliable readers have all messages, before messages that they have not received
-    /// would be replaced. Messages that are not received in time are counted as dropped.
+    /// Waits until reliable readers have received all messages, before newer messages replace them.
+    /// Messages that are not received in time are counted as dropped.
     void keep_pace() {
         if (unconfirmed_frames_ < kDepth / 2) return;
         if (!wait_for_readers(kPatience_ns)) dropped_ += sent_ - confirmed_;
@@ -142,7 +143,8 @@ class Publisher::Writers {
         using Values = dds_sequence_diagnostic_msgs_msg_dds__KeyValue_;
         using States = dds_sequence_diagnostic_msgs_msg_dds__DiagnosticStatus_;
         std::vector<std::vector<diagnostic_msgs_msg_dds__KeyValue_>> values;
-        values.reserve(message.status.size());  // the states point into them
+        // No reallocation, because the states point into `values`.
+        values.reserve(message.status.size());
         std::vector<diagnostic_msgs_msg_dds__DiagnosticStatus_> states;
         for (const ros::DiagnosticStatus& status : message.status) {
             auto& pairs = values.emplace_back();
@@ -164,8 +166,8 @@ class Publisher::Writers {
         if (participant_ > 0) dds_delete(participant_);
         if (domain_ > 0) dds_delete(domain_);
     }
-    /// Returns whether all reliable readers have all messages. Stops after the first writer that
-    /// times out, because the others have the same readers.
+    /// Returns true if all reliable readers have received all messages. After the first timeout,
+    /// does not wait for the other writers, which have the same readers.
     bool wait_for_readers(dds_duration_t max_wait_ns) {
         bool have_all = true;
         for (const dds_entity_t writer : {pose_, odometry_, status_, tf_}) {
@@ -186,7 +188,7 @@ class Publisher::Writers {
         dds_write(writer, sample) == DDS_RETCODE_OK ? ++sent_ : ++dropped_;
     }
 
-    dds_entity_t domain_;  ///< 0 for the domain of the environment
+    dds_entity_t domain_;  ///< 0: the domain is created from the environment
     dds_entity_t participant_ = 0;
     dds_entity_t pose_ = 0;
     dds_entity_t odometry_ = 0;

@@ -8,10 +8,10 @@
 
 namespace dotpose::video {
 
-/// Tints the parts of the image that have not shown dots. `frame` is the whole frame.
+/// Tints the parts of the image in which no dots were seen. `frame` is the whole frame.
 void draw_coverage(const CalibrationScene& scene, cv::Mat frame);
 
-/// Draws the gauges, and below them the directions in which frames were taken.
+/// Draws the gauges and, below them, the directions in which frames were taken.
 void draw_gauges(const CalibrationScene& scene, cv::Mat panel);
 
 }  // namespace dotpose::video

@@ -1,4 +1,4 @@
-// Reads cameras of this computer (V4L2) or of the network through OpenCV.
+// Reads local cameras (V4L2) and network cameras with OpenCV.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -40,8 +40,7 @@ void to_grey(const cv::Mat& picture, GreyImage& image) {
         image.pixels.insert(image.pixels.end(), grey.ptr(v), grey.ptr(v) + grey.cols);
 }
 
-/// Runs `action` and replaces exceptions of drivers and decoders by an Error with the source's
-/// name.
+/// Runs `action`. Converts exceptions of drivers and decoders to Error with the name of the source.
 template <typename Action>
 auto guarded(const std::string& name, const Action& action) {
     try {
@@ -51,7 +50,7 @@ auto guarded(const std::string& name, const Action& action) {
     }
 }
 
-/// Reads a camera in a separate thread, so that `next` always returns the newest frame.
+/// Reads a camera in a separate thread, so `next` always returns the newest frame.
 class Camera : public capture::FrameSource {
   public:
     Camera(const std::string& name, const SourceOptions& options)
@@ -80,19 +79,20 @@ class Camera : public capture::FrameSource {
     double rate() const override { return rate_; }
 
   private:
-    /// Returns the path of a camera of this computer, which may be given by its number.
+    /// Returns the device path of a local camera. The name of the camera is a path or a number.
     std::string device() const {
         const bool is_number = name_.find_first_not_of("0123456789") == std::string::npos;
         return is_number ? "/dev/video" + name_ : name_;
     }
 
     std::string why_not_open() const {
-        if (is_remote_) return "nothing answers there, or what does is no video";
+        if (is_remote_) return "there is no answer, or the answer is not a video";
         const std::vector<FoundCamera> cameras = find_cameras();
         const bool exists =
             std::ranges::find(cameras, device(), &FoundCamera::device) != cameras.end();
         return fmt::format(
-            "{}; {}", exists ? "another program uses it, or it gives no pictures" : "there is none",
+            "{}; {}",
+            exists ? "another program uses it, or it delivers no pictures" : "there is none",
             in_one_line(cameras));
     }
 
@@ -123,9 +123,9 @@ class Camera : public capture::FrameSource {
         if (options_.gain) capture_.set(cv::CAP_PROP_GAIN, *options_.gain);
     }
 
-    /// Returns the time of the frame on the monotonic clock: from the driver if available,
-    /// otherwise the time when the frame was read. The times of a stream are not used, because
-    /// their clock is not known.
+    /// Returns the time of the frame on the monotonic clock: the time of the driver if available,
+    /// otherwise the time at which the frame was read. The times of network streams are not used,
+    /// because their clock is unknown.
     std::int64_t time_us() const {
         const double driver_ms = is_remote_ ? 0 : capture_.get(cv::CAP_PROP_POS_MSEC);
         if (driver_ms > 0) return std::llround(driver_ms * 1e3);
@@ -143,11 +143,11 @@ class Camera : public capture::FrameSource {
                 is_read = false;
             }
             if (!is_read) {
-                try_again();
+                reopen();
                 continue;
             }
-            if (is_away_) options_.tell("the camera " + name_ + " is back");
-            is_away_ = false;
+            if (is_disconnected_) options_.tell("the camera " + name_ + " is back");
+            is_disconnected_ = false;
             read_at_ = steady_clock::now();
             newest_us_ = time_us();
             Frame frame;
@@ -163,28 +163,28 @@ class Camera : public capture::FrameSource {
         latest_.put(std::move(frame));
     }
 
-    /// Puts an empty frame with the current time on the camera's clock.
-    void put_none() {
+    /// Delivers an empty frame with the current time on the clock of the camera.
+    void put_empty() {
         using namespace std::chrono;
         put({}, newest_us_ + duration_cast<microseconds>(steady_clock::now() - read_at_).count());
     }
 
     /// Waits half a second and tries to open the camera again.
-    void try_again() {
-        if (!is_away_) {
+    void reopen() {
+        if (!is_disconnected_) {
             options_.tell("the camera " + name_ + " does not answer; waiting for it");
         }
-        is_away_ = true;
+        is_disconnected_ = true;
         capture_.release();
         std::this_thread::sleep_for(500ms);
-        if (frames_ > 0) put_none();
+        if (frames_ > 0) put_empty();
         try {
             open();
-        } catch (const Error&) {  // the next read fails as well and calls this function again
+        } catch (const Error&) {  // the next read fails as well and retries
         }
     }
 
-    static constexpr int kPatience_ms = 2000;  ///< timeout for cameras in the network
+    static constexpr int kPatience_ms = 2000;  ///< timeout for network cameras
 
     std::string name_;
     SourceOptions options_;
@@ -193,7 +193,7 @@ class Camera : public capture::FrameSource {
     double rate_ = 0;
     Latest<Frame> latest_;
     std::atomic<bool> ends_ = false;
-    bool is_away_ = false;
+    bool is_disconnected_ = false;
     std::int64_t frames_ = 0;
     std::int64_t newest_us_ = 0;  ///< time of the newest frame
     steady_clock::time_point read_at_ = steady_clock::now();
@@ -204,7 +204,7 @@ class Camera : public capture::FrameSource {
 
 std::unique_ptr<capture::FrameSource> open_camera(const std::string& name,
                                                   const SourceOptions& options) {
-    // OpenCV must not print its own messages: failures are reported as Error.
+    // Suppress the messages of OpenCV: failures are reported as Error.
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // AV_LOG_QUIET
     return std::make_unique<Camera>(name, options);

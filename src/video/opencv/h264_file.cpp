@@ -17,8 +17,8 @@ extern "C" {
 namespace dotpose::video {
 namespace {
 
-/// Software encoders only: FFmpeg also lists encoders of graphics cards on computers without a
-/// card.
+/// Only software encoders, because FFmpeg also lists encoders of graphics cards that are not
+/// installed.
 constexpr const char* kEncoders[] = {"libx264", "libopenh264"};
 
 const AVCodec* h264_encoder() {
@@ -99,8 +99,8 @@ class H264File::Encoder {
         if ((file_->oformat->flags & AVFMT_GLOBALHEADER) != 0) {
             encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
         }
-        // Locating must not wait for the encoder. This preset takes a third of the default's time,
-        // and its files are hardly larger.
+        // Locating must not wait for the encoder. This preset takes a third of the default time,
+        // and its files are only slightly larger.
         AVDictionary* options = nullptr;
         av_dict_set(&options, "preset", "veryfast", 0);
         av_dict_set(&options, "crf", "23", 0);
@@ -109,7 +109,7 @@ class H264File::Encoder {
         require(code);
     }
 
-    /// Encodes a picture and writes the finished packets; without a picture, writes the remaining
+    /// Encodes a picture and writes the finished packets. Without a picture, writes the remaining
     /// packets.
     void encode(const AVFrame* picture) {
         require(avcodec_send_frame(encoder_.get(), picture));
@@ -123,7 +123,7 @@ class H264File::Encoder {
         }
     }
 
-    /// Throws Error with the reason if `code` is one of FFmpeg's errors.
+    /// Throws Error with the reason if `code` is an error code of FFmpeg.
     void require(int code) const {
         if (code >= 0) return;
         char reason[AV_ERROR_MAX_STRING_SIZE] = {};
@@ -152,7 +152,7 @@ H264File::~H264File() {
     try {
         encoder_->finish();
     } catch (const Error&) {
-        // To check whether the file is complete, call `finish`.
+        // Errors are ignored here. Call `finish` to check that the file is complete.
     }
 }
 

@@ -1,4 +1,4 @@
-// Writes pictures to a video file as H.264, with FFmpeg's libraries.
+// Writes pictures to a video file as H.264, with the libraries of FFmpeg.
 #pragma once
 
 #include <memory>
@@ -12,10 +12,11 @@ namespace dotpose::video {
 
 class H264File {
   public:
-    /// Whether this FFmpeg can encode H.264.
+    /// Returns true if the installed FFmpeg can encode H.264.
     static bool is_available();
 
-    /// Creates the file; its ending determines the container. `size` must be even. Throws Error.
+    /// Creates the file. The file extension determines the container. Width and height must be
+    /// even. Throws Error.
     H264File(const std::string& path, double fps, cv::Size size);
     /// Completes the file as far as possible.
     ~H264File();
@@ -25,7 +26,7 @@ class H264File {
     /// Appends a BGR picture. Throws Error, for example if the disk is full.
     void write(const cv::Mat& picture);
 
-    /// Completes the file; no further pictures may be appended. Throws Error.
+    /// Completes the file. No further pictures may be appended. Throws Error.
     void finish();
 
   private:

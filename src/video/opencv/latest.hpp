@@ -1,5 +1,5 @@
-// Passes the newest of many values from one thread to another. A value that is not taken before the
-// next one is dropped and counted; there is no queue.
+// Passes the newest of a series of values from one thread to another. There is no queue: a value
+// that is not taken before the next one arrives is dropped and counted.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@ class Latest {
         arrived_.notify_one();
     }
 
-    /// Returns the newest value, waiting at most `patience` for it.
+    /// Returns the newest value. Waits at most `patience` for it.
     std::optional<Value> take(std::chrono::milliseconds patience) {
         std::unique_lock lock(mutex_);
         arrived_.wait_for(lock, patience, [this] { return value_.has_value(); });

@@ -1,4 +1,4 @@
-// The functions that dotpose-video.so exports through the table in module_table.cpp.
+// Functions that dotpose-video.so exports through the table in module_table.cpp.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ std::unique_ptr<capture::FrameSource> open_camera(const std::string& name,
 std::unique_ptr<capture::FrameSource> open_video(const std::string& name,
                                                  const capture::SourceOptions& options);
 
-/// H.264 if the name ends in .mp4, Motion JPEG if it ends in .avi.
+/// Creates a video: H.264 if the name ends in .mp4, Motion JPEG if it ends in .avi.
 std::unique_ptr<GreyVideo> create_video(const std::string& path, double fps, const Tell& tell);
 
 std::unique_ptr<ScreenOutput> open_screen(const ScreenOptions& options);

@@ -7,8 +7,8 @@
 
 namespace dotpose::video {
 
-/// Draws the picture. Its size depends only on the size of the frame; width and height are even,
-/// because video encoders require that.
+/// Draws the picture. Its size depends only on the size of the frame. Width and height are even, as
+/// video encoders require.
 cv::Mat overlay(const Scene& scene);
 
 }  // namespace dotpose::video

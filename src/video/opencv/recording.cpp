@@ -16,7 +16,7 @@ bool is_avi(const std::string& path) {
     return path.ends_with(".avi");
 }
 
-/// Returns the codec for OpenCV.
+/// Returns the codec to pass to OpenCV.
 int codec_of(const std::string& path) {
     return is_avi(path) ? cv::VideoWriter::fourcc('M', 'J', 'P', 'G')
                         : cv::VideoWriter::fourcc('m', 'p', '4', 'v');
@@ -42,7 +42,7 @@ void Recording::open(cv::Size size) {
         return;
     }
     if (!is_avi(path_)) {
-        tell_("FFmpeg has no encoder for H.264 here: " + path_ +
+        tell_("FFmpeg has no H.264 encoder here: " + path_ +
               " will be MPEG-4 video, several times as large");
     }
     if (!writer_.open(path_, codec_of(path_), fps_, size)) {

@@ -1,4 +1,4 @@
-// Writes pictures to a video file: H.264 or MPEG-4, or Motion JPEG if its name ends in .avi.
+// Writes pictures to a video file: H.264 or MPEG-4, or Motion JPEG if the name ends in .avi.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ namespace dotpose::video {
 
 class Recording : public GreyVideo {
   public:
-    /// The file is created with the first picture. `tell` gets messages for the user.
+    /// The file is created with the first picture. `tell` receives messages for the user.
     Recording(std::string path, double fps, Tell tell);
 
-    /// Append a BGR or grey picture. Throw Error, for example if the disk is full or the pictures
+    /// Append a BGR or a grey picture. Throw Error, for example if the disk is full or the pictures
     /// differ in size.
     void write(const cv::Mat& picture);
     void write(ImageView image) override;
 
-    /// Closes the file and counts its frames: OpenCV reports neither a full disk nor an incomplete
-    /// file. Throws Error if frames are missing.
+    /// Closes the file and verifies its number of frames, because OpenCV reports neither a full
+    /// disk nor an incomplete file. Throws Error if frames are missing.
     void finish() override;
 
   private:

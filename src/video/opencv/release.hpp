@@ -1,4 +1,4 @@
-// Frees what FFmpeg's libraries allocate.
+// Deleters for objects of the FFmpeg libraries.
 #pragma once
 
 extern "C" {
@@ -8,7 +8,8 @@ extern "C" {
 
 namespace dotpose::video {
 
-/// Deleter for objects of reading and writing. Derived classes add closing of files, which differs.
+/// Deleter for objects that reading and writing have in common. Derived classes add the closing of
+/// files.
 struct Release {
     void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
     void operator()(AVPacket* packet) const { av_packet_free(&packet); }

@@ -1,5 +1,5 @@
-// Reads video files with FFmpeg's libraries. Unlike OpenCV, they provide the time of every frame
-// and report damaged frames.
+// Reads video files with the libraries of FFmpeg. Unlike OpenCV, FFmpeg provides the time of each
+// frame and reports damaged frames.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -55,7 +55,7 @@ class GreyConverter {
             const int* colours = sws_getCoefficients(SWS_CS_DEFAULT);
             sws_setColorspaceDetails(converter_.get(), colours, 1, colours, 1, 0, 1 << 16, 1 << 16);
         }
-        // The converter needs aligned rows, which this allocation provides.
+        // The converter requires aligned rows, which this allocation provides.
         const auto grey = owned(av_frame_alloc());
         grey->format = AV_PIX_FMT_GRAY8;
         grey->width = width;
@@ -91,9 +91,9 @@ class VideoFile : public capture::FrameSource {
         if (!std::ifstream(name)) {
             throw Error("cannot read " + name + ": " + std::strerror(errno));
         }
-        // FFmpeg must not print its own messages: failures are reported as Error.
+        // Suppress the messages of FFmpeg: failures are reported as Error.
         av_log_set_level(AV_LOG_QUIET);
-        if (!open()) throw Error(name + " is no video, or of a kind that is not known");
+        if (!open()) throw Error(name + " is not a video, or its format is not known");
     }
 
     bool next(Frame& frame) override {
@@ -102,10 +102,10 @@ class VideoFile : public capture::FrameSource {
             if (code == AVERROR(EAGAIN)) {
                 send_packet();
             } else if (code == AVERROR_EOF) {
-                judge_end();
+                check_end();
                 return false;
             } else if (code < 0) {
-                pass_over();
+                skip_to_key_frame();
             } else if (take_picture(frame)) {
                 return true;
             }
@@ -113,7 +113,7 @@ class VideoFile : public capture::FrameSource {
         return false;
     }
     double rate() const override { return options_.fps.value_or(rate_); }
-    std::int64_t length() const override { return promised(); }
+    std::int64_t length() const override { return expected_frames(); }
     double bits_per_px() const override {
         if (!is_lossy_ || packet_px_ == 0) return 0;
         return 8.0 * static_cast<double>(packet_bytes_) / static_cast<double>(packet_px_);
@@ -122,12 +122,12 @@ class VideoFile : public capture::FrameSource {
   private:
     bool open() {
         AVFormatContext* file = nullptr;
-        // With the prefix, FFmpeg does not interpret the part of a name before a colon as a
+        // The prefix keeps FFmpeg from interpreting the part of the name before a colon as a
         // protocol.
         const std::string url = "file:" + name_;
         if (avformat_open_input(&file, url.c_str(), nullptr, nullptr) < 0) return false;
         file_.reset(file);
-        // Must precede the reading of packets, which adds entries to the index.
+        // Must run before packets are read, because reading adds entries to the index.
         for (unsigned i = 0; i < file->nb_streams; ++i) {
             const int entries = avformat_index_get_entries_count(file->streams[i]);
             has_index_ = has_index_ || (entries > 0 && entries >= file->streams[i]->nb_frames);
@@ -147,40 +147,41 @@ class VideoFile : public capture::FrameSource {
                avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
     }
 
-    /// Returns the duration of the video in the file, or 0 if it is missing.
+    /// Returns the duration of the video stream in seconds, or 0 if the file does not contain it.
     double duration_s() const {
         if (stream_->duration > 0) {
             return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
         }
-        // The duration of a file is the duration of its longest stream, so it is used only if there
-        // is one stream.
+        // The duration of a file is the maximum over its streams, so it is used only if there is
+        // one stream.
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
-    /// Returns the number of frames in the file, or the number computed from the duration.
-    std::int64_t promised() const {
+    /// Returns the number of frames according to the file, or a number computed from the duration.
+    std::int64_t expected_frames() const {
         return stream_->nb_frames > 0 ? stream_->nb_frames : std::llround(duration_s() * rate_);
     }
     /// Throws Error if the video is damaged or ended too early.
-    void judge_end() const {
+    void check_end() const {
         const bool is_short = stream_->nb_frames > 0 ? frames_ < stream_->nb_frames
                                                      : time_s_ + 2 / rate_ < duration_s();
-        const std::string of = promised() > frames_ ? fmt::format(" of {}", promised()) : "";
+        const std::string of =
+            expected_frames() > frames_ ? fmt::format(" of {}", expected_frames()) : "";
         const std::string counts = fmt::format("{}{} frames were read", frames_, of);
         if (is_damaged_ || is_short) {
-            throw Error(
-                fmt::format("{} is damaged or cut short: {}{}", name_, counts,
-                            is_counted_ ? "; times after the damage are only counted" : ""));
+            throw Error(fmt::format(
+                "{} is damaged or cut short: {}{}", name_, counts,
+                is_counted_ ? "; times after the damage are counted from frame numbers" : ""));
         }
         const bool is_regular = av_cmp_q(stream_->avg_frame_rate, stream_->r_frame_rate) == 0;
-        if (is_regular && frames_ < promised()) {
+        if (is_regular && frames_ < expected_frames()) {
             options_.tell(
                 fmt::format("{} has gaps, from damage or from its recording: {}", name_, counts));
         }
     }
 
-    /// Sends the next packet of the video to the decoder, or the end of the stream after the last
-    /// one.
+    /// Sends the next packet of the video to the decoder. After the last packet, sends the end of
+    /// the stream.
     void send_packet() {
         constexpr int kMaxFailures = 100;
         for (int failures = 0; failures < kMaxFailures;) {
@@ -188,15 +189,15 @@ class VideoFile : public capture::FrameSource {
             if (code == AVERROR_EOF) break;
             if (code < 0) {
                 ++failures;
-                pass_over();
+                skip_to_key_frame();
                 continue;
             }
             const bool is_video = packet_->stream_index == stream_->index;
             if (is_video) {
-                if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) pass_over();
+                if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) skip_to_key_frame();
                 packet_bytes_ += packet_->size;
                 correct_time();
-                if (avcodec_send_packet(decoder_.get(), packet_.get()) < 0) pass_over();
+                if (avcodec_send_packet(decoder_.get(), packet_.get()) < 0) skip_to_key_frame();
             }
             av_packet_unref(packet_.get());
             if (is_video) return;
@@ -204,9 +205,9 @@ class VideoFile : public capture::FrameSource {
         avcodec_send_packet(decoder_.get(), nullptr);
     }
 
-    /// Corrects the time of a packet of an AVI file by the file's index. AVI stores no times;
-    /// FFmpeg counts packets, which is wrong after damage. The index contains the position of every
-    /// frame.
+    /// Corrects the time of a packet in an AVI file with the index of the file. AVI stores no
+    /// times: FFmpeg counts packets, which is wrong after damage. The index contains the positions
+    /// of all frames.
     void correct_time() {
         if (std::string_view(file_->iformat->name) != "avi") return;
         int first = 0;
@@ -225,8 +226,9 @@ class VideoFile : public capture::FrameSource {
         if (packet_->pts != AV_NOPTS_VALUE) packet_->pts = entry->timestamp;
     }
 
-    /// Discards frames up to the next key frame, because they may contain parts of damaged frames.
-    void pass_over() {
+    /// Discards the frames up to the next key frame, because they may contain parts of damaged
+    /// frames.
+    void skip_to_key_frame() {
         is_damaged_ = true;
         waits_for_key_frame_ = true;
     }
@@ -243,7 +245,7 @@ class VideoFile : public capture::FrameSource {
         }
         has_begun_ = true;
         if (picture_->decode_error_flags != 0 || (picture_->flags & AV_FRAME_FLAG_CORRUPT) != 0) {
-            pass_over();
+            skip_to_key_frame();
             return false;
         }
         if (picture_->key_frame != 0) waits_for_key_frame_ = false;
@@ -273,7 +275,7 @@ class VideoFile : public capture::FrameSource {
     bool has_begun_ = false;
     bool is_damaged_ = false;
     bool has_index_ = false;
-    bool is_counted_ = false;  ///< whether times are counted because the index is inconsistent
+    bool is_counted_ = false;  ///< true if times are counted, because the index is inconsistent
     bool waits_for_key_frame_ = false;
     std::int64_t frames_ = 0;  ///< number of returned frames
 };

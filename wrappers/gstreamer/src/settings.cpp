@@ -89,13 +89,13 @@ void add_track_numbers(GObjectClass* element_class) {
     add_number(element_class, kMaxSpeed, "max-speed-mm-s", "Of the robot, while it is not seen",
                kLeast, kMost, static_cast<double>(track.max_speed_mm_s));
     add_number(element_class, kAcceleration, "acceleration-mm-s2",
-               "Usual acceleration of the robot: larger follows faster, smooths less", kLeast,
-               kMost, static_cast<double>(track.acceleration_mm_s2));
+               "Usual acceleration of the robot: a larger value follows faster and smooths less",
+               kLeast, kMost, static_cast<double>(track.acceleration_mm_s2));
     add_number(element_class, kLostAfter, "lost-after-ms",
-               "Time without a accepted fix after which the robot is lost", 0, 1e9,
+               "Time without an accepted fix after which the robot is lost", 0, 1e9,
                static_cast<double>(track.lost_after_us) / 1000);
     add_number(element_class, kMaxPWrong, "max-p-wrong",
-               "Probability of being wrong above which a position is refused, the prior included; "
+               "Maximum probability that an accepted position is wrong, including the prior; "
                "counts as the next lower power of 2",
                1e-60, 1e-3, std::ldexp(1.0, track.max_p_wrong_log2));
 }
@@ -112,7 +112,7 @@ void install_properties(GObjectClass* element_class) {
         g_param_spec_enum("code", "code", "Code that was printed, if there is no sheet file",
                           code_type(), kAnyCode, kAtStart));
     add_number(element_class, kSpacing, "spacing-mm",
-               "Distance of neighbouring grid intersections, if there is no sheet file", 0.01, 100,
+               "Distance between adjacent grid intersections, if there is no sheet file", 0.01, 100,
                kDefaultSpacing_mm);
     add_switch(element_class, kInverted, "inverted",
                "The dots are white on black (copies the luma)", false, kAlways);

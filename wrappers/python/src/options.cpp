@@ -50,7 +50,7 @@ void define_options(py::module_& module) {
             [](Given& o, const std::string& value) {
                 o.decoder = named("decoder", value, kDecoders);
             },
-            "Dots that the position is read from: \"all\", or \"window\" as in the paper.")
+            "Dots from which the position is read: \"all\", or \"window\" as in the paper.")
         .def_readwrite(
             "min_contrast", &Given::min_contrast,
             "Contrast between paper and dots, in grey levels, below which a frame has the "

@@ -36,7 +36,7 @@ constexpr std::array kEffects = {
     Effect{"jitter_mm", &Imperfections::jitter_mm,
            "Standard deviation of a printed dot's place, per axis, in mm."},
     Effect{"missing", &Imperfections::missing, "Share of the dots that are missing, 0 to 1."},
-    Effect{"texture", &Imperfections::texture, "Deviation of the paper's reflectance."},
+    Effect{"texture", &Imperfections::texture, "Standard deviation of the paper's reflectance."},
 };
 
 /// A shot and the image that the camera takes of it.
