@@ -97,7 +97,6 @@ Status resample(const ImageView& image, const Options& options, DesktopWorkspace
 /// If all dots have the same sub-pixel phase, measures them again as the first attempt does, which
 /// corrects the pixel bias.
 void measure_again_if_biased(const ImageView& image, const Options& options, DesktopWorkspace& w) {
-    if (options.decoder == Decoder::window) return;
     const float variance_px2 =
         w.fix.residual_px * w.fix.residual_px / static_cast<float>(w.fix.dots_used);
     if (may_be_biased(float_plane(w.pattern_from_image), variance_px2,

@@ -106,7 +106,7 @@ TEST_F(LiveCalibration, TakesNoFrameThatIsOutOfFocus) {
 TEST_F(LiveCalibration, SaysWhyNoFrameIsLocated) {
     ASSERT_EQ(run("simulate -o frames --seed 5 --frames 3 --scene black"), 0);
     EXPECT_EQ(calibrate("frames"), 1);
-    EXPECT_THAT(errors_, HasSubstr("of 3 frames 0 were located and 0 taken "));
+    EXPECT_THAT(errors_, HasSubstr("of 3 frames, 0 were located and 0 taken "));
     EXPECT_THAT(errors_, HasSubstr("dark"));
 }
 

@@ -137,7 +137,7 @@ TEST_F(Manuals, PagesAreWithoutFaultAndHaveAllThatTheHelpHas) {
     const std::string page = output_;
     EXPECT_THAT(words_of(page), IsSupersetOf(options_in_help("locate")));
     for (const char* part :
-         {"dotpose-locate - Find where", "SYNOPSIS", "OPTIONS", "EXAMPLES", "EXIT STATUS",
+         {"dotpose-locate - Find the position", "SYNOPSIS", "OPTIONS", "EXAMPLES", "EXIT STATUS",
           "SEE ALSO", "find frames -name '*.png' | sort | dotpose locate --list -\n"})
         EXPECT_THAT(page, HasSubstr(part));
 }

@@ -72,7 +72,7 @@ constexpr Mistake kMistakes[] = {
     {"ReplayOfText", "replay notes.txt", 1, "not a log of dotpose watch", "notes.txt"},
     {"EvaluateWithoutTruth", "evaluate plain", 1, "no plain/truth.csv", "--poses"},
     // Units, sizes, numbers.
-    {"SpacingInMicrometres", "locate --spacing 508 a.pgm", 2, "'508'", "usual is 0.508"},
+    {"SpacingInMicrometres", "locate --spacing 508 a.pgm", 2, "'508'", "the default is 0.508"},
     {"SpacingWithUnit", "locate --spacing 0.5mm a.pgm", 2, "'0.5mm'", "in mm"},
     {"UnknownPaper", "print -o a.pdf --paper A44", 2, "unknown paper size 'A44'", "A0 to A6"},
     {"CoarsePrinter", "print -o a.png --dpi 100", 2, "100 dpi is too low", "300 dpi or more"},

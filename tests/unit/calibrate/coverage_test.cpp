@@ -120,7 +120,7 @@ TEST(CalibrationCoverage, SaysWhatIsMissingUntilNothingIs) {
     EXPECT_THAT(kinds(coverage.missing(std::nullopt)), ElementsAre(Kind::lens));
     const auto needs = coverage.missing(lens_known_to(0.2));
     ASSERT_THAT(kinds(needs), ElementsAre(Kind::lens));
-    EXPECT_THAT(needs[0].advice, HasSubstr("known to 0.200 px"));
+    EXPECT_THAT(needs[0].advice, HasSubstr("uncertainty in the corner 0.200 px"));
     EXPECT_THAT(coverage.missing(lens_known_to(0.09)), IsEmpty());
 }
 
