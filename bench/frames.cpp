@@ -18,9 +18,9 @@ namespace {
 /// Returns the number of frames to render: enough that branch prediction and caches do not adapt to
 /// single frames, but few enough to be rendered quickly.
 int count_of(const CameraModel& camera) {
-    constexpr int kMost = 20;
+    constexpr int kMax = 20;
     constexpr int kPixels = 4'000'000;
-    return std::clamp(kPixels / (camera.width_px * camera.height_px), 1, kMost);
+    return std::clamp(kPixels / (camera.width_px * camera.height_px), 1, kMax);
 }
 
 /// Whether the first attempt finds a pose. Frames without a pose are left out, because the attempt

@@ -31,7 +31,7 @@ CameraModel phone_camera() {
 }
 
 /// Largest frames that are measured with libapriltag, which takes longer than all other methods.
-constexpr int kMostTagPixels = 1280 * 800;
+constexpr int kMaxTagPixels = 1280 * 800;
 
 const std::vector<CameraModel>& sizes() {
     static const std::vector all = {
@@ -149,7 +149,7 @@ void detect_tags(benchmark::State& state, const CameraModel& camera, int decimat
 }
 
 bool has_tags(const CameraModel& camera) {
-    return camera.width_px * camera.height_px <= kMostTagPixels;
+    return camera.width_px * camera.height_px <= kMaxTagPixels;
 }
 
 template <typename Function>

@@ -18,7 +18,7 @@ constexpr int kFramesOfCase = 60;
 
 struct AlikeCase {
     AlikeDots dots;
-    double most_px;  ///< median error
+    double max_px;  ///< median error
 };
 
 void PrintTo(const AlikeCase& of, std::ostream* out) {
@@ -49,7 +49,7 @@ TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     for (const double normalised : score.normalised)
         EXPECT_LT(normalised, 1.85);
     const double px = kDefaultSpacing_mm / GetParam().dots.spacing_px;
-    EXPECT_LT(score.position_um.median / 1000 / px, GetParam().most_px);
+    EXPECT_LT(score.position_um.median / 1000 / px, GetParam().max_px);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -22,7 +22,7 @@ class Connection {
     Connection& operator=(Connection&&) = delete;
 
     /// Whether another message may be published: not too many are without an answer.
-    bool has_room() const { return published_ - answered_ < kMostUnanswered; }
+    bool has_room() const { return published_ - answered_ < kMaxUnanswered; }
     void publish(const std::string& topic, const std::string& payload);
 
     /// Sends and receives until `until_us` of the monotonic clock, or until nothing is left to be
@@ -33,7 +33,7 @@ class Connection {
     std::int64_t answered() const { return answered_; }
 
   private:
-    static constexpr std::int64_t kMostUnanswered = 60'000;
+    static constexpr std::int64_t kMaxUnanswered = 60'000;
 
     explicit Connection(int descriptor) : descriptor_(descriptor) {}
     void send_some();

@@ -143,8 +143,8 @@ inline Pixels pixels_of(const LocateHeader& header, std::span<const std::uint8_t
     constexpr std::uint8_t kPaper = 200;
     Pixels image(header, kPaper);
     if ((header.flags & LocateHeader::drawn) != 0) {
-        constexpr std::size_t kMost = std::size_t{kDrawnSide} * kDrawnSide;
-        draw_dots(header, rest.first(std::min(rest.size(), kMost)), image);
+        constexpr std::size_t kMax = std::size_t{kDrawnSide} * kDrawnSide;
+        draw_dots(header, rest.first(std::min(rest.size(), kMax)), image);
     } else if (!rest.empty()) {
         std::size_t from = 0;
         for (int v = 0; v < image.height_px; ++v) {

@@ -50,9 +50,9 @@ void read(View& view, Rng& rng) {
     view.rows = 8 + static_cast<int>(rng.below(5));
     view.odds_log2 = rng.uniform(1.5, 6);
     const double missing = rng.below(2) == 0 ? 0 : rng.uniform(0, 0.25);
-    const unsigned least_weight = rng.below(2) == 0 ? 127 : 8;
+    const unsigned min_weight = rng.below(2) == 0 ? 127 : 8;
     const auto bit = [&](int truth) {
-        const int weight = static_cast<int>(least_weight + rng.below(127 - least_weight + 1));
+        const int weight = static_cast<int>(min_weight + rng.below(127 - min_weight + 1));
         const bool is_wrong = rng.uniform() < 1 / (1 + std::exp2(view.odds_log2 * weight / 127));
         return static_cast<std::int8_t>((truth == 1) != is_wrong ? weight : -weight);
     };

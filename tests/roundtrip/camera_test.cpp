@@ -47,7 +47,7 @@ struct Camera {
     const char* overlay_options;
     bool is_infrared;
     int places;
-    int least_found;  ///< of the places; black text hides dots from a camera that sees it
+    int min_found;  ///< of the places; black text hides dots from a camera that sees it
 };
 
 class OverlaidBook : public testing::TestWithParam<Camera> {
@@ -137,7 +137,7 @@ TEST_P(OverlaidBook, is_located_on_the_right_page_in_the_right_place) {
     }
     fmt::print("{} of {} places found, largest error {:.1f} um\n", found, GetParam().places,
                largest_mm * 1000);
-    EXPECT_GE(found, GetParam().least_found);
+    EXPECT_GE(found, GetParam().min_found);
 }
 
 std::string camera_name(const testing::TestParamInfo<Camera>& tested) {

@@ -469,8 +469,8 @@ typedef struct dotpose_track_options {
     int32_t confirmations;                 /* 32: sightings before a jump is accepted; 3 */
     float still_mm;                        /* 36: within this, a robot is stationary; 0.1 */
     float still_rad;                       /* 40: 0.02 */
-    float least_sigma_mm;                  /* 44: errors of printing; 0.0002 */
-    float least_sigma_rad;                 /* 48: 0.00002 */
+    float min_sigma_mm;                    /* 44: errors of printing; 0.0002 */
+    float min_sigma_rad;                   /* 48: 0.00002 */
     int32_t max_p_wrong_log2;              /* 52: above this a sighting is weak; -30 */
     int32_t max_weak_p_wrong_log2; /* 56: above this it is never accepted; -10, at most -1 */
     float spacing_mm;              /* 60: of the pattern; 0.508 */

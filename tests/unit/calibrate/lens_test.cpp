@@ -24,10 +24,10 @@ constexpr double kNominalResidual_px = 0.222;
 
 /// Errors are at most this many standard deviations as reported; chance exceeds that once in
 /// 16,000.
-constexpr double kMostSigmas = 4;
+constexpr double kMaxSigmas = 4;
 
 void expect_near_truth(const Camera& camera, const char* sigma, double value, double truth) {
-    EXPECT_NEAR(value, truth, kMostSigmas * camera.sigma.at(sigma)) << sigma;
+    EXPECT_NEAR(value, truth, kMaxSigmas * camera.sigma.at(sigma)) << sigma;
 }
 
 void expect_lens(const LensCalibration& result, const CameraModel& truth) {
@@ -93,7 +93,7 @@ TEST(CalibrateLens, ASlightTiltTellsAnUnbiasedFocalLength) {
         ASSERT_TRUE(camera.focal_px);
         normalised += (*camera.focal_px - focal_px) / camera.sigma.at("focal_px");
     }
-    EXPECT_LT(std::abs(normalised) / std::sqrt(kSeries), kMostSigmas);
+    EXPECT_LT(std::abs(normalised) / std::sqrt(kSeries), kMaxSigmas);
 }
 
 // The far corner has half as many px per spacing as the middle.

@@ -86,7 +86,7 @@ TEST(PartialViews, CoverWhatTheyShould) {
     // Ink covers a 36th of pi of each cell's area; pixels darker than any paper show where dots
     // are.
     PartialView view;
-    view.least_share = view.most_share = 0.3;
+    view.min_share = view.max_share = 0.3;
     for (std::uint64_t i = 0; i < 4; ++i) {
         Shot shot = partial_shot(i, view);
         shot.imperfections = {};

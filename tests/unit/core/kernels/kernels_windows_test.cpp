@@ -121,9 +121,9 @@ TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
         OneDot dot(u, v, sigma_px, rng.uniform(-0.15, 0.15));
         kernels.refine_centres(dot.view, dot.cells, reach_px, dot.table.dots);
         // Rounding to grey levels leaves a few thousandths; the border cuts off a dot's skirt.
-        const double most_px = is_inside ? 0.01 : 0.04;
-        EXPECT_NEAR(dot.table.dots.x[0], u, most_px) << sigma_px << ' ' << reach_px;
-        EXPECT_NEAR(dot.table.dots.y[0], v, most_px) << sigma_px << ' ' << reach_px;
+        const double max_px = is_inside ? 0.01 : 0.04;
+        EXPECT_NEAR(dot.table.dots.x[0], u, max_px) << sigma_px << ' ' << reach_px;
+        EXPECT_NEAR(dot.table.dots.y[0], v, max_px) << sigma_px << ' ' << reach_px;
     });
 }
 
@@ -165,9 +165,9 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
         for (std::size_t k = 0; k < 8; ++k) {
             if (k == 5) continue;
             // Farther off, a large dot reaches beyond the window, so its weight decreases faster.
-            const double most_px = 0.02 + 0.2 * std::pow(std::abs(off[k]), 3);
-            EXPECT_NEAR(dots.x[k], u, most_px) << off[k];
-            EXPECT_NEAR(dots.y[k], v, most_px) << off[k];
+            const double max_px = 0.02 + 0.2 * std::pow(std::abs(off[k]), 3);
+            EXPECT_NEAR(dots.x[k], u, max_px) << off[k];
+            EXPECT_NEAR(dots.y[k], v, max_px) << off[k];
             const double moved_u = static_cast<double>(dots.x[k]) - (u + off[k]);
             const double moved_v = static_cast<double>(dots.y[k]) - (v - off[k]);
             sum_u += moved_u;
