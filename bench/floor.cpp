@@ -6,11 +6,11 @@
 namespace dotpose::bench {
 namespace {
 
-/// Number of pixels that are counted in parallel. Each lane has a counter of one byte, so that the
-/// compiler can use its widest vectors.
+/// Number of pixels that are counted in parallel. Each lane has an 8-bit counter, to let the
+/// compiler use the widest vectors of the processor.
 constexpr std::size_t kLanes = 64;
-/// Largest count of a lane.
-constexpr std::size_t kMostSteps = 255;
+/// Maximum count of a lane.
+constexpr std::size_t kMaxSteps = 255;
 
 std::uint32_t count_steps(std::span<const std::uint8_t> pixels, std::uint8_t level) {
     std::array<std::uint8_t, kLanes> counts{};
@@ -29,7 +29,7 @@ std::uint32_t count_steps(std::span<const std::uint8_t> pixels, std::uint8_t lev
 std::uint32_t count_dark(std::span<const std::uint8_t> pixels, std::uint8_t level) {
     std::uint32_t count = 0;
     while (pixels.size() >= kLanes) {
-        const std::size_t size = kLanes * std::min(pixels.size() / kLanes, kMostSteps);
+        const std::size_t size = kLanes * std::min(pixels.size() / kLanes, kMaxSteps);
         count += count_steps(pixels.first(size), level);
         pixels = pixels.subspan(size);
     }
