@@ -52,9 +52,9 @@ function requireTruth(lines) {
         const at = truthOf(line);
         seen.add(at.file);
         const off_mm = Math.hypot(at.x_mm - line.x_mm, at.y_mm - line.y_mm);
-        assert.ok(off_mm < 0.005, `${off_mm} mm off the truth in ${at.file}`);
+        assert.ok(off_mm < 0.005, `position error of ${off_mm} mm in ${at.file}`);
         const turn_deg = ((line.theta_deg - at.theta_deg + 540) % 360) - 180;
-        assert.ok(Math.abs(turn_deg) < 0.1, `${turn_deg} degrees off the truth in ${at.file}`);
+        assert.ok(Math.abs(turn_deg) < 0.1, `angle error of ${turn_deg} degrees in ${at.file}`);
     }
     assert.ok(seen.size >= 4, `only ${seen.size} of ${truth.length} frames of the clip were seen`);
 }
