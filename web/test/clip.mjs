@@ -17,8 +17,10 @@ function readPgm(bytes) {
     return { width, height, pixels: bytes.subarray(bytes.length - width * height) };
 }
 
-/** Writes `clip.y4m` into the folder. Returns for each of its frames the true pose, the tool's
- * line for the luma of the frame (`tool`), and the frame as a picture file (`png`). */
+/**
+ * Writes `clip.y4m` into the folder. Returns for each of its frames the true pose, the tool's
+ * line for the luma of the frame (`tool`), and the frame as a picture file (`png`).
+ */
 export function makeClip(folder, { frames, size }) {
     const still = join(folder, "frames");
     dotpose("simulate", "-o", still, "--frames", String(frames), "--seed", "5", "--size", size);

@@ -24,8 +24,10 @@ after(async () => {
     if (folder) rmSync(folder, { recursive: true, force: true });
 });
 
-/** Runs the camera until `frames` frames are logged. Returns the log and the complaints of the
-   page. */
+/**
+ * Runs the camera until `frames` frames are logged. Returns the log and the complaints of the
+ * page.
+ */
 async function runCamera(address, frames) {
     const { page, complaints } = await open(browser.context, server.url + address);
     await page.click("#look-start");
@@ -38,8 +40,10 @@ async function runCamera(address, frames) {
     return { page, complaints, rate, log };
 }
 
-/** Returns the true pose of a line of the log. This is the nearest one, because frames of the
-   clip are metres apart. */
+/**
+ * Returns the true pose of a line of the log. This is the nearest one, because frames of the
+ * clip are metres apart.
+ */
 function truthOf(line) {
     const near = (at) => Math.hypot(at.x_mm - line.x_mm, at.y_mm - line.y_mm);
     return truth.reduce((best, at) => (near(at) < near(best) ? at : best));

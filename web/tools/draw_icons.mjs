@@ -8,8 +8,10 @@ const kFolder = new URL("../public/icons/", import.meta.url);
 const kRows = ["rulud", "udrlu", "lrudr", "durlu", "ldurl"];
 const kStep = { u: [0, -1], d: [0, 1], l: [-1, 0], r: [1, 0] };
 
-/** Returns an icon as SVG. `inset` keeps the drawing inside the circle to which phones may crop
-   the icon. */
+/**
+ * Returns an icon as SVG. `inset` keeps the drawing inside the circle to which phones may crop
+ * the icon.
+ */
 function icon({ radius, inset }) {
     const cell = (512 - 2 * inset) / 5;
     const at = (i) => inset + (i + 0.5) * cell;

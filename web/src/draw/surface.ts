@@ -28,8 +28,10 @@ export interface Surface {
     height: number;
 }
 
-/** Sets the resolution of the canvas to that of the screen. `aspect`, if given, also sets its
-   height. */
+/**
+ * Sets the resolution of the canvas to that of the screen. `aspect`, if given, also sets its
+ * height.
+ */
 export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
     if (aspect !== undefined) canvas.style.aspectRatio = String(aspect);
     const scale = window.devicePixelRatio || 1;

@@ -22,8 +22,10 @@ export function lumaByCanvas(picture: CanvasImageSource, width: number, height: 
     return { data: luma, width, height };
 }
 
-/** Returns true if the luma of the frame can be used directly, because it is not rotated or
-   mirrored. */
+/**
+ * Returns true if the luma of the frame can be used directly, because it is not rotated or
+ * mirrored.
+ */
 function isPlain(frame: VideoFrame): boolean {
     const { rotation = 0, flip = false } = frame as { rotation?: number; flip?: boolean };
     return frame.format !== null && kLumaFirst.has(frame.format) && rotation === 0 && !flip;

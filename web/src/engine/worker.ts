@@ -47,8 +47,10 @@ function greyPicture({ data, width, height }: Image): Promise<ImageBitmap> {
     return createImageBitmap(new ImageData(rgba, width, height));
 }
 
-/** Camera frames, read one at a time. The next frame is read after the page has drawn the
-   previous one. */
+/**
+ * Camera frames, read one at a time. The next frame is read after the page has drawn the
+ * previous one.
+ */
 class Stream {
     #reader: ReadableStreamDefaultReader<VideoFrame>;
     #wanted: () => void = () => {};

@@ -4,8 +4,10 @@ import type { Engine, StreamEvents } from "../engine/engine.js";
 
 type Processor = new (init: { track: MediaStreamTrack }) => { readable: ReadableStream<VideoFrame> };
 
-/** Method of reading frames. `?luma=canvas` in the address forces the canvas, which every browser
-   has. */
+/**
+ * Method of reading frames. `?luma=canvas` in the address forces the canvas, which every browser
+ * has.
+ */
 const kForced = new URLSearchParams(location.search).get("luma");
 
 /** Starts the camera `device`, or by default the back camera of a phone. */
@@ -15,8 +17,10 @@ export async function openCamera(device: string): Promise<MediaStream> {
     return navigator.mediaDevices.getUserMedia({ video, audio: false });
 }
 
-/** Returns the cameras with their names, which browsers reveal only after the user has permitted
-   a camera. */
+/**
+ * Returns the cameras with their names, which browsers reveal only after the user has permitted
+ * a camera.
+ */
 export async function listCameras(): Promise<{ id: string; name: string }[]> {
     const devices = await navigator.mediaDevices.enumerateDevices();
     return devices

@@ -24,8 +24,10 @@ function eventOf(frame: Frame): string {
     return isFound(frame) ? "lost" : "";
 }
 
-/** Returns the rate of change of a quantity since the previous frame, or 0 after a frame without
-   a fix. */
+/**
+ * Returns the rate of change of a quantity since the previous frame, or 0 after a frame without
+ * a fix.
+ */
 function speed(frame: Frame, of: (reading: Reading) => number, turns = false): string {
     const { reading, before } = frame;
     const took_s = before ? reading.time_s - before.time_s : 0;

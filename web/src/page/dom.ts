@@ -26,8 +26,10 @@ export function make<K extends keyof HTMLElementTagNameMap>(
     return made;
 }
 
-/** Returns a function that writes changed texts into a live region, at most once every three
-   seconds. */
+/**
+ * Returns a function that writes changed texts into a live region, at most once every three
+ * seconds.
+ */
 export function announcer(id: string): (text: string) => void {
     const kPause_ms = 3000;
     let last_ms = -kPause_ms;

@@ -4,8 +4,10 @@ export function mm(value: number, digits = 3): string {
     return `${value.toFixed(digits)} mm`;
 }
 
-/** Formats millimetres with thin spaces between groups of three digits, because positions in the
-   pattern have up to nine. */
+/**
+ * Formats millimetres with thin spaces between groups of three digits, because positions in the
+ * pattern have up to nine.
+ */
 export function grouped(value_mm: number): string {
     return value_mm.toLocaleString("en", { minimumFractionDigits: 3, maximumFractionDigits: 3 }).replaceAll(",", "\u202f");
 }

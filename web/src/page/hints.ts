@@ -15,8 +15,10 @@ const kBright = 245;
 const kPale = 25;
 /** Minimum sharpness of a picture in focus, as a fraction of its contrast. */
 const kBlurred = 0.12;
-/** Limits for frames that cannot be located: with more than `kManyDots` dots, the dots are too
-   small; with fewer than `kFewDots`, too few are in view. */
+/**
+ * Limits for frames that cannot be located: with more than `kManyDots` dots, the dots are too
+ * small; with fewer than `kFewDots`, too few are in view.
+ */
 const kManyDots = 1500;
 const kFewDots = 60;
 

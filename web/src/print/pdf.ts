@@ -104,8 +104,10 @@ function dotContent(sheet: SheetLayout, symbols: Uint8Array): string {
     return `/Span <</ActualText ()>> BDC BT 0 0 0 1 k /Dots ${size_pt} Tf\n${rows.join("")}ET EMC\n`;
 }
 
-/** Rounds a length of the page like the tool does, to make renderers draw the same pixels for
-   both. */
+/**
+ * Rounds a length of the page like the tool does, to make renderers draw the same pixels for
+ * both.
+ */
 function points(length_mm: number): number {
     return Math.round(length_mm * kPointsPerMm * 1e4) / 1e4;
 }

@@ -18,8 +18,10 @@ const kNative = join(kBin, "dotpose_wasm_time");
 const kVariants = ["simd", "scalar"].filter((name) => existsSync(join(kDist, `dotpose-${name}.wasm`)));
 const rounds = Number(process.argv[2] ?? 5);
 
-/** Returns the times of each frame in µs, without and with a prediction, as the native program
-   does. */
+/**
+ * Returns the times of each frame in µs, without and with a prediction, as the native program
+ * does.
+ */
 function measure(locator, images) {
     const times_us = [];
     const timed = (call) => {

@@ -10,8 +10,10 @@ import { kCodes, type Cell, type Code, type Section } from "./names.js";
  * pose is the pattern position at the image centre. Unless `ok`, the pose and covariance are
  * NaN, and only `status`, `message` and `dots_seen` are valid. / */
 export interface Fix extends FixFields {
-    /** True if there is a pose. A frame without a pose is not an error; `message` contains the
-       reason. */
+    /**
+     * True if there is a pose. A frame without a pose is not an error; `message` contains the
+     * reason.
+     */
     ok: boolean;
     /** Identifier of the status, for example "ok" or "too_few_dots". */
     status: string;
@@ -28,8 +30,10 @@ export interface Fix extends FixFields {
     spacing_mm: number;
     /** Spacing of the grid in the image. */
     spacing_px: number;
-    /** Centres of the dots found, u and v in px from the centre of the first pixel. Null unless
-       the option `dots` is set. */
+    /**
+     * Centres of the dots found, u and v in px from the centre of the first pixel. Null unless
+     * the option `dots` is set.
+     */
     dots: Float32Array | null;
     /** The same fix, bit by bit, as a dotpose_fix of wrappers/c/dotpose.h. */
     bytes: Uint8Array<ArrayBuffer>;

@@ -4,8 +4,10 @@
 /** Source of a module: the URL of the `.wasm` file, its bytes, or the compiled module. */
 export type WasmSource = string | URL | BufferSource | WebAssembly.Module;
 
-/** A module with one function that creates a vector. Engines without vector instructions reject
-   it. */
+/**
+ * A module with one function that creates a vector. Engines without vector instructions reject
+ * it.
+ */
 const kSimdProbe = new Uint8Array([
     ...[0x00, 0x61, 0x73, 0x6d, 0x01, 0x00, 0x00, 0x00], // "\0asm", version 1
     ...[0x01, 0x05, 0x01, 0x60, 0x00, 0x01, 0x7b], // types: () -> v128
@@ -89,8 +91,10 @@ export class Instance {
         return address;
     }
 
-    /** Returns a view of the memory. The view is valid until the memory grows, so create one for
-       each use. */
+    /**
+     * Returns a view of the memory. The view is valid until the memory grows, so create one for
+     * each use.
+     */
     bytes(address: number, length: number): Uint8Array<ArrayBuffer> {
         return new Uint8Array(this.#memory.buffer as ArrayBuffer, address, length);
     }

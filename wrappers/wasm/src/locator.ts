@@ -16,17 +16,23 @@ export interface Image {
 
 /** Options of a locator. The defaults suit any camera. */
 export interface LocatorOptions {
-    /** Code of the sheets. The default "auto" detects the code from the frames. If one frame is
+    /**
+     * Code of the sheets. The default "auto" detects the code from the frames. If one frame is
      * ambiguous, further frames of the same locator decide. Until then, frames have the status
-     * "ambiguous_code". */
+     * "ambiguous_code".
+     */
     code?: Code | "auto";
     /** Spacing of the printed grid. Default: 0.508. */
     spacing_mm?: number;
-    /** Radial distortion k of p_u = m + r / (1 + k r^2), per px^2, negative for barrel
-       distortion. Default: 0. */
+    /**
+     * Radial distortion k of p_u = m + r / (1 + k r^2), per px^2, negative for barrel
+     * distortion. Default: 0.
+     */
     lens_k_per_px2?: number;
-    /** Number of attempts. With 2, a frame that cannot be located is filtered and located again.
-       Default: 2. */
+    /**
+     * Number of attempts. With 2, a frame that cannot be located is filtered and located again.
+     * Default: 2.
+     */
     attempts?: 1 | 2;
     /** Maximum probability of a wrong position. Other positions are refused. Default: 1e-9. */
     max_p_wrong?: number;
@@ -38,9 +44,11 @@ export interface LocatorOptions {
 
 /** Options of one frame. */
 export interface FrameOptions {
-    /** The fix of the previous frame. The pattern is first searched at its previous position,
+    /**
+     * The fix of the previous frame. The pattern is first searched at its previous position,
      * which takes a fraction of the time. If the frame does not confirm the prediction, or the
-     * fix is not ok, the frame is located without it. */
+     * fix is not ok, the frame is located without it.
+     */
     prediction?: Fix | null | undefined;
 }
 
@@ -102,8 +110,10 @@ export class Locator {
         return new Locator(await Instance.start(await coreModule(options.wasm)), options);
     }
 
-    /** Returns the fix of an image. Throws RangeError if the image has less data than its size
-       requires. */
+    /**
+     * Returns the fix of an image. Throws RangeError if the image has less data than its size
+     * requires.
+     */
     locate(image: Image, options: FrameOptions = {}): Fix {
         const stride = this.#write(image);
         const prediction = this.#predict(options.prediction);
@@ -140,14 +150,18 @@ export class Locator {
         return core.view(pointer, kPointerBytes).getUint32(0, true);
     }
 
-    /** Throws an error with the message of a status that is caused by an invalid option or
-       argument. */
+    /**
+     * Throws an error with the message of a status that is caused by an invalid option or
+     * argument.
+     */
     #require(status: number): void {
         if (status !== 0) throw new RangeError(this.#core.text(this.#core.call("dotpose_status_message", status)));
     }
 
-    /** Copies the pixels into the module's memory, without gaps between rows. Returns the stride
-       of the copy. */
+    /**
+     * Copies the pixels into the module's memory, without gaps between rows. Returns the stride
+     * of the copy.
+     */
     #write({ data, width, height, stride = width }: Image): number {
         if (![width, height, stride].every((n) => Number.isInteger(n) && n >= 0) || stride < width)
             throw new RangeError(`bad image: ${width} x ${height} px with a stride of ${stride}`);
@@ -194,8 +208,10 @@ export class Locator {
         });
     }
 
-    /** Returns the name and the message of a status. They are cached, because each frame has a
-       status. */
+    /**
+     * Returns the name and the message of a status. They are cached, because each frame has a
+     * status.
+     */
     #textsOf(status: number): { status: string; message: string } {
         const text = (name: string) => this.#core.text(this.#core.call(name, status));
         let texts = this.#texts.get(status);

@@ -14,8 +14,10 @@ export interface PatternPart {
     rows: number;
 }
 
-/** Displacements of a dot from its intersection, indexed by symbol, in units of the displacement
-   length. y points down. */
+/**
+ * Displacements of a dot from its intersection, indexed by symbol, in units of the displacement
+ * length. y points down.
+ */
 export const kDisplacements: readonly { dx: number; dy: number }[] = [
     { dx: 0, dy: -1 },
     { dx: -1, dy: 0 },

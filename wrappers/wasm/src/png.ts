@@ -35,8 +35,10 @@ function header({ width_px, height_px }: Raster): Uint8Array {
     return bytes;
 }
 
-/** Returns the chunk with the pixels per metre, from which programs print the page in its true
-   size. */
+/**
+ * Returns the chunk with the pixels per metre, from which programs print the page in its true
+ * size.
+ */
 function size(dpi: number): Uint8Array {
     const bytes = new Uint8Array(9);
     const view = new DataView(bytes.buffer);

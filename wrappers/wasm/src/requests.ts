@@ -2,8 +2,10 @@
 // double.
 import { codeNumber, type Cell, type Code, type Section } from "./names.js";
 
-/** A page with the pattern. The defaults are those of the tool: A4, margins of 5 mm, spacing
-   0.508 mm. */
+/**
+ * A page with the pattern. The defaults are those of the tool: A4, margins of 5 mm, spacing
+ * 0.508 mm.
+ */
 export interface SheetOptions {
     /** Default: "anoto". */
     code?: Code;
@@ -31,8 +33,10 @@ export interface Camera {
     mm_per_px?: number;
     /** Radial distortion per px^2, negative for barrel distortion. */
     k?: number;
-    /** Distance of the projection centre from the paper, which matters for tilted cameras.
-       Default: 16. */
+    /**
+     * Distance of the projection centre from the paper, which matters for tilted cameras.
+     * Default: 16.
+     */
     working_distance_mm?: number;
 }
 
@@ -43,11 +47,15 @@ export interface CameraPose {
     y_mm: number;
     /** Angle of the image's x axis in the pattern, clockwise as seen on the paper. */
     theta_rad?: number;
-    /** Tilt about the image x axis. If positive, the paper recedes towards the bottom of the
-       image. */
+    /**
+     * Tilt about the image x axis. If positive, the paper recedes towards the bottom of the
+     * image.
+     */
     tilt_x_rad?: number;
-    /** Tilt about the image y axis. If positive, the paper comes closer towards the right of the
-       image. */
+    /**
+     * Tilt about the image y axis. If positive, the paper comes closer towards the right of the
+     * image.
+     */
     tilt_y_rad?: number;
 }
 

@@ -18,8 +18,10 @@ export interface SheetLayout {
     origin_y_mm: number;
 }
 
-/** A page as pixels, 8 per byte, with the leftmost pixel in the most significant bit. 1 is ink.
-   Rows begin at whole bytes. */
+/**
+ * A page as pixels, 8 per byte, with the leftmost pixel in the most significant bit. 1 is ink.
+ * Rows begin at whole bytes.
+ */
 export interface Raster {
     width_px: number;
     height_px: number;
@@ -61,8 +63,10 @@ export class Tools {
         return { columns: columns!, rows: rows!, origin_x_mm: origin_x_mm!, origin_y_mm: origin_y_mm! };
     }
 
-    /** Returns the centres of all dots, row by row: x and y in mm from the upper left corner of
-       the page. */
+    /**
+     * Returns the centres of all dots, row by row: x and y in mm from the upper left corner of
+     * the page.
+     */
     dots(sheet: SheetOptions = {}): Float64Array {
         const { columns, rows } = this.layout(sheet);
         const address = this.#call("dotpose_tools_dots", sheetFields(sheet));
@@ -86,8 +90,10 @@ export class Tools {
         return pngOf(this.raster(sheet, dpi));
     }
 
-    /** Returns the image of the simulated camera. The same scene gives the same bytes on every
-       machine. */
+    /**
+     * Returns the image of the simulated camera. The same scene gives the same bytes on every
+     * machine.
+     */
     render(scene: Scene): Image {
         const { width_px: width = 188, height_px: height = 120 } = scene.camera ?? {};
         return { data: this.#bytes("dotpose_tools_render", sceneFields(scene)), width, height };

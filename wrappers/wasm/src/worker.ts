@@ -7,8 +7,10 @@ export type Request = { id: number } & (
     | { kind: "locate"; image: Image; options: FrameOptions }
 );
 
-/** The part of a worker's global object that is used here. The TypeScript types of pages do not
-   contain it. */
+/**
+ * The part of a worker's global object that is used here. The TypeScript types of pages do not
+ * contain it.
+ */
 interface Scope {
     onmessage: ((event: MessageEvent<Request>) => void) | null;
     postMessage(message: unknown, transfer: Transferable[]): void;

@@ -59,8 +59,10 @@ function lineOf(fix) {
     return numbers.join(",");
 }
 
-/** Locates the frames of a set in the ways of its lines. Returns the number of frames, and the
-   lines that differ in any bit. */
+/**
+ * Locates the frames of a set in the ways of its lines. Returns the number of frames, and the
+ * lines that differ in any bit.
+ */
 export async function compareSet({ Locator }, frames, csv, wasm) {
     const images = [...imagesOf(frames)];
     const locator = await Locator.create({ code: "anoto", wasm });
