@@ -1,4 +1,4 @@
-// `dotpose calibrate`, `locate --camera` and `optics` as their user sees them.
+// Black-box tests of `dotpose calibrate`, `locate --camera` and `optics`.
 #include <cmath>
 #include <fstream>
 

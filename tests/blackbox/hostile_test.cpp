@@ -1,4 +1,4 @@
-// What strangers give the tool: names and files that are made to do harm.
+// Malicious input: names and files designed to do harm.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -25,7 +25,7 @@ class Hostile : public ToolCommand {
     }
 };
 
-/// A terminal's title and colours, a bell, and a line of its own.
+/// Sequences that set a terminal's title and colours and ring its bell, and a complete line.
 constexpr const char* kActs = "\x1b]0;OWNED\x07\x1b[31m\x7f\xc2\x9b\n{\"status\":\"ok\"}";
 
 void expect_harmless(const std::string& text) {
@@ -68,7 +68,7 @@ TEST_F(Hostile, OptionsRefuseWhatIsNoFiniteNumber) {
         EXPECT_EQ(run(command), 2) << command;
         EXPECT_THAT(errors_, HasSubstr("finite number")) << command;
     }
-    // A file may be called so.
+    // A file may have this name.
     put("nan", "P5 1 1 255\nx");
     run("locate nan");
     EXPECT_THAT(output_, HasSubstr("\"file\":\"nan\""));

@@ -1,4 +1,4 @@
-// No command destroys one of its inputs, whatever name its outputs are given.
+// No command destroys one of its inputs, regardless of the names of its outputs.
 #include <string>
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Files of all kinds that the commands read, and a way to see that none of them changed.
+/// Files of all kinds that the commands read, and a check that none of them changed.
 class RunFiles : public ToolCommand {
   protected:
     void SetUp() override {
@@ -33,7 +33,7 @@ class RunFiles : public ToolCommand {
         std::ofstream(directory_ / name, std::ios::binary) << text;
     }
 
-    /// Names, kinds, inodes and checksums of all files.
+    /// Returns names, kinds, inodes and checksums of all files.
     std::string state() {
         shell("find . -printf '%p %y %i\\n' | sort; find . -type f -exec cksum {} + | sort");
         return output_;
@@ -44,7 +44,7 @@ class RunFiles : public ToolCommand {
         std::string reason;
     };
 
-    /// Runs what is to be refused, and expects that it says why and leaves everything as it was.
+    /// Runs commands that must be refused. Expects that they report the reason and change nothing.
     void expect_refused(const std::vector<Refusal>& refusals) {
         const std::string before = state();
         for (const auto& [command, reason] : refusals) {

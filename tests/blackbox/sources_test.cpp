@@ -1,4 +1,4 @@
-// What frames are read from: all commands take the same sources, and give the same for the same
+// Sources of frames. All commands accept the same sources, and give the same results for the same
 // frames.
 #include <algorithm>
 #include <cmath>
@@ -24,8 +24,7 @@ class Sources : public ToolCommand {
   protected:
     static constexpr int kFrames = 6;
 
-    /// Puts simulated frames into the folder frames, and the same without loss into drive.mkv and
-    /// drive.raw.
+    /// Writes simulated frames to the folder frames, and losslessly to drive.mkv and drive.raw.
     void SetUp() override {
         ASSERT_EQ(run("simulate -o frames --seed 91 --frames " + std::to_string(kFrames)), 0);
         ASSERT_EQ(encode("-c:v ffv1 drive.mkv"), 0) << errors_;
@@ -51,7 +50,7 @@ class Sources : public ToolCommand {
         return all;
     }
 
-    /// The lines of the last run, without what differs between runs and sources.
+    /// Returns the lines of the last run, without fields that differ between runs and sources.
     std::vector<json> poses() const {
         std::vector<json> all = records();
         for (json& record : all) {
@@ -262,7 +261,7 @@ TEST_F(Sources, AreFlippedForAllCommands) {
         EXPECT_EQ(record["status"], "ok");
 }
 
-/// A number that the camera file states.
+/// Returns a number in the camera file.
 double value_of(const std::string& yaml, const std::string& name) {
     const std::size_t at = yaml.find(name + ": ");
     return at == std::string::npos ? -1 : std::stod(yaml.substr(at + name.size() + 2));
@@ -270,7 +269,7 @@ double value_of(const std::string& yaml, const std::string& name) {
 
 TEST_F(Sources, CalibrateChoosesTheFramesOfAVideoThatShowNewPlaces) {
     ASSERT_EQ(run("simulate -o frames --seed 91 --k -8.7e-6 --frames 12"), 0) << errors_;
-    // Each frame three times in a row, as of a camera that rests.
+    // Each frame is repeated three times, as by a camera at rest.
     ASSERT_EQ(encode("-vf fps=90 -c:v ffv1 slow.mkv"), 0) << errors_;
     ASSERT_EQ(run("calibrate frames/*.pgm -o images.yaml"), 0) << errors_;
     ASSERT_EQ(run("calibrate slow.mkv -o video.yaml"), 0) << errors_;
