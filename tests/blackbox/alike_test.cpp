@@ -19,7 +19,7 @@ constexpr int kFramesOfCase = 60;
 
 struct AlikeCase {
     AlikeDots dots;
-    double most_px;  ///< limit of the median error
+    double max_median_px;  ///< limit of the median error
 };
 
 void PrintTo(const AlikeCase& of, std::ostream* out) {
@@ -50,7 +50,7 @@ TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     for (const double normalised : score.normalised)
         EXPECT_LT(normalised, 1.85);
     const double px = kDefaultSpacing_mm / GetParam().dots.spacing_px;
-    EXPECT_LT(score.position_um.median / 1000 / px, GetParam().most_px);
+    EXPECT_LT(score.position_um.median / 1000 / px, GetParam().max_median_px);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -160,7 +160,7 @@ TEST_F(Sources, EvaluateSaysWhichPosesAreMissing) {
     fs::copy_file(directory_ / image(0), directory_ / "frames/other.pgm");
     EXPECT_EQ(run("evaluate frames/other.pgm"), 1);
     EXPECT_EQ(errors_, "dotpose: frames/truth.csv has no pose of frames/other.pgm\n");
-    // The video is shorter than the file of poses, or longer.
+    // The video is shorter or longer than the file of poses.
     const std::string truth = file("frames/truth.csv");
     std::ofstream(directory_ / "more.csv") << truth << truth.substr(truth.find('\n') + 1);
     EXPECT_EQ(run("evaluate drive.mkv --format json --poses more.csv"), 1);
@@ -206,7 +206,7 @@ TEST_F(Sources, WrongOnesAreNamed) {
     EXPECT_THAT(errors_, HasSubstr("leaves the frame of 188x120 px"));
 }
 
-// The camera file is for whole frames: the pose is that of the whole frame's reference.
+// The camera file is for whole frames, and the pose is that of the reference of the whole frame.
 TEST_F(Sources, APartOfAFrameIsLocatedWithTheCameraFileOfTheWhole) {
     std::ofstream(directory_ / "camera.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: 0, "
@@ -229,7 +229,7 @@ TEST_F(Sources, APartOfAFrameIsLocatedWithTheCameraFileOfTheWhole) {
     const json other_part = pose("--reference 93.5,59.5 --roi 20,10,150x100 ");
     EXPECT_NEAR(other_part["x_mm"], other["x_mm"], 0.01);
     EXPECT_NEAR(other_part["y_mm"], other["y_mm"], 0.01);
-    // The frames must have the file's size, and the part must be inside.
+    // The frames must have the size in the camera file, and the part must be inside of them.
     ASSERT_EQ(run("simulate -o large --size 200x120 --frames 1"), 0);
     EXPECT_EQ(run("locate --camera camera.yaml --roi 20,10,150x100 large"), 1);
     EXPECT_THAT(errors_, HasSubstr("frame_000000.pgm: the camera file is for images of 188 x 120 "

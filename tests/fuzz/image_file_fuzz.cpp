@@ -1,4 +1,4 @@
-// Any file: `read_image` gives an image and `read_origin` its origin, or they throw Error.
+// Any file: `read_image` returns an image and `read_origin` its origin, or they throw Error.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -8,16 +8,17 @@
 
 using namespace dotpose;
 
-// A few bytes may announce images of gigabytes, which the fuzzer would take for a fault.
-constexpr int kMostPixels = 1 << 20;
+// A few bytes may announce an image of gigabytes. The fuzzer would report the allocation as a
+// fault.
+constexpr int kMaxPixels = 1 << 20;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static fuzz::MemoryFile file;
     file.set(data, size);
     try {
-        const GreyImage image = read_image(file.path(), kMostPixels);
+        const GreyImage image = read_image(file.path(), kMaxPixels);
         const bool is_whole = image.width_px > 0 && image.height_px > 0 &&
-                              image.pixels.size() <= kMostPixels &&
+                              image.pixels.size() <= kMaxPixels &&
                               image.pixels.size() == static_cast<std::size_t>(image.width_px) *
                                                          static_cast<std::size_t>(image.height_px);
         if (!is_whole) std::abort();
