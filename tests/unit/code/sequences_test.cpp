@@ -193,7 +193,7 @@ TEST(A4, TheMicrodotsOneIsSound) {
     EXPECT_EQ(absent(a4).size(), 2U);
 }
 
-// The patent prints 240 digits; the 241st, a 1, was appended by open implementations.
+// The patent prints 240 digits. Open implementations append a 241st digit, a 1.
 TEST(A4, OnlyOneInsertedDigitRestoresThePatents) {
     const std::string printed = a4_of(CodeVariant::libdots).substr(0, 240);
     std::set<std::string> sound;

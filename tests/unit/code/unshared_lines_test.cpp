@@ -1,4 +1,4 @@
-// The table of lines that are not shared, counted again.
+// The table of lines that are not shared, compared with counts.
 #include "code/unshared_lines.hpp"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ constexpr std::size_t kMost = 16;
 using Lines = std::array<std::size_t, kMost + 1>;
 using Unshared = std::pair<std::size_t, std::size_t>;
 
-/// Returns, for every n, how many of the first n lines from one end have grown by the same offset
-/// at most.
+/// Returns, for every n, the maximum number of lines with equal offsets among the first n lines
+/// from one end.
 Lines most_equal(const std::array<int, kMost>& offsets, std::size_t lines, bool from_last) {
     std::array<std::size_t, kSections> counts{};
     Lines most{};
@@ -29,8 +29,8 @@ Lines most_equal(const std::array<int, kMost>& offsets, std::size_t lines, bool 
     return most;
 }
 
-/// Returns the numbers of lines that no other place of the sequence shares, at one shift and on two
-/// sides.
+/// Returns the minimum numbers of lines that another place of the sequence does not share, at a
+/// single shift and at two shifts on the two sides of a border.
 Unshared counted(const Secondary& a, std::uint32_t place, std::size_t lines) {
     std::size_t most_at_one = 0;
     std::size_t most_on_both = 0;
@@ -65,8 +65,8 @@ TEST(UnsharedLines, AreAsCounted) {
 
 using Counts = std::array<int, kMaxCounted>;
 
-/// Returns by n - 1 how many other positions of one sequence leave exactly n lines unshared, each
-/// counted at every shift at which it shares a line.
+/// Returns, at index n - 1, the number of other positions of one sequence that leave exactly n
+/// lines unshared. A position counts once for every shift at which it shares a line.
 Counts counted_by_unshared(const Secondary& a, std::uint32_t place, std::size_t lines) {
     Counts counts{};
     for (std::uint32_t other = 0; other < a.length; ++other) {

@@ -51,7 +51,7 @@ class CameraFile : public testing::Test {
         }
         return "not refused";
     }
-    /// Returns the error for the whole file with one part replaced.
+    /// Returns the error message for the file with one part replaced.
     std::string refusal_with(const std::string& part, const std::string& other) const {
         std::string text = kWhole;
         text.replace(text.find(part), part.size(), other);
@@ -166,7 +166,7 @@ TEST(CameraGeometry, IsEquations1And2AndTheirInverse) {
 }
 
 TEST(CameraGeometry, TheScaleIsThatOfATiltedCamera) {
-    // Compares the simulator's pinhole with the view that its pixels have of the paper.
+    // Compares the simulator's pinhole camera with the paper scale of its pixels.
     CameraModel model;
     CameraPose pose;
     pose.tilt_x_rad = 0.3;

@@ -1,4 +1,4 @@
-// The least losses compared with all patterns of shared lines.
+// Minimum losses, compared with all patterns of shared lines.
 #include "core/integrity/min_losses.hpp"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ RatiosCase random_case(int lines, CodeVariant code, Rng& rng) {
     return c;
 }
 
-/// Returns the least loss over all patterns of shared lines (a bit each) with at most `max_shared`
-/// of them in a row.
+/// Returns the minimum loss over all patterns of shared lines (one bit each) with at most
+/// `max_shared` consecutive ones.
 int least_of_patterns(const std::vector<int>& losses, int max_shared) {
     int least = INT32_MAX;
     for (std::uint32_t shared = 0; shared < 1U << losses.size(); ++shared) {
@@ -40,7 +40,7 @@ int least_of_patterns(const std::vector<int>& losses, int max_shared) {
     return least;
 }
 
-/// Returns what the best other roll of each line loses; a gain counts as 0.
+/// Returns the loss of the best other roll of each line. A gain counts as 0.
 std::vector<int> losses_of(const RatiosCase& c) {
     std::vector<int> losses;
     for (std::size_t line = 0; line < c.rolls.size(); ++line) {
