@@ -180,7 +180,7 @@ enum {
     DOTPOSE_ATTEMPT_DEVICE = 3
 };
 
-/* Shapes of the paper in view, for the member `surface`. */
+/* Flatness of the paper in view, for the member `surface`. */
 enum {
     /* One plane explains all dots. */
     DOTPOSE_SURFACE_EVEN = 0,

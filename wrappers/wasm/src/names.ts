@@ -16,7 +16,7 @@ export const kAttempts = ["tracked", "first", "second", "device"] as const;
 export type Attempt = (typeof kAttempts)[number];
 
 export const kSurfaces = ["even", "divided", "uneven"] as const;
-/** Shape of the paper in view, as far as the dots show it. */
+/** Flatness of the paper in view, as determined from the dots. */
 export type Surface = (typeof kSurfaces)[number];
 
 /** Section of the code, 0 to 62 per axis. There are 63 x 63 sections, each with all cells. */
