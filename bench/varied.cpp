@@ -58,7 +58,7 @@ Subject locating(const std::vector<KnownFrame>& frames, Effort effort, SmallMemo
     return subject;
 }
 
-/// Returns the subject that locates as on a processor without AVX2, with the first attempt only.
+/// Returns the way that locates frames as on a processor without AVX2, with the first attempt only.
 Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     static core::SmallWorkspace workspace;
     const auto locates = [](const GreyImage& image) {
@@ -120,8 +120,8 @@ Subject detecting(std::vector<TagFrame>& frames, TagDetector& detector) {
 }
 
 /// Times every frame once. As with a camera, all frames are copied to the same memory. All other
-/// frames are located between two passes of one frame, so that caches and branch prediction do not
-/// adapt to it.
+/// frames are located between two passes of one frame, so caches and branch prediction do not adapt
+/// to a single frame.
 void pass(Subject& subject) {
     using Clock = std::chrono::steady_clock;
     GreyImage camera = *subject.frames.front();

@@ -325,7 +325,7 @@ typedef struct dotpose_options {
     double reference_dy_px;   /* 56 */
     double max_p_wrong;       /* 64: limit of p_wrong for positions; default 1e-9 */
     double max_bit_errors;    /* 72: limit of the ratio of bit errors; default 0.18 */
-    int32_t min_contrast;     /* 80: grey levels; frames with less are refused; default 0 */
+    int32_t min_contrast;     /* 80: grey levels; minimum contrast; default 0 */
     int32_t min_dots;         /* 84: minimum number of dots; default 40 */
     int32_t show_stages;      /* 88: 1 keeps all dots for dotpose_dots (slower); default 0 */
     int32_t reserved;         /* 92: zero */

@@ -1,4 +1,4 @@
-// The table of lines that are not shared, compared with counts.
+// The table of lines that are not shared, checked by counting the lines.
 #include "code/unshared_lines.hpp"
 
 #include <algorithm>

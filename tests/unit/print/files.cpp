@@ -88,8 +88,8 @@ Bitmap read_tiff(const fs::path& path) {
     TIFFGetField(tiff, TIFFTAG_RESOLUTIONUNIT, &unit);
     TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &x_dpi);
     TIFFGetField(tiff, TIFFTAG_YRESOLUTION, &y_dpi);
-    // RGBA, because libtiff then determines which pixels are black. Its rows are in order from the
-    // bottom.
+    // The samples are read as RGBA, because libtiff then determines which pixels are black. libtiff
+    // returns the rows from the bottom to the top.
     std::vector<std::uint32_t> pixels(std::size_t{width} * height);
     const bool read = TIFFReadRGBAImage(tiff, width, height, pixels.data(), 1) == 1;
     TIFFClose(tiff);

@@ -31,7 +31,7 @@ struct SeenFix {
     std::shared_ptr<StageSource> source;   ///< who located the frame
     std::uint64_t number = 0;              ///< of the frame, among those of `source`
     std::string fault;                     ///< option outside of its range; empty if none is
-    std::shared_ptr<const Stages> stages;  ///< null: not asked for yet
+    std::shared_ptr<const Stages> stages;  ///< null until requested
 
     bool is_ok() const { return fix.status == Status::ok; }
     const Stages& seen_stages();

@@ -8,7 +8,8 @@ import { kCodes, type Cell, type Code, type Section } from "./names.js";
  *
  * In the pattern frame, x points to the right and y DOWN on the printed page as it is read. The
  * pose is the pattern position at the image centre. Unless `ok`, the pose and covariance are
- * NaN, and only `status`, `message` and `dots_seen` are valid. / */
+ * NaN, and only `status`, `message` and `dots_seen` are valid.
+ */
 export interface Fix extends FixFields {
     /**
      * True if there is a pose. A frame without a pose is not an error; `message` contains the

@@ -76,7 +76,8 @@ export const kMaxFrameSide_px = 4096;
  *     if (fix.ok) console.log(fix.x_mm, fix.y_mm, fix.theta_rad);
  *
  * Each locator has its own memory of 4 MB plus the image. The memory is released with the
- * locator. The same image gives the same bits in every engine and natively. / */
+ * locator. The same image gives the same bits in every engine and natively.
+ */
 export class Locator {
     readonly #core: Instance;
     readonly #locator: number;

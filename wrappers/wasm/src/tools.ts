@@ -38,7 +38,8 @@ const kInch_mm = 25.4;
  *     const png = await tools.png({ width_mm: 100, height_mm: 100 }, 600);
  *     const image = tools.render({ pose: { x_mm: 50, y_mm: 60 }, imperfections: { noise_sigma: 3 } });
  *
- * Invalid requests throw RangeError with a message that names the invalid value. / */
+ * Invalid requests throw RangeError with a message that names the invalid value.
+ */
 export class Tools {
     readonly #module: WebAssembly.Module;
     #instance: Instance;

@@ -23,7 +23,8 @@ interface Answer {
  *     const { fix, image } = await locator.locate({ data, width, height });
  *
  * Images are transferred to the worker, not copied: `data` is empty until the answer returns it.
- * Calls are answered in order. / */
+ * Calls are answered in order.
+ */
 export class WorkerLocator {
     readonly #worker: Worker;
     readonly #waiting = new Map<number, { resolve(result?: Located): void; reject(error: unknown): void }>();

@@ -91,7 +91,7 @@ void expect_one(std::initializer_list<std::string_view> picture) {
         shape.append(line).append("\n");
         ++v;
     }
-    // At these columns the shape lies on one tile, or across a border of two.
+    // At these columns the shape is within one tile, or across the border of two tiles.
     for (const int u0 : {24, 29, 33}) {
         const auto dots = blobs_of(drawn(picture, u0));
         ASSERT_EQ(dots.size(), 1u) << shape << "at " << u0;
