@@ -161,7 +161,7 @@ TEST_F(LocateCommand, a_mirrored_view_says_how_to_go_on_and_is_located_flipped) 
           "centre_px: [93.5, 59.5], flip: true}");
     run("straight.pgm");
     const json straight = records().at(0);
-    // The flag of the camera file and the option have the same effect, also together.
+    // The flag of the camera file and the option have the same effect, individually and together.
     for (const char* how : {"--flip ", "--camera camera.yaml ", "--flip --camera camera.yaml "}) {
         run(how + std::string("mirrored.pgm"));
         const json record = records().at(0);
@@ -227,7 +227,7 @@ TEST_F(LocateCommand, a_picture_of_a_screen_says_that_it_may_be_too_coarse) {
     ASSERT_EQ(ToolCommand::run("simulate -o screen --mm-per-px 0.26 --frames 1 --seed 1"), 0);
     run("screen/frame_000000.pgm");
     EXPECT_NE(records().at(0)["status"], "ok");
-    EXPECT_THAT(records().at(0)["message"], HasSubstr("or too coarse (under 6 px from dot to dot"));
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("or too coarse (a spacing under 6 px"));
 }
 
 }  // namespace

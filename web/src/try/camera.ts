@@ -14,7 +14,7 @@ export interface Slider {
 const percent = (value: number) => `${Math.round(100 * value)} %`;
 
 export const kSliders: readonly Slider[] = [
-    { name: "mm_per_px", label: "Height", min: 0.012, max: 0.085, step: 0.001, shown: (v) => `${(0.508 / v).toFixed(1)} px per dot` },
+    { name: "mm_per_px", label: "Height", min: 0.012, max: 0.085, step: 0.001, shown: (v) => `${(0.508 / v).toFixed(1)} px per spacing` },
     { name: "turn_deg", label: "Turn", min: -180, max: 180, step: 1, shown: (v) => `${Math.round(v)}°` },
     { name: "tilt_deg", label: "Tilt", min: 0, max: 35, step: 0.5, shown: (v) => `${v}°` },
     { name: "blur_px", label: "Blur", min: 0, max: 3.5, step: 0.1, shown: (v) => `${v.toFixed(1)} px` },

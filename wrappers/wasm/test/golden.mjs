@@ -14,7 +14,7 @@ export function* imagesOf(buffer) {
     }
 }
 
-/** Types, counts and offsets in a dotpose_fix (wrappers/c/dotpose.h) of the columns. */
+/** Types, counts and offsets of the columns in a dotpose_fix (wrappers/c/dotpose.h). */
 const kColumns = [
     ["double", 1, 8], // x_mm
     ["double", 1, 16], // y_mm
