@@ -205,8 +205,8 @@ class EmulatedDevice : public testing::Test {
     test::TemporaryDirectory directory_;
 };
 
-/// Compares the sending loop on the desktop, with which the emulated loop is compared, with the
-/// true poses.
+/// Compares the sending loop on the desktop with the true poses. The emulated loop must send the
+/// same packets.
 TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
     PacketReader reader;
     DeviceMemory memory;

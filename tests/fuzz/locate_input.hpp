@@ -67,8 +67,8 @@ inline Options options_of(const LocateHeader& header) {
     return options;
 }
 
-/// Returns a prediction. Reads the last bytes, which are also pixels, as any map to any place.
-/// Alternatively returns the fix of the frame, moved by up to 2 spacings and 11 degrees.
+/// Returns a prediction: either any map to any place, read from the last bytes (which are also
+/// pixels), or the fix of the frame, moved by up to 2 spacings and 11 degrees.
 inline Prediction prediction_of(const LocateHeader& header, std::span<const std::uint8_t> rest,
                                 const Fix& fix) {
     static_assert(std::is_trivially_copyable_v<Prediction>);

@@ -13,13 +13,13 @@
 namespace dotpose::code {
 namespace {
 
-constexpr std::size_t kMost = 16;
-using Lines = std::array<std::size_t, kMost + 1>;
+constexpr std::size_t kMaxLines = 16;
+using Lines = std::array<std::size_t, kMaxLines + 1>;
 using Unshared = std::pair<std::size_t, std::size_t>;
 
 /// Returns, for every n, the maximum number of lines with equal offsets among the first n lines
 /// from one end.
-Lines most_equal(const std::array<int, kMost>& offsets, std::size_t lines, bool from_last) {
+Lines max_equal(const std::array<int, kMaxLines>& offsets, std::size_t lines, bool from_last) {
     std::array<std::size_t, kSections> counts{};
     Lines most{};
     for (std::size_t n = 0; n < lines; ++n) {
@@ -32,20 +32,20 @@ Lines most_equal(const std::array<int, kMost>& offsets, std::size_t lines, bool 
 /// Returns the minimum numbers of lines that another place of the sequence does not share, at a
 /// single shift and at two shifts on the two sides of a border.
 Unshared counted(const Secondary& a, std::uint32_t place, std::size_t lines) {
-    std::size_t most_at_one = 0;
-    std::size_t most_on_both = 0;
+    std::size_t max_at_one = 0;
+    std::size_t max_on_both = 0;
     for (std::uint32_t other = 0; other < a.length; ++other) {
         if (other == place) continue;
-        std::array<int, kMost> offsets{};
+        std::array<int, kMaxLines> offsets{};
         for (std::size_t line = 0; line < lines; ++line)
             offsets[line] = (a.rolls[other + line] - a.rolls[place + line] + kSections) % kSections;
-        const Lines before = most_equal(offsets, lines, false);
-        const Lines from = most_equal(offsets, lines, true);
-        most_at_one = std::max(most_at_one, before[lines]);
+        const Lines before = max_equal(offsets, lines, false);
+        const Lines from = max_equal(offsets, lines, true);
+        max_at_one = std::max(max_at_one, before[lines]);
         for (std::size_t border = 0; border <= lines; ++border)
-            most_on_both = std::max(most_on_both, before[border] + from[lines - border]);
+            max_on_both = std::max(max_on_both, before[border] + from[lines - border]);
     }
-    return {lines - most_at_one, lines - most_on_both};
+    return {lines - max_at_one, lines - max_on_both};
 }
 
 TEST(UnsharedLines, AreAsCounted) {

@@ -17,12 +17,12 @@ namespace dotpose::core_test::device_workspace_test {
 namespace {
 
 /// A frame size, and the expected results.
-template <int Width, int Height, int LeastDots, int Limit_log2 = -30>
+template <int Width, int Height, int MinDots, int Limit_log2 = -30>
 struct Size {
     static constexpr int kWidth_px = Width;
     static constexpr int kHeight_px = Height;
     /// Number of dots, 11 px apart, in the stored cells of almost every frame.
-    static constexpr int kLeastDots = LeastDots;
+    static constexpr int kMinDots = MinDots;
     /// Maximum probability of a wrong position, log2. The smallest frames have too few dots for the
     /// usual limit.
     static constexpr int kLimit_log2 = Limit_log2;
@@ -94,7 +94,7 @@ TYPED_TEST(DeviceWorkspace, LocatesAndTracksFramesOfItsSize) {
         ++located;
         ASSERT_LT(distance(fix, shot), 0.1) << i;
         EXPECT_EQ(fix.section, shot.page.pattern.section);
-        EXPECT_GT(fix.dots_used, TypeParam::kLeastDots) << i;
+        EXPECT_GT(fix.dots_used, TypeParam::kMinDots) << i;
         squares += std::pow(distance(fix, shot), 2);
         const Fix next = this->tracked(image, this->disturbed(fix));
         if (next.status != Status::ok) continue;
@@ -137,9 +137,9 @@ TYPED_TEST(DeviceWorkspace, RefusesLargerFrames) {
     EXPECT_EQ(this->locator_.begin(kWidth_px + 1, 120), Status::image_too_large);
     EXPECT_EQ(this->locator_.begin(kWidth_px, 4097), Status::image_too_large);
     // Frames that are both wide and high have more bands of tiles than there is room for.
-    const int most_px = kWidth_px == 320 ? 240 : 4096;
-    EXPECT_EQ(this->locator_.begin(kWidth_px, most_px), Status::ok);
-    EXPECT_EQ(this->locator_.begin(kWidth_px, most_px + 1), Status::image_too_large);
+    const int max_px = kWidth_px == 320 ? 240 : 4096;
+    EXPECT_EQ(this->locator_.begin(kWidth_px, max_px), Status::ok);
+    EXPECT_EQ(this->locator_.begin(kWidth_px, max_px + 1), Status::image_too_large);
     const Prediction prediction;
     EXPECT_EQ(this->locator_.begin(kWidth_px + 1, 120, prediction), Status::image_too_large);
 }

@@ -141,7 +141,7 @@ struct Found {
 
 /// Returns the number of blocks found among `blocks` random blocks. None may be found at another
 /// place.
-Found find_blocks(int blocks, int least_side, const Damage& damage, const core::Kernels& kernels) {
+Found find_blocks(int blocks, int min_side, const Damage& damage, const core::Kernels& kernels) {
     Rng rng(kSeed);
     Found found;
     std::array<ScoredLine, 2 * kMaxLines> storage;
@@ -150,7 +150,7 @@ Found find_blocks(int blocks, int least_side, const Damage& damage, const core::
         const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         const int quarters = i / 3 % 4;
         const Place zero = some_place(i, rng);
-        const auto half = [&] { return (least_side + static_cast<int>(rng.below(12))) / 2; };
+        const auto half = [&] { return (min_side + static_cast<int>(rng.below(12))) / 2; };
         const FixedVec least{-half(), -half()};
         const FixedVec most{half(), half()};
         const BitBlock seen = seen_block(code, zero, quarters, least, most, damage, rng);

@@ -20,8 +20,8 @@ TEST(LevelSums, AreThoseOfThePixels) {
         for (int u = 0; u < 64; ++u)
             pixel(image, u, v) = static_cast<std::uint8_t>(rng.below(256));
     }
-    const auto random_q8 = [&](int most_px) {
-        return static_cast<std::int32_t>(rng.below(static_cast<std::uint32_t>(256 * most_px)));
+    const auto random_q8 = [&](int max_px) {
+        return static_cast<std::int32_t>(rng.below(static_cast<std::uint32_t>(256 * max_px)));
     };
     constexpr int kHalf_px = (LevelSums::kMaxSide_px - 1) / 2;
     for (int i = 0; i < 500; ++i) {

@@ -145,11 +145,11 @@ inline Place any_place(Rng& rng) {
             {static_cast<std::uint8_t>(rng.below(63)), static_cast<std::uint8_t>(rng.below(63))}};
 }
 
-inline Block random_block(Rng& rng, int i, double most_missing, double most_wrong) {
+inline Block random_block(Rng& rng, int i, double max_missing, double max_wrong) {
     const auto side = [&] { return 8 + static_cast<int>(rng.below(12)); };
     return damaged(cut_block(code_test::kCodeVariants[static_cast<std::size_t>(i % 3)],
                              any_place(rng), side(), side()),
-                   rng.uniform(0, most_missing), rng.uniform(0, most_wrong), rng);
+                   rng.uniform(0, max_missing), rng.uniform(0, max_wrong), rng);
 }
 
 }  // namespace dotpose::core_test

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 57;
 constexpr double kSeamLog2 = -32;
-constexpr double kLeastLog2 = -8;
+constexpr double kMinLog2 = -8;
 
 /// A place in a sequence, and the difference of its roll to that of the reading for each line.
 struct Alternative {
@@ -80,7 +80,7 @@ Sum sum_of_all(const RatiosCase& c) {
                                 min_loss(c, alternative, border, c.rolls.size());
             // A lost score is twice the weight of the bits that change sign.
             const double odds = -lost / 2 / 127 * c.odds_q8 / 256;
-            if (odds <= kLeastLog2) continue;
+            if (odds <= kMinLog2) continue;
             sum.odds += std::exp2(odds + kSeamLog2);
             ++sum.terms;
         }
@@ -113,7 +113,7 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
         }
         c.odds_q8 = static_cast<int>(256 * rng.uniform(2, 8));
         // Because of rounding, odds near the limit may or may not be counted.
-        const double limit = std::exp2(kSeamLog2 + kLeastLog2);
+        const double limit = std::exp2(kSeamLog2 + kMinLog2);
         const LikelihoodRatios ratios = c.ratios();
         const int counted_q8 = seam_alternatives_log2_q8(ratios);
         const double counted = std::exp2(counted_q8 / 256.0);

@@ -53,7 +53,7 @@ class Comparison {
     }
     int settled() const { return settled_; }
     /// Returns the minimum ratio of a bound to the exact sum.
-    double least_factor() const { return least_factor_; }
+    double min_factor() const { return min_factor_; }
 
   private:
     void compare(const UnsharedLines& unshared, std::size_t sequence, double exact) {
@@ -69,12 +69,12 @@ class Comparison {
             EXPECT_GE(bound, exact) << sequence << " by " << unshared.tables();
             if (enough < 1) ++settled_;
             // Odds below 2^-64 are counted as 2^-64.
-            if (exact > 0x1p-50) least_factor_ = std::min(least_factor_, bound / exact);
+            if (exact > 0x1p-50) min_factor_ = std::min(min_factor_, bound / exact);
         }
     }
 
     int settled_ = 0;
-    double least_factor_ = std::numeric_limits<double>::infinity();
+    double min_factor_ = std::numeric_limits<double>::infinity();
 };
 
 /// Returns a position near the end of the code, near the end of a sequence, or anywhere else.
@@ -126,7 +126,7 @@ TEST(TabledAlternatives, AreNoLessThanThereAreByBits) {
         comparison.compare(c.ratios());
     }
     EXPECT_GT(comparison.settled(), 1000);
-    EXPECT_LT(comparison.least_factor(), 4);
+    EXPECT_LT(comparison.min_factor(), 4);
 }
 
 TEST(TabledAlternatives, AreNoLessThanThereAreByScores) {
@@ -145,7 +145,7 @@ TEST(TabledAlternatives, AreNoLessThanThereAreByScores) {
         comparison.compare(c.ratios());
     }
     EXPECT_GT(comparison.settled(), 500);
-    EXPECT_LT(comparison.least_factor(), 4);
+    EXPECT_LT(comparison.min_factor(), 4);
 }
 
 TEST(TabledAlternatives, AreNotToldOfFewLines) {

@@ -124,9 +124,9 @@ TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
         kernels.refine_centres(dot.view, dot.cells, reach_px, dot.table.dots);
         // Rounding to grey levels causes an error of a few thousandths. The border cuts off the rim
         // of a dot.
-        const double most_px = is_inside ? 0.01 : 0.04;
-        EXPECT_NEAR(dot.table.dots.x[0], u, most_px) << sigma_px << ' ' << reach_px;
-        EXPECT_NEAR(dot.table.dots.y[0], v, most_px) << sigma_px << ' ' << reach_px;
+        const double max_px = is_inside ? 0.01 : 0.04;
+        EXPECT_NEAR(dot.table.dots.x[0], u, max_px) << sigma_px << ' ' << reach_px;
+        EXPECT_NEAR(dot.table.dots.y[0], v, max_px) << sigma_px << ' ' << reach_px;
     });
 }
 
@@ -169,9 +169,9 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
             if (k == 5) continue;
             // At larger offsets, a large dot extends beyond the window, so its weight decreases
             // faster.
-            const double most_px = 0.02 + 0.2 * std::pow(std::abs(off[k]), 3);
-            EXPECT_NEAR(dots.x[k], u, most_px) << off[k];
-            EXPECT_NEAR(dots.y[k], v, most_px) << off[k];
+            const double max_px = 0.02 + 0.2 * std::pow(std::abs(off[k]), 3);
+            EXPECT_NEAR(dots.x[k], u, max_px) << off[k];
+            EXPECT_NEAR(dots.y[k], v, max_px) << off[k];
             const double moved_u = static_cast<double>(dots.x[k]) - (u + off[k]);
             const double moved_v = static_cast<double>(dots.y[k]) - (v - off[k]);
             sum_u += moved_u;

@@ -46,12 +46,12 @@ inline Reading reading_off_grid(int i, Rng& rng) {
     return reading;
 }
 
-/// Returns dots of which every eighth is displaced by `least_px` to 2 px.
-inline std::vector<DetectedDot> dots_with_outliers(const View& view, double least_px, Rng& rng) {
+/// Returns dots of which every eighth is displaced by `min_px` to 2 px.
+inline std::vector<DetectedDot> dots_with_outliers(const View& view, double min_px, Rng& rng) {
     auto dots = dots_of(pattern_dots(view));
     for (std::size_t d = 0; d < dots.size(); d += 8) {
         const double angle = rng.uniform(0, 6.3);
-        const double away_px = rng.uniform(least_px, 2);
+        const double away_px = rng.uniform(min_px, 2);
         dots[d] =
             dot_at(real(dots[d].centre_q8, 8) + away_px * Vec2{std::cos(angle), std::sin(angle)});
     }
