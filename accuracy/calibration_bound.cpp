@@ -112,8 +112,8 @@ std::vector<TrueDot> true_dots(const LensCalibration& found, const std::vector<S
     return dots;
 }
 
-std::map<std::string, double> least_sigmas(const Camera& camera, const std::vector<TrueDot>& dots,
-                                           double jitter_mm, Unknown unknown) {
+std::map<std::string, double> min_sigmas(const Camera& camera, const std::vector<TrueDot>& dots,
+                                         double jitter_mm, Unknown unknown) {
     const std::vector<Parameter> parameters = parameters_of(unknown);
     const auto count = static_cast<Eigen::Index>(parameters.size()) + 1;
     struct FrameSums {

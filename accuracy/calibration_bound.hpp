@@ -29,7 +29,7 @@ enum class Unknown {
 
 /// Returns the least standard deviations that an unbiased estimate from these dots can have, by the
 /// names of `Camera::sigma`, if their positions have errors of `jitter_mm` along each axis.
-std::map<std::string, double> least_sigmas(const Camera& camera, const std::vector<TrueDot>& dots,
-                                           double jitter_mm, Unknown unknown);
+std::map<std::string, double> min_sigmas(const Camera& camera, const std::vector<TrueDot>& dots,
+                                         double jitter_mm, Unknown unknown);
 
 }  // namespace dotpose::tables

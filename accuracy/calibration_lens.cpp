@@ -162,7 +162,7 @@ void measure_parameters(const Series& series, const LensCalibration& found,
     }
     if (!camera.paper) return;
     for (const Unknown unknown : {Unknown::view, Unknown::square, Unknown::straight}) {
-        const auto least = least_sigmas(camera, dots, kJitter_mm, unknown);
+        const auto least = min_sigmas(camera, dots, kJitter_mm, unknown);
         for (const ParameterError& parameter : errors) {
             const auto bound = least.find(parameter.sigma);
             if (bound == least.end()) continue;

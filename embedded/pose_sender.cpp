@@ -8,8 +8,8 @@ using namespace dotpose;
 /// measured errors of docs/firmware.md are used.
 TrackOptions PoseSender::device_tracking() {
     TrackOptions options;
-    options.least_sigma_mm = 0.0012F;
-    options.least_sigma_rad = 0.0004F;
+    options.min_sigma_mm = 0.0012F;
+    options.min_sigma_rad = 0.0004F;
     return options;
 }
 

@@ -56,7 +56,7 @@ class SheetEntryArguments {
   private:
     std::string path_;
     std::string name_;
-    double wait_s_ = SheetFileWait{}.most_s;
+    double wait_s_ = SheetFileWait{}.max_s;
     const Option* origin_ = nullptr;
 };
 

@@ -51,7 +51,7 @@ constexpr double kMmPerM = 1000;
 
 struct SheetsArguments {
     std::string sheets = "sheets.json";
-    double wait_s = SheetFileWait{}.most_s;
+    double wait_s = SheetFileWait{}.max_s;
     std::string name;
     std::string new_name;
     std::string out;

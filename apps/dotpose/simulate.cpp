@@ -131,9 +131,9 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
         view.islands = arguments.islands;
         view.on_table = arguments.on_table;
         if (arguments.covered.given()) {
-            view.least_share = to_vec(arguments.covered).x;
-            view.most_share = to_vec(arguments.covered).y;
-            view.fewest_dots = 0;
+            view.min_share = to_vec(arguments.covered).x;
+            view.max_share = to_vec(arguments.covered).y;
+            view.min_dots = 0;
         }
         cover_partly(shot, view);
     }

@@ -30,8 +30,7 @@ enum class CodeVariant : std::uint8_t {
               ///< printing
     libdots,  ///< the misprinted a4 of the patent, as in libdots and other open tools; needs 8 x 8
               ///< symbols
-    microdots,            ///< another a4, as in py-microdots and its ports
-    published = libdots,  ///< earlier name of `libdots`
+    microdots,  ///< another a4, as in py-microdots and its ports
 };
 /// Number of values of CodeVariant.
 inline constexpr int kCodeVariantCount = 3;

@@ -35,10 +35,10 @@ class CodeEvidence {
     /// Maximum change, as log2, of the odds of a code variant relative to the likeliest one, by one
     /// frame or by all frames together. The limit lets later frames show that the sheet was
     /// changed.
-    static constexpr std::int32_t kMost_log2 = 40;
+    static constexpr std::int32_t kMax_log2 = 40;
     /// Maximum change, as log2, of these odds by all frames of one place. The defects of the same
     /// dots are not independent.
-    static constexpr std::int32_t kMostOfPlace_log2 = 32;
+    static constexpr std::int32_t kMaxOfPlace_log2 = 32;
 
     /// Starts with all code variants equally likely.
     CodeEvidence() = default;

@@ -108,7 +108,7 @@ struct Options {
     /// evenly over the frame. The error decreases with the square root of the number; the time is
     /// proportional to the number. Default: all dots of a VGA frame at 8 px per spacing. [any;
     /// values are limited to between 64 and the capacity of the memory]
-    int most_dots = 4096;
+    int max_dots = 4096;
 
     /// Spacing of the printed grid in nm, which converts a fix to millimetres. Default: 0.508 mm,
     /// as in the paper. 0: not known. [any]

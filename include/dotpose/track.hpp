@@ -90,8 +90,8 @@ struct TrackOptions {
 
     /// Standard deviations of printing errors, which are added in squares to the covariance of a
     /// sighting. Printing errors are the same in every frame of a place.
-    float least_sigma_mm = 0.0002F;
-    float least_sigma_rad = 0.00002F;
+    float min_sigma_mm = 0.0002F;
+    float min_sigma_rad = 0.00002F;
 
     /// Maximum probability, as log2, that an accepted sighting is wrong, given the prior.
     int max_p_wrong_log2 = -30;

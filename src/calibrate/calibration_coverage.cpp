@@ -119,25 +119,25 @@ int CalibrationCoverage::directions() const {
 bool CalibrationCoverage::is_image_covered() const {
     constexpr double kMinCornerCoverage = 0.5;
     constexpr std::size_t kLast = kRegions - 1;
-    return image_.share() >= kLeastCoverage && share_of(image_, 0, 0) >= kMinCornerCoverage &&
+    return image_.share() >= kMinCoverage && share_of(image_, 0, 0) >= kMinCornerCoverage &&
            share_of(image_, kLast, 0) >= kMinCornerCoverage &&
            share_of(image_, 0, kLast) >= kMinCornerCoverage &&
            share_of(image_, kLast, kLast) >= kMinCornerCoverage;
 }
 
 std::string CalibrationCoverage::image_advice() const {
-    std::size_t least_across = 0;
-    std::size_t least_down = 0;
+    std::size_t min_across = 0;
+    std::size_t min_down = 0;
     for (std::size_t down = 0; down < kRegions; ++down) {
         for (std::size_t across = 0; across < kRegions; ++across) {
-            if (share_of(image_, across, down) >= share_of(image_, least_across, least_down)) {
+            if (share_of(image_, across, down) >= share_of(image_, min_across, min_down)) {
                 continue;
             }
-            least_across = across;
-            least_down = down;
+            min_across = across;
+            min_down = down;
         }
     }
-    return fmt::format("show dots in the {} of the image", kRegionNames[least_down][least_across]);
+    return fmt::format("show dots in the {} of the image", kRegionNames[min_down][min_across]);
 }
 
 std::vector<CalibrationNeed> CalibrationCoverage::missing(const std::optional<Camera>& lens) const {

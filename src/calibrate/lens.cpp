@@ -188,7 +188,7 @@ void judge(bool is_same, LensCalibration& result) {
             fmt::format("only {} different frames show the pattern: take {} to 50 frames at "
                         "different places and angles",
                         result.located, kWantedFrames));
-    } else if (result.coverage < kLeastCoverage) {
+    } else if (result.coverage < kMinCoverage) {
         say(CalibrationVerdict::corners_unseen,
             fmt::format(
                 "only {:.0f} % of the image shows dots in any frame, so the lens is not measured "

@@ -1,5 +1,5 @@
 // Ranges of the options. Within these ranges, no stage can overflow. Options that are safe with any
-// value are not listed: k of the lens (see bend_q48), most_dots (clamped), show_stages.
+// value are not listed: k of the lens (see bend_q48), max_dots (clamped), show_stages.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ template <typename IsGood>
 constexpr bool all_options(const Options& options, IsGood is_good) {
     constexpr std::int32_t kFarthestReference_q8 = 16384 * 256;
     constexpr std::int32_t kFarthestLens_q8 = 1024 * 256;
-    constexpr std::int32_t kMost = 1 << 20;  // 256 times this value fits in 32 bits
+    constexpr std::int32_t kMax = 1 << 20;  // 256 times this value fits in 32 bits
     const auto is_far_at_most = [&](const char* name, std::int32_t offset, std::int32_t most) {
         return is_good(name, offset, -most, most);
     };
@@ -27,13 +27,13 @@ constexpr bool all_options(const Options& options, IsGood is_good) {
            is_good("threshold.low_q8", options.threshold.low_q8, 1, 256) &&
            is_good("threshold.high_q8", options.threshold.high_q8, 1, 256) &&
            is_good("threshold.min_contrast", options.threshold.min_contrast, 1, 255) &&
-           is_good("blobs.min_area_px", options.blobs.min_area_px, 0, kMost) &&
+           is_good("blobs.min_area_px", options.blobs.min_area_px, 0, kMax) &&
            is_good("blobs.min_mass_q8", options.blobs.min_mass_q8, 0, 256) &&
            is_good("blobs.max_area_ratio", options.blobs.max_area_ratio, 1, 1024) &&
            is_good("min_contrast", options.min_contrast, 0, 255) &&
-           is_good("lattice.min_dots", options.lattice.min_dots, 0, kMost) &&
+           is_good("lattice.min_dots", options.lattice.min_dots, 0, kMax) &&
            is_good("lattice.max_offset_q16", options.lattice.max_offset_q16, 0, 32768) &&
-           is_good("integrity.max_p_wrong_log2", options.integrity.max_p_wrong_log2, -kMost, 0) &&
+           is_good("integrity.max_p_wrong_log2", options.integrity.max_p_wrong_log2, -kMax, 0) &&
            is_good("integrity.max_bit_error_q8", options.integrity.max_bit_error_q8, 0, 256) &&
            is_far_at_most("reference_dx_q8", options.reference_dx_q8, kFarthestReference_q8) &&
            is_far_at_most("reference_dy_q8", options.reference_dy_q8, kFarthestReference_q8) &&

@@ -36,7 +36,7 @@ class LockWait {
     LockWait(const fs::path& path, const SheetFileWait& wait)
         : path_(path),
           wait_(wait),
-          end_(Clock::now() + std::chrono::duration<double>(wait.most_s)) {}
+          end_(Clock::now() + std::chrono::duration<double>(wait.max_s)) {}
 
     /// Takes a lock. Throws Error after the time limit, or if the file system does not support
     /// locks.
@@ -49,7 +49,7 @@ class LockWait {
                 throw Error(
                     fmt::format("cannot lock {}: another program has been changing it for "
                                 "{:g} s",
-                                path_.string(), wait_.most_s));
+                                path_.string(), wait_.max_s));
             }
             if (!is_reported_) {
                 wait_.tell(

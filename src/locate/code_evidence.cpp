@@ -37,9 +37,9 @@ CodeEvidence::LogOdds CodeEvidence::sum() const {
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const float mean = factors_here_[i] / static_cast<float>(frames_here_);
         sum[i] +=
-            std::clamp<std::int32_t>(core::log2_of_odds_q8(1 / mean), -256 * kMostOfPlace_log2, 0);
+            std::clamp<std::int32_t>(core::log2_of_odds_q8(1 / mean), -256 * kMaxOfPlace_log2, 0);
     }
-    return against_likeliest(sum, kMost_log2);
+    return against_likeliest(sum, kMax_log2);
 }
 
 CodeVariant CodeEvidence::likeliest() const {
@@ -63,7 +63,7 @@ float CodeEvidence::p_wrong(CodeVariant code) const {
 }
 
 void CodeEvidence::add(Cell cell, const LogOdds& log2_q8) {
-    const LogOdds frame = against_likeliest(log2_q8, kMost_log2);
+    const LogOdds frame = against_likeliest(log2_q8, kMax_log2);
     if (frames_here_ == 0 || !is_near(cell.x, here_.x) || !is_near(cell.y, here_.y)) {
         before_log2_q8_ = sum();
         factors_here_ = {};

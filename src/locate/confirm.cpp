@@ -280,7 +280,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
     FloatPlane& plane = hypothesis.pattern_from_image;
     MeasuredDots& dots = w.measured;
     const float spacing = spacing_px(plane);
-    const int most_dots = std::min(std::max(options.most_dots, 64), dots.capacity());
+    const int max_dots = std::min(std::max(options.max_dots, 64), dots.capacity());
     OtherCodes* const codes = hypothesis.is_certain ? nullptr : wanted_codes(w);
     DotReader reader(kernels, image, spacing, dots);
     PoseFit fit;
@@ -290,7 +290,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
         if (!is_plausible(image, plane)) return Confirmation::implausible;
         count_from_centre(options.code, hypothesis);
         CellsInView view = cells_in_view(image, options, hypothesis, reach.now,
-                                         decides ? dots.capacity() : most_dots, w);
+                                         decides ? dots.capacity() : max_dots, w);
         if (hypothesis.is_exact) view.windows = Windows::none;
         kernels.list_cells(view, dots);
         const bool is_last = reach.now >= reach.full;

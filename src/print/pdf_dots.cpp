@@ -60,14 +60,14 @@ std::string glyph(const Pattern& pattern, Symbol symbol) {
 double clear_shift_px(double near_px, double far_px) {
     constexpr double kClear_px = 0.05;
     const auto clearance_px = [&](double shift_px) {
-        double least_px = 1;
+        double min_px = 1;
         for (const double place_px : {near_px + shift_px, far_px - shift_px}) {
             for (const double scale : {0.5, 1.0, 2.0}) {
                 const double halves = 2 * scale * place_px;
-                least_px = std::min(least_px, std::abs(halves - std::round(halves)) / 2);
+                min_px = std::min(min_px, std::abs(halves - std::round(halves)) / 2);
             }
         }
-        return least_px;
+        return min_px;
     };
     double best_px = 0;
     for (int step = 0; step <= 30; ++step) {

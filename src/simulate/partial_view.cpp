@@ -85,7 +85,7 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
 
 /// Draws a random rectangle inside the view with enough dots.
 PageArea draw_island(const Shot& shot, Rng& rng) {
-    constexpr double kMinDots = PartialView::kFewestIslandDots * 1.05;
+    constexpr double kMinDots = PartialView::kMinIslandDots * 1.05;
     PageArea area;
     const double width = rng.uniform(7, 12);
     area.half_width = width / 2;
@@ -127,7 +127,7 @@ bool draw_islands(const Shot& shot, int count, Rng& rng, std::vector<PageArea>& 
 }  // namespace
 
 void cover_partly(Shot& shot, const PartialView& view) {
-    if (!(view.least_share > 0 && view.least_share <= view.most_share && view.most_share <= 1))
+    if (!(view.min_share > 0 && view.min_share <= view.max_share && view.max_share <= 1))
         throw BadArgument("the share that is covered must be above 0 and at most 1");
     if (view.islands < 0 || view.islands > 16) throw BadArgument("islands must be 0 to 16");
     Rng rng(shot.seed, 2);
@@ -138,9 +138,8 @@ void cover_partly(Shot& shot, const PartialView& view) {
         return;
     }
     // The factor 1.15 compensates for dots at the border, which are only partly visible.
-    const double min_share =
-        std::max(view.least_share, 1.15 * view.fewest_dots / intersections(shot));
-    const double share = rng.uniform(min_share, std::max(min_share, view.most_share));
+    const double min_share = std::max(view.min_share, 1.15 * view.min_dots / intersections(shot));
+    const double share = rng.uniform(min_share, std::max(min_share, view.max_share));
     const PageArea dots = edge_of_sheet(shot, share, rng);
     shot.page.areas = {dots};
     if (!view.on_table) return;

@@ -32,9 +32,9 @@ float squared(float value) {
 /// Returns the covariance of a sighting's pose plus the minimum variances of the options.
 Matrix3 noise_of(const Sighting& sighting, const TrackOptions& options) {
     Matrix3 noise = sighting.covariance;
-    noise[0][0] += squared(options.least_sigma_mm);
-    noise[1][1] += squared(options.least_sigma_mm);
-    noise[2][2] += squared(options.least_sigma_rad);
+    noise[0][0] += squared(options.min_sigma_mm);
+    noise[1][1] += squared(options.min_sigma_mm);
+    noise[2][2] += squared(options.min_sigma_rad);
     return noise;
 }
 

@@ -33,7 +33,7 @@ void apply(const Change& change, Options& options) {
                                                    &options.lattice.max_offset_q16,
                                                    &options.integrity.max_p_wrong_log2,
                                                    &options.integrity.max_bit_error_q8,
-                                                   &options.most_dots,
+                                                   &options.max_dots,
                                                    &options.reference_dx_q8,
                                                    &options.reference_dy_q8};
     const auto byte = static_cast<std::uint8_t>(change.value);

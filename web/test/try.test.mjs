@@ -97,10 +97,10 @@ test("a frame that cannot be located gets a hint and no pose", async () => {
 
 test("the presets are located; hard ones less exactly than clean ones", async () => {
     const { page } = await openTry();
-    for (const [preset, most_mm] of [["clean", 0.003], ["usual", 0.004], ["hard", 0.02]]) {
+    for (const [preset, max_mm] of [["clean", 0.003], ["usual", 0.004], ["hard", 0.02]]) {
         await settled(page, () => page.click(`[data-preset=${preset}]`));
         const { error_mm } = await shown(page);
-        assert.ok(error_mm < most_mm, `${preset}: ${error_mm} mm off`);
+        assert.ok(error_mm < max_mm, `${preset}: ${error_mm} mm off`);
     }
     await page.click("[data-preset=usual]");
     await settled(page, () => page.selectOption("#try-size", "640x480"));

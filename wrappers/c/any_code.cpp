@@ -29,13 +29,13 @@ dotpose_status read_evidence(const dotpose_code_evidence* given, CodeEvidence& e
     if (given == nullptr) return DOTPOSE_OK;
     State state;
     std::memcpy(&state, given, sizeof state);
-    constexpr std::int32_t kLeast_q8 = -256 * CodeEvidence::kMost_log2;
-    constexpr float kMost = 0x1p64F;
+    constexpr std::int32_t kMin_q8 = -256 * CodeEvidence::kMax_log2;
+    constexpr float kMax = 0x1p64F;
     const bool is_sound =
         std::all_of(std::begin(state.log2_q8), std::end(state.log2_q8),
-                    [](std::int32_t log2) { return log2 >= kLeast_q8 && log2 <= 0; }) &&
+                    [](std::int32_t log2) { return log2 >= kMin_q8 && log2 <= 0; }) &&
         std::all_of(std::begin(state.factors), std::end(state.factors), [&](float factors) {
-            return factors >= static_cast<float>(state.frames) && factors <= kMost;
+            return factors >= static_cast<float>(state.frames) && factors <= kMax;
         });
     if (!is_sound || state.x >= kPositionsPerAxis || state.y >= kPositionsPerAxis)
         return DOTPOSE_BAD_VALUE;

@@ -10,14 +10,14 @@ namespace {
 
 using namespace dotpose;
 
-constexpr std::int32_t kMostCells = 65535;
+constexpr std::int32_t kMaxCells = 65535;
 
 /// Number of columns that are written together. Their rolls are computed once and need little
 /// memory.
 constexpr std::uint32_t kBlock_columns = 64;
 
 bool are_sides(std::int32_t columns, std::int32_t rows) {
-    return columns >= 1 && columns <= kMostCells && rows >= 1 && rows <= kMostCells;
+    return columns >= 1 && columns <= kMaxCells && rows >= 1 && rows <= kMaxCells;
 }
 
 /// Writes the symbols of a block of columns. `width` is the number of columns of the whole

@@ -479,8 +479,8 @@ typedef struct dotpose_track_options {
     int32_t confirmations;                 /* 32: sightings that confirm a jump; 3 */
     float still_mm;                        /* 36: maximum movement of a stationary robot; 0.1 */
     float still_rad;                       /* 40: 0.02 */
-    float least_sigma_mm;                  /* 44: minimum, for printing errors; 0.0002 */
-    float least_sigma_rad;                 /* 48: 0.00002 */
+    float min_sigma_mm;                    /* 44: minimum, for printing errors; 0.0002 */
+    float min_sigma_rad;                   /* 48: 0.00002 */
     int32_t max_p_wrong_log2;              /* 52: limit above which a sighting is weak; -30 */
     int32_t max_weak_p_wrong_log2;         /* 56: limit of weak sightings; -10, at most -1 */
     float spacing_mm;                      /* 60: spacing of the pattern; 0.508 */

@@ -29,8 +29,8 @@ dotpose_track_options options_of(const TrackOptions& o) {
             o.confirmations,
             o.still_mm,
             o.still_rad,
-            o.least_sigma_mm,
-            o.least_sigma_rad,
+            o.min_sigma_mm,
+            o.min_sigma_rad,
             o.max_p_wrong_log2,
             o.max_weak_p_wrong_log2,
             o.spacing_mm,
@@ -51,8 +51,8 @@ TrackOptions options_of(const dotpose_track_options& o) {
             .still_mm = o.still_mm,
             .still_rad = o.still_rad,
             .stationary_after_us = o.stationary_after_us,
-            .least_sigma_mm = o.least_sigma_mm,
-            .least_sigma_rad = o.least_sigma_rad,
+            .min_sigma_mm = o.min_sigma_mm,
+            .min_sigma_rad = o.min_sigma_rad,
             .max_p_wrong_log2 = o.max_p_wrong_log2,
             .max_weak_p_wrong_log2 = o.max_weak_p_wrong_log2,
             .spacing_mm = o.spacing_mm};
@@ -73,8 +73,8 @@ bool are_good(const dotpose_track_options& o) {
                            o.gate_sigmas,
                            o.still_mm,
                            o.still_rad,
-                           o.least_sigma_mm,
-                           o.least_sigma_rad};
+                           o.min_sigma_mm,
+                           o.min_sigma_rad};
     return std::all_of(sizes.begin(), sizes.end(), is_size) && is_size(o.spacing_mm) &&
            o.spacing_mm > 0 && o.confirmations >= 1 && o.max_p_wrong_log2 <= 0 &&
            o.max_weak_p_wrong_log2 <= -1 && o.lost_after_us >= 0 && o.stationary_after_us >= 0;
@@ -83,8 +83,8 @@ bool are_good(const dotpose_track_options& o) {
 /// Reads a sighting. Returns BAD_VALUE if a member is not a number, or so large that sums would
 /// overflow.
 dotpose_status to_core(const dotpose_sighting& given, Sighting& sighting) {
-    constexpr float kMostCovariance = 1e12F;
-    const auto is_finite = [](float value) { return std::fabs(value) <= kMostCovariance; };
+    constexpr float kMaxCovariance = 1e12F;
+    const auto is_finite = [](float value) { return std::fabs(value) <= kMaxCovariance; };
     const float* of_diagonal = given.covariance;
     if (!c::is_within_range(given.time_us, kLatest_us) ||
         !c::is_within_range(given.x_nm, kFarthest_nm) ||
@@ -175,8 +175,8 @@ dotpose_status dotpose_sighting_of(const dotpose_fix* fix, int64_t time_us,
     Fix read;
     const dotpose_status status = c::to_core_ok(fix, read);
     if (status != DOTPOSE_OK) return status;
-    constexpr std::int32_t kMostSpacing_nm = 20'000'000;
-    if (read.spacing_nm <= 0 || read.spacing_nm > kMostSpacing_nm ||
+    constexpr std::int32_t kMaxSpacing_nm = 20'000'000;
+    if (read.spacing_nm <= 0 || read.spacing_nm > kMaxSpacing_nm ||
         !c::is_within_range(time_us, kLatest_us)) {
         return DOTPOSE_BAD_VALUE;
     }

@@ -98,7 +98,7 @@ std::vector<SheetEntry> read_sheets(const std::filesystem::path& path);
 /// Options for waiting while another program changes a sheet file.
 struct SheetFileWait {
     /// Maximum time to wait, in seconds.
-    double most_s = 60;
+    double max_s = 60;
     /// Called once with a message if the program has to wait.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
     /// Called repeatedly during the wait. Returning true ends the wait.

@@ -23,7 +23,7 @@ namespace dotpose {
 
 /// Minimum fraction of the parts of the image that must show dots. Below it, the verdict of a
 /// calibration is `corners_unseen`.
-inline constexpr double kLeastCoverage = 0.85;
+inline constexpr double kMinCoverage = 0.85;
 /// Maximum width of dots in focus, in spacings. Dots of twice their printed width begin to touch.
 inline constexpr double kWidestDot = 0.32;
 /// Required number of places on the sheet.

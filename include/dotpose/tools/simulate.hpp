@@ -229,15 +229,15 @@ Shot draw_shot(const Setup& setup, std::uint64_t index);
 
 /// A view that is only partly covered by the pattern.
 struct PartialView {
-    /// Number of separate rectangles anywhere in the image, each with at least `kFewestIslandDots`
+    /// Number of separate rectangles anywhere in the image, each with at least `kMinIslandDots`
     /// dots. 0 for one area along a border or in a corner of the image.
     int islands = 0;
-    static constexpr int kFewestIslandDots = 60;
+    static constexpr int kMinIslandDots = 60;
     /// Range of the fraction of the image that the single area covers. The area has at least
-    /// `fewest_dots`.
-    double least_share = 0.15;
-    double most_share = 0.45;
-    int fewest_dots = 150;
+    /// `min_dots`.
+    double min_share = 0.15;
+    double max_share = 0.45;
+    int min_dots = 150;
     /// True if the single area is the corner or side of a sheet on a table.
     bool on_table = false;
 };

@@ -216,10 +216,10 @@ FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window
     AxisBias along_u(shape, Along::u, window.radius_px);
     AxisBias along_v(shape, Along::v, window.radius_px);
     const float bend = bend_of_moment(shape, along_u.amplitude_px(), window.radius_px);
-    constexpr float kMost_px = 0.2F;
+    constexpr float kMax_px = 0.2F;
     constexpr float kMaxBend = 4;
-    if (!(std::abs(along_u.amplitude_px()) < kMost_px) ||
-        !(std::abs(along_v.amplitude_px()) < kMost_px) || !(std::abs(bend) < kMaxBend)) {
+    if (!(std::abs(along_u.amplitude_px()) < kMax_px) ||
+        !(std::abs(along_v.amplitude_px()) < kMax_px) || !(std::abs(bend) < kMaxBend)) {
         return {};
     }
     const FloatVec offset = shape.offset();

@@ -130,7 +130,7 @@ TEST(CalibrationCoverage, NamesThePartOfTheImageThatIsMissing) {
     CalibrationCoverage coverage(kWidth_px, kHeight_px);
     coverage.add(view_at(0, 0, 0, corner));
     // More than the fraction that a calibration needs, but not in every corner.
-    ASSERT_GT(coverage.image().share(), kLeastCoverage);
+    ASSERT_GT(coverage.image().share(), kMinCoverage);
     const auto needs = coverage.missing(std::nullopt);
     ASSERT_EQ(needs[0].kind, Kind::image);
     EXPECT_THAT(needs[0].advice, HasSubstr("lower left corner"));

@@ -46,7 +46,7 @@ const Range kRanges[] = {
     {FIELD(lattice.max_offset_q16), 0, 32768},
     {FIELD(integrity.max_p_wrong_log2), -1048576, 0},
     {FIELD(integrity.max_bit_error_q8), 0, 256},
-    {FIELD(most_dots), INT_MIN, INT_MAX},
+    {FIELD(max_dots), INT_MIN, INT_MAX},
     {FIELD(spacing_nm), INT_MIN, INT_MAX},
     {FIELD(reference_dx_q8), -4194304, 4194304},
     {FIELD(reference_dy_q8), -4194304, 4194304},
@@ -57,7 +57,7 @@ const Range kRanges[] = {
 /// Fails to compile if Options has a new field, which must then be added to the tests below.
 [[maybe_unused]] void has_all_fields(const Options& o) {
     [[maybe_unused]] const auto& [code, effort, decoder, lens, threshold, blobs, lattice, integrity,
-                                  contrast, most_dots, spacing, show_stages, dx, dy] = o;
+                                  contrast, max_dots, spacing, show_stages, dx, dy] = o;
     [[maybe_unused]] const auto& [k, centre_dx, centre_dy] = lens;
     [[maybe_unused]] const auto& [low, high, min_contrast] = threshold;
     [[maybe_unused]] const auto& [min_area, min_mass, max_area] = blobs;

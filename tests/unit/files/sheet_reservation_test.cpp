@@ -133,13 +133,13 @@ TEST_F(SheetReservations, of_somebody_who_was_stopped_are_named_as_such) {
 
 TEST_F(SheetReservations, wait_for_a_lock_say_so_and_end) {
     std::vector<std::string> told;
-    SheetFileWait wait{.most_s = 0.05,
+    SheetFileWait wait{.max_s = 0.05,
                        .tell = [&](const std::string& text) { told.push_back(text); }};
     const SheetFile holder(path_);
     EXPECT_THAT([&] { SheetFile(path_, wait); },
                 ThrowsMessage<Error>(HasSubstr("another program has been changing it for 0.05 s")));
     EXPECT_THAT(told, ElementsAre(HasSubstr("waiting for another program that is changing")));
-    wait.most_s = 1e9;
+    wait.max_s = 1e9;
     wait.stop = [] { return true; };
     EXPECT_THAT([&] { SheetFile(path_, wait); }, ThrowsMessage<Error>(HasSubstr("stopped")));
 }

@@ -130,7 +130,7 @@ TEST(LocateFirst, UsesAsManyDotsAsItMay) {
     EXPECT_GT(all, 1500);
     for (const int most : {100, 300, 1000}) {
         Options options;
-        options.most_dots = most;
+        options.max_dots = most;
         const Fix fix = outwards(image, options);
         ASSERT_EQ(fix.status, Status::ok);
         EXPECT_TRUE(is_right(fix, shot));

@@ -86,7 +86,7 @@ TEST(PartialViews, CoverWhatTheyShould) {
     // Ink covers pi / 36 of the area of each cell. Pixels darker than any paper show the places of
     // the dots.
     PartialView view;
-    view.least_share = view.most_share = 0.3;
+    view.min_share = view.max_share = 0.3;
     for (std::uint64_t i = 0; i < 4; ++i) {
         Shot shot = partial_shot(i, view);
         shot.imperfections = {};

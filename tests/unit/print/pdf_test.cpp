@@ -218,17 +218,17 @@ TEST(pdf, several_pages_need_a_pdf) {
 TEST(pdf, stops_when_told_and_leaves_nothing) {
     const TemporaryDirectory directory;
     PrintOptions print;
-    int most_rows = 0;
+    int max_rows = 0;
     print.progress = [&](int rows_done, int rows) {
         EXPECT_LE(rows_done, rows);
-        most_rows = rows;
+        max_rows = rows;
         return false;
     };
     SheetOptions options;
     options.paper = {841, 1189};
     EXPECT_THAT([&] { write_sheet(make_sheet(options), directory / "a.pdf", print); },
                 ThrowsMessage<Error>(HasSubstr("stopped; nothing was written")));
-    EXPECT_EQ(most_rows, make_sheet(options).rows);
+    EXPECT_EQ(max_rows, make_sheet(options).rows);
     EXPECT_TRUE(directory.names().empty());
 }
 

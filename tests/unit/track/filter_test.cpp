@@ -116,7 +116,7 @@ TEST(Filter, ItsCovarianceIsThatOfItsErrors) {
     // Errors of the measurement are correlated. The squared error, in units of the covariance, has
     // the mean 6 and the variance 12.
     TrackOptions options;
-    options.least_sigma_mm = options.least_sigma_rad = 0;
+    options.min_sigma_mm = options.min_sigma_rad = 0;
     constexpr std::array<float, 3> kOwn = {0.004F, 0.004F, 0.0004F};
     constexpr std::array<float, 3> kCommon = {0.003F, -0.003F, 0.0003F};
     Matrix3 covariance{};
@@ -174,7 +174,7 @@ Errors track_eight(double speed_mm_s, double sigma_mm, double constant_mm = 0) {
     Drive drive(
         {.put_down = 1e9, .second_put_down = 1e9, .stop = 9, .end = 10, .speed_mm_s = speed_mm_s});
     TrackOptions options;
-    options.least_sigma_mm = 0;
+    options.min_sigma_mm = 0;
     Tracker tracker(options);
     Rng rng(77);
     Errors errors;

@@ -252,9 +252,9 @@ TEST(TrackerPredict, PassesTheEndOfThePattern) {
 }
 
 TEST(TrackerPredict, SurvivesAnyInput) {
-    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+    constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
     const Followed driven = drive(200'000, driving);
-    for (const std::int64_t time_us : {-kMost - 1, std::int64_t{0}, kMost})
+    for (const std::int64_t time_us : {-kMax - 1, std::int64_t{0}, kMax})
         expect_as_seen(driven.predict(time_us), driven.fix);
     Followed other = driven;
     other.sighting.spacing_nm = 0;

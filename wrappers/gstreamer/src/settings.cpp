@@ -84,14 +84,14 @@ void add_file(GObjectClass* element_class, Property id, const char* name, const 
 
 void add_track_numbers(GObjectClass* element_class) {
     const TrackOptions track;
-    constexpr double kLeast = 1e-3;
-    constexpr double kMost = 1e7;
+    constexpr double kMin = 1e-3;
+    constexpr double kMax = 1e7;
     add_number(element_class, kMaxSpeed, "max-speed-mm-s",
-               "Maximum speed of the robot while it is not located", kLeast, kMost,
+               "Maximum speed of the robot while it is not located", kMin, kMax,
                static_cast<double>(track.max_speed_mm_s));
     add_number(element_class, kAcceleration, "acceleration-mm-s2",
                "Usual acceleration of the robot: a larger value follows faster and smooths less",
-               kLeast, kMost, static_cast<double>(track.acceleration_mm_s2));
+               kMin, kMax, static_cast<double>(track.acceleration_mm_s2));
     add_number(element_class, kLostAfter, "lost-after-ms",
                "Time without an accepted fix after which the robot is lost", 0, 1e9,
                static_cast<double>(track.lost_after_us) / 1000);

@@ -20,8 +20,8 @@ py::tuple pair_of(const Cell& cell) {
 /// A SheetFile that is open during a `with` block and saved at its end.
 class OpenSheetFile {
   public:
-    OpenSheetFile(std::filesystem::path path, double most_s) : path_(std::move(path)) {
-        wait_.most_s = most_s;
+    OpenSheetFile(std::filesystem::path path, double max_s) : path_(std::move(path)) {
+        wait_.max_s = max_s;
         wait_.stop = was_interrupted;
     }
 

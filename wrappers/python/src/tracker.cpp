@@ -30,8 +30,8 @@ constexpr std::array kFloatOptions = {
     FloatOption{"gate_sigmas", &TrackOptions::gate_sigmas},
     FloatOption{"still_mm", &TrackOptions::still_mm},
     FloatOption{"still_rad", &TrackOptions::still_rad},
-    FloatOption{"least_sigma_mm", &TrackOptions::least_sigma_mm},
-    FloatOption{"least_sigma_rad", &TrackOptions::least_sigma_rad},
+    FloatOption{"min_sigma_mm", &TrackOptions::min_sigma_mm},
+    FloatOption{"min_sigma_rad", &TrackOptions::min_sigma_rad},
     FloatOption{"spacing_mm", &TrackOptions::spacing_mm},
 };
 struct IntOption {

@@ -61,7 +61,7 @@ const kPredictionBytes = 72;
 const kEvidenceBytes = 36;
 const kReadingBytes = 28;
 const kDotBytes = 16;
-const kMostDots = 16384;
+const kMaxDots = 16384;
 const kPointerBytes = 4;
 
 /** Minimum and maximum width and height of an image. */
@@ -102,7 +102,7 @@ export class Locator {
         this.#code = code === "auto" ? 0 : codeNumber(code);
         this.#evidence = code === "auto" ? core.reserve(kEvidenceBytes) : 0;
         this.#reading = core.reserve(kReadingBytes);
-        this.#dots = options.dots ? core.reserve(kMostDots * kDotBytes + kPointerBytes) : 0;
+        this.#dots = options.dots ? core.reserve(kMaxDots * kDotBytes + kPointerBytes) : 0;
         this.#locator = this.#init(options);
     }
 
@@ -224,9 +224,9 @@ export class Locator {
     }
 
     #readDots(): Float32Array {
-        const count = this.#dots + kMostDots * kDotBytes;
-        this.#core.call("dotpose_dots", this.#locator, this.#dots, kMostDots, count);
-        const found = Math.min(this.#core.view(count, 4).getInt32(0, true), kMostDots);
+        const count = this.#dots + kMaxDots * kDotBytes;
+        this.#core.call("dotpose_dots", this.#locator, this.#dots, kMaxDots, count);
+        const found = Math.min(this.#core.view(count, 4).getInt32(0, true), kMaxDots);
         const view = this.#core.view(this.#dots, found * kDotBytes);
         const at = (i: number) => (i >> 1) * kDotBytes + (i & 1) * 4;
         return Float32Array.from({ length: 2 * found }, (_, i) => view.getFloat32(at(i), true));

@@ -48,13 +48,13 @@ TEST(KernelsAlternatives, SimilarPlacesLoseTooLittleByTheirSteps) {
                 }
                 // Computes the maximum sum over differing steps, no two of which are adjacent.
                 int most = 0;
-                int most_before = 0;
+                int max_before = 0;
                 for (int step = 0; step < steps.count; ++step) {
                     const auto at = static_cast<std::uint32_t>(step);
                     const bool differ = a.digits[(place + at) % a.length] !=
                                         a.digits[(places.own[k] + at) % a.length];
-                    const int with_this = most_before + (differ ? steps.parts[at] : 0);
-                    most_before = most;
+                    const int with_this = max_before + (differ ? steps.parts[at] : 0);
+                    max_before = most;
                     most = std::max(most, with_this);
                 }
                 if (most >= StepLosses::kLimitParts) continue;

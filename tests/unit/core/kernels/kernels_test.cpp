@@ -206,12 +206,12 @@ TEST_F(KernelsTest, ShiftsAreTheSame) {
             table.dots.window_v[i] = whole(rng, -5, picture.view.height_px + 5);
         }
         const int step_px = whole(rng, 1, 4);
-        const int most_px = whole(rng, 1, 8 * step_px);
+        const int max_px = whole(rng, 1, 8 * step_px);
         expect_same([&](const Kernels& kernels, Record& record) {
             FixedVec shift;
             int cut_q8 = 0;
             record.add(
-                kernels.find_shift(picture.view, table.dots, most_px, step_px, shift, cut_q8));
+                kernels.find_shift(picture.view, table.dots, max_px, step_px, shift, cut_q8));
             record.add(shift);
             record.add(cut_q8);
         });

@@ -22,7 +22,7 @@ constexpr std::uint64_t kSeed = 229;
 constexpr double kDisplacement = 1 / 6.0;
 constexpr int kReach_px = 95;
 constexpr double kJitter = 0.02;
-constexpr double kMostSigmas = 4.5;
+constexpr double kMaxSigmas = 4.5;
 
 /// Displacement, in spacings, of a place relative to the image centre.
 using Shift = std::function<Vec2(Vec2)>;
@@ -87,7 +87,7 @@ TEST(FitUneven, LeavesFitsOfFlatSheetsAlone) {
         const Sheet sheet([](Vec2) { return Vec2{}; }, rng);
         ASSERT_TRUE(sheet.is_fitted);
         uneven += sheet.fix.surface != Surface::even ? 1 : 0;
-        EXPECT_LT(sheet.sigmas_off(), kMostSigmas);
+        EXPECT_LT(sheet.sigmas_off(), kMaxSigmas);
     }
     EXPECT_LE(uneven, 1);
 }
@@ -104,7 +104,7 @@ TEST(FitUneven, FitsTheSideOfTheReferencePoint) {
                           rng);
         ASSERT_TRUE(sheet.is_fitted);
         EXPECT_NE(sheet.fix.surface, Surface::even);
-        EXPECT_LT(sheet.sigmas_off(), kMostSigmas);
+        EXPECT_LT(sheet.sigmas_off(), kMaxSigmas);
         EXPECT_TRUE(sheet.is_as_it_was());
         if (sheet.fix.surface != Surface::divided) continue;
         ++divided;
@@ -168,7 +168,7 @@ TEST(FitUneven, WordsDivideNoSheet) {
             rng);
         ASSERT_TRUE(sheet.is_fitted);
         EXPECT_NE(sheet.fix.surface, Surface::divided);
-        EXPECT_LT(sheet.sigmas_off(), kMostSigmas);
+        EXPECT_LT(sheet.sigmas_off(), kMaxSigmas);
     }
 }
 
@@ -187,7 +187,7 @@ TEST(FitUneven, WidensTheCovarianceOnWrinkledPaper) {
             rng);
         ASSERT_TRUE(sheet.is_fitted);
         EXPECT_NE(sheet.fix.surface, Surface::even);
-        EXPECT_LT(sheet.sigmas_off(), kMostSigmas);
+        EXPECT_LT(sheet.sigmas_off(), kMaxSigmas);
     }
 }
 
