@@ -1,20 +1,21 @@
-# A front door to the CMake presets. Each target first installs what it needs (scripts/setup). Where there is no
-# apt-get: install the packages named by `scripts/setup --list GROUP` by hand and say `make SETUP=true`.
+# Front end of the CMake presets. Each target first installs the packages that it needs (scripts/setup).
+# Without apt-get, install the packages listed by `scripts/setup --list GROUP` manually, and add `SETUP=true`
+# to the make command.
 SETUP ?= scripts/setup
 JOBS ?= $(shell nproc)
-# Some tests wait for brokers, cameras and clocks.
+# Some tests wait for brokers, cameras and clocks, so more tests than cores run in parallel.
 TEST_JOBS ?= $(shell expr $(JOBS) + 2)
 PREFIX ?= /usr/local
-# How long each fuzz target runs.
+# Duration of each fuzz target, in seconds.
 FUZZ_SECONDS ?= 60
-# Cleared, so that an inherited jobserver does not make Ninja run on one core.
+# Cleared, because an inherited jobserver would limit Ninja to one core.
 BUILD = env -u MAKEFLAGS cmake --build --preset
 RELEASE = build/release
 
 .DEFAULT_GOAL := release
 .PHONY: release setup demo test quick asan fuzz bench parsers accuracy budget portable python wasm web api format lint check install clean
 
-# The groups of scripts/setup that a target needs.
+# The groups of scripts/setup that each target needs.
 release: GROUPS = live
 demo: GROUPS = core
 test quick: GROUPS = tests
@@ -36,8 +37,8 @@ release: $(RELEASE)/build.ninja
 setup:
 	@$(SETUP) $(GROUPS)
 
-# Configured anew when packages were installed since, with which more can be built. As `setup` is phony, this
-# runs every time.
+# Runs CMake again if packages were installed since the last configuration, because more parts can then be
+# built. `setup` is phony, so this rule runs every time.
 build/%/build.ninja: setup
 	@for cause in CMakePresets.json build/packages-installed; do \
 	    if [ ! -f $@ ] || [ $$cause -nt $@ ]; then cmake --preset $* && touch $@ || exit 1; fi; \
@@ -59,13 +60,13 @@ asan: build/asan/build.ninja
 	$(BUILD) asan -j $(JOBS) --target all dotpose_tests
 	ctest --preset asan -j $(JOBS)
 
-# The layers that parse strangers' bytes: unit tests, and the seeds of the fuzz targets replayed, under the same
-# sanitizers as all of `asan`.
+# Tests of the layers that parse untrusted input: unit tests, and the replayed seeds of the fuzz targets,
+# under the same sanitizers as in `asan`.
 parsers: build/parsers/build.ninja
 	$(BUILD) parsers -j $(JOBS) --target dotpose_parser_tests
 	ctest --preset parsers -j $(JOBS)
 
-# And the unit tests of what is fuzzed, under the same sanitizers.
+# Also runs the unit tests of the fuzzed layers, under the same sanitizers.
 fuzz: build/fuzz/build.ninja
 	cmake --preset fuzz -DDOTPOSE_FUZZ_SECONDS=$(FUZZ_SECONDS)
 	$(BUILD) fuzz -j $(JOBS) --target dotpose_fuzz dotpose_tests
@@ -80,7 +81,7 @@ accuracy: $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose_tables
 	$(RELEASE)/bin/dotpose_tables accuracy $(ARGS)
 
-# With ARGS=--all: all sizes of frames and cores.
+# With ARGS=--all: all frame sizes and processors.
 ifneq ($(findstring --all,$(ARGS)),)
 more_frames = dotpose_frames_160x120 dotpose_frames_320x240
 more_cores = cortex-m4f cortex-m33 rv32imc
@@ -112,7 +113,7 @@ web: $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose_cli
 	ctest --preset release -L web
 
-# A wheel in build/python, and an environment with it, whose example is run.
+# Builds a wheel in build/python and an environment with it, and runs an example.
 PYTHON = /usr/bin/python3
 python: $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose_python
@@ -124,7 +125,7 @@ python: $(RELEASE)/build.ninja
 	build/python/venv/bin/python wrappers/python/examples/first.py
 	@echo 'Begin: . build/python/venv/bin/activate'
 
-# Pages of the public headers in build/api. Fails at a warning.
+# API pages of the public headers in build/api. Fails if there are warnings.
 api: setup
 	mkdir -p build
 	DOTPOSE_VERSION=$$(sed -n 's/^#define DOTPOSE_VERSION "\(.*\)"/\1/p' include/dotpose/version.hpp) \
@@ -133,7 +134,7 @@ api: setup
 format: setup
 	scripts/format
 
-# What needs no build.
+# Checks that need no build.
 lint: setup
 	scripts/format --check
 	scripts/check-layers
@@ -147,7 +148,7 @@ check: lint $(RELEASE)/build.ninja
 	scripts/golden-frames
 	scripts/check-core-symbols $(RELEASE)/src/libdotpose.a
 
-# No setup here: `sudo make install` after `make` only copies.
+# Does not run setup: `sudo make install` after `make` only copies files.
 install:
 	@test -f $(RELEASE)/src/libdotpose.a || { echo 'Nothing built yet: run make first.' >&2; exit 1; }
 	cmake --install $(RELEASE) --prefix $(PREFIX)

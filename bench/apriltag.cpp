@@ -21,8 +21,8 @@ Detections detections_in(apriltag_detector_t* detector, GreyImage& image) {
 }
 
 /// Returns the image of a printed tag with many pixels per square: a white border, a black border
-/// and the bits, white for 1. `apriltag_to_image` is not used, because its result cannot be freed
-/// completely with the library.
+/// and the bits, white for 1. Does not use `apriltag_to_image`, because the library has no function
+/// that frees its result completely.
 GreyImage draw_tag(const apriltag_family_t& family, int id, int px_per_square) {
     const int squares = family.total_width;
     const int side_px = squares * px_per_square;
@@ -97,8 +97,8 @@ bool TagDetector::is_right(TagFrame& frame) {
     if (zarray_size(found.get()) != 1) return false;
     apriltag_detection_t* tag = nullptr;
     zarray_get(found.get(), 0, &tag);
-    // libapriltag counts from the corner of the first pixel, so the image centre is at half the
-    // size.
+    // libapriltag counts from the corner of the first pixel, so the image centre is at half of the
+    // image size.
     const double u_error_px = tag->c[0] - frame.image.width_px / 2.0;
     const double v_error_px = tag->c[1] - frame.image.height_px / 2.0;
     return tag->id == frame.id && tag->hamming == 0 && std::hypot(u_error_px, v_error_px) < 1;

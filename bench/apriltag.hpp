@@ -16,9 +16,9 @@ struct TagFrame {
     int id = 0;
 };
 
-/// Renders frames with a tag. With its white border it covers two thirds of the frame's shorter
-/// side, at a random angle. Light, blur and noise are those of the nominal frames of the same
-/// camera.
+/// Renders frames with a tag. The tag and its white border cover two thirds of the shorter side of
+/// the frame, at a random angle. Lighting, blur and noise are the same as in the nominal frames of
+/// the same camera.
 std::vector<TagFrame> render_tags(const CameraModel& camera, int count);
 
 /// A detector with the library's default options, on one thread.
@@ -30,7 +30,8 @@ class TagDetector {
     const apriltag_family_t& family() const { return *family_; }
     /// Returns the number of tags found.
     int detect(GreyImage& image);
-    /// Whether exactly the tag of the frame is found, with all its bits right and in its place.
+    /// Returns true if the detector finds exactly the tag of the frame, with all bits correct and
+    /// in the correct place.
     bool is_right(TagFrame& frame);
 
   private:

@@ -1,4 +1,4 @@
-/// The parts of the program, each of which measures something and makes tables of the results.
+/// The parts of the program. Each part measures something and makes tables of the results.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace dotpose::bench {
 
 void add_frame_benchmarks();
 
-/// Times for one kind of frame in µs; 0 if not measured.
+/// Times for one kind of frame, in µs. 0 if not measured.
 struct FrameTimes {
     CameraModel camera;
     double dots = 0;
@@ -37,21 +37,21 @@ std::vector<FrameTimes> times_by_dots(const Results& results);
 std::string size_table(const std::vector<FrameTimes>& times);
 std::string dots_table(const std::vector<FrameTimes>& times);
 
-// ---- Pictures of docs/speed.md: plots.cpp ----
+// ---- Figures of docs/speed.md: plots.cpp ----
 
-/// Draws times over the number of pixels.
+/// Plots the times over the number of pixels.
 void draw_pixels(std::ostream& out, const std::vector<FrameTimes>& times);
-/// Draws times over the number of dots, in frames of one size.
+/// Plots the times over the number of dots, in frames of one size.
 void draw_dots(std::ostream& out, const std::vector<FrameTimes>& times);
 
-// ---- Frames one by one: varied.cpp ----
+// ---- Individual frames: varied.cpp ----
 
-/// The ways to process the frames, in the order of the table.
+/// Ways to process the frames, in the order of the table.
 enum class Way : std::uint8_t {
     twice,
     once,
-    narrow,   ///< the first attempt with vectors of 16 bytes, as without AVX2
-    tracked,  ///< with predictions that are off by up to a third of a spacing and 2 degrees
+    narrow,   ///< the first attempt with 16-byte vectors, as on a processor without AVX2
+    tracked,  ///< with predictions whose error is up to a third of a spacing and 2 degrees
     device,
     floor,
     apriltag_1,
@@ -59,7 +59,7 @@ enum class Way : std::uint8_t {
 };
 inline constexpr std::size_t kWays = 8;
 
-/// Statistics of the times of one way in µs, where each frame counts with its fastest pass.
+/// Statistics of the times of one way, in µs. The time of a frame is the time of its fastest pass.
 struct FrameSpread {
     int frames = 0;
     int found = 0;
@@ -76,19 +76,19 @@ struct Varied {
     const FrameSpread& of(Way way) const { return spreads[static_cast<std::size_t>(way)]; }
 };
 
-/// Times nominal frames of 188 x 120 px, and a tenth as many frames with a tag. Throws Error if a
-/// fix is wrong.
+/// Times nominal frames of 188 x 120 px, and a tenth of that number of frames with a tag. Throws
+/// Error if a fix is wrong.
 Varied time_varied_frames(int frames, int passes);
 std::string varied_table(const Varied& varied);
 
 // ---- Tilted cameras: tilt.cpp ----
 
-/// Results for frames of one size, seen at one tilt angle.
+/// Results for frames of one size at one tilt angle.
 struct TiltTimes {
     CameraModel camera;
     int tilt_deg = 0;
     int frames = 0;
-    int at_once = 0;  ///< number of frames located by the first attempt
+    int by_first_attempt = 0;  ///< number of frames located by the first attempt
     double median_us = 0;
 };
 /// Locates frames of tilted cameras. Throws Error if a fix is wrong.
@@ -97,16 +97,16 @@ std::string tilt_table(const std::vector<TiltTimes>& times);
 
 // ---- Hard frames: hard.cpp ----
 
-/// Results for hard frames of 188 x 120 px, each with the faster of two looks at it.
+/// Results for hard frames of 188 x 120 px. The time of a frame is the time of its faster pass.
 struct HardTimes {
     int frames = 0;
     int located = 0;
-    int at_once = 0;  ///< number of frames whose fix is that of the first attempt
+    int by_first_attempt = 0;  ///< number of frames whose fix is that of the first attempt
     double median_ms = 0;
     double p99_ms = 0;
     double longest_ms = 0;
 };
-/// Locates frames of preset hard. Throws Error if a fix is wrong.
+/// Times frames of the preset `hard`. Throws Error if a fix is wrong.
 HardTimes time_hard_frames(int frames);
 std::string hard_table(const HardTimes& times);
 

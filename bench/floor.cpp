@@ -6,10 +6,10 @@
 namespace dotpose::bench {
 namespace {
 
-/// Number of pixels that are counted in parallel. Each lane has a counter of one byte, so that the
-/// compiler can use its widest vectors.
+/// Number of pixels that are counted in parallel. Each lane has an 8-bit counter, to let the
+/// compiler use the widest vectors of the processor.
 constexpr std::size_t kLanes = 64;
-/// Largest count of a lane.
+/// Maximum count of a lane.
 constexpr std::size_t kMaxSteps = 255;
 
 std::uint32_t count_steps(std::span<const std::uint8_t> pixels, std::uint8_t level) {

@@ -1,4 +1,4 @@
-/// The least work of any method that reads all pixels, as a lower bound of its time.
+/// The minimum work of any method that reads all pixels, as a lower bound of its time.
 #pragma once
 
 #include <cstdint>

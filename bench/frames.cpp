@@ -15,17 +15,17 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the number of frames to render: enough that branch prediction and caches do not adapt to
-/// single frames, but few enough to be rendered quickly.
+/// Returns the number of frames to render. Large enough that branch prediction and caches do not
+/// adapt to individual frames, and small enough to be rendered quickly.
 int count_of(const CameraModel& camera) {
-    constexpr int kMax = 20;
+    constexpr int kMaxFrames = 20;
     constexpr int kPixels = 4'000'000;
-    return std::clamp(kPixels / (camera.width_px * camera.height_px), 1, kMax);
+    return std::clamp(kPixels / (camera.width_px * camera.height_px), 1, kMaxFrames);
 }
 
-/// Whether the first attempt finds a pose. Frames without a pose are left out, because the attempt
-/// may end early on them and would seem fast.
-bool is_located_at_once(const KnownFrame& frame) {
+/// Returns true if the first attempt finds a pose. Frames without a pose are left out, because the
+/// attempt may end early on them and appear fast.
+bool is_located_by_first_attempt(const KnownFrame& frame) {
     const auto memory = std::make_unique<LargeMemory>();
     const auto locates = [&](Effort effort) {
         Options options;
@@ -48,7 +48,7 @@ const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera) {
         const int count = count_of(camera);
         frames = render_frames(count, [&](int draw) {
             KnownFrame frame = frame_at(draw);
-            while (!is_located_at_once(frame))
+            while (!is_located_by_first_attempt(frame))
                 frame = frame_at(draw += count);
             return frame;
         });
@@ -88,7 +88,7 @@ TimedFrames time_frames(const std::vector<KnownFrame>& frames, int passes,
             if (pass > 0 || fix.status != Status::ok) continue;
             if (!is_right(fix, frames[i].truth)) throw Error("a frame was located wrongly");
             ++times.located;
-            times.at_once += fix.attempt == Attempt::first ? 1 : 0;
+            times.by_first_attempt += fix.attempt == Attempt::first ? 1 : 0;
         }
     }
     return times;

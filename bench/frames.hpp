@@ -9,14 +9,14 @@
 
 namespace dotpose::bench {
 
-/// A seed that no test and no tuning uses.
+/// Seed that is not used by any test or for tuning.
 inline constexpr std::uint64_t kSeed = 606;
 
-/// Returns nominal frames of a camera that the first attempt locates; the number is larger for
-/// small frames. They are rendered at the first call.
+/// Returns nominal frames of a camera that the first attempt locates; more frames if they are
+/// small. The frames are rendered at the first call.
 const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera);
 
-/// Whether there is a pose and it is right.
+/// Returns true if the fix has a pose and the pose is correct.
 bool is_right(const Fix& fix, const Truth& truth);
 
 /// Returns a quantile of sorted values, by the nearest rank.
@@ -28,10 +28,10 @@ void on_all_cores(int count, const std::function<void(int)>& work);
 /// Returns frame_at(0) to frame_at(count - 1), rendered on all cores.
 std::vector<KnownFrame> render_frames(int count, const FrameSource& frame_at);
 
-/// Results of frames that were located one by one.
+/// Results of frames that were located individually.
 struct TimedFrames {
     int located = 0;
-    int at_once = 0;                 ///< number of frames whose fix is that of the first attempt
+    int by_first_attempt = 0;        ///< number of frames whose fix is that of the first attempt
     std::vector<double> fastest_us;  ///< time of each frame in its fastest pass
 };
 /// Locates all frames `passes` times with `locate`. Throws Error if a fix is wrong.

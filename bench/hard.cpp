@@ -1,4 +1,4 @@
-// Times hard frames one by one: most of them take the second attempt, whose time varies much.
+// Times hard frames individually. Most of them need the second attempt, whose time varies greatly.
 #include <algorithm>
 #include <memory>
 
@@ -12,7 +12,7 @@
 namespace dotpose::bench {
 
 HardTimes time_hard_frames(int frames) {
-    // Renders a part at a time, to limit the memory.
+    // Frames are rendered in batches, to limit the memory.
     constexpr int kMaxRendered = 500;
     constexpr int kPasses = 2;
     Setup setup;
@@ -29,7 +29,7 @@ HardTimes time_hard_frames(int frames) {
             render_frames(count, [&](int i) { return frame_at(first + i); }), kPasses,
             [&](const ImageView& image) { return Locator(*memory, Options{}).locate(image); });
         times.located += part.located;
-        times.at_once += part.at_once;
+        times.by_first_attempt += part.by_first_attempt;
         us.insert(us.end(), part.fastest_us.begin(), part.fastest_us.end());
     }
     std::ranges::sort(us);
@@ -40,11 +40,12 @@ HardTimes time_hard_frames(int frames) {
 }
 
 std::string hard_table(const HardTimes& t) {
-    return "| frames | located, % | of these at once, % | median, ms | 99 %, ms | longest, ms |\n"
+    return "| frames | located, % | of these by the first attempt, % | median, ms | 99 %, ms | "
+           "longest, ms |\n"
            "|--:|--:|--:|--:|--:|--:|\n" +
            fmt::format("| {} | {:.2f} | {:.1f} | {:.2f} | {:.2f} | {:.2f} |\n", t.frames,
-                       100.0 * t.located / t.frames, 100.0 * t.at_once / t.located, t.median_ms,
-                       t.p99_ms, t.longest_ms);
+                       100.0 * t.located / t.frames, 100.0 * t.by_first_attempt / t.located,
+                       t.median_ms, t.p99_ms, t.longest_ms);
 }
 
 }  // namespace dotpose::bench

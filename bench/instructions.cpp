@@ -1,5 +1,6 @@
 // Locates nominal frames of 188 x 120 px for bench/instructions, which counts the instructions of
-// the calls. Prints the number of frames, and of those that need no second attempt in any code.
+// the calls. Prints the number of frames, and the number of frames that the first attempt locates
+// if the code is not given.
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -17,7 +18,7 @@ constexpr std::uint64_t kSeed = 606;
 
 }  // namespace
 
-/// The tool that counts instructions finds these functions by their names.
+/// The counted functions have C linkage, because callgrind selects them by name.
 extern "C" [[gnu::noinline]] void count_fresh_frame(const ImageView& image, Locator& locator) {
     locator.locate(image);
 }
@@ -26,8 +27,8 @@ extern "C" [[gnu::noinline]] void count_tracked_frame(const ImageView& image,
                                                       Locator& locator) {
     locator.locate(image, prediction);
 }
-/// Locates a frame with the code variant left open, beside the same frame with its code variant
-/// given: the difference is what not knowing the code costs.
+/// Locates a frame without a given code. count_frame_in_code locates the same frame with its code
+/// given; the difference is the cost of detecting the code.
 extern "C" [[gnu::noinline]] CodeReading count_frame_in_any_code(const ImageView& image,
                                                                  Locator& locator) {
     return locator.locate_in_any_code(image, {});
@@ -38,8 +39,8 @@ extern "C" [[gnu::noinline]] void count_frame_in_code(const ImageView& image, Lo
 
 namespace {
 
-/// Locates the frame in any code and in the one that was read. Returns whether the first attempt
-/// did that in the first code, as it does in all frames whose place is in doubt in no code.
+/// Locates the frame without and with its code given. Returns true if the first attempt located the
+/// frame in the first code that it tried. Only such frames are counted.
 bool compare_codes(const ImageView& image, Locator& locator) {
     const auto is_settled = [](const CodeReading& reading) {
         return reading.fix.status == Status::ok && reading.fix.attempt == Attempt::first &&
@@ -69,7 +70,7 @@ int main() {
         count_fresh_frame(image.view(), locator);
         const Fix fix = locator.trace().fix;
         if (fix.status != Status::ok) return 1;
-        // A robot that has gone on by a fifth of a spacing and turned by a degree.
+        // The robot has moved by a fifth of a spacing and turned by a degree.
         constexpr std::int32_t kDegree_bam = 11930465;
         const Prediction prediction =
             moved(Prediction::like(fix), CodeVariant::anoto, {65536 / 5, 0}, kDegree_bam,

@@ -15,7 +15,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the paper's camera with a larger image.
+/// Returns the camera of the paper with a larger image.
 CameraModel camera_of(int width_px, int height_px) {
     CameraModel camera;
     camera.width_px = width_px;
@@ -23,14 +23,15 @@ CameraModel camera_of(int width_px, int height_px) {
     return camera;
 }
 
-/// Returns the camera of a phone with 12 megapixels that sees a whole page.
+/// Returns a 12-megapixel phone camera that sees a whole page.
 CameraModel phone_camera() {
     CameraModel camera = camera_of(4000, 3000);
     camera.mm_per_px = kDefaultSpacing_mm / 6;
     return camera;
 }
 
-/// Largest frames that are measured with libapriltag, which takes longer than all other methods.
+/// Maximum size of the frames that are measured with libapriltag, which is slower than all other
+/// methods.
 constexpr int kMaxTagPixels = 1280 * 800;
 
 const std::vector<CameraModel>& sizes() {
@@ -40,7 +41,8 @@ const std::vector<CameraModel>& sizes() {
     return all;
 }
 
-/// Returns cameras of one image size that see an increasing area of the paper, and so more dots.
+/// Returns cameras of one image size that see an increasing area of the paper, and therefore more
+/// dots.
 const std::vector<CameraModel>& spacings() {
     static const std::vector<CameraModel> all = [] {
         std::vector<CameraModel> cameras;
@@ -58,7 +60,7 @@ std::string name_of(const char* what, const CameraModel& camera) {
                        kDefaultSpacing_mm / camera.mm_per_px);
 }
 
-/// With as little memory as the camera's frames need.
+/// Returns a locator with the minimum memory for the frames of the camera.
 Locator& locator_for(const CameraModel& camera, Effort effort) {
     static const auto small = std::make_unique<SmallMemory>();
     static const auto large = std::make_unique<LargeMemory>();
@@ -91,7 +93,7 @@ void locate_frames(benchmark::State& state, const CameraModel& camera, Effort ef
     state.counters["dots"] = dots / static_cast<double>(frames.size());
 }
 
-/// Tracks each frame from the prediction that its own fix gives.
+/// Tracks each frame from the prediction made from its own fix.
 void track_frames(benchmark::State& state, const CameraModel& camera) {
     Locator& locator = locator_for(camera, Options{}.effort);
     const std::vector<KnownFrame>& frames = nominal_frames(camera);

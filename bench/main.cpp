@@ -1,12 +1,12 @@
-// Reruns every number and picture of docs/speed.md. Run by `make bench`.
+// Regenerates all numbers and figures of docs/speed.md. Run by `make bench`.
 //
 //   dotpose_bench [--quick] [--update docs/speed.md] [FOLDER]
 //   dotpose_bench --benchmark_filter=stage [--benchmark_...]
 //
 // Writes tables.md, pixels.svg and dots.svg to FOLDER (bench-out). --update also replaces the
-// generated parts of the document and the pictures beside it. --quick is a short run to test the
-// program; its numbers are not exact. With options of Google Benchmark, only the benchmarks that
-// they select are run and printed.
+// generated parts of the document and its figures. --quick is a short run to test the program; its
+// numbers are inaccurate. With options of Google Benchmark, only the benchmarks that they select
+// are run and printed.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -38,8 +38,8 @@ struct Arguments {
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    // Repetitions of all benchmarks are interleaved, so that a busy moment of the machine does not
-    // affect all repetitions of one of them.
+    // Repetitions of all benchmarks are interleaved, so that a temporary load of the machine does
+    // not affect all repetitions of one benchmark.
     for (const char* option : {"--benchmark_enable_random_interleaving=true",
                                "--benchmark_repetitions=9", "--benchmark_min_time=0.05"})
         arguments.library.emplace_back(option);
@@ -96,21 +96,21 @@ const FrameTimes& of_width(const std::vector<FrameTimes>& sizes, int width_px) {
                               [](const FrameTimes& t) { return t.camera.width_px; });
 }
 
-/// Returns the least share of frames located at the first attempt, and the longest time relative to
-/// the time at 0 degrees.
+/// Returns the minimum fraction of frames located by the first attempt, and the maximum time
+/// relative to the time at 0 degrees.
 std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
     double share = 100;
     double ratio = 1;
     double straight_us = 1;
     for (const TiltTimes& t : tilts) {
         if (t.tilt_deg == 0) straight_us = t.median_us;
-        share = std::min(share, 100.0 * t.at_once / t.frames);
+        share = std::min(share, 100.0 * t.by_first_attempt / t.frames);
         ratio = std::max(ratio, t.median_us / straight_us);
     }
     return {share, ratio};
 }
 
-/// Returns a table of the aims and the measured values.
+/// Returns a table of the targets and the measured values.
 std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varied,
                        const std::vector<TiltTimes>& tilts, const HardTimes& hard) {
     const double locate_us = varied.of(Way::twice).median_us;
@@ -131,7 +131,7 @@ std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varie
         {"640 x 480 with 2,500 dots, tracked, µs", 60, vga.tracked_us, 0},
         {"1280 x 800, µs", 300, of_width(sizes, 1280).locate_us, 0},
         {"12 megapixels at 6 px per spacing, µs", 2000, of_width(sizes, 4000).locate_us, 0},
-        {"tilted by up to 20 degrees, not located at once, %", 2, 100 - share, 1},
+        {"tilted by up to 20 degrees, not located by the first attempt, %", 2, 100 - share, 1},
         {"tilted by up to 20 degrees, median / that at 0 degrees", 2, ratio, 2},
         {"hard frames of 188 x 120, 99 %, ms", 5, hard.p99_ms, 2},
         {"hard frames of 188 x 120, longest of 20,000, ms", 15, hard.longest_ms, 1},
@@ -148,7 +148,7 @@ std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varie
 void run(const Arguments& arguments) {
     Results results;
     if (arguments.is_partial) return run_benchmarks(arguments.library, results);
-    // A document that cannot be read is reported before the measurement, not minutes later.
+    // Reads the document first, to report an error before the measurement and not minutes later.
     if (!arguments.document.empty()) read_document(arguments.document);
     fs::create_directories(arguments.out);
 

@@ -1,4 +1,4 @@
-// Draws the pictures of docs/speed.md.
+// Draws the figures of docs/speed.md.
 #include <algorithm>
 #include <ostream>
 
@@ -22,7 +22,7 @@ constexpr const char* kFloor = draw::colour::kQuiet;
 
 using Value = double (*)(const FrameTimes&);
 
-/// Functions that select a time in µs, which is 0 if it was not measured.
+/// Functions that return one time of FrameTimes, in µs; 0 if it was not measured.
 constexpr Value kLocate_us = [](const FrameTimes& t) { return t.locate_us; };
 constexpr Value kOnce_us = [](const FrameTimes& t) { return t.once_us; };
 constexpr Value kDevice_us = [](const FrameTimes& t) { return t.device_us; };
@@ -95,8 +95,8 @@ void draw_pixels(std::ostream& out, const std::vector<FrameTimes>& times) {
 }
 
 void draw_dots(std::ostream& out, const std::vector<FrameTimes>& times) {
-    // The default effort has a wide line, because the line of effort `once` covers it where no
-    // frame needs a second attempt.
+    // The curve of the default effort is wide, because the curve of effort `once` covers it where
+    // no frame needs a second attempt.
     draw(out, times,
          {"Time against dots",
           "one thread; nominal frames of 640 x 480 px, 40 to 7 px per spacing",

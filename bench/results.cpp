@@ -9,7 +9,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the processor time, which other processes on the machine do not increase.
+/// Returns the processor time, which does not depend on other processes.
 double us_of(const benchmark::BenchmarkReporter::Run& run) {
     return 1e6 * run.cpu_accumulated_time / static_cast<double>(run.iterations);
 }
@@ -29,7 +29,7 @@ void Results::ReportRuns(const std::vector<Run>& repetitions) {
     Run fastest = *std::ranges::min_element(repetitions, {}, us_of);
     fastest.run_name.repetitions.clear();
     ConsoleReporter::ReportRuns({fastest});
-    // A benchmark that found a wrong answer has stopped before its first iteration.
+    // A benchmark that found a wrong answer stops before its first iteration.
     if (std::ranges::any_of(repetitions, [](const Run& run) { return run.iterations == 0; })) {
         has_failed_ = true;
         return;

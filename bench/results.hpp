@@ -14,7 +14,7 @@ struct Result {
     double dots = 0;  ///< mean number of dots in the frames; 0 for benchmarks without frames
 };
 
-/// Prints and keeps the fastest repetition of each benchmark: other work of the machine can only
+/// Prints and keeps the fastest repetition of each benchmark. Other work of the machine can only
 /// make a repetition slower.
 class Results : public benchmark::ConsoleReporter {
   public:

@@ -33,7 +33,7 @@ namespace {
 constexpr Options kOptions;
 constexpr CodeVariant kCode = kOptions.code;
 
-/// A frame that has been located, with the results of all stages.
+/// A located frame with the results of all stages.
 struct Located {
     const GreyImage* image = nullptr;
     std::vector<DetectedDot> blobs;  ///< before the size filter
@@ -175,7 +175,7 @@ bool fit_affine_pose(Located& l) {
 struct NamedStage {
     const char* name;
     Stage run;
-    bool is_part = false;  ///< whether it is a part of the stage `position`
+    bool is_part = false;  ///< true for a part of the stage `position`
 };
 constexpr std::array kStages = {
     NamedStage{"light", measure_light},
@@ -241,8 +241,8 @@ std::string stage_table(const Results& results) {
     double all_us = 0;
     for (const NamedStage& stage : kStages) {
         double us = results.of(name_of(stage)).us;
-        // Blobs and light alternate from band to band, so the benchmark of blobs runs both; the
-        // time of light is subtracted.
+        // Detecting blobs and updating the light thresholds alternate from band to band, so the
+        // benchmark of blobs runs both. The time of the thresholds is subtracted.
         if (stage.run == find_blobs) us -= results.of(name_of(kStages.front())).us;
         table +=
             fmt::format("| {} | {}{:.2f} |\n", stage.name, stage.is_part ? "of which " : "", us);

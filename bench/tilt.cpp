@@ -1,4 +1,4 @@
-// Measures how many frames of a tilted camera the first attempt locates, and their times.
+// Measures how many frames of a tilted camera the first attempt locates, and the times.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -14,7 +14,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the frame of a camera that is tilted about an axis, another one in each frame.
+/// Returns a frame of a tilted camera. The axis of the tilt differs from frame to frame.
 KnownFrame tilted_frame(const Setup& setup, int tilt_deg, int index) {
     Shot shot = draw_shot(setup, static_cast<std::uint64_t>(index));
     const double axis_rad = index * std::numbers::phi * 2 * std::numbers::pi;
@@ -33,7 +33,7 @@ TiltTimes time_tilt(const CameraModel& camera, int tilt_deg, int count, int pass
         render_frames(count, [&](int i) { return tilted_frame(setup, tilt_deg, i); }), passes,
         [&](const ImageView& image) { return Locator(*memory, Options{}).locate(image); });
     std::ranges::nth_element(timed.fastest_us, timed.fastest_us.begin() + count / 2);
-    return {camera, tilt_deg, count, timed.at_once,
+    return {camera, tilt_deg, count, timed.by_first_attempt,
             timed.fastest_us[static_cast<std::size_t>(count / 2)]};
 }
 
@@ -54,7 +54,8 @@ std::vector<TiltTimes> time_tilted_frames(bool is_quick) {
 
 std::string tilt_table(const std::vector<TiltTimes>& times) {
     std::string table =
-        "| frame, px | tilt, degrees | frames | located at once, % | median, µs | / that at 0 "
+        "| frame, px | tilt, degrees | frames | located by the first attempt, % | median, µs | / "
+        "that at 0 "
         "degrees |\n"
         "|---|--:|--:|--:|--:|--:|\n";
     double straight_us = 1;
@@ -62,7 +63,8 @@ std::string tilt_table(const std::vector<TiltTimes>& times) {
         if (t.tilt_deg == 0) straight_us = t.median_us;
         table += fmt::format("| {} x {} | {} | {} | {:.1f} | {:.1f} | {:.2f} |\n",
                              t.camera.width_px, t.camera.height_px, t.tilt_deg, t.frames,
-                             100.0 * t.at_once / t.frames, t.median_us, t.median_us / straight_us);
+                             100.0 * t.by_first_attempt / t.frames, t.median_us,
+                             t.median_us / straight_us);
     }
     return table;
 }

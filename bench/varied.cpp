@@ -1,4 +1,4 @@
-// Times many different frames individually, to show how much the time varies.
+// Times many different frames individually, to show the variation of the time.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -24,7 +24,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// A way to locate, and its frames.
+/// A way to locate frames, and the frames.
 struct Subject {
     std::vector<const GreyImage*> frames;
     int found = 0;
@@ -58,7 +58,7 @@ Subject locating(const std::vector<KnownFrame>& frames, Effort effort, SmallMemo
     return subject;
 }
 
-/// Locates as on a processor without AVX2, with the first attempt only.
+/// Returns the way that locates frames as on a processor without AVX2, with the first attempt only.
 Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     static core::SmallWorkspace workspace;
     const auto locates = [](const GreyImage& image) {
@@ -120,8 +120,8 @@ Subject detecting(std::vector<TagFrame>& frames, TagDetector& detector) {
 }
 
 /// Times every frame once. As with a camera, all frames are copied to the same memory. All other
-/// frames are located between two passes of one frame, so that caches and branch prediction do not
-/// adapt to it.
+/// frames are located between two passes of one frame, so caches and branch prediction do not adapt
+/// to a single frame.
 void pass(Subject& subject) {
     using Clock = std::chrono::steady_clock;
     GreyImage camera = *subject.frames.front();

@@ -1,4 +1,4 @@
-# Toolchain: Arm Cortex-M33, which has an FPU in some devices only, no operating system.
+# Toolchain: Arm Cortex-M33, without its optional FPU and without an operating system.
 set(DOTPOSE_FIRMWARE cortex-m33)
 set(machine "-mcpu=cortex-m33 -mthumb -mfloat-abi=soft")
 set(tools arm-none-eabi)

@@ -1,4 +1,4 @@
-# The compiler of the messages that `dotpose watch --dds` publishes.
+# IDL compiler for the messages that `dotpose watch --dds` publishes.
 find_program(DOTPOSE_IDLC idlc)
 if(DOTPOSE_IDLC)
     add_executable(CycloneDDS::idlc IMPORTED)

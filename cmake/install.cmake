@@ -1,12 +1,14 @@
 include(CMakePackageConfigHelpers)
 
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dotpose)
-# Relative, so that `cmake --install --prefix` and a moved tree stay right.
+# The prefix in pkg-config files is relative, so it remains correct after `cmake --install --prefix`
+# or if the tree is moved.
 file(RELATIVE_PATH DOTPOSE_PREFIX_FROM_PC
      /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 string(REGEX REPLACE "/$" "" DOTPOSE_PREFIX_FROM_PC "${DOTPOSE_PREFIX_FROM_PC}")
 
-# Who links the static libraries links what they use; a shared one brings that along.
+# Programs that link the static libraries must also link their dependencies. Shared libraries bring
+# their own.
 set(DOTPOSE_PC_FILES)
 set(DOTPOSE_PC_TOOLS)
 set(DOTPOSE_PC_TOOLS_LIBS)
@@ -21,7 +23,8 @@ if(NOT BUILD_SHARED_LIBS)
     string(APPEND DOTPOSE_PC_TOOLS_LIBS " -lceres -lglog -pthread")
 endif()
 
-# A header without its library would only fail when the user links.
+# Headers whose library is not built are not installed. A program that includes them would only fail
+# at link time.
 set(without)
 if(NOT DOTPOSE_HAS_FILES)
     list(APPEND without PATTERN files EXCLUDE)
@@ -35,7 +38,8 @@ if(TARGET dotpose_c)
     install(FILES wrappers/c/dotpose.h TYPE INCLUDE)
 endif()
 
-# An export set each: who only wants the core must not need yaml-cpp, nor libpng, to be found.
+# Each library has its own export set, because users of the core only must not need yaml-cpp or
+# libpng.
 set(libraries dotpose dotpose_c)
 list(TRANSFORM DOTPOSE_LIBRARIES PREPEND dotpose_ OUTPUT_VARIABLE libraries_of_parts)
 list(APPEND libraries ${libraries_of_parts})
@@ -57,14 +61,15 @@ foreach(target IN LISTS libraries)
 endforeach()
 if(TARGET dotpose_cli)
     install(TARGETS dotpose_cli)
-    # The schema of the lines that the tool writes.
+    # The schema of the JSON lines that the tool writes.
     install(DIRECTORY docs/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/dotpose)
 endif()
 if(TARGET dotpose_live_cli)
     install(TARGETS dotpose_live_cli dotpose_video_module DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dotpose)
 endif()
 
-# The documents link to each other, so they lie there as in the source.
+# The documents link to each other, so they are installed with the same layout as in the source
+# tree.
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE TYPE DOC)
 install(DIRECTORY docs TYPE DOC)
 install(DIRECTORY examples TYPE DOC FILES_MATCHING PATTERN "*.cpp")

@@ -1,4 +1,5 @@
-# Run by ctest for each program of dotpose_discover_suites: adds a test for each suite that the program lists.
+# ctest runs this script for each program of dotpose_discover_suites. It adds a test for each suite that the
+# program lists.
 cmake_policy(VERSION 3.25)
 if(NOT EXISTS ${program})
     add_test(${prefix}_NOT_BUILT ${program})
@@ -9,11 +10,11 @@ execute_process(COMMAND ${program} --gtest_list_tests "--gtest_filter=*${filter}
 if(NOT status EQUAL 0)
     message(FATAL_ERROR "${program} cannot list its tests")
 endif()
-# A suite begins a line; its cases are indented.
+# A line that is not indented is the name of a suite. The cases of the suite are indented.
 string(REGEX MATCHALL "(^|\n)[A-Za-z0-9_/]+\\." suites "${lines}")
 list(TRANSFORM suites STRIP)
 list(REMOVE_DUPLICATES suites)
-# What the filter excludes is excluded within the suites too.
+# The exclusions of the filter also apply within the suites.
 string(REGEX MATCH "-.*" excluded "${filter}")
 foreach(suite IN LISTS suites)
     string(REPLACE "." "" name ${suite})

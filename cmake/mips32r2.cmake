@@ -3,20 +3,23 @@ set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR mips32r2)
 set(CMAKE_ASM_COMPILER mipsel-linux-gnu-gcc)
 set(CMAKE_CXX_COMPILER mipsel-linux-gnu-g++)
-# A program needs the linker script; a library compiles without.
+# CMake tests the compiler with a library, because a program cannot be linked without the linker
+# script.
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE NEVER)
 
 set(firmware ${CMAKE_CURRENT_LIST_DIR}/../firmware/mips32r2)
-# microMIPS: the core's shorter instructions, with which the code is a fifth smaller.
+# microMIPS instructions reduce the code size by a fifth.
 set(machine "-march=m14k -mmicromips -msoft-float -mno-abicalls -fno-pic -fno-pie -G0")
 set(CMAKE_ASM_FLAGS_INIT "${machine}")
-# The core runs instructions in order, one a cycle: moved about, they only need more registers. To
-# GCC the costs of a 4Kc are nearer to that than those of a M14K. Divisors are known not to be zero.
+# The processor executes one instruction per cycle, in order. Scheduling would only increase the
+# register pressure. GCC's cost model of the 4Kc is closer to this processor than that of the M14K.
+# Divisors are known to be nonzero.
 set(code "-mtune=4kc -fno-schedule-insns -mno-check-zero-division")
 set(CMAKE_CXX_FLAGS_INIT "${machine} ${code} -isystem ${firmware}/include -Wa,${firmware}/stores.s")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -no-pie")
 
 set(DOTPOSE_FIRMWARE mips32r2)
-# No library: Debian's are plain MIPS32, for an FPU. What would need one does not link.
+# No library is linked: Debian's libraries are plain MIPS32 code for an FPU. A program that needs a
+# library fails to link.
 set(DOTPOSE_FIRMWARE_LIBRARIES)

@@ -1,5 +1,5 @@
-# Only the parts of OpenCV that live use needs: Debian's package of all of it, which alone has the
-# CMake files, is ten times as large.
+# Uses only the parts of OpenCV that live use needs. Only Debian's package of the whole of OpenCV
+# contains the CMake files, and it is ten times as large.
 find_path(DOTPOSE_OPENCV_INCLUDE opencv2/videoio.hpp PATH_SUFFIXES opencv4)
 set(libraries)
 foreach(part IN ITEMS videoio highgui imgproc core)
@@ -8,7 +8,7 @@ foreach(part IN ITEMS videoio highgui imgproc core)
 endforeach()
 if(DOTPOSE_OPENCV_INCLUDE AND NOT libraries MATCHES "NOTFOUND")
     add_library(dotpose_opencv INTERFACE)
-    # SYSTEM: its headers do not compile without warnings.
+    # SYSTEM, because the headers of OpenCV do not compile without warnings.
     target_include_directories(dotpose_opencv SYSTEM INTERFACE ${DOTPOSE_OPENCV_INCLUDE})
     target_link_libraries(dotpose_opencv INTERFACE ${libraries})
 endif()

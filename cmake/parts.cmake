@@ -1,5 +1,5 @@
-# The parts of dotpose beside the core, and the libraries that they need. Each library is looked up in one
-# place, here, and only if a part wants it.
+# The parts of dotpose other than the core, and the libraries that they need. Each library is searched for
+# in one place, here, and only if a part needs it.
 
 if(PROJECT_IS_TOP_LEVEL)
     set(default FOUND)
@@ -10,8 +10,9 @@ set(DOTPOSE_PARTS ${default} CACHE STRING
     "Parts to build: CORE (none but the core), FOUND (those whose libraries are found), ALL (a missing library is an error)")
 set_property(CACHE DOTPOSE_PARTS PROPERTY STRINGS CORE FOUND ALL)
 
-# dotpose_dependency(TARGET DEBIAN package (PACKAGE name | MODULES module... | FILE file)): a library that parts
-# may need. It is found by find_package, by pkg-config, or by a file of cmake/ that defines the target.
+# dotpose_dependency(TARGET DEBIAN package (PACKAGE name | MODULES module... | FILE file)): declares a library
+# that parts may need. The library is found by find_package, by pkg-config, or by a file of cmake/ that
+# defines the target.
 macro(dotpose_dependency target)
     set(dotpose_how_${target} ${ARGN})
 endmacro()
@@ -40,7 +41,8 @@ dotpose_dependency(GTest::gmock_main         libgtest-dev,\ libgmock-dev   PACKA
 dotpose_dependency(benchmark::benchmark      libbenchmark-dev              PACKAGE benchmark)
 dotpose_dependency(PkgConfig::Apriltag       libapriltag-dev               MODULES apriltag)
 
-# dotpose_find(TARGET): looks the library up, unless that has been done. A macro, as packages set variables.
+# dotpose_find(TARGET): searches for the library, unless that has been done. This is a macro because find
+# modules set variables in the caller's scope.
 macro(dotpose_find target)
     if(NOT TARGET ${target})
         list(GET dotpose_how_${target} 1 dotpose_kind)
@@ -59,10 +61,10 @@ macro(dotpose_find target)
     endif()
 endmacro()
 
-# dotpose_part(NAME "what it is" SETUP group [NEEDS target...] [PARTS part...]): declares a part that needs
-# libraries and parts declared before. The option DOTPOSE_WITH_NAME is ON (a missing library is an error), OFF, or
-# empty: as DOTPOSE_PARTS says, or ON for what another part needs. SETUP: the group of scripts/setup that installs
-# what it needs.
+# dotpose_part(NAME "description" SETUP group [NEEDS target...] [PARTS part...]): declares a part and the
+# libraries and earlier parts that it needs. The option DOTPOSE_WITH_NAME is ON (a missing library is an
+# error), OFF, or empty. If it is empty, DOTPOSE_PARTS decides, and parts that another part needs are ON.
+# SETUP: the group of scripts/setup that installs the libraries.
 set(parts)
 macro(dotpose_part name what)
     cmake_parse_arguments(${name} "" "SETUP" "NEEDS;PARTS" ${ARGN})
@@ -72,7 +74,8 @@ macro(dotpose_part name what)
     list(APPEND parts ${name})
 endmacro()
 
-# Sets DOTPOSE_HAS_NAME for a part, and says why it is left out.
+# dotpose_decide(NAME): sets DOTPOSE_HAS_NAME for a part, and prints the reason if the part is left
+# out.
 macro(dotpose_decide name)
     set(missing)
     foreach(needed IN LISTS ${name}_PARTS)
@@ -122,7 +125,7 @@ dotpose_part(LIVE      "dotpose watch and fleet" SETUP live
              NEEDS dotpose_opencv PkgConfig::FFmpeg PkgConfig::Mosquitto simdjson::simdjson)
 dotpose_part(DDS       "dotpose watch --dds" SETUP robots
              PARTS LIVE NEEDS CycloneDDS::ddsc CycloneDDS::idlc)
-# The fuzz preset has neither calibration nor live use, which take minutes to build, and no test of their own.
+# The fuzz preset has neither calibration nor live use. Both take minutes to build and have no fuzz target.
 set(tested LIVE)
 if(DOTPOSE_SANITIZE MATCHES "fuzzer")
     set(tested TIFF PDF FILES EVALUATE)

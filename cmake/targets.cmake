@@ -1,9 +1,9 @@
 # dotpose_layer(NAME [PURE] [SOURCES file...] [EXCEPT file...] [USES target...])
 #
-# One directory of src/ is one layer and one object library dotpose_NAME_layer. The layers are put together
-# into the installed libraries in src/CMakeLists.txt. SOURCES: these only, and not all of the directory;
-# EXCEPT: all but these.
-# PURE: may use no heap, exceptions, RTTI or dependency (scripts/check-core-symbols proves it).
+# Defines a layer: one directory of src/, compiled to the object library dotpose_NAME_layer.
+# src/CMakeLists.txt combines the layers into the installed libraries. SOURCES: compiles only these sources
+# of the directory; EXCEPT: compiles all sources except these. PURE: the layer must not use the heap,
+# exceptions, RTTI or dependencies (scripts/check-core-symbols proves it).
 function(dotpose_layer name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "PURE" "" "SOURCES;EXCEPT;USES")
     dotpose_sources(sources)
@@ -12,8 +12,9 @@ function(dotpose_layer name)
     target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include
                                                 ${PROJECT_SOURCE_DIR}/src)
     if(NOT DOTPOSE_FIRMWARE AND NOT EMSCRIPTEN)
-        # For shared libraries, and for modules that others link the static ones into. They show what
-        # include/dotpose declares; calls within them are direct.
+        # Position-independent code is needed for shared libraries, and for modules that link the
+        # static libraries. Only the names that include/dotpose declares are visible; internal calls
+        # are direct.
         set_target_properties(${target} PROPERTIES
             POSITION_INDEPENDENT_CODE ON
             CXX_VISIBILITY_PRESET hidden
@@ -24,32 +25,34 @@ function(dotpose_layer name)
         target_link_libraries(${target} PUBLIC $<TARGET_NAME_IF_EXISTS:${used}>)
     endforeach()
     if(arg_PURE)
-        # One source is compiled again in seconds, after a change to it.
+        # With a unity build, changing one source would recompile several. Without, it takes
+        # seconds.
         set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
         target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti -fno-threadsafe-statics
                                                  -ffunction-sections -fdata-sections)
         if(DOTPOSE_SANITIZE MATCHES "fuzzer")
-            # Tracing every comparison of numbers makes the core ten times slower and finds nothing.
+            # Tracing every comparison of numbers makes the core ten times slower and finds no
+            # faults.
             target_compile_options(${target} PRIVATE -fno-sanitize-coverage=trace-cmp)
         endif()
     else()
         dotpose_allow_promotion(${target})
         if(TARGET dotpose_base_layer AND NOT name STREQUAL "base")
             dotpose_share_headers(${target} dotpose_base_layer)
-            # It is among these headers.
+            # fmt is among the precompiled headers.
             target_link_libraries(${target} PRIVATE fmt::fmt)
         endif()
         if(NOT EMSCRIPTEN)
-            # librsvg asks for it, and the headers are precompiled for all layers alike.
+            # librsvg requires -pthread, and all layers share the precompiled headers.
             target_compile_options(${target} PRIVATE -pthread)
         endif()
     endif()
 endfunction()
 
-# dotpose_library(NAME LAYERS layer... [PUBLIC target...] [PRIVATE target...]): the installed library
-# NAME, a shared one with BUILD_SHARED_LIBS. Users know dotpose_print as dotpose::print, in this tree and
-# installed. NAME_inside is what the project's own programs link, which look inside: static, as a shared
-# library hides its internals.
+# dotpose_library(NAME LAYERS layer... [PUBLIC target...] [PRIVATE target...]): defines the installed
+# library NAME, which is shared if BUILD_SHARED_LIBS is set. Users link dotpose_print as dotpose::print,
+# both in this tree and installed. The project's own programs, which use internals, link NAME_inside,
+# which is always static because a shared library hides its internals.
 function(dotpose_library name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LAYERS;PUBLIC;PRIVATE")
     set(objects)
@@ -79,12 +82,12 @@ function(dotpose_set_up_library name)
     target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                               $<INSTALL_INTERFACE:include>)
     target_link_libraries(${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
-    # The library holds objects only; without a language of its own CMake could not link it.
+    # The library consists of objects only, so CMake cannot deduce the linker language.
     set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
 endfunction()
 
-# dotpose_sources(RESULT): within a function with the arguments SOURCES and EXCEPT, the sources named, or
-# all of the directory but some.
+# dotpose_sources(RESULT): for functions with the arguments SOURCES and EXCEPT. Sets RESULT to SOURCES
+# or, if they are not given, to all sources of the directory except those in EXCEPT.
 macro(dotpose_sources result)
     set(${result} ${arg_SOURCES})
     if(NOT ${result})
@@ -95,8 +98,9 @@ macro(dotpose_sources result)
 endmacro()
 
 # dotpose_program(NAME [LIGHT] [SOURCES file...] [EXCEPT file...] [LIBRARIES part...] [USES target...]
-# [HEADERS_OF target]): one program from the sources named, or from all of the directory but some. LIGHT: see
-# dotpose_compile_light. LIBRARIES: see dotpose_use_internals. HEADERS_OF: see dotpose_share_headers.
+# [HEADERS_OF target]): defines a program from the given sources, or from all sources of the directory except
+# those in EXCEPT. LIGHT: see dotpose_compile_light. LIBRARIES: see dotpose_use_internals. HEADERS_OF: see
+# dotpose_share_headers.
 function(dotpose_program name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT" "HEADERS_OF" "SOURCES;EXCEPT;LIBRARIES;USES")
     dotpose_sources(sources)
@@ -111,9 +115,10 @@ function(dotpose_program name)
     endif()
 endfunction()
 
-# dotpose_objects(NAME [SOURCES file...] [EXCEPT file...] [USES target...] [HEADERS_OF target]): sources
-# that several programs share, compiled once and light. A program names all such targets it needs, also
-# those that another one of them uses. HEADERS_OF: see dotpose_share_headers.
+# dotpose_objects(NAME [SOURCES file...] [EXCEPT file...] [USES target...] [HEADERS_OF target]): defines
+# an object library of sources that several programs share, compiled once with dotpose_compile_light. A
+# program lists all object libraries that it needs, including those that another one uses. HEADERS_OF:
+# see dotpose_share_headers.
 function(dotpose_objects name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADERS_OF" "SOURCES;EXCEPT;USES")
     dotpose_sources(sources)
@@ -127,16 +132,17 @@ function(dotpose_objects name)
     endif()
 endfunction()
 
-# dotpose_precompile(TARGET header...): most of the time of most sources goes into headers of libraries,
-# which are read once for a target instead, beside those of the standard library. A source includes what
-# it uses nevertheless: the preset `asan` builds without.
+# dotpose_precompile(TARGET header...): precompiles headers of libraries, which take most of the compile
+# time of most sources, and headers of the standard library. A source must still include what it uses,
+# because the preset `asan` builds without precompiled headers.
 function(dotpose_precompile target)
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <filesystem> <functional>
         <map> <memory> <numbers> <optional> <span> <string> <vector> ${ARGN})
     dotpose_allow_array_bounds(${target})
 endfunction()
 
-# dotpose_share_headers(TARGET OWNER): the headers that were precompiled for OWNER, which has the same options.
+# dotpose_share_headers(TARGET OWNER): uses the headers that were precompiled for OWNER, which must have the
+# same compiler options.
 function(dotpose_share_headers target owner)
     target_precompile_headers(${target} REUSE_FROM ${owner})
     dotpose_allow_array_bounds(${target})
@@ -144,13 +150,13 @@ endfunction()
 
 function(dotpose_allow_array_bounds target)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-        # False alarms in the standard library, which GCC 12 keeps silent only outside of such headers.
+        # GCC 12 suppresses false alarms in the standard library only outside of precompiled headers.
         target_compile_options(${target} PRIVATE -Wno-array-bounds)
     endif()
 endfunction()
 
-# What takes the time of most programs is in the libraries: their own sources are compiled in half
-# the time with less care.
+# dotpose_compile_light(TARGET): compiles with less optimization, in half the time. For programs
+# that spend most of their time in the libraries.
 function(dotpose_compile_light target)
     if(DOTPOSE_SANITIZE)
         target_compile_options(${target} PRIVATE -O0)
@@ -159,8 +165,8 @@ function(dotpose_compile_light target)
     endif()
 endfunction()
 
-# dotpose_use_internals(TARGET [LIBRARY...]): tests, benchmarks and the tool may look inside: they see src/ as
-# well as include/. They link the libraries of the parts named; without any, those of all parts.
+# dotpose_use_internals(TARGET [LIBRARY...]): lets tests, benchmarks and the tool include headers of src/ as
+# well as include/, and links the libraries of the given parts; without arguments, those of all parts.
 function(dotpose_use_internals name)
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/include
                                                ${PROJECT_SOURCE_DIR}/src)
@@ -174,8 +180,8 @@ function(dotpose_use_internals name)
     dotpose_allow_promotion(${name})
 endfunction()
 
-# Promotions to double are harmless outside of the core. GCC sees those that might not be meant; clang
-# sees them all.
+# dotpose_allow_promotion(TARGET): disables the warning about promotions to double, which are harmless
+# outside of the core. GCC warns of unintended ones only, clang of all.
 function(dotpose_allow_promotion target)
     if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
         target_compile_options(${target} PRIVATE -Wno-double-promotion)

@@ -1,5 +1,5 @@
-# A promotion to double would pull soft-double code into a core that must run without an FPU, and a
-# silent narrowing would break a fixed-point bound: both are warnings here, and errors in `dev`.
+# Promotions to double would link soft-float code into a core that must run without an FPU, and
+# silent narrowing would break fixed-point bounds. Both are warnings here, and errors in `dev`.
 add_compile_options(
     -Wall -Wextra -Wpedantic
     -Wconversion -Wdouble-promotion -Wshadow

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// The frame size of the memory: 160 x 120, 188 x 120 or 320 x 240. Change it here, or by options of
-// the compiler.
+// Frame size that the memory is dimensioned for: 160 x 120, 188 x 120 or 320 x 240 px. Change the
+// size here, or define the two macros on the compiler's command line.
 #ifndef DOTPOSE_FRAME_WIDTH_PX
 #define DOTPOSE_FRAME_WIDTH_PX 188
 #define DOTPOSE_FRAME_HEIGHT_PX 120
@@ -21,19 +21,21 @@ inline constexpr int kMaxHeight_px = DOTPOSE_FRAME_HEIGHT_PX;
 struct Frame {
     int width_px = 0;          ///< at most kMaxWidth_px
     int height_px = 0;         ///< number of rows that `next_row` returns
-    std::int64_t time_us = 0;  ///< middle of the exposure, on a clock that never runs backwards
+    std::int64_t time_us = 0;  ///< middle of the exposure, on a monotonic clock
 };
 
-/// Waits until `not_before_us` on that clock (0: no wait), and starts a frame: the camera fills one
-/// of two row buffers by DMA while the program reads the other. The first call also initialises
-/// camera and serial line.
+/// Waits until `not_before_us` on the clock of Frame::time_us (0: no wait), and starts a frame: the
+/// camera fills one of two row buffers by DMA while the program reads the other. The first call
+/// also initialises the camera and the serial line.
 Frame start_frame(std::int64_t not_before_us);
 
-/// Waits for the next row of the frame, from the top, and returns its grey values. They are valid
-/// until the next call, and each row must be read before the camera delivers the next.
+/// Waits for the next row of the frame, from the top, and returns its grey values. The values are
+/// valid until the next call. The caller must read each row before the camera has delivered the
+/// next one.
 const std::uint8_t* next_row();
 
-/// Sends bytes over the serial line or radio. May copy them and return before they are sent.
+/// Sends bytes over the serial line or radio. The implementation may copy the bytes and return
+/// before they are sent.
 void send(const std::uint8_t* bytes, std::size_t count);
 
 }  // namespace board

@@ -1,4 +1,4 @@
-// The program of a device, for any board that fills in board.hpp.
+// Main program of a device, for any board that implements board.hpp.
 #include "pose_sender.hpp"
 
 int main() {

@@ -4,8 +4,8 @@
 
 using namespace dotpose;
 
-/// The tracker needs the accuracy of poses, and poses of devices have no covariance:
-/// docs/firmware.md has the measured errors.
+/// The tracker needs the accuracy of the poses. Fixes of devices have no covariance, so the
+/// measured errors of docs/firmware.md are used.
 TrackOptions PoseSender::device_tracking() {
     TrackOptions options;
     options.min_sigma_mm = 0.0012F;
@@ -13,9 +13,9 @@ TrackOptions PoseSender::device_tracking() {
     return options;
 }
 
-/// Begins a frame with the tracker's prediction. Without a frame buffer, the rows of a frame that
-/// does not confirm the prediction are lost, so the frame after a frame without a pose begins
-/// without a prediction.
+/// Begins a frame with the tracker's prediction. If the frame does not confirm the prediction, its
+/// rows are lost, because there is no frame buffer. The frame after a frame without a pose is
+/// therefore begun without a prediction.
 Status PoseSender::begin(const board::Frame& frame) {
     if (seen_.status != Status::ok) return locator_.begin(frame.width_px, frame.height_px);
     const Prediction expected =
@@ -25,9 +25,9 @@ Status PoseSender::begin(const board::Frame& frame) {
 
 Fix PoseSender::locate(const board::Frame& frame) {
     Status begun = begin(frame);
-    // An unusable prediction, for example after the robot was lifted, loses no frame.
+    // An unusable prediction, for example after the robot was lifted, does not cost a frame.
     if (begun == Status::not_tracked) begun = locator_.begin(frame.width_px, frame.height_px);
-    // All rows are read, also of a refused frame, to stay synchronous with the camera.
+    // All rows are read, also of a refused frame, to stay synchronised with the camera.
     for (int row = 0; row < frame.height_px; ++row) {
         const std::uint8_t* pixels = board::next_row();
         if (begun == Status::ok) locator_.push_row(pixels);

@@ -1,11 +1,11 @@
-/// PoseSender: the work of a device for each frame, on any board. It takes the rows from the
-/// camera, locates the pattern with a prediction, tracks the movement, sends the pose as a packet,
-/// and determines the time of the next frame.
+/// PoseSender processes the frames of a device, on any board. For each frame, it reads the rows
+/// from the camera, locates the pattern using a prediction, updates the tracker, sends the pose as
+/// a packet, and determines the time of the next frame.
 ///
 ///     static PoseSender sender;
 ///     for (;;) sender.send_next();
 ///
-/// No heap: all memory, about 15 KB for frames of 188 x 120 px, is in the object.
+/// Uses no heap: the object contains all memory, about 15 KB for frames of 188 x 120 px.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +37,6 @@ class PoseSender {
     dotpose::FramePacer pacer_;
     dotpose::Fix seen_;           ///< newest fix, if the newest frame has a pose
     dotpose::Sighting sighting_;  ///< sighting of `seen_`
-    std::uint16_t sequence_ = 0;  ///< counts frames
+    std::uint16_t sequence_ = 0;  ///< number of frames so far, modulo 2^16
     std::int64_t next_us_ = 0;    ///< earliest time of the next frame
 };

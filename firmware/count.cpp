@@ -1,12 +1,12 @@
-// A plugin of QEMU that counts the instructions of each frame, by stages of the locator.
+// QEMU plugin that counts the instructions of each frame by stage of the locator.
 //
 //   qemu-... -plugin ./libdotpose_count.so,stages=FILE,out=FILE
 //
-// Instructions between the markers `resume` and `pause` of markers.hpp are counted, without the
-// markers. The file of stages has lines "ADDRESS NAME" with hexadecimal addresses: the instruction
-// at an address begins that stage, which lasts until another one begins. After `resume` the stage
-// is "other" until one begins. The output has a line of stage names, and a line of counts for each
-// marker `end_frame`.
+// The plugin counts the instructions between the markers `resume` and `pause` of markers.hpp,
+// without the markers. The file of stages has lines "ADDRESS NAME" with hexadecimal addresses. The
+// instruction at an address begins the named stage, which lasts until the next stage begins. From
+// `resume` to the first stage, the stage is "other". The output has one line with the names of the
+// stages, and one line of counts for each marker `end_frame`.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -20,8 +20,8 @@
 #include <string>
 #include <string_view>
 
-// Debian has no package with the header for plugins, so the functions and types that are used are
-// declared here, from version 1 of the interface ("QEMU TCG Plugins" in QEMU's documentation).
+// Debian has no package with the plugin header, so the functions and types used are declared here,
+// for version 1 of the interface ("QEMU TCG Plugins" in QEMU's documentation).
 extern "C" {
 
 using qemu_plugin_id_t = std::uint64_t;
@@ -68,8 +68,8 @@ struct Stage {
     std::uint64_t count = 0;  ///< instructions in the current frame
 };
 
-/// The state is global because callbacks of QEMU get only one pointer. The emulated machine has one
-/// processor, so there is one thread.
+/// The state is global because QEMU passes only one pointer to callbacks. The emulated machine has
+/// one processor, so there is one thread.
 struct Counter {
     std::deque<Stage> stages = {{0, "other"}};
     Stage* current = &stages.front();
@@ -131,7 +131,7 @@ const Markers* markers = &kThumbMarkers;
 
 const Marker* marker_at(const qemu_plugin_insn* instruction) {
     const std::size_t size = qemu_plugin_insn_size(instruction);
-    std::uint32_t encoding = 0;  // the bytes are copied: targets and host are little-endian
+    std::uint32_t encoding = 0;  // bytes are copied, because targets and host are little-endian
     std::memcpy(&encoding, qemu_plugin_insn_data(instruction), std::min(size, sizeof encoding));
     const auto found = std::ranges::find_if(
         *markers, [&](const Marker& m) { return m.size == size && m.encoding == encoding; });

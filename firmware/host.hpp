@@ -1,14 +1,14 @@
-/// The functions of the machine that a firmware program needs; each target implements them.
+/// Host functions that a firmware program needs. Each target implements them.
 #pragma once
 
 #include <cstddef>
 
 namespace host {
 
-/// Opens the file to read. Returns false if there is none.
+/// Opens the file for reading. Returns false if it does not exist.
 bool open(const char* path);
 
-/// Reads `size` bytes. Returns false if fewer are left.
+/// Reads `size` bytes. Returns false if the file has fewer bytes left.
 bool read(void* bytes, std::size_t size);
 
 /// Prints to standard output.

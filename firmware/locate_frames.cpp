@@ -9,7 +9,7 @@
 #include "markers.hpp"
 #include "number.hpp"
 
-// The frame size of the memory.
+// Frame size that the memory is dimensioned for.
 #ifndef DOTPOSE_FRAME_WIDTH_PX
 #define DOTPOSE_FRAME_WIDTH_PX 188
 #define DOTPOSE_FRAME_HEIGHT_PX 120
@@ -26,7 +26,7 @@ constexpr int kMaxHeight_px = 9999;
 
 DeviceMemoryFor<DOTPOSE_FRAME_WIDTH_PX, DOTPOSE_FRAME_HEIGHT_PX> memory;
 DeviceLocator locator(memory);
-// Cameras write rows to word boundaries, and aligned rows are copied by words.
+// Cameras write rows to word-aligned memory. Aligned rows are copied by words.
 alignas(4) std::array<std::uint8_t, kMaxWidth_px> row;
 
 struct FrameHeader {
@@ -36,8 +36,8 @@ struct FrameHeader {
     Prediction prediction;
 };
 
-/// Reads the next number of a header and the byte after it. Returns false if there is no number or
-/// it does not fit into 32 bits.
+/// Reads the next number of a header and the byte that follows. Returns false if there is no number
+/// or it does not fit into 32 bits.
 bool read_number(std::int32_t& number) {
     char byte = 0;
     do {
@@ -62,7 +62,7 @@ bool read_into(Int& value) {
     return true;
 }
 
-/// Reads the numbers that follow the letter T.
+/// Reads the numbers of a prediction, which follow the letter T.
 bool read_prediction(Prediction& prediction) {
     Place& place = prediction.place;
     PlaneFromImage& plane = prediction.pattern_from_image;
@@ -98,8 +98,8 @@ Status begin_frame(const FrameHeader& frame) {
                               : locator.begin(frame.width_px, frame.height_px);
 }
 
-/// Reads and locates a frame and prints the result. Returns false if the file ends within the
-/// frame.
+/// Reads and locates a frame and prints the result. Returns false if the file ends before the end
+/// of the frame.
 bool locate_frame(const FrameHeader& frame, Fix& fix) {
     markers::resume();
     const Status status = begin_frame(frame);

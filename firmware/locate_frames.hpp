@@ -1,9 +1,9 @@
 #pragma once
 
 /// Locates the frames in the file at `path`, a sequence of binary PGM images (P5, 8 bits, no
-/// comments). A prediction may precede an image, which is then tracked: a line of the letter T and
-/// the integers of Place (x, y, u, v), PlaneFromImage (centre, at_centre, du, dv) and
-/// displacement_q16, separated by blanks. Prints one line for each frame:
+/// comments). A prediction may precede an image, which is then tracked. A prediction is a line with
+/// the letter T and the integers of Place (x, y, u, v), PlaneFromImage (centre, at_centre, du, dv)
+/// and displacement_q16, separated by blanks. Prints one line for each frame:
 ///
 ///     STATUS CELL_X CELL_Y FRACTION_X FRACTION_Y THETA SECTION_U SECTION_V SPACING SEEN USED
 ///     BIT_ERRORS P_WRONG

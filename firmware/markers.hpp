@@ -1,4 +1,4 @@
-/// Instructions without effect that tell firmware/count.cpp what to count.
+/// Instructions without effect that mark the code whose instructions firmware/count.cpp counts.
 #pragma once
 
 namespace markers {

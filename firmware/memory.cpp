@@ -1,5 +1,6 @@
-// The functions of the C library that compilers call implicitly. No C library is linked: Debian's
-// for MIPS needs an FPU, and the counts of instructions would change with its versions.
+// C library functions that compilers call implicitly. The programs link no C library: Debian's
+// library for MIPS needs an FPU, and instruction counts would change with the version of the
+// library.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -16,7 +17,7 @@ bool are_aligned(const void* a, const void* b) {
 
 extern "C" {
 
-// Cortex-M0+ and MIPS have a faster one each, in memcpy.S.
+// Cortex-M0+ and MIPS override memcpy with a faster one in memcpy.S.
 [[gnu::weak]] void* memcpy(void* __restrict to, const void* __restrict from, std::size_t size) {
     auto* target_word = static_cast<Word*>(to);
     const auto* source_word = static_cast<const Word*>(from);

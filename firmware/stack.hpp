@@ -1,5 +1,5 @@
-/// Measures the stack: it is filled with a pattern at the start, and words that have lost the
-/// pattern were used.
+/// Measures the stack usage. The stack is filled with a pattern at the start. Words that no longer
+/// contain the pattern were used.
 #pragma once
 
 #include <cstddef>
@@ -7,21 +7,21 @@
 
 namespace stack {
 
-/// The lowest word of the stack and the word after its highest, defined by the linker script.
+/// Lowest word of the stack and the word after its highest, defined by the linker script.
 extern "C" std::uint32_t stack_bottom[], stack_top[];
 
 inline constexpr std::uint32_t kPaint = 0x5AFEC0DE;
 
 /// Fills the stack below the caller's frame with the pattern. Call it first.
 [[gnu::always_inline]] inline void paint() {
-    // Some words are left out for this function's own variables.
+    // Words left unpainted for the variables of this function.
     constexpr std::size_t kOwnWords = 16;
     auto* const end = static_cast<std::uint32_t*>(__builtin_frame_address(0)) - kOwnWords;
     for (volatile std::uint32_t* word = stack_bottom; word < end; ++word)
         *word = kPaint;
 }
 
-/// Returns the largest number of bytes that were in use at any time.
+/// Returns the maximum stack usage so far, in bytes.
 inline std::size_t high_water_bytes() {
     const volatile std::uint32_t* word = stack_bottom;
     while (word < stack_top && *word == kPaint)
@@ -29,7 +29,7 @@ inline std::size_t high_water_bytes() {
     return static_cast<std::size_t>(stack_top - word) * sizeof *word;
 }
 
-/// Whether the stack may have grown beyond its end, into the variables.
+/// Returns true if the stack may have grown beyond its end, into the variables.
 inline bool has_overflown() {
     return *static_cast<volatile std::uint32_t*>(stack_bottom) != kPaint;
 }

@@ -1,5 +1,5 @@
-/// Frames meant to deceive `locate`, and what may be said about each of them. Every frame depends
-/// on (class, seed, index) alone.
+/// Frames designed to deceive `locate`, and the poses that may be reported for each of them. Every
+/// frame depends only on (class, seed, index).
 #pragma once
 
 #include <array>
@@ -19,22 +19,22 @@ namespace dotpose::test {
 enum class Adversary : std::uint8_t {
     noise,           ///< dark grains of 1 to 4 px
     text,            ///< a page of words
-    halftone,        ///< a printed screen of dots whose size varies
+    halftone,        ///< a printed halftone screen with dots of varying size
     texture,         ///< 1/f noise, also thresholded
-    plain_grid,      ///< dots on the intersections
-    random_symbols,  ///< a perfect grid whose symbols are drawn at random
-    random_offsets,  ///< dots displaced by the right length in any direction
+    plain_grid,      ///< dots on the intersections, without displacement
+    random_symbols,  ///< a perfect grid with random symbols
+    random_offsets,  ///< dots displaced by the correct length in any direction
     scattered_dots,
-    seam,        ///< two sections, the border anywhere in the frame
-    cut,         ///< two places of the pattern, glued together
-    overlay,     ///< two patterns printed on one another
-    mirrored,    ///< the pattern seen from behind
-    replaced,    ///< 30 to 60 % of the symbols drawn at random
+    seam,        ///< two sections with a border anywhere in the frame
+    cut,         ///< two places of the pattern joined at a cut
+    overlay,     ///< two patterns printed on top of each other
+    mirrored,    ///< the mirrored pattern
+    replaced,    ///< 30 to 60 % of the symbols replaced by random ones
     flipped,     ///< 5 to 45 % of the bits flipped
-    half_empty,  ///< printed on one side only
+    half_empty,  ///< a pattern printed on one side of the frame only
     few_lines,   ///< 5 to 8 columns or rows on blank paper
     slip,        ///< one column or row of dots removed or doubled
-    other_code,  ///< printed as anoto, read as published, or the other way round
+    other_code,  ///< printed as anoto and read in another code, or the reverse
 };
 inline constexpr std::array kAdversaries = {Adversary::noise,          Adversary::text,
                                             Adversary::halftone,       Adversary::texture,
@@ -63,16 +63,17 @@ struct Answer {
 struct AdversarialFrame {
     GreyImage image;
     Options options;
-    std::vector<Answer> answers;  ///< none: every fix is wrong; first what the centre shows
+    std::vector<Answer>
+        answers;  ///< empty if every fix is wrong; the first is the place at the centre
     Pattern printed;
 };
 
 enum class Verdict : std::uint8_t {
     refused,
     right,
-    second,  ///< what is printed elsewhere in the frame, as if it reached to the centre
-    twin,    ///< a place that, in the code variant asked for, shows the very symbols around the
-             ///< centre
+    second,  ///< a place printed elsewhere in the frame, extrapolated to the centre
+    twin,    ///< a place that has the same symbols, around the centre, in the code variant of the
+             ///< options
     wrong,
 };
 
@@ -86,9 +87,8 @@ inline bool agrees(const Fix& fix, const Answer& answer) {
            std::abs(theta) < 0.1 && fix.section == answer.section;
 }
 
-/// Whether the code variant that was read shows at the fix what the printed one shows at the
-/// answer, in at least three quarters of the bits around: there is nothing in the frame that speaks
-/// against it.
+/// Returns true if the code of the options at the fix agrees with the printed code at the answer in
+/// at least three quarters of the surrounding bits. Nothing in the frame then contradicts the fix.
 inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
     if (frame.answers.empty() || frame.options.code == frame.printed.code) return false;
     const Answer& answer = frame.answers.front();
@@ -115,15 +115,15 @@ inline Section random_section(Rng& rng) {
             static_cast<std::uint8_t>(rng.below(kSections))};
 }
 
-/// Half of what the frame shows, in cells.
+/// Returns half of the width of the view, in cells.
 inline int reach_cells(const Shot& shot) {
     const double cells =
         shot.camera.width_px * shot.camera.mm_per_px / shot.page.pattern.spacing_mm;
     return static_cast<int>(cells / 2);
 }
 
-/// The pattern up to a border and the same pattern `other` cells on, in another section or not,
-/// beyond it.
+/// The pattern up to a border, and beyond it a place `other` cells away, in the same or another
+/// section.
 struct Joint {
     bool is_vertical;
     std::uint32_t border;
@@ -179,7 +179,7 @@ inline void render_overlay(const Shot& shot, Rng& rng, AdversarialFrame& frame) 
                      {other.pose, other.page.pattern.section}};
 }
 
-/// The pattern with some symbols changed; the shot's pose stays right.
+/// Renders the pattern with some symbols changed. The pose of the shot remains correct.
 inline void render_changed(Adversary adversary, const Shot& shot, Rng& rng,
                            AdversarialFrame& frame) {
     const Pattern pattern = shot.page.pattern;
@@ -197,13 +197,13 @@ inline void render_changed(Adversary adversary, const Shot& shot, Rng& rng,
     frame.answers = {{shot.pose, pattern.section}};
 }
 
-/// Only some lines are printed.
+/// Renders a pattern of which only some lines are printed.
 inline void render_part(Adversary adversary, Shot shot, Rng& rng, AdversarialFrame& frame) {
     constexpr std::uint32_t kFar = 1000;
     const int reach = reach_cells(shot);
     const bool has_few = adversary == Adversary::few_lines;
     std::uint32_t lines = has_few ? 5 + rng.below(4) : kFar;
-    // A few lines are anywhere in view; half the pattern begins near the middle.
+    // A few lines may be anywhere in view. Half of a pattern begins near the middle.
     const int spread = has_few ? reach : reach / 3;
     const auto offset = static_cast<int>(rng.below(static_cast<unsigned>(2 * spread + 1))) - spread;
     const bool is_vertical = rng.below(2) == 0;

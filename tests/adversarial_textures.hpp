@@ -1,4 +1,4 @@
-/// Frames that show no pattern at all, painted pixel by pixel.
+/// Frames without a pattern, painted pixel by pixel.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline std::uint8_t grey(double level) {
     return static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0) + 0.5);
 }
 
-/// An image of the shot's size from level(u, v).
+/// Returns an image of the shot's size, with the pixels level(u, v).
 template <typename Level>
 GreyImage painted(const Shot& shot, Level level) {
     GreyImage image{{}, shot.camera.width_px, shot.camera.height_px};
@@ -45,7 +45,8 @@ inline GreyImage noise(const Shot& shot, Rng& rng) {
     });
 }
 
-/// sin and cos of a + k * i for i from 0: with those of another axis, all that a plane wave needs.
+/// sin and cos of a + k * i for i = 0, 1, ... along one axis. Together with those of the other
+/// axis, they determine a plane wave.
 struct Phases {
     std::vector<double> sin, cos;
 
@@ -57,7 +58,7 @@ struct Phases {
     }
 };
 
-/// A wave over an image: the sine or cosine of a phase that grows by `ku` and `kv` per pixel.
+/// A wave over an image: the sine or cosine of a phase that increases by `ku` and `kv` per pixel.
 class Wave {
   public:
     Wave(const CameraModel& camera, double ku, double kv)
@@ -99,7 +100,7 @@ inline GreyImage halftone(const Shot& shot, Rng& rng) {
     });
 }
 
-/// Noise at the nodes of a lattice, linear in between.
+/// Noise at the nodes of a lattice, with linear interpolation between them.
 class ValueNoise {
   public:
     ValueNoise(std::uint64_t seed, const CameraModel& camera, double nodes_per_px)

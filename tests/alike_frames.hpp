@@ -1,5 +1,5 @@
-/// Frames in which all dots have the same position relative to the pixels, or nearly. Every frame
-/// depends on (dots, seed, index) alone.
+/// Frames in which all dots have the same, or nearly the same, sub-pixel phase. Every frame depends
+/// only on (dots, seed, index).
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@ namespace dotpose::test {
 /// Dots without printing errors, seen straight from above.
 struct AlikeDots {
     int spacing_px = 11;
-    double dot = 1.0 / 6;  ///< diameter, spacings
+    double dot = 1.0 / 6;  ///< diameter, in spacings
     double blur_px = 0.7;
-    double angle_deg = 0;  ///< 0, 45 and 90: all dots fall on the pixels alike
+    double angle_deg = 0;  ///< at 0, 45 and 90 degrees, all dots have the same sub-pixel phase
 };
 
-/// Returns the camera: 188 x 120 px, from 16 px per spacing on 640 x 480.
+/// Returns the camera: 188 x 120 px, or 640 x 480 px from 16 px per spacing on.
 inline CameraModel camera_of(const AlikeDots& dots) {
     CameraModel camera;
     if (dots.spacing_px >= 16) {
@@ -38,7 +38,7 @@ inline Shot shot_of(const AlikeDots& dots, std::uint64_t seed, int index) {
     shot.imperfections = {};
     shot.imperfections.noise_sigma = 3;
     shot.imperfections.blur_sigma_px = dots.blur_px;
-    shot.imperfections.sub_pixels = 8;  // Errors of 0.001 px count here.
+    shot.imperfections.sub_pixels = 8;  // because errors of 0.001 px matter here
     shot.page.pattern.dot_mm = dots.dot * kDefaultSpacing_mm;
     return shot;
 }

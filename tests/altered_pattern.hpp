@@ -1,4 +1,4 @@
-/// The pattern with other symbols than the code's, rendered as the simulator renders it.
+/// Renders the pattern with symbols that differ from the code, in the same way as the simulator.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@ inline Vec2 displacement_of(Symbol symbol) {
     return {static_cast<double>(dx(symbol)), static_cast<double>(dy(symbol))};
 }
 
-/// Random numbers of one cell: the same whenever it is asked for.
+/// Returns the random numbers of a cell. They are the same in every call.
 inline Rng rng_of(std::uint64_t seed, Cell cell) {
     return Rng(seed, (std::uint64_t{cell.x} << 32) | cell.y);
 }
 
-/// The code's symbol with each of its two bits flipped with the given probability.
+/// Returns the symbol of the code, with each of its two bits flipped with the given probability.
 inline Symbol flipped_symbol(const Pattern& pattern, double probability, std::uint64_t seed,
                              Cell cell) {
     Rng rng = rng_of(seed, cell);
@@ -27,7 +27,8 @@ inline Symbol flipped_symbol(const Pattern& pattern, double probability, std::ui
     return make_symbol(x_bit(symbol) ^ flip_x, y_bit(symbol) ^ flip_y);
 }
 
-/// As `render(shot)`, with dots displaced by `displacement_of`, in units of the displacement.
+/// Renders like `render(shot)`, but with dots displaced by `displacement_of`, in units of the
+/// displacement.
 inline GreyImage render_dots(const Shot& shot, const simulate::DisplacementOf& displacement_of) {
     const Imperfections& seen = shot.imperfections;
     const simulate::View view(shot.camera, shot.pose, seen);

@@ -1,5 +1,5 @@
-/// A simulated robot that drives a figure of eight over two sheets, rests, is lifted twice and
-/// crosses printed graphics; what its camera sees, and where it truly is. World frame: mm, y up.
+/// A simulated robot that drives a figure eight over two sheets, rests, is lifted twice, and
+/// crosses printed graphics: the frames of its camera, and its true poses. World frame: mm, y up.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,13 @@
 namespace dotpose::test {
 
 inline constexpr double kDriveFps = 200;
-/// Two pages of A3 side by side: the seam runs through the middle of the eight.
+/// x of the seam between two adjacent A3 pages. The seam is in the middle of the figure eight.
 inline constexpr double kSeam_mm = 420;
 
 struct DriveState {
     double x_mm = 0;
     double y_mm = 0;
-    double yaw_rad = 0;  ///< of the image x axis; the robot drives that way
+    double yaw_rad = 0;  ///< angle of the image x axis, in which the robot drives
     double vx_mm_s = 0;
     double vy_mm_s = 0;
     double turn_rad_s = 0;
@@ -30,18 +30,18 @@ struct DriveState {
     bool has_graphics = false;
 };
 
-/// When what happens, in s. All are whole frames.
+/// Times of the events of the drive, in s. All of them are at whole frames.
 struct DrivePlan {
-    double start = 0.8;  ///< rests before
+    double start = 0.8;  ///< the robot rests before this time
     double lift = 2.0;
-    double put_down = 2.3;  ///< at the other end of the eight
+    double put_down = 2.3;  ///< at the other end of the figure eight
     double graphics = 2.6;
     double graphics_end = 3.0;
     double second_lift = 3.4;
-    double second_put_down = 3.55;  ///< a little aside
-    double stop = 4.5;              ///< slows down before, rests after
+    double second_put_down = 3.55;  ///< displaced a little to the side
+    double stop = 4.5;              ///< the robot slows down before this time, and rests after it
     double end = 5.5;
-    double speed_mm_s = 300;  ///< in the middle of the eight, the highest; 0: it only rests
+    double speed_mm_s = 300;  ///< maximum speed, in the middle of the eight; 0 for a robot at rest
 };
 
 class Drive {
@@ -73,9 +73,9 @@ class Drive {
     }
 
   private:
-    static constexpr double kRamp = 0.4;  ///< s to come to speed, and to rest
+    static constexpr double kRamp = 0.4;  ///< duration of acceleration and deceleration, in s
 
-    /// The integral of a ramp from 0 to 1 that begins at t = 0, smooth at both ends.
+    /// Returns the integral of a ramp from 0 to 1 that begins at t = 0 and is smooth at both ends.
     static double ramp_integral(double t) {
         const double u = std::clamp(t / kRamp, 0.0, 1.0);
         return kRamp * (u * u * u - u * u * u * u / 2) + std::max(t - kRamp, 0.0);
@@ -84,7 +84,7 @@ class Drive {
         const double u = std::clamp(t / kRamp, 0.0, 1.0);
         return u * u * (3 - 2 * u);
     }
-    /// rad/s
+    /// Returns the phase rate of the figure eight at full speed, in rad/s.
     double full_rate() const { return plan_.speed_mm_s / std::hypot(300, 200); }
     double phase(double t) const {
         const double driven =
@@ -98,7 +98,7 @@ class Drive {
     DrivePlan plan_;
 };
 
-/// The two sheets, where they lie in the world.
+/// Returns the two sheets with their world poses.
 inline std::vector<SheetEntry> drive_sheets() {
     std::vector<SheetEntry> sheets;
     for (int i = 0; i < 2; ++i) {
@@ -115,7 +115,7 @@ inline std::vector<SheetEntry> drive_sheets() {
     return sheets;
 }
 
-/// Writes them as a sheet file.
+/// Writes the two sheets to a sheet file.
 inline void save_drive_sheets(const std::filesystem::path& path) {
     SheetFile sheets(path);
     for (const SheetEntry& entry : drive_sheets())
@@ -132,7 +132,7 @@ class DriveCamera {
         camera_.height_px = height_px;
     }
 
-    /// Of preset nominal.
+    /// Returns the imperfections of the preset nominal.
     static Imperfections nominal() {
         Rng rng(2024);
         return draw_imperfections(Preset::nominal, rng);
@@ -148,7 +148,7 @@ class DriveCamera {
         if (std::abs(state.x_mm - kSeam_mm) > reach_mm) {
             return view_of(state.x_mm < kSeam_mm ? 0 : 1, state, seed);
         }
-        // Across the seam each pixel shows the sheet that it looks at.
+        // Near the seam, each pixel shows the sheet on its side of the seam.
         GreyImage image = view_of(0, state, seed);
         const GreyImage right = view_of(1, state, seed);
         const Projection projection(camera_, pose_on(0, state));
@@ -164,7 +164,7 @@ class DriveCamera {
     }
 
   private:
-    /// The pose on a sheet, whose x axis is the world's.
+    /// Returns the pose on a sheet. Its x axis is parallel to the x axis of the world.
     CameraPose pose_on(std::size_t sheet_index, const DriveState& state) const {
         const Sheet& sheet = sheets_[sheet_index].sheet;
         const double x_sheet_mm = state.x_mm - kSeam_mm * static_cast<double>(sheet_index);
@@ -184,7 +184,7 @@ class DriveCamera {
     GreyImage view_of(std::size_t sheet_index, const DriveState& state, std::uint64_t seed) const {
         constexpr double kExposure_s = 5e-5;
         Imperfections imperfections = base_;
-        // The robot drives along the image's x axis, so the scene moves the other way.
+        // The robot drives along the image's x axis, so the scene moves in the opposite direction.
         const double speed_mm_s = std::hypot(state.vx_mm_s, state.vy_mm_s);
         imperfections.motion_px = {-speed_mm_s * kExposure_s / camera_.mm_per_px, 0};
         imperfections.graphics = state.has_graphics ? 2 : 0;
@@ -192,7 +192,7 @@ class DriveCamera {
                       imperfections, seed);
     }
 
-    /// What a lifted robot sees: nothing in focus.
+    /// Returns the image of a lifted robot, in which nothing is in focus.
     GreyImage empty(std::uint64_t seed) const {
         GreyImage image{{}, camera_.width_px, camera_.height_px};
         Rng rng(seed);

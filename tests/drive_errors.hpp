@@ -1,4 +1,4 @@
-/// What was read on a simulated drive against where the robot was.
+/// Errors of the readings on a simulated drive, relative to the true poses.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct DrivePose {
     double yaw_rad = 0;
 };
 
-/// What one frame told.
+/// The reading of one frame.
 struct DriveReading {
     bool has_fix = false;
     DrivePose raw;
@@ -28,8 +28,8 @@ struct DriveReading {
     double turn_rad_s = 0;
 };
 
-/// Position (per axis), heading and velocities, from the third frame after a `fix` on: a filter
-/// that has just begun knows no velocity.
+/// Errors of position (per axis), heading and velocities. Velocities count from the third frame
+/// after the event `fix`, because a filter that has just started has no velocity.
 class DriveErrors {
   public:
     void add(const DriveState& truth, const DriveReading& reading) {
@@ -56,7 +56,7 @@ class DriveErrors {
 
     int fixes() const { return fixes_; }
     int wrong() const { return wrong_; }
-    /// Root mean squares.
+    /// Root mean square errors.
     double raw_um() const { return 1000 * root_mean(raw_mm2_); }
     double filtered_um() const { return 1000 * root_mean(filtered_mm2_); }
     double raw_deg() const { return degrees(root_mean(raw_rad2_)); }
@@ -74,7 +74,7 @@ class DriveErrors {
     static double degrees(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }
     double root_mean(double sum) const { return std::sqrt(sum / settled_); }
 
-    int settling_ = 0;  ///< frames since the last `fix`
+    int settling_ = 0;  ///< number of frames since the last event `fix`
     int fixes_ = 0;
     int wrong_ = 0;
     int settled_ = 0;

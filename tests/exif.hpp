@@ -1,4 +1,4 @@
-/// EXIF data as cameras and scanners write them.
+/// EXIF data as written by cameras and scanners.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace dotpose::test {
 
-/// Tags of the directory that the first one refers to.
+/// Tags of the EXIF directory, to which the first directory refers.
 enum ExifTag : std::uint16_t {
     exposure_time = 33434,
     f_number = 33437,
@@ -17,7 +17,8 @@ enum ExifTag : std::uint16_t {
     file_source = 41728,
 };
 
-/// A TIFF structure whose first directory has a maker and refers to another one with these tags.
+/// Returns a TIFF structure whose first directory contains a maker, and refers to another directory
+/// with these tags.
 inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endian) {
     std::string bytes = big_endian ? "MM" : "II";
     const auto add = [&](std::uint32_t value, int size) {
@@ -47,8 +48,8 @@ inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endi
     return bytes;
 }
 
-/// A JPEG with EXIF data in a segment before `position`, 2: right at the beginning, as in files of
-/// phones; 20: after the density.
+/// Returns a JPEG with EXIF data in a segment before `position`. Position 2 is the beginning of the
+/// file, as in files of phones. Position 20 is after the density.
 inline std::string with_exif(std::string jpeg, const std::string& exif, std::size_t position = 20) {
     const std::size_t length = 2 + 6 + exif.size();
     std::string segment = "\xFF\xE1";

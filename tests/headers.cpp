@@ -1,1 +1,1 @@
-// Stands for the headers that all tests read.
+// Source for which the headers shared by all tests are precompiled.

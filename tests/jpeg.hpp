@@ -1,7 +1,7 @@
-/// JPEG files as scanners write them.
+/// JPEG files as written by scanners.
 #pragma once
 
-#include <cstdio>  // jpeglib.h needs it before
+#include <cstdio>  // required before jpeglib.h
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace dotpose::test {
 
-/// A grey JPEG, baseline or progressive. `dpi` 0: without a density.
+/// Returns a grey JPEG, baseline or progressive. If `dpi` is 0, the file has no density.
 inline std::string jpeg_of(const GreyImage& image, int quality, int dpi = 0,
                            bool is_progressive = false) {
     jpeg_compress_struct jpeg{};

@@ -1,5 +1,5 @@
-/// Checks JSON against a JSON Schema (draft 2020-12), with the keywords that docs/schema uses. A
-/// schema with another keyword throws: nothing in it is left unchecked.
+/// Checks JSON against a JSON Schema (draft 2020-12), with the keywords used in docs/schema. A
+/// schema with any other keyword throws an exception, so that no part of it remains unchecked.
 #pragma once
 
 #include <algorithm>
@@ -68,7 +68,7 @@ class JsonSchema {
     }
 
     const Json& target_of(const std::string& reference) const {
-        return root_.at(Json::json_pointer(reference.substr(1)));  // without its #
+        return root_.at(Json::json_pointer(reference.substr(1)));  // without the leading #
     }
 
     Verdict check_one_of(const Json& schemas, const Json& value, const std::string& path) const {
@@ -98,7 +98,7 @@ class JsonSchema {
         if (keyword == "type") return has_type(rule, value);
         if (keyword == "const") return value == rule;
         if (keyword == "enum") return std::ranges::find(rule, value) != rule.end();
-        // The other keywords say nothing of values of another type.
+        // Other keywords do not apply to values of another type.
         const bool is_bound =
             keyword == "minimum" || keyword == "maximum" || keyword == "exclusiveMinimum";
         if (is_bound && !value.is_number()) return true;

@@ -1,5 +1,5 @@
-/// The conditions of docs/limits.md: nominal frames of which one thing is as bad as it may get.
-/// Every frame depends on (condition, seed, index) alone.
+/// The conditions of docs/limits.md: nominal frames with one property at its worst permitted value.
+/// Every frame depends only on (condition, seed, index).
 #pragma once
 
 #include <algorithm>
@@ -19,9 +19,9 @@ struct Limit {
     std::string condition;
     std::function<void(Shot&)> worsen;
     CameraModel camera = {};
-    /// Whether all, or as good as all, frames are located: limits_test.cpp relies on it.
+    /// True if (almost) all frames are located. limits_test.cpp requires this.
     bool is_held = true;
-    FixedLens lens = {};  ///< known to `locate`
+    FixedLens lens = {};  ///< lens that `locate` is given
     bool is_white_on_black = false;
 };
 
@@ -35,29 +35,29 @@ inline CameraModel camera_of(int width_px, int height_px, double spacing_px) {
     return camera;
 }
 
-/// A direction in the image that is another for each frame.
+/// Returns a direction in the image that differs from frame to frame.
 inline Vec2 direction_of(const Shot& shot) {
     const double angle_rad = Rng(shot.seed, 1).uniform(-std::numbers::pi, std::numbers::pi);
     return {std::cos(angle_rad), std::sin(angle_rad)};
 }
 
-/// Share of the frame's area under dirt and graphics.
+/// Returns the fraction of the frame that is covered by dirt and graphics.
 inline double covered_share(Shot shot) {
     constexpr double kPaper = 255;
-    // Half of the way down to the lightest dirt.
+    // Half-way from the paper to the lightest dirt.
     constexpr double kDark = 0.8 * kPaper;
     const Imperfections worse = shot.imperfections;
     shot.imperfections = {};
     shot.imperfections.paper_level = kPaper;
     shot.imperfections.dirt_blobs = worse.dirt_blobs;
     shot.imperfections.graphics = worse.graphics;
-    shot.page.columns = shot.page.rows = 1;  // one dot, far away
+    shot.page.columns = shot.page.rows = 1;  // a single dot, far outside of the view
     const GreyImage image = render(shot);
     const auto dark = std::ranges::count_if(image.pixels, [](int grey) { return grey < kDark; });
     return static_cast<double>(dark) / static_cast<double>(image.pixels.size());
 }
 
-/// Adds dirt or graphics, `step` at a time, until they cover a share of the area in [from, to).
+/// Adds dirt or graphics in steps of `step` until they cover a fraction of the frame in [from, to).
 inline void cover(Shot& shot, int Imperfections::*count, int step, double from, double to) {
     for (std::uint64_t trial = 0;; ++trial) {
         shot.seed = Rng(shot.seed, trial).bits();
@@ -79,7 +79,7 @@ inline void add_light(std::vector<Limit>& limits) {
                               constexpr double kLeft = 0.3;
                               Imperfections& worse = shot.imperfections;
                               worse.fall = 2 * (1 - kLeft) / (1 + kLeft);
-                              worse.paper_level /= 1 + worse.fall / 2;  // now of the light side
+                              worse.paper_level /= 1 + worse.fall / 2;  // level of the lighter side
                               worse.vignetting = vignetting;
                           }});
     }
@@ -233,7 +233,7 @@ inline void add_sizes(std::vector<Limit>& limits) {
     }
 }
 
-/// The pattern covers a part of the view.
+/// Adds conditions in which the pattern covers a part of the view.
 inline void add_partial(std::vector<Limit>& limits) {
     for (const int spacing_px : {11, 14, 20}) {
         const std::string seen = ", 640 x 480 at " + std::to_string(spacing_px) + " px";
@@ -247,18 +247,18 @@ inline void add_partial(std::vector<Limit>& limits) {
         PartialView islands;
         islands.islands = 3;
         part("dots on 15 to 45 % of the area, the rest paper", {});
-        // At 20 px, strips of seven rows leave doubts.
+        // At 20 px, some strips of seven rows are not certain enough.
         limits.back().is_held = spacing_px < 20;
         part("the same, the rest a dark table", on_table);
         part("three islands of 60 dots and more", islands);
     }
 }
 
-/// What a camera sees of a sheet whose dots are as light as the paper of `shot`, and whose paper is
-/// as dark as its ink.
+/// Returns the image of a sheet with inverted contrast: its dots are as light as the paper of
+/// `shot`, and its paper is as dark as the ink.
 inline GreyImage white_on_black(const Shot& shot) {
     Shot blank = shot;
-    blank.page.columns = blank.page.rows = 1;  // one dot, far away
+    blank.page.columns = blank.page.rows = 1;  // a single dot, far outside of the view
     Imperfections& perfect = blank.imperfections;
     perfect.noise_sigma = perfect.salt_and_pepper = 0;
     perfect.dirt_blobs = perfect.graphics = 0;
@@ -274,7 +274,7 @@ inline GreyImage white_on_black(const Shot& shot) {
 
 }  // namespace detail
 
-/// All conditions, in the order of the table.
+/// Returns all conditions in the order of the table.
 inline std::vector<Limit> all_limits() {
     std::vector<Limit> limits{{"nominal", [](Shot&) {}}};
     detail::add_light(limits);
@@ -295,7 +295,7 @@ inline Shot shot_at(const Limit& limit, std::uint64_t seed, std::uint64_t index)
     return shot;
 }
 
-/// What `locate` is given: black on white.
+/// Returns the image passed to `locate`, with black dots on white.
 inline GreyImage picture_of(const Limit& limit, const Shot& shot) {
     if (!limit.is_white_on_black) return render(shot);
     GreyImage image = detail::white_on_black(shot);

@@ -1,5 +1,5 @@
-/// Where the files are that tests use. In a source of its own, so that objects of tests do not
-/// depend on where the checkout is.
+/// Paths of the files that tests use. Defined in a separate source, so that the objects of tests do
+/// not depend on the location of the checkout.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace dotpose::test {
 /// Returns the path of the checkout.
 std::string source_dir();
 
-/// Returns the path of a built program or of a library that tests load.
+/// Returns the path of a built program, or of a library that tests load.
 std::string built(const std::string& name);
 
 /// Returns the path of the built tool `dotpose`.

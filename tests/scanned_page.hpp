@@ -1,5 +1,5 @@
-/// A printer and a flatbed scanner, made independently of src/simulate: discs at true places on a
-/// page, anti-aliased, blurred, with noise.
+/// Simulates a printer and a flatbed scanner, independently of src/simulate: discs at their true
+/// places on a page, anti-aliased, blurred, with noise.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,22 @@ namespace dotpose::test {
 
 struct ScanSettings {
     double dpi = 600;
-    double scale_x = 1;  ///< of the print
+    double scale_x = 1;  ///< scale of the print
     double scale_y = 1;
-    double rotation_rad = 0;   ///< of the page in the scan, clockwise as seen
-    double skew_rad = 0;       ///< the page's y axis turned away from its x axis
-    double dot_growth = 1;     ///< of the dots' diameters
-    double missing = 0;        ///< share of the dots
-    double jitter_mm = 0.004;  ///< of each dot, per axis
-    double wave_mm = 0;        ///< the carriage runs unevenly: sine along y, over 100 mm
+    double rotation_rad = 0;   ///< rotation of the page in the scan, clockwise as seen
+    double skew_rad = 0;       ///< rotation of the page's y axis away from its x axis
+    double dot_growth = 1;     ///< factor on the diameters of the dots
+    double missing = 0;        ///< fraction of missing dots
+    double jitter_mm = 0.004;  ///< standard deviation of each dot's place, per axis
+    double wave_mm = 0;  ///< amplitude of uneven paper feed: a sine along y with a period of 100 mm
     double blur_sigma_px = 0.6;
     double noise_sigma = 2;
     double paper_level = 230;
-    double ink_level = 34.5;  ///< 15 % of the paper
+    double ink_level = 34.5;  ///< 15 % of the level of the paper
     std::uint32_t seed = 1;
 };
 
-/// A scan of a page that shows these sheets, all of one page size.
+/// Returns a scan of a page that contains the given sheets, which have the same page size.
 GreyImage scan_page(std::span<const Sheet> sheets, const ScanSettings& settings);
 
 inline GreyImage scan_page(const Sheet& sheet, const ScanSettings& settings) {

@@ -1,6 +1,7 @@
-/// Frames of two sheets that are butted at a straight seam, by a renderer of their own: it shares
-/// no code with the simulator, whose errors it therefore cannot repeat. Each dot is a disc that is
-/// sampled within each pixel and cut off at the seam, then blurred, lit and given noise.
+/// Frames of two adjacent sheets with a straight seam, by an independent renderer. It shares no
+/// code with the simulator and therefore cannot repeat the simulator's errors. Each dot is a disc
+/// that is sampled within each pixel and cut off at the seam. The image is then blurred, lit and
+/// given noise.
 #pragma once
 
 #include <algorithm>
@@ -23,24 +24,24 @@ struct SeamShot {
     int width_px = 188;
     int height_px = 120;
     double spacing_px = 11;
-    Cell cell;  ///< under the image centre, together with the fraction
+    Cell cell;  ///< cell at the image centre; the position also includes the fraction
     Section section;
     double fraction_x = 0;
     double fraction_y = 0;
     double theta_rad = 0;
 
     double seam_px = 0;        ///< distance from the image centre to the seam
-    double direction_rad = 0;  ///< direction of the seam from there, in the image
-    double along_px = 0;       ///< place on the seam about which the far side is turned
-    double turn_rad = 0;       ///< turn of the far side
+    double direction_rad = 0;  ///< direction of the seam from the image centre, in the image
+    double along_px = 0;       ///< position on the seam about which the far side is rotated
+    double turn_rad = 0;       ///< rotation of the far side
     double shift_x_px = 0;     ///< shift of the far side
     double shift_y_px = 0;
 
     double paper_level = 190;
-    double fall = 0.1;  ///< loss of light from the left to the right side, relative
+    double fall = 0.1;  ///< relative loss of light from the left to the right side
     double blur_px = 0.6;
     double noise = 3;
-    double jitter_grid = 0.02;  ///< deviation of a printed dot from its place, per axis
+    double jitter_grid = 0.02;  ///< standard deviation of a printed dot's place, per axis
     std::uint64_t seed = 1;
 
     Truth truth() const {
@@ -53,7 +54,7 @@ struct SeamShot {
     }
 };
 
-/// Ink coverage of an image with a border, blurred as by a lens.
+/// Ink coverage of an image with a border, with the blur of a lens.
 class InkMap {
   public:
     InkMap(int width_px, int height_px)
@@ -61,7 +62,7 @@ class InkMap {
           rows_(static_cast<std::size_t>(height_px) + 2 * kBorder),
           ink_(columns_ * rows_) {}
 
-    /// Adds what `is_ink(x, y)` is true for near a place, in px.
+    /// Adds the area around a place, in px, for which `is_ink(x, y)` is true.
     template <typename IsInk>
     void add(double x, double y, double radius, IsInk is_ink) {
         constexpr int kSamples = 6;
@@ -122,7 +123,7 @@ class InkMap {
     std::vector<double> ink_;
 };
 
-/// Adds the dots of one side of the seam, +1 the near side, -1 the far one.
+/// Adds the dots of one side of the seam: +1 for the near side, -1 for the far side.
 inline void add_side(const SeamShot& shot, int side, InkMap& map, Rng& rng) {
     const double nx = std::cos(shot.direction_rad);
     const double ny = std::sin(shot.direction_rad);
@@ -183,9 +184,9 @@ inline GreyImage render(const SeamShot& shot) {
     return image;
 }
 
-/// Draws a view with a seam at most `max_distance_px` from the image centre: in any direction, the
-/// far side shifted by up to half a spacing and turned by up to one degree about any point of the
-/// seam in view.
+/// Draws a view with a seam at most `max_distance_px` from the image centre, in any direction. The
+/// far side is shifted by up to half a spacing, and rotated by up to one degree about any point of
+/// the seam in view.
 inline SeamShot draw_seam_shot(int width_px, int height_px, double max_distance_px,
                                std::uint64_t seed, std::uint64_t index) {
     Rng rng(seed, index);

@@ -1,4 +1,4 @@
-/// Shell commands, and what they say.
+/// Runs shell commands and captures their output.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 namespace dotpose::test {
 
 struct ShellOutcome {
-    int exit_code = -1;  ///< -1: ended by a signal
+    int exit_code = -1;  ///< -1 if the command was ended by a signal
     std::string output;  ///< standard output
 };
 

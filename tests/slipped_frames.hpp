@@ -1,6 +1,7 @@
-/// Frames of sheets that are not one plane: one half slipped against the other, in a printer that
-/// fed the paper badly or where two sheets are butted, and wrinkled paper. The shot's pose stays
-/// the truth: that of the part of the paper under the image centre.
+/// Frames of sheets that are not one plane: sheets of which one half is displaced relative to the
+/// other, as by a printer with a bad paper feed or at the seam of two sheets, and wrinkled paper.
+/// The true pose remains the pose of the shot, which is that of the part of the paper at the image
+/// centre.
 #pragma once
 
 #include <array>
@@ -13,15 +14,15 @@
 
 namespace dotpose::test {
 
-/// Beyond a line the dots are displaced and turned against the others.
+/// A line beyond which the dots are displaced and rotated.
 struct Slip {
-    double distance_grid = 0;  ///< of the line from the pose point
-    double direction_rad = 0;  ///< in which the line lies, from +x towards +y
-    Vec2 shift_grid;           ///< where the line is nearest to the pose point
+    double distance_grid = 0;  ///< distance of the line from the pose point
+    double direction_rad = 0;  ///< direction of the normal of the line, from +x towards +y
+    Vec2 shift_grid;           ///< displacement where the line is closest to the pose point
     double turn_rad = 0;
 };
 
-/// Half the length of the view along a direction of the pattern, in grid units.
+/// Returns half of the length of the view along a direction of the pattern, in spacings.
 inline double half_extent_grid(const Shot& shot, double direction_rad) {
     const double from_u_axis = direction_rad - shot.pose.theta_rad;
     return (std::abs(std::cos(from_u_axis)) * shot.camera.width_px +
@@ -29,8 +30,8 @@ inline double half_extent_grid(const Shot& shot, double direction_rad) {
            shot.camera.mm_per_px / (2 * shot.page.pattern.spacing_mm);
 }
 
-/// The line anywhere in view, in any direction; displaced by 0.05 to 0.5 spacings in any direction,
-/// turned by up to one degree.
+/// Draws a slip. Its line is anywhere in view, in any direction. The displacement is 0.05 to 0.5
+/// spacings in any direction, and the rotation up to one degree.
 inline Slip draw_slip(const Shot& shot) {
     Rng rng(shot.seed, 3);
     Slip slip;
@@ -58,8 +59,8 @@ inline void apply(const Slip& slip, Shot& shot) {
     };
 }
 
-/// Paper that is bent to and fro: waves of 16 to 60 spacings in any direction, which shift dots by
-/// up to `amplitude_grid` each.
+/// Adds waves to the paper, with wavelengths of 16 to 60 spacings in any direction, which displace
+/// dots by up to `amplitude_grid` each.
 inline void wrinkle(double amplitude_grid, Shot& shot) {
     struct Wave {
         Vec2 per_grid;  ///< radians
@@ -79,10 +80,11 @@ inline void wrinkle(double amplitude_grid, Shot& shot) {
                 rng.uniform(0, 2 * std::numbers::pi),
                 {amplitude_mm * std::cos(moves_rad), amplitude_mm * std::sin(moves_rad)}};
     }
-    // At the pose point the paper is not shifted, nor is the image x axis turned against it.
+    // At the pose point, the paper is not displaced, and the image x axis is not rotated relative
+    // to the paper.
     const Vec2 axis{std::cos(shot.pose.theta_rad), std::sin(shot.pose.theta_rad)};
     Vec2 shift_there_mm;
-    double turn_mm = 0;  // per grid unit
+    double turn_mm = 0;  // per spacing
     for (const Wave& wave : waves) {
         const double s = std::sin(wave.phase_rad);
         shift_there_mm.x += s * wave.amplitude_mm.x;

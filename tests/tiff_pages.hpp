@@ -1,4 +1,4 @@
-/// A TIFF file with several pages, as scanners with a document feeder write it.
+/// A TIFF file with several pages, as written by scanners with a document feeder.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace dotpose::test {
 
-/// Returns the file, little-endian and uncompressed. `dpi` is a whole number.
+/// Returns the file, little-endian and uncompressed. `dpi` is an integer.
 inline std::string tiff_of_pages(const std::vector<GreyImage>& pages, std::uint32_t dpi) {
     std::string file = "II*";
     const auto put = [&file](std::uint32_t value, int bytes) {

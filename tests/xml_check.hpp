@@ -1,5 +1,5 @@
-/// A small check that a text is well-formed XML, as far as the drawings use it: one root, tags that
-/// match, quoted attributes without repetition, the five named entities, UTF-8 left to the reader.
+/// A minimal check for well-formed XML, for the subset that the drawings use: one root, matching
+/// tags, quoted attributes without repetition, and the five named entities. UTF-8 is not checked.
 #pragma once
 
 #include <cctype>
@@ -14,7 +14,7 @@ class XmlCheck {
   public:
     explicit XmlCheck(std::string_view text) : rest_(text) { check(); }
 
-    /// Empty if the text is well-formed.
+    /// Returns the fault, or an empty string if the text is well-formed.
     const std::string& problem() const { return problem_; }
 
   private:

@@ -49,7 +49,7 @@ function offline() {
 }
 
 export default defineConfig({
-    // Relative addresses work in any folder of a server.
+    // Relative addresses make the page work in any folder of a server.
     base: "./",
     build: { target: "es2022", assetsInlineLimit: 0 },
     worker: { format: "es" },

@@ -50,7 +50,7 @@ int run(OpticsArguments& arguments) {
         "field         {:.2f} x {:.2f} mm, diagonal {:.2f} mm ({:.0f} degrees), {:.0f} dots\n",
         r.field_width_mm, r.field_height_mm, r.field_diagonal_mm, r.field_angle_rad * kDegrees,
         r.dots_in_view);
-    fmt::print("scale         {:.4f} mm per px, {:.1f} px from dot to dot, {:.1f} px per dot\n",
+    fmt::print("scale         {:.4f} mm per px, spacing {:.1f} px, dot diameter {:.1f} px\n",
                r.mm_per_px, r.px_per_spacing, r.px_per_dot);
     fmt::print("8 x 8 dots    {:.2f} mm along the diagonal: {}\n", r.block_diagonal_mm,
                r.block_fits_anywhere ? "fit at any angle and place"

@@ -290,12 +290,12 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
             facts.bits_per_px);
     }
     if (is_out_of_focus(image)) {
-        return "the picture is out of focus, shaken, or too coarse (under 6 px from dot to dot, as "
-               "of a page on a screen): focus, change the distance, hold still, or enlarge the "
+        return "the picture is out of focus, shaken, or too coarse (a spacing under 6 px, as of a "
+               "page on a screen): focus, change the distance, hold still, or enlarge the "
                "page";
     }
     if (facts.status != Status::no_grid) return {};
-    return "the sheet may be out of focus, too far away (under 6 px from dot to dot) or strongly "
+    return "the sheet may be out of focus, too far away (a spacing under 6 px) or strongly "
            "tilted: focus, come closer, and look straight down";
 }
 

@@ -52,7 +52,7 @@ constexpr NumberOption kNumberOptions[] = {
     {"--ink", "FRACTION", "Reflectance of ink, relative to paper", &Imperfections::ink_reflectance},
     {"--palest-ink", "FRACTION", "Contrast of the palest of four inks, one for each direction",
      &Imperfections::palest_ink},
-    {"--ink-variation", "FRACTION", "Standard deviation of the ink from dot to dot",
+    {"--ink-variation", "FRACTION", "Standard deviation of the ink between dots",
      &Imperfections::ink_variation},
     {"--vignetting", "FRACTION", "Loss of light in the corners", &Imperfections::vignetting},
     {"--fall", "FRACTION", "Change of light from side to side", &Imperfections::fall},

@@ -1,9 +1,10 @@
-// Only read, neither compiled nor run: the port for a Raspberry Pi Pico (RP2040) with the Pico SDK
+// Reviewed only, neither compiled nor run. Port for a Raspberry Pi Pico (RP2040) with the Pico SDK
 // and an OV7670 camera module without FIFO.
 //
-// A PIO state machine samples the camera's bytes, of which every second one is grey (YUYV), and two
-// DMA channels write them to two rows in turn. Link with pico_stdlib hardware_pio hardware_dma
-// hardware_i2c. The lens must be turned to about 27 mm (docs/hardware.md).
+// A PIO state machine samples the bytes of the camera, every second of which is a grey value
+// (YUYV). Two DMA channels write the grey values to two row buffers in turn. Link with pico_stdlib
+// hardware_pio hardware_dma hardware_i2c. The lens must be turned to about 27 mm
+// (docs/hardware.md).
 //
 //     camera   D0..D7      PCLK  HREF  VSYNC  XCLK  SIOD  SIOC  RESET  PWDN   line   TX
 //     Pico     GP6..GP13   GP14  GP15  GP16   GP21  GP4   GP5   3V3    GND           GP0
@@ -31,12 +32,12 @@ constexpr int kCameraWidth_px = 320;
 constexpr int kCameraHeight_px = 240;
 constexpr int kWidth_px = board::kMaxWidth_px;
 constexpr int kHeight_px = board::kMaxHeight_px;
-constexpr int kLeft = 64;  // a multiple of 4: rows that begin at words are copied by words
+constexpr int kLeft = 64;  // a multiple of 4, because word-aligned rows are copied by words
 constexpr int kTop = (kCameraHeight_px - kHeight_px) / 2;
 
 alignas(4) std::uint8_t rows[2][kCameraWidth_px];
 int channels[2];
-int newest = 0;  // index of the next row
+int newest = 0;  // index of the row buffer that next_row() returns next
 uint machine = 0;
 uint program = 0;
 
@@ -45,13 +46,13 @@ struct Setting {
     std::uint8_t value;
 };
 
-// QVGA as YUYV, 15 frames a second at 12.5 MHz (OV7670 implementation guide, "QVGA"), with a short
-// exposure that the camera does not change.
+// QVGA as YUYV, 15 frames per second at 12.5 MHz (OV7670 implementation guide, "QVGA"), with a
+// short, fixed exposure.
 constexpr Setting kSettings[] = {
     {0x12, 0x10},                                            // COM7: QVGA, YUV
-    {0x0C, 0x04}, {0x3E, 0x19}, {0x70, 0x3A}, {0x71, 0x35},  // scaling by 2, PCLK too
+    {0x0C, 0x04}, {0x3E, 0x19}, {0x70, 0x3A}, {0x71, 0x35},  // scaling by 2, also of PCLK
     {0x72, 0x11}, {0x73, 0xF1}, {0xA2, 0x02}, {0x17, 0x16}, {0x18, 0x04}, {0x32, 0x80},  // window
-    {0x19, 0x02}, {0x1A, 0x7A}, {0x03, 0x0A}, {0x13, 0x84},  // COM8: no automatic exposure; gain is
+    {0x19, 0x02}, {0x1A, 0x7A}, {0x03, 0x0A}, {0x13, 0x84},  // COM8: automatic gain, not exposure
     {0x10, 0x08}, {0x07, 0x00},                              // exposure, in rows times 4
 };
 
@@ -104,7 +105,7 @@ void set_up_pio() {
 void set_up_dma() {
     for (int& channel : channels)
         channel = dma_claim_unused_channel(true);
-    // Shifted to the right, the byte is the highest of the FIFO's word.
+    // The byte is shifted to the right, so it is the most significant byte of the FIFO word.
     const volatile void* source = reinterpret_cast<volatile std::uint8_t*>(&pio0->rxf[machine]) + 3;
     for (int i = 0; i < 2; ++i) {
         const auto channel = static_cast<uint>(channels[i]);
@@ -128,10 +129,11 @@ void set_up() {
     set_up_dma();
 }
 
-/// Stops the rest of the previous frame.
+/// Stops the transfer of the rest of the previous frame.
 void stop() {
     pio_sm_set_enabled(pio0, machine, false);
-    // An aborted channel could start the other one, so both are aborted together, and twice.
+    // An aborted channel could start the other one. Both channels are therefore aborted together,
+    // and twice.
     const std::uint32_t both = 1U << channels[0] | 1U << channels[1];
     for (int i = 0; i < 2; ++i) {
         dma_hw->abort = both;
@@ -157,7 +159,7 @@ Frame start_frame(std::int64_t not_before_us) {
         dma_channel_set_write_addr(static_cast<uint>(channels[i]), rows[i], false);
     if (not_before_us > 0)
         sleep_until(from_us_since_boot(static_cast<std::uint64_t>(not_before_us)));
-    // The frame begins where VSYNC ends.
+    // The frame begins at the falling edge of VSYNC.
     while (!gpio_get(kVsync))
         tight_loop_contents();
     while (gpio_get(kVsync))
@@ -166,7 +168,8 @@ Frame start_frame(std::int64_t not_before_us) {
     pio_sm_set_enabled(pio0, machine, true);
     for (int row = 0; row < kTop; ++row)
         next_row();
-    // Rows are read about when their exposure ends; the middle one is half of those kept away.
+    // A row arrives at about the end of its exposure. The middle row of the frame is therefore half
+    // the height of the frame later.
     constexpr std::int64_t kRow_us = 66'667 / 510;
     return {kWidth_px, kHeight_px,
             static_cast<std::int64_t>(time_us_64()) + kRow_us * kHeight_px / 2};
@@ -175,7 +178,7 @@ Frame start_frame(std::int64_t not_before_us) {
 const std::uint8_t* next_row() {
     const auto channel = static_cast<uint>(channels[newest]);
     dma_channel_wait_for_finish_blocking(channel);
-    // For the next use of this channel, after the other row is full.
+    // Rewinds the channel for its next use, after the other row buffer is full.
     dma_channel_set_write_addr(channel, rows[newest], false);
     const std::uint8_t* row = rows[newest] + kLeft;
     newest = 1 - newest;

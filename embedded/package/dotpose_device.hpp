@@ -1,13 +1,13 @@
-/// All of dotpose that a microcontroller needs, for C++20: locating rows of a frame, following the
-/// movement, packets, pacing. `dotpose.h` is the same for C.
+/// Everything in dotpose that a microcontroller needs, for C++20: locating frames row by row,
+/// tracking, packets and pacing. `dotpose.h` is the equivalent for C.
 ///
 ///     static dotpose::DeviceMemory memory;
 ///     static dotpose::DeviceLocator locator(memory);
 ///
-/// `DeviceMemory` is for frames of 188 x 120 px; there are also DeviceMemoryFor<160, 120> and
-/// DeviceMemoryFor<320, 240>.
+/// `DeviceMemory` is for frames of 188 x 120 px. For other frame sizes, use
+/// DeviceMemoryFor<160, 120> or DeviceMemoryFor<320, 240>.
 ///
-/// Arduino finds this library by this header: include it before any other of dotpose.
+/// Include this header before any other header of dotpose: Arduino finds the library by its name.
 #pragma once
 
 #include "dotpose/frame_pacer.hpp"

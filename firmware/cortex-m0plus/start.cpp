@@ -1,4 +1,5 @@
-// Start-up code of all Cortex-M, which runs the program after a reset and returns to the emulator.
+// Start-up code of all Cortex-M. After a reset, it runs the program, and then returns to the
+// emulator.
 #include <array>
 #include <cstdint>
 
@@ -17,7 +18,7 @@ namespace {
 
 extern "C" [[noreturn]] void reset() {
 #ifdef __ARM_FP
-    // Code for an FPU may use its registers even where it computes with integers only.
+    // Enables the FPU: code compiled for an FPU may use its registers even for integers.
     *reinterpret_cast<volatile std::uint32_t*>(0xE000ED88) |= 0xFU << 20;
     asm volatile("dsb\n isb" ::: "memory");
 #endif

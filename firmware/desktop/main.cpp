@@ -1,5 +1,5 @@
-// Runs the firmware's program on a desktop; devices must print the same lines. It also adds
-// predictions to files of frames, which the devices then track.
+// Runs the firmware program on a desktop; devices must print the same lines. With --predict, adds
+// predictions to a file of frames, for the tracked attempt of the devices.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -42,7 +42,7 @@ class Predictor {
   public:
     explicit Predictor(std::uint64_t seed) : rng_(seed) {}
 
-    /// Writes a prediction that is off by up to half a spacing and 4 degrees.
+    /// Locates `image` and writes a prediction whose error is up to half a spacing and 4 degrees.
     void write(const dotpose::GreyImage& image) {
         using namespace dotpose;
         const Options options;
@@ -71,7 +71,7 @@ class Predictor {
     dotpose::DeviceMemoryFor<DOTPOSE_FRAME_WIDTH_PX, DOTPOSE_FRAME_HEIGHT_PX> memory_;
 };
 
-/// Writes the frames of a file that are located to standard output, each after a prediction.
+/// Writes the located frames of a file to standard output, each preceded by a prediction.
 int predict(const char* path, std::uint64_t seed) {
     if (!host::open(path)) return 1;
     Predictor predictor(seed);

@@ -1,5 +1,5 @@
-// The only function of libgcc that the core calls. Debian's libgcc is compiled as plain MIPS32, to
-// which microMIPS code cannot make its short calls.
+// The only libgcc function that the core calls. Debian's libgcc is compiled as plain MIPS32, and
+// the short calls of microMIPS code cannot reach plain MIPS32 functions.
 #include <algorithm>
 #include <bit>
 #include <cstdint>

@@ -1,4 +1,5 @@
-/// System calls of Linux with the ABI o32, which QEMU's user mode has instead of a board's devices.
+/// Linux system calls with the ABI o32, which QEMU's user mode provides in place of the devices of
+/// a board.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Entry of the program: sets up the stack, and where faults go.
+// Entry point of the program: sets up the stack and the trap vector.
     .option arch, +zicsr
     .section .text.start, "ax", @progbits
     .globl start

@@ -1,5 +1,5 @@
-/// Calls of the debugger or emulator, as defined in Arm's "Semihosting for AArch32 and AArch64",
-/// which the "RISC-V Semihosting" specification takes over.
+/// Semihosting calls of a debugger or emulator, as defined in Arm's "Semihosting for AArch32 and
+/// AArch64" and adopted by the "RISC-V Semihosting" specification.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +15,19 @@ enum class Call : std::uint32_t {
     exit = 0x20,
 };
 
-/// File modes with the meaning of those of fopen. The file ":tt" is the console; if it is opened
-/// for writing, it is standard output, if for appending, standard error.
+/// File modes, with the same meaning as the modes of fopen. The file ":tt" is the console: standard
+/// output if opened for writing, standard error if opened for appending.
 inline constexpr std::uint32_t kRead = 1;
 inline constexpr std::uint32_t kWrite = 4;
 inline constexpr std::uint32_t kAppend = 8;
 
-/// Makes a call. `arguments` is an array of words whose meaning depends on the call.
+/// Makes a semihosting call. `arguments` is an array of words whose meaning depends on the call.
 #ifdef __riscv
 inline std::int32_t call(Call number, const void* arguments) {
     register auto a0 asm("a0") = static_cast<std::int32_t>(number);
     register const void* a1 asm("a1") = arguments;
-    // The instructions around the breakpoint tell that it is a call. All three are in one page.
+    // The instructions around the breakpoint mark it as a semihosting call. The alignment keeps all
+    // three in one page.
     asm volatile(
         ".balign 16\n .option push\n .option norvc\n"
         "slli x0, x0, 0x1f\n ebreak\n srai x0, x0, 7\n .option pop"
@@ -53,14 +54,14 @@ inline std::int32_t open(const char* path, std::size_t length, std::uint32_t mod
     return call(Call::open, arguments);
 }
 
-/// Reads or writes bytes; returns the number of bytes that were not transferred.
+/// Reads or writes bytes. Returns the number of bytes that were not transferred.
 inline std::int32_t transfer(Call number, std::int32_t file, const void* bytes, std::size_t size) {
     const std::uint32_t arguments[] = {static_cast<std::uint32_t>(file), word(bytes), size};
     return call(number, arguments);
 }
 
-/// Copies the arguments of the option `-semihosting-config` to `text`. Returns false if they do not
-/// fit.
+/// Copies the arguments of the option `-semihosting-config` to `text`. Returns false if `text` is
+/// too small.
 inline bool command_line(char* text, std::size_t size) {
     const std::uint32_t arguments[] = {word(text), size};
     return call(Call::command_line, arguments) == 0;

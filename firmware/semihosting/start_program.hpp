@@ -1,4 +1,4 @@
-/// Start of the program, which start-up code calls as soon as there is a stack.
+/// Start of the program. Start-up code calls start_program() after it has set up the stack.
 #pragma once
 
 #include <array>

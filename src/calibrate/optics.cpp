@@ -88,16 +88,16 @@ void advise_on_scale(const Optics& o, OpticsReport& r) {
     };
     if (r.px_per_spacing < kMinSpacing_px) {
         say(true,
-            fmt::format("{:.1f} px from dot to dot are too few: at least {:g} are needed, {:g} are "
-                        "good; go closer ({:.1f} mm), or take more pixels or a longer lens",
-                        r.px_per_spacing, kMinSpacing_px, kGoodSpacing_px,
-                        distance_mm(kGoodSpacing_px)));
+            fmt::format(
+                "a spacing of {:.1f} px is too small: at least {:g} px are needed, {:g} px are "
+                "good; go closer ({:.1f} mm), or take more pixels or a longer lens",
+                r.px_per_spacing, kMinSpacing_px, kGoodSpacing_px, distance_mm(kGoodSpacing_px)));
     } else if (r.px_per_spacing < kGoodSpacing_px) {
-        say(false, fmt::format("{:.1f} px from dot to dot are enough only with sharp, even images; "
-                               "{:g} are good ({:.1f} mm away)",
+        say(false, fmt::format("a spacing of {:.1f} px is enough only with sharp, even images; "
+                               "{:g} px are good ({:.1f} mm away)",
                                r.px_per_spacing, kGoodSpacing_px, distance_mm(kGoodSpacing_px)));
     } else if (r.px_per_spacing > kMaxSpacing_px) {
-        say(true, fmt::format("{:.1f} px from dot to dot are more than {:g}: bin pixels",
+        say(true, fmt::format("a spacing of {:.1f} px is larger than {:g} px: bin pixels",
                               r.px_per_spacing, kMaxSpacing_px));
     }
     if (r.px_per_dot < kMinDot_px) {

@@ -1,5 +1,5 @@
-// Frames meant to deceive: a fix is the true pose, or there is none. `dotpose_tables adversarial`
-// runs as many as one likes.
+// Frames designed to deceive: a fix must be the true pose. `dotpose_tables adversarial` runs any
+// number of them.
 #include <memory>
 #include <string>
 
@@ -28,8 +28,8 @@ TEST_P(AdversarialClass, FramesGiveNoWrongFix) {
     }
 }
 
-// Two patterns in the same direction, about a fifth of the spacing apart: the columns of one and
-// the rows of the other were once taken for a position in each of these.
+// Two patterns with the same orientation, about a fifth of the spacing apart. In each of these
+// frames, the columns of one pattern and the rows of the other were once decoded as a position.
 TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     const auto memory = std::make_unique<LargeMemory>();
     struct Overlay {
@@ -46,8 +46,8 @@ TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     }
 }
 
-// A seam between two sections makes one step of one sequence another one, and elsewhere in that
-// sequence stand just the digits that come of it: each of these was once located there.
+// A seam between two sections changes one step of one sequence. Elsewhere in that sequence, there
+// are exactly the resulting digits. Each of these frames was once located there.
 TEST(Adversarial, WhatASeamExplainsBetterIsNoFix) {
     const auto memory = std::make_unique<LargeMemory>();
     struct Seam {

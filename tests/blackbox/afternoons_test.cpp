@@ -1,4 +1,4 @@
-// The first afternoon of those whom dotpose is for, as one run each: what docs/start.md promises.
+// The first afternoon of typical users, with one test each, as promised in docs/start.md.
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// A phone's photo of a place on the page of a sheet file.
+/// Returns a phone's photo of a place on the page of a sheet file.
 Shot phone_shot(const json& sheet) {
     Setup setup;
     setup.seed = 3;
@@ -39,7 +39,7 @@ class Afternoon : public SheetsCommand {
         ASSERT_EQ(ToolCommand::run(arguments), 0) << arguments << "\n" << errors_;
     }
 
-    /// Frames of a robot that drives along the x axis of the sheet, 1 mm from frame to frame.
+    /// Writes frames of a robot that drives along the x axis of the sheet, 1 mm per frame.
     void drive_over(const json& sheet, int frames) {
         fs::create_directory(directory_ / "drive");
         for (int i = 0; i < frames; ++i) {
@@ -50,7 +50,7 @@ class Afternoon : public SheetsCommand {
     }
 };
 
-// Prints, places the sheet in the room, follows the robot, looks at the run.
+// A roboticist prints a sheet, enters its pose in the room, tracks the robot, and replays the run.
 TEST_F(Afternoon, OfARoboticist) {
     expect_ok("print -o table.pdf --paper 90x60 --sheets sheets.json --name table");
     expect_ok("sheets place table --x 1000 --y 2000 --yaw 90");
@@ -60,7 +60,8 @@ TEST_F(Afternoon, OfARoboticist) {
     ASSERT_EQ(lines.size(), 20U);
     const json last = json::parse(lines.back());
     EXPECT_EQ(last["sheet"], "table");
-    // The page's upper edge points along the world's y; its y runs along the world's x.
+    // The page's upper edge points along the world's y axis, and the page's y axis along the
+    // world's x axis.
     EXPECT_NEAR(last["x_m"], 1.000 + 0.025, 2e-5);
     EXPECT_NEAR(last["y_m"], 2.000 + 0.049, 2e-5);
     EXPECT_NEAR(last["yaw_rad"], std::numbers::pi / 2, 0.005);
@@ -77,7 +78,8 @@ TEST_F(Afternoon, OfARoboticist) {
     expect_ok("watch drive --fps 50 --sheets sheets.json --camera camera.yaml");
 }
 
-// Prints a page, takes a photo with a phone, measures with a ruler, prints the page again.
+// A teacher prints a page, takes a photo with a phone, measures with a ruler, and prints the page
+// again.
 TEST_F(Afternoon, OfATeacherWithAPhone) {
     expect_ok("print -o sheet.pdf --paper A5 --sheets sheets.json --name table");
     const json sheet = sheets().at(0);
@@ -96,7 +98,7 @@ TEST_F(Afternoon, OfATeacherWithAPhone) {
     EXPECT_EQ(read_file(directory_ / "again.pdf"), read_file(directory_ / "sheet.pdf"));
 }
 
-// Asks whether the parts will do, and reads what the device sends.
+// A maker of devices checks the optics, and reads the packets of the device.
 TEST_F(Afternoon, OfAMakerOfDevices) {
     expect_ok("optics --device paper");
     for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,5 @@
-// Dots that all fall on the pixels alike: nothing averages out what a centre depends on that.
+// Frames in which all dots have the same sub-pixel phase, so the error of a centroid that depends
+// on the phase does not average out.
 #include <cstdint>
 #include <memory>
 #include <ostream>
@@ -18,7 +19,7 @@ constexpr int kFramesOfCase = 60;
 
 struct AlikeCase {
     AlikeDots dots;
-    double max_px;  ///< median error
+    double max_median_px;  ///< limit of the median error
 };
 
 void PrintTo(const AlikeCase& of, std::ostream* out) {
@@ -44,12 +45,12 @@ TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Score score = score_of(outcomes);
     EXPECT_EQ(score.wrong, 0);
     EXPECT_GE(score.located, kFramesOfCase * 9 / 10);
-    // Means of so many squares of a normal distribution of deviation 1 lie below this but for one
-    // in 20,000.
+    // The mean of this number of squared standard normal numbers exceeds the limit once in 20,000
+    // times.
     for (const double normalised : score.normalised)
         EXPECT_LT(normalised, 1.85);
     const double px = kDefaultSpacing_mm / GetParam().dots.spacing_px;
-    EXPECT_LT(score.position_um.median / 1000 / px, GetParam().max_px);
+    EXPECT_LT(score.position_um.median / 1000 / px, GetParam().max_median_px);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -61,7 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.7, .angle_deg = 0}, 0.006},
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.7, .angle_deg = 90}, 0.006}));
 
-// Dots with details finer than pixels: 0.0100 px at 12 px per spacing if their bias is left.
+// Dots with details finer than pixels. Without correction of the pixel bias, the error is 0.0100 px
+// at 12 px per spacing.
 INSTANTIATE_TEST_SUITE_P(
     HardlyBlurred, DotsAlike,
     testing::Values(AlikeCase{{.spacing_px = 8, .blur_px = 0.3, .angle_deg = 0}, 0.004},
@@ -69,8 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 0}, 0.0035},
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 90}, 0.0035}));
 
-// Dots hardly darker than noise, of which a threshold leaves a pixel or two: 0.030 px, and more
-// than two variances, if only centres near those pixels are trusted.
+// Pale dots, of which only one or two pixels exceed the threshold. If only centres near these
+// pixels are used, the error is 0.030 px, and the mean square is more than two variances.
 INSTANTIATE_TEST_SUITE_P(
     Pale, DotsAlike,
     testing::Values(AlikeCase{{.spacing_px = 8, .dot = 0.1, .blur_px = 1, .angle_deg = 0}, 0.024},

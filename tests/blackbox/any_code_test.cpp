@@ -1,4 +1,4 @@
-// Sheets of a code that nobody names: `dotpose locate` finds it out, or says what is in question.
+// Sheets whose code is not given: `dotpose locate` detects the code, or reports the alternatives.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -18,14 +18,15 @@ namespace {
 using testing::AnyOf;
 using testing::HasSubstr;
 
-/// Lines of a4 in which the codes anoto and libdots differ have positions modulo 241 of 222 to 238
-/// (docs/position-code.md): those from 222 on stand one place off in the other code.
+/// The sequence a4 of the codes anoto and libdots differs in lines whose positions modulo 241 are
+/// 222 to 238 (docs/position-code.md): lines from 222 on are shifted by one position in the other
+/// code.
 constexpr std::uint32_t kPeriod = 241;
 constexpr std::uint32_t kShifted = 231;
 constexpr std::uint32_t kBorder = 221;
 constexpr std::uint32_t kCommon = 100;
 
-/// A frame of 17 x 10 dots, not turned, with the middle at these remainders.
+/// Returns a frame of 17 x 10 dots without rotation, with its centre at these remainders.
 Shot shot_at(CodeVariant code, std::uint32_t x, std::uint32_t y) {
     Shot shot = test::shot(3);
     shot.page.pattern.code = code;
@@ -90,7 +91,7 @@ TEST_F(AnyCode, two_places_are_told_where_both_explain_the_frame) {
 
 TEST_F(AnyCode, other_frames_of_the_call_decide) {
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::libdots}) {
-        // Two places that tell it, then the one that does not.
+        // Two places that are unique to the code, then a place that is not.
         write_at("1.pgm", code, kCommon, kBorder);
         write_at("2.pgm", code, kBorder + kPeriod, kCommon);
         const Shot truth = write_at("3.pgm", code, kCommon, kShifted);
@@ -119,7 +120,7 @@ TEST_F(AnyCode, given_decides_and_another_that_explains_the_frame_is_a_warning) 
     EXPECT_EQ(wrong["other_code"], "libdots");
     EXPECT_TRUE(is_at(wrong, "other_x_mm", "other_y_mm", truth)) << wrong;
 
-    // Where the code given has nothing, the warning names the one that has.
+    // If there is no place in the given code, the warning names the code that has one.
     run("--code microdots a.pgm");
     const json none = records().at(0);
     EXPECT_NE(none["status"], "ok");

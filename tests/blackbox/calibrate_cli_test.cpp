@@ -1,4 +1,4 @@
-// `dotpose calibrate`, `locate --camera` and `optics` as their user sees them.
+// Black-box tests of `dotpose calibrate`, `locate --camera` and `optics`.
 #include <cmath>
 #include <fstream>
 
@@ -38,7 +38,8 @@ TEST_F(CalibrateCommand, WritesACameraFileThatLocateReads) {
     EXPECT_EQ(json::parse(output_)["wrong"], 0);
 }
 
-// Without a camera file: 5 % of the distance of the corner from the centre, inwards and outwards.
+// Without a camera file, with a distortion in the corner of up to 5 % of its distance from the
+// centre, inwards and outwards.
 TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
     const auto corner_px = [](int width, int height) {
         return std::hypot((width - 1) / 2.0, (height - 1) / 2.0);
@@ -71,7 +72,7 @@ TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
 
 TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
     simulate("turn", 1);
-    // The camera sits on the robot's centre: one place, four directions.
+    // The camera is at the robot's centre, so its frames show one place in four directions.
     std::string turn;
     for (const int angle : {0, 90, 180, 270}) {
         const std::string folder = "turn" + std::to_string(angle);
@@ -101,7 +102,7 @@ TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
         2);
     EXPECT_NEAR(u, 93.5, 0.3);
     EXPECT_NEAR(v, 59.5, 0.3);
-    // Heading 0 (along x), image x axis at -90 degrees.
+    // The heading is 0 (along x), and the image x axis is at -90 degrees.
     double offset_rad = 0;
     ASSERT_EQ(std::sscanf(yaml.c_str() + yaml.find("theta_offset_rad: "), "theta_offset_rad: %lf",
                           &offset_rad),
@@ -116,7 +117,7 @@ constexpr const char* kMountedCamera =
     "centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046], reference_px: [500, 59.5], "
     "theta_offset_rad: 0.25, gain: 3}";
 
-// The frames are of a sheet of 0.508 mm, as the camera file measures it.
+// The simulated sheet has a spacing of 0.508 mm, and the scale in the camera file agrees with it.
 TEST_F(CalibrateCommand, ASpacingThatTheCameraFileContradictsIsReported) {
     simulate("frames", 1);
     std::ofstream(directory_ / "camera.yaml") << kMountedCamera;
@@ -144,7 +145,7 @@ TEST_F(CalibrateCommand, ASpacingThatTheCameraFileContradictsIsReported) {
 }
 
 TEST_F(CalibrateCommand, TakesTheSpacingFromTheSheetFile) {
-    // The first sheet of a file begins at cell 1024,1024.
+    // The first sheet of a sheet file begins at cell 1024,1024.
     ASSERT_EQ(run("print -o fine.svg --spacing 0.3 --sheets sheets.json --name fine"), 0);
     std::string frames;
     for (const int at : {1100, 1130, 1160, 1190, 1220}) {
@@ -186,7 +187,7 @@ TEST_F(CalibrateCommand, KeepsTheMountOfTheFileThatItReplaces) {
     EXPECT_THAT(file("camera.yaml"), HasSubstr("reference_px: ["));
     EXPECT_THAT(file("camera.yaml"), HasSubstr("gain: 3"));
 
-    // And the lens, where only the heading is calibrated.
+    // The lens is also kept if only the heading is calibrated.
     std::ofstream(directory_ / "camera.yaml") << kMountedCamera;
     std::string drive;
     for (const int at : {5000, 5040, 5080}) {
@@ -233,7 +234,7 @@ TEST_F(CalibrateCommand, OpticsGivesThePapersNumbers) {
     ASSERT_EQ(run("optics --device paper"), 0) << errors_;
     for (const char* number : {"5.39 mm", "353 mm/s", "785 rpm", "10.19 mm"})
         EXPECT_THAT(output_, HasSubstr(number));
-    EXPECT_EQ(run("optics --distance 60"), 1);  // too far off
+    EXPECT_EQ(run("optics --distance 60"), 1);  // too far away
     EXPECT_THAT(output_, HasSubstr("CHANGE: "));
     EXPECT_EQ(run("optics --distance 5"), 2);
     EXPECT_EQ(run("optics --device paper --focal 4"), 2);

@@ -1,4 +1,4 @@
-// `dotpose print --test-page` and `dotpose check-print` as their user sees them.
+// Black-box tests of `dotpose print --test-page` and `dotpose check-print`.
 #include <fstream>
 #include <string>
 #include <vector>
@@ -102,7 +102,7 @@ TEST_F(CheckPrintCommand, fit_makes_the_millimetres_of_the_sheet_file_true) {
     EXPECT_NEAR(sheets()[1].print_scale_y, 0.98, 2e-4);
     EXPECT_EQ(sheets()[0].print_scale_x, 1);
 
-    // A sheet that is not in the file changes nothing.
+    // A sheet that is not in the file has no effect.
     const std::string before = file("sheets.json");
     write_jpeg("other.jpg", scan_of_60_x_50_mm(settings), 600);
     EXPECT_EQ(run("check-print other.jpg --fit --sheets sheets.json"), 1);
@@ -135,7 +135,7 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(exit_code_, 0) << output_;
     EXPECT_THAT(output_, HasSubstr("note:  scale was not checked, because this is a photo"));
 
-    // A scan that states no resolution, and one that states a wrong one.
+    // A scan without a resolution, and a scan with a wrong resolution.
     const GreyImage scan = test::scan_page(sheet, {});
     write_jpeg("scan.jpg", scan, 0);
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json"), 1);
@@ -149,7 +149,8 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json --dpi 600"), 0) << errors_;
 }
 
-// A photo taken straight on looks like a scan at the resolution that the phone made up.
+// A photo taken straight from above is like a scan at the resolution that the phone wrote into the
+// file.
 TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     ASSERT_EQ(run("print --paper 60x50 -o a.svg --sheets sheets.json --name a"), 0);
     const std::string before = file("sheets.json");
@@ -174,7 +175,8 @@ TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     EXPECT_EQ(run("check-print photo.jpg --format json"), 0);
     EXPECT_EQ(json::parse(output_)["exif_of_camera"], true);
 
-    // A scanner's EXIF data have no exposure, so its 300 dpi count; and so does --dpi.
+    // EXIF data of a scanner have no exposure, so the 300 dpi of the file are used. --dpi is used
+    // as well.
     write("scan.jpg", {test::date_taken, test::file_source});
     EXPECT_EQ(run("check-print scan.jpg"), 3);
     EXPECT_THAT(output_, HasSubstr("FAULT: the driver scaled the page to 110.0 %"));
@@ -190,7 +192,7 @@ TEST_F(CheckPrintCommand, judges_every_sheet_on_the_scan_by_what_the_sheet_file_
     for (const SheetEntry& entry : read_sheets(directory_ / "sheets.json"))
         on_table.push_back(entry.sheet);
     on_table.pop_back();
-    // The second was printed at 96 %, with dots twice as wide.
+    // The second sheet was printed at 96 %, with dots twice as wide.
     on_table[1].pattern.spacing_mm *= 0.96;
     on_table[1].pattern.displacement_mm *= 0.96;
     on_table[1].pattern.dot_mm *= 2;
@@ -217,7 +219,7 @@ TEST_F(CheckPrintCommand, judges_every_sheet_on_the_scan_by_what_the_sheet_file_
     EXPECT_NEAR(fitted[1].print_scale_y, 0.96, 2e-4);
     EXPECT_EQ(fitted[2].print_scale_x, 1);
 
-    // Without the file, all are judged by one pattern.
+    // Without the file, all sheets are checked against one pattern.
     run("check-print scan.jpg");
     EXPECT_THAT(output_, HasSubstr("FAULT: from cell "));
 }
@@ -320,7 +322,7 @@ TEST_F(CheckPrintCommandAtLength, test_page_is_printed_in_every_format_but_text)
         EXPECT_THAT(output_, HasSubstr("test page 148 x 210 mm, 20 patches"));
         EXPECT_TRUE(fs::exists(directory_ / name));
     }
-    // What a perfect printer and scanner make of two of them.
+    // Two of the patches, as printed and scanned without errors.
     ASSERT_EQ(
         shell("qpdf --check test.pdf && pdftoppm -gray -r 600 -png -singlefile test.pdf scan"), 0)
         << output_ << errors_;
@@ -343,11 +345,11 @@ TEST_F(CheckPrintCommand, wrong_usage_is_status_2) {
         "check-print blank.pgm --draw map.jpg",         //
         "check-print blank.pgm --spacing 0",            //
         "check-print blank.pgm --displacement 0.4",     //
-        "check-print blank.pgm --section 1,1",          // it is found
-        "check-print blank.pgm --sheets s --dot 0.1",   // the file says so
+        "check-print blank.pgm --section 1,1",          // the section is detected
+        "check-print blank.pgm --sheets s --dot 0.1",   // the file contains the diameter
         "check-print blank.pgm stray",                  //
         "print --test-page -o test.txt",                //
-        "print --test-page -o test.png --spacing 0.5",  // a test page has its own
+        "print --test-page -o test.png --spacing 0.5",  // a test page has several spacings
         "print --test-page -o test.png --origin 1,1",   //
         "print --test-page -o test.png --dpi 300",      // too coarse for 0.381 mm
         "print --test-page -o test.png --paper 40x40",  // no room

@@ -1,5 +1,4 @@
-// Conventions that all commands follow: `-o -` is standard output, and the options --format and
-// --draw.
+// Conventions of all commands: `-o -` is standard output, and the options --format and --draw.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -30,7 +29,7 @@ class Conventions : public ToolCommand {
 
     void put_frame() { write_pgm(directory_ / "a.pgm", render(shot(1)).view()); }
 
-    /// Nothing was left behind but what was there, sorted by name.
+    /// Expects that the directory contains exactly these files, sorted by name.
     void expect_files(const std::string& names) {
         shell("ls -A | tr '\\n' ' '");
         EXPECT_EQ(output_, names);

@@ -1,4 +1,4 @@
-/// The columns of CSV, in which the lines of JSON say the same.
+/// The columns of CSV lines, which have the same values as JSON lines.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace dotpose::test {
 
-/// What a JSON line says in the column of the same line in CSV: null if nothing.
+/// Returns the value of a JSON line for a CSV column, or null if there is none.
 inline nlohmann::json value_in(const nlohmann::json& line, const std::string& column) {
     if (line.contains(column)) return line[column];
     if (column == "section_u" && line.contains("section")) return line["section"][0];
     if (column == "section_v" && line.contains("section")) return line["section"][1];
-    // covariance_mm_deg_12 is row 1, column 2 of a matrix of 3 x 3.
+    // covariance_mm_deg_12 is row 1, column 2 of a 3 x 3 matrix.
     const std::size_t at = column.rfind('_');
     const std::string name = column.substr(0, at);
     if (at == std::string::npos || column.size() != at + 3 || !line.contains(name)) return {};

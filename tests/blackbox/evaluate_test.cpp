@@ -1,4 +1,4 @@
-// `dotpose evaluate` as its user sees it.
+// Black-box tests of `dotpose evaluate`.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -26,7 +26,7 @@ class EvaluateCommand : public ToolCommand {
   protected:
     json result() const { return json::parse(output_); }
 
-    /// Replaces the cells of the first frame's row of truth.csv that `cells` names.
+    /// Replaces cells (column, text) of the first frame's row in truth.csv.
     void tamper(const std::vector<std::pair<std::size_t, std::string>>& cells) const {
         std::istringstream truth(file("frames/truth.csv"));
         std::ofstream out(directory_ / "frames/truth.csv");
@@ -55,7 +55,7 @@ class EvaluateCommand : public ToolCommand {
     }
 };
 
-/// A picture of some size, mostly of light paper, and on it some ink.
+/// Returns true if a picture contains some ink, on mostly light paper.
 bool shows_something(const GreyImage& image) {
     const auto pixels = static_cast<std::ptrdiff_t>(image.pixels.size());
     const auto light = std::count_if(image.pixels.begin(), image.pixels.end(),
@@ -78,7 +78,7 @@ TEST_F(EvaluateCommand, AFolderGivesTheNumbersOfTheSameFramesInMemory) {
     ASSERT_EQ(run("evaluate --preset nominal --frames 10 --seed 7 --format json"), 0) << errors_;
     const json memory = result();
     EXPECT_EQ(memory["located"], folder["located"]);
-    // truth.csv has 8 decimals of a grid unit.
+    // truth.csv has 8 decimals of a grid spacing.
     EXPECT_NEAR(memory["position_um"]["median"], folder["position_um"]["median"], 1e-4);
     EXPECT_NEAR(memory["angle_deg"]["max"], folder["angle_deg"]["max"], 1e-6);
 }
@@ -114,7 +114,8 @@ TEST_F(EvaluateCommand, ProfileAndSpacingAreTakenFromTheTruthUnlessGiven) {
 
 TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     ASSERT_EQ(run("simulate -o frames --frames 5 --k -8.7e-6 --angle 30 --at 5000,6000"), 0);
-    // The robot's centre is 5 mm ahead of the camera, and it heads a quarter turn off the x axis.
+    // The robot's centre is 5 mm ahead of the camera, and its heading is a quarter turn from the x
+    // axis.
     std::ofstream(directory_ / "robot.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: "
            "-8.7e-06, centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046], reference_px: "
@@ -125,10 +126,11 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     const json image = result();
     EXPECT_EQ(image["located"], 5);
     EXPECT_LT(image["position_um"]["max"], 5);
-    // The view is used as well: of five parameters instead of eight, the angle is more exact.
+    // The view is used as well. The pose has five parameters instead of eight, so the angle is more
+    // accurate.
     EXPECT_NE(image["angle_deg"]["max"], lens_alone["angle_deg"]["max"]);
     ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
-    EXPECT_EQ(result()["wrong"], 5);  // truth.csv has the image centre
+    EXPECT_EQ(result()["wrong"], 5);  // truth.csv contains the pose of the image centre
 
     std::ofstream truth(directory_ / "frames/truth.csv");
     truth << "file,theta_deg,x_grid,y_grid\n";
@@ -140,7 +142,8 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     truth.close();
     ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
     EXPECT_EQ(result()["located"], 5);
-    // An angle of 0.03 degrees is 3 um at 5 mm; the truth was written with 6 digits.
+    // An angle of 0.03 degrees moves the centre by 3 µm at 5 mm. The truth was written with 6
+    // digits.
     EXPECT_LT(result()["position_um"]["max"], 15);
     EXPECT_LT(result()["angle_deg"]["max"], 0.15);
 }
@@ -177,7 +180,8 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
     }
 }
 
-/// Frames on a sheet, whose places a stage has measured: its origin, direction and unit differ.
+/// Frames on a sheet whose poses were measured by a stage, in a frame with another origin,
+/// direction and unit.
 class EvaluateMeasured : public EvaluateCommand {
   protected:
     void SetUp() override {
@@ -195,7 +199,7 @@ class EvaluateMeasured : public EvaluateCommand {
                       frame_of(sheet, x_mm, y_mm, 0.4 * i, static_cast<std::uint64_t>(i)).view());
             by_ruler << name << ",table," << x_mm << ',' << y_mm << ',' << 0.4 * i * kDegrees
                      << '\n';
-            // A stage with y up, turned by a quarter, with 0.3 % longer millimetres.
+            // A stage with y up, rotated by a quarter turn, whose millimetres are 0.3 % longer.
             by_stage << name << ',' << 1.003 * y_mm / 1000 << ',' << 1.003 * x_mm / 1000 << ','
                      << 90 - 0.4 * i * kDegrees << '\n';
         }

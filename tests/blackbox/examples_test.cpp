@@ -1,4 +1,4 @@
-// The small examples, run as README.md and docs/tracking.md show them.
+// The small examples, run as shown in README.md and docs/tracking.md.
 #include <cmath>
 #include <string>
 
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 class Examples : public ToolCommand {
   protected:
-    /// The examples lie beside the tool.
+    /// Runs an example. The examples are in the same folder as the tool.
     int run_example(const std::string& command) {
         return shell("\"$(dirname \"$T\")\"/dotpose_" + command);
     }
@@ -26,7 +26,7 @@ class Examples : public ToolCommand {
 TEST(Readme, HasTheProgramOfTheExample) {
     const std::string readme = read_file(test::source_dir() + "/README.md");
     const std::string example = read_file(test::source_dir() + "/examples/locate_one.cpp");
-    // Without the first line, a comment.
+    // The first line, a comment, is omitted in README.md.
     EXPECT_THAT(readme, HasSubstr("```cpp\n" + example.substr(example.find('\n') + 1) + "```\n"));
 }
 
@@ -42,7 +42,7 @@ TEST_F(Examples, LocateOneTellsWhereAnImageLooks) {
 }
 
 TEST_F(Examples, FollowGoesWithTheRobot) {
-    // At 300 mm/s, 200 frames a second; then it is lifted.
+    // The robot drives at 300 mm/s with 200 frames per second. Then it is lifted.
     const Drive drive;
     const DriveCamera camera(188, 120);
     const int first = static_cast<int>(drive.plan().lift * kDriveFps) - 12;
@@ -59,7 +59,7 @@ TEST_F(Examples, FollowGoesWithTheRobot) {
         ASSERT_EQ(std::sscanf(lines[i].c_str(), "x %*f mm, y %*f mm, %lf and %lf mm/s", &vx, &vy),
                   2)
             << lines[i];
-        // Two fixes make a velocity; before, it moves too far from frame to frame.
+        // A velocity needs two fixes. Before, the robot moves too far between frames to be tracked.
         EXPECT_EQ(lines[i].ends_with("tracked"), i >= 2) << lines[i];
         const DriveState truth = drive.at(first + static_cast<int>(i));
         if (i >= 4) {
@@ -73,7 +73,7 @@ TEST_F(Examples, FollowSheetsTellsSheetPlaceAndSpeed) {
     ASSERT_EQ(ToolCommand::run("print -o table.svg --paper 80x60 --sheets s.json --name table"), 0)
         << errors_;
     const json sheet = json::parse(read_file(directory_ / "s.json"))["sheets"].at(0);
-    // 1 mm from frame to frame, 100 frames a second.
+    // 1 mm per frame, 100 frames per second.
     for (int i = 0; i < 10; ++i) {
         const std::string name = "f" + std::to_string(100 + i) + ".pgm";
         const auto seed = static_cast<std::uint64_t>(i);
@@ -142,7 +142,7 @@ TEST_F(Examples, OpencvVideoLocatesEachFrame) {
         write_pgm(directory_ / ("f" + std::to_string(i) + ".pgm"),
                   render(shot(static_cast<std::uint64_t>(i))).view());
     }
-    // OpenCV takes numbered images for a video.
+    // OpenCV reads numbered images as a video.
     ASSERT_EQ(run_example("opencv_video f%d.pgm"), 0) << errors_;
     const auto lines = lines_of(output_);
     ASSERT_EQ(lines.size(), 3U) << output_;

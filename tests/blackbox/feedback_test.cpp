@@ -1,5 +1,5 @@
-// What the user of a terminal sees of long work: progress with the time left, colour, and that
-// Ctrl-C keeps what is done. `script` gives the tool a terminal.
+// Output of long operations on a terminal: progress with the remaining time, colour, and partial
+// results after Ctrl-C. `script` provides the terminal.
 #include <cstdint>
 #include <fstream>
 #include <string>
@@ -23,15 +23,15 @@ constexpr const char* kRed = "\033[31m";
 
 class Feedback : public ToolCommand {
   protected:
-    /// Runs `dotpose ARGUMENTS` with its output and messages on a terminal, and keeps in `output_`
-    /// what appears there.
+    /// Runs `dotpose ARGUMENTS` with stdout and stderr connected to a terminal, and captures the
+    /// terminal output in `output_`.
     int on_terminal(const std::string& arguments, const std::string& environment) {
         return shell("export T; env -u NO_COLOR " + environment + " script -qec '\"$T\" " +
                      arguments + "' /dev/null </dev/null");
     }
 
-    /// Runs shell commands that start the tool and write its process number to the file pid, waits
-    /// until `condition` holds, and presses Ctrl-C.
+    /// Runs shell commands that start the tool and write its process id to the file pid, waits
+    /// until `condition` holds, and sends Ctrl-C.
     int interrupt(const std::string& commands, const std::string& condition) {
         return shell("export T; { " + commands + "; } & job=$!; until [ -s pid ] && { " +
                      condition +
@@ -50,10 +50,10 @@ class Feedback : public ToolCommand {
         }
     }
 
-    /// A source of raw frames that does not end.
+    /// A source of raw frames that never ends.
     static constexpr const char* kEndless =
         "{ cat frames.raw; touch fed; until [ -e done ]; do sleep 0.02; done; } | ";
-    /// The tool as a process whose number is known.
+    /// Starts the tool as a process with a known id.
     static constexpr const char* kTool = "sh -c 'echo $$ >pid; exec \"$T\" \"$@\"' sh ";
 };
 

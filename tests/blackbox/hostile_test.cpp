@@ -1,4 +1,4 @@
-// What strangers give the tool: names and files that are made to do harm.
+// Malicious input: names and files designed to do harm.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -25,7 +25,7 @@ class Hostile : public ToolCommand {
     }
 };
 
-/// A terminal's title and colours, a bell, and a line of its own.
+/// Sequences that set a terminal's title and colours and ring its bell, and a complete line.
 constexpr const char* kActs = "\x1b]0;OWNED\x07\x1b[31m\x7f\xc2\x9b\n{\"status\":\"ok\"}";
 
 void expect_harmless(const std::string& text) {
@@ -68,7 +68,7 @@ TEST_F(Hostile, OptionsRefuseWhatIsNoFiniteNumber) {
         EXPECT_EQ(run(command), 2) << command;
         EXPECT_THAT(errors_, HasSubstr("finite number")) << command;
     }
-    // A file may be called so.
+    // A file may have this name.
     put("nan", "P5 1 1 255\nx");
     run("locate nan");
     EXPECT_THAT(output_, HasSubstr("\"file\":\"nan\""));
@@ -103,7 +103,7 @@ TEST_F(Hostile, NestingAndSizeOfTextFilesAreBounded) {
     EXPECT_THAT(errors_, HasSubstr("/dev/zero has more than 1 MB"));
 }
 
-/// A PNG of 16,000 x 16,000 px that ends where its pixels begin.
+/// Returns a PNG of 16,000 x 16,000 px that ends before its pixels.
 std::string png_header() {
     using namespace std::string_literals;
     return "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x3e\x80\0\0\x3e\x80\x08\0\0\0\0\x64\x15\x80\x02"
@@ -207,7 +207,7 @@ TEST_F(Hostile, AReaderThatLeavesEndsNeitherMapNorLog) {
     EXPECT_EQ(std::ranges::count(output_, '\n'), 1);
     EXPECT_EQ(std::ranges::count(file("log.csv"), '\n'), 41);
     EXPECT_THAT(file("map.svg"), HasSubstr("40 frames"));
-    // Frames come when the reader has left.
+    // The frames arrive after the reader has left.
     EXPECT_EQ(shell("mkfifo packets; (exec 3< packets; exec 3<&-; : > left) & "
                     "(until [ -e left ]; do sleep 0.01; done; tail -q -c 22560 frames/*.pgm) |"
                     "\"$T\" watch - --size 188x120 --packets packets -o lines; wait"),
@@ -218,7 +218,8 @@ TEST_F(Hostile, AReaderThatLeavesEndsNeitherMapNorLog) {
 
 TEST_F(Hostile, AFullDiskIsToldByTheRecording) {
     simulate(40);
-    // Files of at most 8 blocks of 512 bytes; the signal that would end the program is ignored.
+    // Files are limited to 8 blocks of 512 bytes, and the signal that would end the program is
+    // ignored.
     EXPECT_EQ(shell("trap '' XFSZ; ulimit -f 8; \"$T\" watch frames --fps 50 --record a.mp4 | cat"
                     " > /dev/null; \"$T\" watch frames --fps 50 --record a.mp4 > /dev/null"),
               1);

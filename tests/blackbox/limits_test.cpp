@@ -1,4 +1,4 @@
-// The worst frames that docs/limits.md says are located, seen through `locate` alone.
+// The worst frames that are located according to docs/limits.md, tested through `locate` alone.
 #include <algorithm>
 #include <cctype>
 #include <memory>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 70;
 
-/// Fewer of large images: these take longer.
+/// Returns the number of frames. Fewer for large images, which take longer.
 std::uint64_t frames_of(const CameraModel& camera) {
     constexpr int kSmall_px = 200 * 200;
     constexpr int kMedium_px = 1280 * 960;

@@ -1,5 +1,5 @@
-// `dotpose calibrate --live` without a display: it takes the frames that add something, says what
-// is missing, and ends by itself.
+// `dotpose calibrate --live` without a display: it takes frames that add information, reports what
+// is missing, and ends automatically.
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -27,7 +27,8 @@ class LiveCalibration : public ToolCommand {
         ASSERT_EQ(run("simulate -o frames --seed 5 --k -8.7e-6 " + options), 0) << errors_;
     }
 
-    /// Makes the raw frames `name` of the images, each three times as of a camera that rests.
+    /// Writes the images as raw frames to `name`. Each image is repeated three times, as by a
+    /// camera at rest.
     void put_raw(const std::string& name, int first = 0) {
         ASSERT_EQ(shell(fmt::format("ffmpeg -v error -framerate 30 -start_number {} "
                                     "-i frames/frame_%06d.pgm -vf fps=90 -f rawvideo "
@@ -49,7 +50,7 @@ class LiveCalibration : public ToolCommand {
         EXPECT_LT(camera.sigma.at("k_per_px2"), 1e-7);
     }
 
-    /// The number of frames that the report states.
+    /// Returns the number of frames used, according to the report.
     int used() const {
         std::smatch match;
         const std::regex pattern("frames +([0-9]+) of ([0-9]+) located");
@@ -111,7 +112,7 @@ TEST_F(LiveCalibration, SaysWhyNoFrameIsLocated) {
 }
 
 TEST_F(LiveCalibration, NamesTheCornerThatShowsNoDots) {
-    // Dots end at a border that lies in each frame.
+    // The dots end at a border inside each frame.
     simulate("--frames 12 --covered 0.6,0.7");
     calibrate("frames");
     const std::regex advice("next: show dots in the [a-z ]*(corner|edge|middle) of the image");
@@ -122,7 +123,7 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
     const Drive drive;
     const DriveCamera camera(188, 120);
     std::ofstream raw(directory_ / "drive.raw", std::ios::binary);
-    constexpr int kFirst = 180;  // it drives
+    constexpr int kFirst = 180;  // first frame in motion
     constexpr int kStep = 5;
     for (int i = kFirst; i < kFirst + 60 * kStep; i += kStep) {
         const GreyImage image = camera.frame(drive, i);
@@ -130,18 +131,18 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
                   static_cast<std::streamsize>(image.pixels.size()));
     }
     raw.close();
-    // 60 frames in 6 s: for the first 3 s a steady frame is waited for.
+    // 60 frames in 6 s. For the first 3 s, the program waits for a frame at rest.
     EXPECT_EQ(calibrate("--size 188x120 --fps 10 - <drive.raw"), 0) << errors_;
     EXPECT_TRUE(has_file());
     EXPECT_GE(used(), 10);
-    // In 2 s none is.
+    // In 2 s there is no frame at rest.
     fs::remove(directory_ / "camera.yaml");
     EXPECT_EQ(calibrate("--size 188x120 --fps 30 - <drive.raw"), 1);
     EXPECT_FALSE(has_file());
     EXPECT_THAT(errors_, HasSubstr(" and 0 taken (0 out of focus, "));
 }
 
-/// Ctrl-C after `frames` frames of a source that does not end.
+/// Returns commands that send Ctrl-C after `frames` frames of an endless source.
 std::string interrupted_after(int frames) {
     return fmt::format(
         "mkfifo pipe; touch told; (cat resting.raw; exec sleep 60) > pipe & writer=$!\n"
@@ -175,7 +176,7 @@ TEST_F(LiveCalibration, AnInterruptWritesNothingIfThatIsTooLittle) {
 
 TEST_F(LiveCalibration, ShowsTheImageOnATerminal) {
     simulate("--frames 12");
-    // `script` runs the tool on a terminal, of which it copies what is shown.
+    // `script` runs the tool on a terminal and copies its output.
     ASSERT_EQ(shell("script -qec \"$T calibrate --live --no-window frames -o camera.yaml\" "
                     "/dev/null </dev/null"),
               0)
@@ -197,7 +198,7 @@ TEST_F(LiveCalibration, RefusesWhatItCannotDo) {
         EXPECT_THAT(errors_, HasSubstr("cannot be given together")) << other;
     }
     EXPECT_EQ(run("calibrate --no-window frames"), 2);
-    // Before a camera is moved in vain.
+    // The error is reported before the camera is moved in vain.
     EXPECT_EQ(run("calibrate --live --no-window frames -o nowhere/camera.yaml"), 1);
     EXPECT_THAT(errors_, HasSubstr("nowhere/camera.yaml"));
     EXPECT_THAT(errors_, Not(HasSubstr("taken")));

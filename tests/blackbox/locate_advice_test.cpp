@@ -1,4 +1,4 @@
-// What `dotpose locate` says of pictures that it cannot read, or not as they are.
+// Advice of `dotpose locate` on pictures that cannot be read, or only after a change.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// 7 x 7 dots or so, all of them clear: not enough to rule out all other places.
+// About 7 x 7 clear dots, which are not enough to exclude all other places.
 TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
     ASSERT_EQ(ToolCommand::run("simulate -o few --size 84x84 --frames 1 --preset clean --seed 3"),
               0);
@@ -25,7 +25,8 @@ TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
     EXPECT_THAT(records().at(0)["message"], HasSubstr("show more of the sheet"));
 }
 
-// Bits are read in all cells, also where no dot is found, so they are not two for each dot.
+// Bits are read in all cells, including cells without a dot. Their number is therefore not twice
+// the number of dots.
 TEST_F(LocateCommand, bits_that_contradict_a_position_are_not_counted_by_dots) {
     dotpose::Setup setup;
     setup.seed = 3;
@@ -44,7 +45,7 @@ TEST_F(LocateCommand, bits_that_contradict_a_position_are_not_counted_by_dots) {
     EXPECT_TRUE(is_doubted);
 }
 
-/// Without blur and noise.
+/// Returns a shot without blur and noise.
 Shot clean_shot(double px_per_spacing) {
     Setup setup;
     setup.seed = 9;
@@ -100,7 +101,7 @@ TEST_F(LocateCommand, a_picture_that_is_tilted_out_of_focus_or_shaken_says_so) {
     run("blurred.pgm");
     EXPECT_NE(records().at(0)["status"], "ok") << output_;
     EXPECT_THAT(records().at(0)["message"], HasSubstr("the picture is out of focus, shaken"));
-    // Sharp pictures of something else are told neither.
+    // Sharp pictures of other objects get neither advice.
     write_pgm(directory_ / "text.pgm", render_scene(Scene::text, clean_shot(14)).view());
     run("text.pgm");
     EXPECT_NE(records().at(0)["status"], "ok") << output_;
@@ -117,7 +118,7 @@ Shot wide_shot() {
     return draw_shot(setup, 0);
 }
 
-// Both sides of the image are no multiple of 2, so that its centre moves when it is reduced.
+// Neither side of the image is a multiple of 2, so its centre moves when the image is reduced.
 TEST_F(LocateCommand, an_image_beyond_the_limit_is_reduced_and_that_is_told) {
     const Shot wide = wide_shot();
     write_pgm(directory_ / "wide.pgm", render(wide).view());
@@ -128,7 +129,7 @@ TEST_F(LocateCommand, an_image_beyond_the_limit_is_reduced_and_that_is_told) {
     EXPECT_NEAR(record["x_grid"], x_grid(wide.pose), 0.005);
     EXPECT_NEAR(record["y_grid"], y_grid(wide.pose), 0.005);
     EXPECT_NEAR(record["spacing_px"], 24, 0.05);
-    // Another point of the image: 1000 px along the image x axis.
+    // A reference point 1000 px away along the image x axis.
     run("--reference 3100,150 wide.pgm");
     const double along = 1000.0 / 24;
     EXPECT_NEAR(records().at(0)["x_grid"],
@@ -160,7 +161,7 @@ TEST_F(LocateCommand, a_mirrored_view_says_how_to_go_on_and_is_located_flipped) 
           "centre_px: [93.5, 59.5], flip: true}");
     run("straight.pgm");
     const json straight = records().at(0);
-    // The flag of the camera file and the option mean the same, also together.
+    // The flag of the camera file and the option have the same effect, individually and together.
     for (const char* how : {"--flip ", "--camera camera.yaml ", "--flip --camera camera.yaml "}) {
         run(how + std::string("mirrored.pgm"));
         const json record = records().at(0);
@@ -194,12 +195,12 @@ TEST_F(LocateCommand, a_picture_from_too_near_says_so) {
         const std::string message = records().at(0)["message"];
         EXPECT_THAT(message, HasSubstr("the camera is too near, its dots are ")) << px;
         const double told = std::stod(message.substr(message.find("its dots are ") + 13));
-        EXPECT_NEAR(told, px, 0.06 * px);  // told without the lens
+        EXPECT_NEAR(told, px, 0.06 * px);  // the advice ignores the lens
         EXPECT_THAT(message, Not(HasSubstr("focus")));
     }
 }
 
-// The dots are too few for all three codes together, and enough for one.
+// The dots are too few for a search in all three codes, but enough for one code.
 TEST_F(LocateCommand, a_position_that_only_its_code_makes_certain_names_the_option) {
     int found = 0;
     for (int seed = 1; seed <= 12 && found == 0; ++seed) {
@@ -221,12 +222,12 @@ TEST_F(LocateCommand, a_position_that_only_its_code_makes_certain_names_the_opti
     EXPECT_EQ(found, 1) << "no seed shows the case";
 }
 
-// Fewer pixels per dot than a lens resolves: there is no grid to be measured.
+// The dots have fewer pixels than a lens resolves, so the spacing cannot be measured.
 TEST_F(LocateCommand, a_picture_of_a_screen_says_that_it_may_be_too_coarse) {
     ASSERT_EQ(ToolCommand::run("simulate -o screen --mm-per-px 0.26 --frames 1 --seed 1"), 0);
     run("screen/frame_000000.pgm");
     EXPECT_NE(records().at(0)["status"], "ok");
-    EXPECT_THAT(records().at(0)["message"], HasSubstr("or too coarse (under 6 px from dot to dot"));
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("or too coarse (a spacing under 6 px"));
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ TEST_F(LocateCommand, sixteen_bits_and_transparency_change_nothing) {
     const GreyImage image = render(shot(2));
     write_pgm(directory_ / "grey.pgm", image.view());
     std::vector<std::uint16_t> deep;
-    std::vector<std::uint8_t> ink;  // black, more or less transparent
+    std::vector<std::uint8_t> ink;  // black pixels with different transparency
     for (const std::uint8_t level : image.pixels) {
         deep.push_back(static_cast<std::uint16_t>(level * 257));
         ink.push_back(0);
@@ -168,7 +168,7 @@ TEST_F(LocateCommand, names_may_come_from_a_list) {
     run("--list -", "names.txt");
     EXPECT_EQ(exit_code_, 1);
     EXPECT_THAT(files(), ElementsAre("a b.pgm", "c.pgm"));
-    run("--list -");  // an empty one
+    run("--list -");  // an empty list
     EXPECT_EQ(exit_code_, 0);
     EXPECT_THAT(output_, IsEmpty());
     for (const char* list : {"none.txt", "."}) {
@@ -262,7 +262,7 @@ TEST_F(LocateCommand, draws_one_image_into_a_file) {
     EXPECT_THAT(file("picture.svg"), HasSubstr("</svg>"));
     run("--draw picture.svg flat.pgm");
     EXPECT_THAT(file("picture.svg"), HasSubstr("no fix: no_contrast"));
-    // The picture names the advice of the line.
+    // The picture contains the advice of the line.
     const std::string message = records().at(0)["message"];
     EXPECT_THAT(file("picture.svg"), HasSubstr(message.substr(0, 40)));
     run("--draw picture.svg a.pgm flat.pgm");
@@ -314,7 +314,7 @@ TEST_F(LocateCommand, the_lens_is_used) {
     EXPECT_LT(with_lens["residual_px"], 0.5);
     run("a.pgm");
     const json without = records().at(0);
-    // A bend that the pose fit adds by itself explains most of the dots, and less exactly.
+    // The lens term of the pose fit alone explains most of the dots, but less accurately.
     if (without["status"] == "ok") {
         EXPECT_LT(without["dots_used"], 0.95 * with_lens["dots_used"].get<double>()) << without;
         EXPECT_GT(without["sigma_x_mm"], 1.2 * with_lens["sigma_x_mm"].get<double>()) << without;
@@ -339,7 +339,7 @@ TEST_F(LocateCommand, white_dots_on_black_are_read_if_told) {
     EXPECT_NEAR(found["y_grid"], y_grid(truth.pose), 0.03);
     EXPECT_NE(records().at(1)["status"], "ok");
 
-    // The picture shows what was located: dark dots.
+    // The picture shows the image that was located, with dark dots.
     run("--draw . usual.pgm");
     const auto pixels_in = [this](const std::string& picture) {
         const std::string svg = file(picture);
@@ -350,7 +350,7 @@ TEST_F(LocateCommand, white_dots_on_black_are_read_if_told) {
     EXPECT_EQ(pixels_in("inverted.svg"), pixels_in("usual.svg"));
 }
 
-// Half a millimetre, in micrometres and in metres.
+// A spacing of half a millimetre, given in micrometres and in metres.
 TEST_F(LocateCommand, a_spacing_in_another_unit_is_refused) {
     write_frame("a.pgm", 0);
     for (const std::string spacing : {"508", "0.0005", "100.1", "0.0099"}) {
@@ -385,7 +385,8 @@ TEST_F(LocateCommand, draws_a_picture_for_each_image) {
     }
     EXPECT_THAT(pictures, testing::UnorderedElementsAre("a.svg", "a-2.svg", "flat<&>.svg"));
 
-    fs::create_directory(directory_ / "new/folder/b.svg");  // in the way of a picture
+    fs::create_directory(directory_ /
+                         "new/folder/b.svg");  // a directory with the name of a picture
     write_frame("b.pgm", 2);
     run("--draw new/folder b.pgm a.pgm");
     EXPECT_EQ(exit_code_, 1);
@@ -416,7 +417,7 @@ TEST_F(LocateCommand, output_can_go_to_a_file) {
 
 TEST_F(LocateCommand, lines_leave_at_once) {
     write_frame("a.pgm", 0);
-    // The list stays open until the first line has come out, or for 10 seconds.
+    // The list stays open until the first line has been printed, or for 10 seconds.
     write("names.sh",
           "echo a.pgm\n"
           "for i in $(seq 100); do [ -s out ] && echo yes > came && break; sleep 0.1; done\n");
@@ -430,16 +431,16 @@ TEST_F(LocateCommand, wrong_usage_is_status_2_with_a_message) {
         "",                         // no images
         "--format xml a.pgm",       // unknown format
         "--format",                 // no value
-        "--code 7 a.pgm",           // no name
-        "--spacing 0 a.pgm",        // no length
+        "--code 7 a.pgm",           // not a name
+        "--spacing 0 a.pgm",        // not a length
         "--spacing -1 a.pgm",       //
-        "--k 1 a.pgm",              // no lens has it
+        "--k 1 a.pgm",              // out of range of all lenses
         "--k nan a.pgm",            //
         "--k wide a.pgm",           //
-        "--reference 1 a.pgm",      // half a point
+        "--reference 1 a.pgm",      // only one coordinate
         "--reference 1,x a.pgm",    //
         "--reference 1,nan a.pgm",  //
-        "--reference 1e9,1 a.pgm",  // nowhere near the image
+        "--reference 1e9,1 a.pgm",  // far outside the image
         "--bogus a.pgm",            //
     };
     for (const char* arguments : wrong) {

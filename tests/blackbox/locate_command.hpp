@@ -1,4 +1,4 @@
-/// `dotpose locate` as its user sees it, with frames and records.
+/// Runs `dotpose locate` as a black box, with frames and records.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ inline std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-/// The cells of one CSV line (RFC 4180; no line breaks within).
+/// Returns the cells of one CSV line (RFC 4180, without line breaks in cells).
 inline std::vector<std::string> cells_of(const std::string& line) {
     std::vector<std::string> cells(1);
     bool is_quoted = false;
@@ -45,7 +45,7 @@ inline std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
-/// Nominal frames with known poses.
+/// Returns nominal shots with known poses.
 inline Shot shot(std::uint64_t index) {
     Setup setup;
     setup.seed = 20;
@@ -83,7 +83,8 @@ class LocateCommand : public ToolCommand {
         image.pixels.assign(static_cast<std::size_t>(width_px * height_px), 200);
         write_pgm(directory_ / name, image.view());
     }
-    /// By libpng's simplified interface; 2-byte samples are linear, as it calls 16 bits.
+    /// Writes an image with libpng's simplified interface. 2-byte samples are linear, as libpng
+    /// defines 16-bit formats.
     void write_as_png(const std::string& name, const GreyImage& image, png_uint_32 format,
                       const void* samples) const {
         png_image png{};

@@ -1,4 +1,4 @@
-// Manual pages and completions for shells (apps/shell).
+// Manual pages, and completions for shells (apps/shell).
 #include <set>
 #include <sstream>
 #include <string>
@@ -28,7 +28,7 @@ class ShellFiles : public ToolCommand {
   protected:
     const std::string folder_ = source_dir() + "/apps/shell";
 
-    /// Returns what bash offers in the place of the last of these words.
+    /// Returns the completions that bash offers for the last of these words.
     Words bash_offers(const std::string& words) {
         EXPECT_EQ(
             shell("T=\"$T\" bash -c 'set -u; . " + folder_ + "/dotpose.bash; COMP_WORDS=(" + words +
@@ -39,7 +39,7 @@ class ShellFiles : public ToolCommand {
         return words_of(output_);
     }
 
-    /// Returns the long options that the help of a command lists.
+    /// Returns the long options listed in the help of a command.
     Words options_in_help(const std::string& command) {
         EXPECT_EQ(run(command + " --help"), 0);
         Words options;
@@ -75,7 +75,7 @@ TEST_F(Completions, OfBashOfferValues) {
     EXPECT_EQ(bash_offers("dotpose locate --format = c"), Words{"csv"});
     EXPECT_EQ(bash_offers("dotpose locate --format ="), (Words{"json", "csv", "text"}));
     EXPECT_EQ(bash_offers("dotpose watch 0 --code micro"), Words{"microdots"});
-    // bash itself offers files where there is nothing else.
+    // Bash itself completes file names if there is no other completion.
     for (const char* words : {"dotpose locate --sheets \"\"", "dotpose locate a.png \"\"",
                               "dotpose watch \"\"", "dotpose banana \"\""})
         EXPECT_THAT(bash_offers(words), IsEmpty()) << words;
@@ -102,7 +102,7 @@ TEST_F(Completions, OfFish) {
 
 TEST_F(Completions, OfZsh) {
     if (!has("zsh")) GTEST_SKIP() << "no zsh; scripts/setup packaging installs it";
-    // What is typed and then completed is read back from a terminal.
+    // The typed and completed text is read back from a terminal.
     std::ofstream(directory_ / "try.zsh") << R"(
         zmodload zsh/zpty
         zpty -b typed zsh -f -i

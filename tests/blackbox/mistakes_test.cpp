@@ -1,5 +1,5 @@
-// Plausible mistakes of new users: the exit status says that it went wrong, and one message names
-// the cause and the next step.
+// Plausible mistakes of new users. The exit status reports the error, and one message names the
+// cause and the next step.
 #include <ostream>
 #include <string>
 
@@ -71,7 +71,7 @@ constexpr Mistake kMistakes[] = {
     {"ReplayOfFolder", "replay frames", 1, "cannot read frames", "dotpose watch --log"},
     {"ReplayOfText", "replay notes.txt", 1, "not a log of dotpose watch", "notes.txt"},
     {"EvaluateWithoutTruth", "evaluate plain", 1, "no plain/truth.csv", "--poses"},
-    // Units, sizes, numbers.
+    // Units, sizes and numbers.
     {"SpacingInMicrometres", "locate --spacing 508 a.pgm", 2, "'508'", "the default is 0.508"},
     {"SpacingWithUnit", "locate --spacing 0.5mm a.pgm", 2, "'0.5mm'", "in mm"},
     {"UnknownPaper", "print -o a.pdf --paper A44", 2, "unknown paper size 'A44'", "A0 to A6"},
@@ -80,7 +80,7 @@ constexpr Mistake kMistakes[] = {
     {"ReferenceOfOneNumber", "locate --reference 10 a.pgm", 2, "'10'", "two numbers"},
     {"SectionTooLarge", "print -o a.pdf --section 63,0", 2, "'63,0'", "from 0 to 62"},
     {"NoFrames", "simulate -o g --frames 0", 2, "0", "1 to 1000000"},
-    // What belongs together, and too little of it.
+    // Options that require each other, and missing arguments.
     {"NameTaken", "print -o b.svg --sheets sheets.json --name table", 2,
      "there already is a sheet 'table'", "dotpose print --help"},
     {"SheetsWithoutName", "print -o b.svg --sheets sheets.json", 2, "--sheets", "--name"},
@@ -88,14 +88,14 @@ constexpr Mistake kMistakes[] = {
     {"OneFrameToCalibrate", "calibrate a.pgm -o c.yaml", 1, "a single frame", "take 5 to 50"},
     {"NothingToCalibrate", "calibrate", 2, "no frames given", "5 to 50 images"},
     {"RawWithoutSize", "locate -", 2, "raw frames need their size", "--size WxH"},
-    // Cameras, lines, brokers.
+    // Cameras, lines and brokers.
     {"NoSuchCamera", "watch 63 --no-window", 1, "cannot open the camera 63", "there is none"},
     {"NoSuchVideo", "watch nothere.mp4", 1, "cannot read nothere.mp4", "no such file or camera"},
     {"BrokerWithoutScheme", "fleet --mqtt broker", 2, "'broker'", "did you mean mqtt://broker?"},
     {"NoPackets", "listen notes.txt", 0, "0 packets", "watch --packets"},
 };
 
-/// Names the mistake where a test is listed.
+/// Prints the name of the mistake in lists of tests.
 void PrintTo(const Mistake& mistake, std::ostream* out) {
     *out << "dotpose " << mistake.arguments;
 }

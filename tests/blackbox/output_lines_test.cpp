@@ -1,4 +1,4 @@
-// The lines of `locate`, `watch` and `listen`: their schema, their units, their covariances.
+// The lines of `locate`, `watch` and `listen`: schema, units and covariances.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -36,7 +36,7 @@ Matrix matrix_of(const json& covariance) {
     return matrix;
 }
 
-/// Returns the covariance of J p, if that of p is C: J C J'.
+/// Returns the covariance of J p if C is the covariance of p: J C J'.
 Matrix propagated(const Matrix& j, const Matrix& c) {
     Matrix result{};
     for (std::size_t i = 0; i < 9; ++i) {
@@ -46,7 +46,7 @@ Matrix propagated(const Matrix& j, const Matrix& c) {
     return result;
 }
 
-/// Both have seven digits.
+/// Expects equal matrices. Both have seven digits.
 void expect_equal(const Matrix& actual, const Matrix& expected) {
     for (std::size_t i = 0; i < 9; ++i) {
         const double scale = std::sqrt(expected[i / 3][i / 3] * expected[i % 3][i % 3]);
@@ -56,7 +56,7 @@ void expect_equal(const Matrix& actual, const Matrix& expected) {
 
 class OutputLines : public ToolCommand {
   protected:
-    /// Frames of a drive over two sheets, a frame without a pattern, and packets.
+    /// Writes frames of a drive over two sheets, a frame without a pattern, and packets.
     void SetUp() override {
         save_drive_sheets(directory_ / "sheets.json");
         json file = json::parse(read_file(directory_ / "sheets.json"));
@@ -97,13 +97,14 @@ class OutputLines : public ToolCommand {
     }
 
     static constexpr double kYaw_rad = 0.4;
-    static constexpr int kFirst = 320;  ///< the robot is in a curve, at 300 mm/s
+    static constexpr int kFirst =
+        320;  ///< frame at which the robot drives through a curve at 300 mm/s
     const Drive drive_;
     const JsonSchema schema_{
         json::parse(read_file(test::source_dir() + "/docs/schema/lines-1.json"))};
 };
 
-/// All commands that write lines, with what each option of their fields can be.
+/// All commands that write lines, with the values of each option that changes their fields.
 constexpr std::array kRuns = {
     "locate frames/f0.pgm frames/g10.pgm",
     "locate frames/f0.pgm --sheets sheets.json",
@@ -185,7 +186,7 @@ TEST_F(OutputLines, HaveTheCovarianceOfEachPose) {
     EXPECT_NEAR(std::sqrt(pattern[0][0]), line["sigma_x_mm"].get<double>(), 1e-6);
     EXPECT_NEAR(std::sqrt(pattern[1][1]), line["sigma_y_mm"].get<double>(), 1e-6);
     EXPECT_NEAR(std::sqrt(pattern[2][2]), line["sigma_theta_deg"].get<double>(), 1e-6);
-    // The sheet is a part of the pattern, and was printed true to scale.
+    // The sheet is a part of the pattern, and its printed scale is 1.
     expect_equal(matrix_of(line["covariance_sheet_mm_deg"]), pattern);
     EXPECT_EQ(line["theta_sheet_deg"], line["theta_deg"]);
     // docs/sheet-files.md: x_m = world.x_m + (x cos(yaw) + y sin(yaw)) / 1000, and so on.
@@ -219,7 +220,7 @@ TEST_F(OutputLines, OfRosAreRightHandedInMetresAndRadians) {
 }
 
 TEST_F(OutputLines, OfATrackTurnOverOnlyWhereYPointsDown) {
-    // On the bare pattern y points down, in the world it points up already.
+    // y points down in the bare pattern, and up in the world.
     for (const std::string sheets : {"", " --sheets sheets.json"}) {
         const double sign = sheets.empty() ? -1 : 1;
         const std::string command = "watch frames --fps 200 --no-window" + sheets + " --units ";

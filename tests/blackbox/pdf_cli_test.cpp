@@ -16,8 +16,7 @@ using testing::StartsWith;
 
 class PdfCommands : public ToolCommand {
   protected:
-    /// Runs shell commands, in which $T is the tool. What they print on either stream is in
-    /// `output_`.
+    /// Runs shell commands, in which $T is the tool. `output_` contains their stdout and stderr.
     int run(const std::string& commands) { return shell("{ " + commands + "; } 2>&1"); }
 
     bool exists(const char* name) const { return fs::exists(directory_ / name); }
@@ -26,7 +25,8 @@ class PdfCommands : public ToolCommand {
 TEST_F(PdfCommands, print_makes_pages_with_text_that_can_be_selected) {
     run("$T print -o 'my sheet.pdf' --pages 3 --paper A6 --section 1,2 --origin 9,8");
     EXPECT_EQ(exit_code_, 0);
-    // 85 mm and 128 mm between the margins of 10 mm hold 167 and 252 cells of 0.508 mm.
+    // Between margins of 10 mm there are 85 mm and 128 mm, with room for 167 and 252 cells of 0.508
+    // mm.
     EXPECT_THAT(output_, HasSubstr("my sheet.pdf: 1/3, page 105 x 148 mm, cells 9,8 to 175,259 "));
     EXPECT_THAT(output_, HasSubstr("3/3, page 105 x 148 mm, cells 343,8 to 509,259 "));
     run("qpdf --check 'my sheet.pdf' && pdftotext -f 2 -l 2 'my sheet.pdf' -");
@@ -39,7 +39,7 @@ TEST_F(PdfCommands, print_makes_pages_with_text_that_can_be_selected) {
 }
 
 TEST_F(PdfCommands, paper_sizes_and_landscape_are_true) {
-    // In points: 72 / 25.4 per mm, as pdfinfo rounds them.
+    // Sizes in points, 72 / 25.4 per mm, as rounded by pdfinfo.
     const std::array<std::array<const char*, 2>, 4> sizes = {
         {{"A0", "2383.94 x 3370.39"},
          {"A4 --landscape", "841.89 x 595.276"},
@@ -72,7 +72,7 @@ TEST_F(PdfCommands, overlay_says_which_region_each_page_got) {
     run("$T print -o in.pdf --pages 3 --paper 80x60 > /dev/null && "
         "$T overlay in.pdf -o out.pdf --pages 1,z --origin 5000,10 --spacing 1");
     EXPECT_EQ(exit_code_, 0);
-    // 70 mm and 50 mm between the margins of 5 mm.
+    // 70 mm and 50 mm between margins of 5 mm.
     EXPECT_THAT(output_, HasSubstr("out.pdf 1: page 80 x 60 mm, cells 5000,10 to 5069,59 "));
     EXPECT_THAT(output_, HasSubstr("out.pdf 3: page 80 x 60 mm, cells 5070,10 to 5139,59 "));
     EXPECT_THAT(output_, HasSubstr("warning: pages 1, 3: black text or drawings hide dots"));
@@ -97,7 +97,7 @@ TEST_F(PdfCommands, overlay_enters_its_pages_in_a_sheet_file) {
         int origin_y;
         int columns;
     } expected[] = {
-        // Between margins of 5 mm n dots take (n - 0.5) * 0.508 mm; free regions are 1024 cells
+        // Between margins of 5 mm, n dots take (n - 0.5) * 0.508 mm. Free regions are 1024 cells
         // apart.
         {"desk", 1, 1024, 1024, 59},
         {"form-1", 1, 1024 + 59 + 1024, 1024, 138},

@@ -1,4 +1,4 @@
-// `dotpose print` as its user sees it.
+// Black-box tests of `dotpose print`.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -54,7 +54,7 @@ TEST_F(PrintCommand, writes_every_format) {
     EXPECT_THAT(file("a.tif").substr(0, 2), testing::AnyOf("II", "MM"));
 }
 
-/// Four bytes, the highest first, as PNG has them.
+/// Returns a number of four bytes, most significant first, as in PNG.
 std::uint32_t number_at(const std::string& bytes, std::size_t at) {
     std::uint32_t number = 0;
     for (std::size_t i = at; i < at + 4; ++i)
@@ -66,7 +66,7 @@ TEST_F(PrintCommand, images_carry_the_resolution_asked_for) {
     struct Case {
         const char* option;
         std::uint32_t dpi;
-        std::uint32_t per_metre;  ///< dpi / 0.0254, to the nearest
+        std::uint32_t per_metre;  ///< dpi / 0.0254, rounded to nearest
     };
     for (const auto& [option, dpi, per_metre] :
          {Case{"--dpi 300", 300, 11811}, {"", 600, 23622}, {"--dpi 1200", 1200, 47244}}) {
@@ -111,18 +111,18 @@ TEST_F(PrintCommand, wrong_usage_is_status_2_with_one_message_and_no_file) {
         "-o a.jpg",                          // unknown format
         "-o a.png --paper A9",               // unknown paper
         "-o a.png --margin 200",             // no room
-        "-o a.png --spacing 0",              // no length
+        "-o a.png --spacing 0",              // not a length
         "-o a.png --spacing -1",             //
         "-o a.png --spacing nan",            //
         "-o a.png --spacing 0.5 --dot 0.4",  // dots touch
-        "-o a.png --origin 1",               // half a cell
+        "-o a.png --origin 1",               // only one coordinate
         "-o a.png --origin 1,2,3",           //
         "-o a.png --origin -1,2",            //
         "-o a.png --origin 410815348,0",     // outside the plane
-        "-o a.png --origin 410815000,0",     // runs past its end
+        "-o a.png --origin 410815000,0",     // extends past the end of the plane
         "-o a.png --section 63,0",           // no such section
         "-o a.png --code 1",                 // not a name
-        "-o a.png --dpi 100",                // displacement not visible
+        "-o a.png --dpi 100",                // displacement too small for the resolution
         "-o a.png --bogus",                  //
         "-o a.png stray",                    //
     };

@@ -1,4 +1,5 @@
-// One real photo of a real print. It may not be published, so it lies outside the project.
+// A real photo of a real print. The photo may not be published, so it is stored outside of the
+// project.
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -15,13 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Found by an independent decoder; homography fitted to 184 dots.
+// Found by an independent decoder, with a homography fitted to 184 dots.
 constexpr double kX_grid = 129.157;
 constexpr double kY_grid = 3224.485;
 constexpr double kTheta_deg = -1.45;
 constexpr double kSpacing_px = 20.2;
 
-/// A quarter turn, pixel by pixel: the new image's x axis is the old one's upward direction.
+/// Returns the image rotated by a quarter turn, pixel by pixel. The x axis of the result is the
+/// upward direction of the original.
 GreyImage turned(const GreyImage& image) {
     GreyImage result{image.pixels, image.height_px, image.width_px};
     for (int v = 0; v < result.height_px; ++v) {
@@ -53,7 +55,7 @@ TEST_P(RealPhoto, is_located_whatever_way_it_is_turned) {
     const double theta_deg = fix.theta_rad() * 180 / std::numbers::pi;
     const double expected_deg = kTheta_deg - 90 * GetParam();
     EXPECT_NEAR(std::remainder(theta_deg - expected_deg, 360), 0, 0.5);
-    // In the section's definition of code.hpp; the bits agree with no other.
+    // The section according to the definition in code.hpp. The bits agree with no other section.
     EXPECT_EQ(fix.section, (Section{24, 32}));
     EXPECT_EQ(fix.bit_errors, 0);
 }

@@ -1,4 +1,4 @@
-// Frames that hold no valid position, seen through `locate` alone: none may give a fix.
+// Frames without a valid position, tested through `locate` alone. None may give a fix.
 #include <memory>
 #include <string>
 
@@ -25,7 +25,7 @@ Shot shot_of(Preset preset, Size size, std::uint64_t index) {
     return draw_shot(setup, index);
 }
 
-/// A fix is wrong, and so is a status that speaks of the caller instead of the frame.
+/// Expects a refusal. A fix is wrong, and so is a status about the caller instead of the frame.
 void expect_refusal(const GreyImage& image, LargeMemory& memory, const std::string& what) {
     const Fix fix = Locator(memory, Options{}).locate(image.view());
     switch (fix.status) {

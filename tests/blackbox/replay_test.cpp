@@ -1,4 +1,4 @@
-// `dotpose replay`: figures of a log, worked out by hand.
+// `dotpose replay`: figures of a log, compared with values computed by hand.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -17,9 +17,9 @@ constexpr const char* kHeader =
     "frame,t_s,file,status,dots_seen,p_wrong,state,events,verdict,plane,track_x_mm,track_y_mm,"
     "vx_mm_s,vy_mm_s\n";
 
-/// Ten frames a second: 30 mm along x at 100 mm/s, three frames lost, put down 1 m away, 40 mm to
-/// the side at 200 mm/s, two frames of rest with some noise, a frame that only the prior made a
-/// fix.
+/// Ten frames per second: a drive of 30 mm along x at 100 mm/s, three lost frames, placement 1 m
+/// away, a drive of 40 mm to the side at 200 mm/s, two frames at rest with some noise, and a frame
+/// that was accepted only with the prior.
 constexpr const char* kRows =
     "0,0.0,,ok,150,1e-20,moving,fix,accepted,world,0,0,0,0\n"
     "1,0.1,,ok,150,1e-20,moving,,accepted,world,10,0,100,0\n"
@@ -61,7 +61,7 @@ TEST_F(Replay, CountsARun) {
     EXPECT_EQ(figures["planes"], json{"world"});
 }
 
-// The lines of the same kind of run: lost, and put down elsewhere.
+// The lines of a similar run: the robot is lost, and placed elsewhere.
 TEST_F(Replay, ReadsTheJsonLinesOfWatch) {
     put(R"({"schema":1,"frame":0,"t_s":0.0,"status":"ok","dots_seen":150,"p_wrong":1e-20,"state":"moving","events":"fix","verdict":"accepted","plane":"pattern","x_mm":0.0,"y_mm":0.0,"theta_deg":0.0,"covariance_mm_deg":[1e-06,0,0,0,4e-06,0,0,0,9e-06],"track_x_mm":0.0,"track_y_mm":0.0,"track_theta_deg":0.0,"vx_mm_s":0.0,"vy_mm_s":0.0}
 {"schema":1,"frame":1,"t_s":0.1,"status":"ok","dots_seen":150,"p_wrong":1e-12,"state":"moving","verdict":"accepted","plane":"pattern","track_x_mm":30.0,"track_y_mm":40.0,"vx_mm_s":300,"vy_mm_s":400}
@@ -69,14 +69,14 @@ TEST_F(Replay, ReadsTheJsonLinesOfWatch) {
 {"schema":1,"frame":3,"t_s":0.3,"sta)");
     ASSERT_EQ(run("replay run.csv --format json"), 0) << errors_;
     const json figures = json::parse(output_);
-    EXPECT_EQ(figures["frames"], 3);  // the last line was cut off
+    EXPECT_EQ(figures["frames"], 3);  // the last line is incomplete
     EXPECT_EQ(figures["fixes"], 2);
     EXPECT_EQ(figures["without_fix"], (json{{"no_contrast", 1}}));
     EXPECT_NEAR(figures["distance_mm"], 50, 1e-9);
     EXPECT_NEAR(figures["largest_speed_mm_s"], 500, 1e-9);
     EXPECT_DOUBLE_EQ(figures["largest_p_wrong"], 1e-12);
     ASSERT_EQ(run("replay run.csv -o run.mcap"), 0) << errors_;
-    // The covariance of the first fix in m and rad, y up: 1e-12 and 4e-12 m^2, as doubles.
+    // The covariance of the first fix in m and rad, with y up: 1e-12 and 4e-12 m^2, as doubles.
     const std::string recording = file("run.mcap");
     for (const double variance_m2 : {1e-6 * 1e-3 * 1e-3, 4e-6 * 1e-3 * 1e-3}) {
         const std::string bytes(reinterpret_cast<const char*>(&variance_m2), sizeof variance_m2);
@@ -104,7 +104,7 @@ TEST_F(Replay, PrintsAndDraws) {
     const std::string picture = file("run.svg");
     EXPECT_THAT(picture, HasSubstr("speed [mm/s]"));
     EXPECT_THAT(picture, HasSubstr("</svg>"));
-    // Three gaps: one in each of the plots over time.
+    // Three gaps, one in each plot over time.
     std::size_t bands = 0;
     for (std::size_t at = picture.find("fill-opacity=\"0.10\""); at != std::string::npos;
          at = picture.find("fill-opacity=\"0.10\"", at + 1)) {
@@ -114,7 +114,8 @@ TEST_F(Replay, PrintsAndDraws) {
 }
 
 TEST_F(Replay, NumbersTheAxesOfAPathFarFromTheOrigin) {
-    // 20 mm along x and 10 mm along y, down as in the pattern, some 10 km from its origin.
+    // 20 mm along x and 10 mm along y, which points down as in the pattern, about 10 km from its
+    // origin.
     put(std::string(kHeader) +
         "0,0.0,,ok,150,1e-20,moving,fix,accepted,pattern,59957068.5,9667944,0,0\n"
         "1,0.1,,ok,150,1e-20,moving,,accepted,pattern,59957088.5,9667954,0,0\n");

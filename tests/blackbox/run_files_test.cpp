@@ -1,4 +1,4 @@
-// No command destroys one of its inputs, whatever name its outputs are given.
+// No command destroys one of its inputs, regardless of the names of its outputs.
 #include <string>
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Files of all kinds that the commands read, and a way to see that none of them changed.
+/// Files of all kinds that the commands read, and a check that none of them changed.
 class RunFiles : public ToolCommand {
   protected:
     void SetUp() override {
@@ -33,7 +33,7 @@ class RunFiles : public ToolCommand {
         std::ofstream(directory_ / name, std::ios::binary) << text;
     }
 
-    /// Names, kinds, inodes and checksums of all files.
+    /// Returns names, kinds, inodes and checksums of all files.
     std::string state() {
         shell("find . -printf '%p %y %i\\n' | sort; find . -type f -exec cksum {} + | sort");
         return output_;
@@ -44,7 +44,7 @@ class RunFiles : public ToolCommand {
         std::string reason;
     };
 
-    /// Runs what is to be refused, and expects that it says why and leaves everything as it was.
+    /// Runs commands that must be refused. Expects that they report the reason and change nothing.
     void expect_refused(const std::vector<Refusal>& refusals) {
         const std::string before = state();
         for (const auto& [command, reason] : refusals) {
@@ -127,7 +127,8 @@ TEST_F(RunFiles, a_camera_file_may_be_completed_but_not_turned_into_another_form
         "1, cols: 5, data: [0, 0, 0, 0, 0]}}");
     expect_refused({"calibrate --camera ros.yaml --drive g/frame_000000.pgm -o ros.yaml"},
                    " would overwrite the input ");
-    // Three frames from anywhere are no drive, but that is found out by looking at them.
+    // Three frames at random places are not a drive, but this can only be detected by locating
+    // them.
     EXPECT_EQ(run("calibrate --camera c.yaml --drive g/*.pgm -o c.yaml"), 1);
 }
 
@@ -141,14 +142,14 @@ TEST_F(RunFiles, other_names_are_taken_as_before) {
 }
 
 TEST_F(RunFiles, pictures_of_frames_are_outputs_too) {
-    // A list that is called like a picture that one of its images gets.
+    // A list with the same name as the picture of one of its images.
     ASSERT_EQ(shell("mkdir p; mv l p/frame_000000.svg"), 0);
     const std::string list = file("p/frame_000000.svg");
     EXPECT_EQ(run("locate --list p/frame_000000.svg --draw p"), 1);
     EXPECT_THAT(errors_, HasSubstr("would overwrite the input --list p/frame_000000.svg"));
     EXPECT_EQ(file("p/frame_000000.svg"), list);
     EXPECT_TRUE(fs::exists(directory_ / "p/frame_000001.svg"));
-    // Where upper and lower case differ, so do their pictures.
+    // If names differ in case only, their pictures differ, too.
     ASSERT_EQ(shell("cp g/frame_000000.pgm a.pgm && cp g/frame_000001.pgm A.pgm"), 0);
     EXPECT_EQ(run("locate a.pgm A.pgm --draw p"), 0) << errors_;
 }

@@ -1,4 +1,4 @@
-// Sheet files and the pages in them are written together or not at all, whoever else writes them.
+// Sheet files and their pages are written together or not at all, even with concurrent writers.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -76,7 +76,7 @@ TEST_F(SheetFileWriting, no_page_is_written_where_its_entry_cannot_be) {
     } wrong[] = {
         {"$T print -o new.svg --paper 40x40 --sheets folder.json --name a", "Is a directory"},
         {"$T overlay in.pdf -o new.svg --sheets folder.json --name a", "Is a directory"},
-        // As on a full disk: no file grows beyond 512 bytes, and an entry has more.
+        // Simulates a full disk: files are limited to 512 bytes, and an entry is larger.
         {"(trap '' XFSZ; ulimit -f 1; $T print -o new.svg --paper 30x20 --sheets s.json --name a)",
          "cannot write s.json: File too large"},
         {"$T print -o new.svg --paper 40x40 --sheets /proc/s.json --name a",
@@ -91,7 +91,7 @@ TEST_F(SheetFileWriting, no_page_is_written_where_its_entry_cannot_be) {
 }
 
 TEST_F(SheetFileWriting, a_page_that_cannot_be_written_leaves_no_entry) {
-    // The entry has some 700 bytes, and the page more than the 2 KB that a file may have.
+    // The entry has about 700 bytes, and the page more than the limit of 2 KB.
     EXPECT_EQ(
         shell("trap '' XFSZ; ulimit -f 4; $T print -o a.svg --paper 40x40 --sheets sheets.json "
               "--name a"),
@@ -138,7 +138,8 @@ TEST_F(SheetFileWriting, prints_at_the_same_time_all_get_regions_of_their_own) {
     std::vector<std::uint32_t> origins;
     for (const json& sheet : sheets())
         origins.push_back(sheet["origin_x"]);
-    // Twice the gap of 1024 would be 8 regions in two rows; they stand in one, 59 columns each.
+    // With twice the gap of 1024, the regions would need two rows. They are in one row, with 59
+    // columns each.
     EXPECT_THAT(origins, ElementsAre(1024, 2107, 3190, 4273, 5356, 6439, 7522, 8605));
 }
 

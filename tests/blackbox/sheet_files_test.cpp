@@ -1,5 +1,5 @@
-// From the printed page to the place on it and in the world, by the tool alone: `dotpose print`
-// into a sheet file, frames of the pages, `dotpose locate` with the file.
+// From a printed page to the place on the page and in the world, with the tool alone: `dotpose
+// print` with a sheet file, frames of the pages, and `dotpose locate` with the sheet file.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -26,8 +26,8 @@ using testing::IsEmpty;
 
 constexpr double kPi = std::numbers::pi;
 
-// What is known of nominal frames: dots are jittered by 0.010 mm and about 170 are seen, so a fix
-// is right to 0.001 mm; 0.02 mm is also what a wrong half pixel of the camera would show.
+// Tolerance of places. In nominal frames, dots are jittered by 0.010 mm and about 170 are in view,
+// so a fix is accurate to 0.001 mm. An error of half a camera pixel would be 0.02 mm.
 constexpr double kTolerance_mm = 0.02;
 
 using SheetFiles = SheetsCommand;
@@ -58,7 +58,8 @@ TEST_F(SheetFiles, tell_sheet_place_and_world_pose) {
         EXPECT_EQ(record.contains("x_m"), i % 2 == 1);
         EXPECT_EQ(record.contains("yaw_rad"), i % 2 == 1);
         if (i % 2 == 0) continue;
-        // The page's y runs down and the world's up: the place is the conjugate, turned and moved.
+        // The page's y axis points down and the world's up. The place in the world is therefore the
+        // conjugate, rotated and moved.
         const std::complex<double> turn = std::polar(1.0, kYaw_rad);
         const std::complex<double> at =
             std::complex(1.25, -0.5) + turn * std::conj(std::complex(x_mm, y_mm)) / 1000.0;
@@ -80,9 +81,9 @@ TEST_F(SheetFiles, a_place_on_no_sheet_is_a_warning) {
     EXPECT_THAT(record["warning"], HasSubstr("this place is on no sheet of the sheet file"));
 }
 
-/// What a camera above the printed page sees whose pixels are 2 x 2 of the printer's, its image
-/// centre on the corner between printer pixels (u, v): cut out of the printed file itself. The
-/// table around the page is white.
+/// Returns the image of a camera above the printed page, cut out of the printed file. Each camera
+/// pixel covers 2 x 2 printer pixels, and the image centre is at the corner of the printer pixels
+/// (u, v). The table around the page is white.
 GreyImage cut_out(const GreyImage& page, int u, int v, int width_px = 188, int height_px = 120) {
     const auto level_at = [&page](int column, int row) {
         const bool is_inside =
@@ -107,7 +108,7 @@ TEST_F(SheetFiles, agree_with_a_ruler_on_the_printed_page) {
     ASSERT_EQ(print("-o other.svg --paper 40x40 --sheets sheets.json --name other"), 0);
     ASSERT_EQ(print("-o page.png --dpi 1200 --paper 50x40 --sheets sheets.json --name page"), 0);
     const GreyImage page = read_image((directory_ / "page.png").string());
-    // The last two lie on the margins, right of and below which the first intersection is.
+    // The last two places are on the margins, to the left of and above the first intersection.
     for (const auto& [u, v] :
          {std::pair(500, 500), {1111, 700}, {1800, 1333}, {200, 900}, {1200, 190}}) {
         const json record = locate_with_sheets(cut_out(page, u, v, 280, 260));
@@ -118,8 +119,8 @@ TEST_F(SheetFiles, agree_with_a_ruler_on_the_printed_page) {
     }
 }
 
-/// The column in which a page has the most dark pixels between two rows, of those between two
-/// columns.
+/// Returns the column with the most dark pixels, among the given columns and between the given
+/// rows.
 int darkest_column(const GreyImage& page, int u_begin, int u_end, int v_begin, int v_end) {
     int best = u_begin;
     int most = 0;
@@ -151,7 +152,7 @@ TEST_F(SheetFiles, a_frame_under_the_ruler_s_50_mm_lies_at_50_mm) {
         << output_;
     const GreyImage page = read_image((directory_ / "page.pgm").string());
     const auto px = [](double pt) { return static_cast<int>(pt * 1200 / 72); };
-    // The tick is 1.8 mm long, between the number and the dots.
+    // The tick is 1.8 mm long and between the number and the dots.
     const int v = px(bottom_pt);
     const int u =
         darkest_column(page, px(left_pt), px(right_pt), v, v + static_cast<int>(1.8 * kPxPerMm));
@@ -179,12 +180,12 @@ TEST_F(SheetFiles, may_mix_codes_and_spacings) {
             EXPECT_EQ(record["sheet"], file[i]["name"]);
             EXPECT_NEAR(record["x_sheet_mm"], x_mm, kTolerance_mm);
             EXPECT_NEAR(record["y_sheet_mm"], 18.5, kTolerance_mm);
-            // The pattern's own millimetres are those of the sheet's spacing.
+            // Millimetres of the pattern use the spacing of the sheet.
             EXPECT_NEAR(record["x_mm"],
                         record["x_grid"].get<double>() * file[i]["spacing_mm"].get<double>(), 1e-5);
         }
     }
-    // Off all sheets no spacing is known, and nothing is given in millimetres.
+    // Outside of all sheets, the spacing is unknown, and no lengths are in millimetres.
     run("frame.pgm --code libdots");
     json elsewhere = file[0];
     elsewhere["origin_x"] = 300'000'000;
@@ -209,7 +210,7 @@ TEST_F(SheetFiles, csv_has_the_same_columns_for_every_frame) {
     const std::vector<json> expected = records();
     ASSERT_EQ(expected.size(), 4U);
     EXPECT_EQ(expected[2]["status"], "ok");
-    // All sheets have one spacing, so this one is taken to have it too.
+    // All sheets have the same spacing, which is therefore also used for this place.
     EXPECT_TRUE(expected[2].contains("x_mm"));
     run("--format csv " + arguments);
     EXPECT_EQ(lines_of(output_).front(),
@@ -270,12 +271,12 @@ TEST_F(SheetFiles, the_print_scale_is_applied) {
 TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
     ASSERT_EQ(print("-o a.png --margin 0 --dpi 1200 --paper 30x30 --sheets sheets.json --name a"),
               0);
-    // Its margin is so wide that a frame may show dots of a alone and have its centre on b.
+    // The margin is wide enough for frames whose centre is on b but that only show dots of a.
     ASSERT_EQ(print("-o b.png --margin 9 --dpi 1200 --paper 50x30 --sheets sheets.json --name b"),
               0);
     const GreyImage a = read_image((directory_ / "a.png").string());
     const GreyImage b = read_image((directory_ / "b.png").string());
-    // Side by side on the table, without a gap.
+    // The sheets are side by side on the table, without a gap.
     GreyImage table{{}, a.width_px + b.width_px, a.height_px};
     for (int row = 0; row < a.height_px; ++row) {
         for (const GreyImage* page : {&a, &b}) {
@@ -293,7 +294,7 @@ TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
         const double x_mm = (is_b ? u - a.width_px : u) * 25.4 / 1200;
         EXPECT_NEAR(record["x_sheet_mm"], x_mm, kTolerance_mm) << u;
     }
-    // Frames reach 280 printer pixels to both sides; the dots of b begin 430 from its edge.
+    // Frames reach 280 printer pixels to each side. The dots of b begin 430 pixels from its edge.
     EXPECT_GE(on_a, 8);
     EXPECT_GE(on_b, 12);
 }
@@ -333,13 +334,13 @@ TEST_F(SheetFiles, labels_beside_the_dots_contradict_nothing_where_the_sheet_is_
     const double spacing_mm = sheet["spacing_mm"];
     const double right_mm =
         sheet["first_x_mm"].get<double>() + (sheet["columns"].get<int>() - 0.5) * spacing_mm;
-    // The last column of dots is 1.5 mm to the right of the image's centre.
+    // The last column of dots is 1.5 mm to the right of the image centre.
     GreyImage frame = frame_of(sheet, right_mm - 1.5, 20, 0, 5);
     const double px_per_mm = 1 / CameraModel{}.mm_per_px;
     const int first_u = static_cast<int>((frame.width_px - 1) / 2.0 + 1.5 * px_per_mm) + 3;
     std::mt19937 random(12);
     for (int n = 0; n < 40; ++n) {
-        // Two by two pixels, as of a small letter.
+        // A blot of 2 x 2 pixels, like a small letter.
         const auto u = std::uniform_int_distribution(first_u, frame.width_px - 2)(random);
         const auto v = std::uniform_int_distribution(0, frame.height_px - 2)(random);
         for (const int at : {v * frame.width_px + u, (v + 1) * frame.width_px + u}) {
@@ -374,7 +375,8 @@ TEST_F(SheetFiles, pictures_show_the_profile_that_was_found) {
     ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --code microdots "
                     "--spacing 0.6"),
               0);
-    // Not on a sheet: after the second code variant has been tried, the first one's fix is drawn.
+    // This place is on no sheet. After the second code variant was tried, the picture shows the fix
+    // of the first.
     write_frame("elsewhere.pgm", 0);
     run("--sheets sheets.json --draw pictures elsewhere.pgm");
     EXPECT_EQ(records().at(0)["status"], "ok");

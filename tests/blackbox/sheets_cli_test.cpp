@@ -1,4 +1,4 @@
-// `dotpose sheets`: nobody needs an editor for a sheet file.
+// `dotpose sheets` edits sheet files without an editor.
 #include <filesystem>
 #include <numbers>
 #include <string>
@@ -69,7 +69,7 @@ TEST_F(SheetsTool, a_new_name_keeps_all_else) {
     expected[0]["name"] = "desk";
     ASSERT_EQ(sheets_tool("rename table desk"), 0) << errors_;
     EXPECT_EQ(sheets(), expected);
-    // The old name is free again, and what the other sheet had stays with that one.
+    // The old name is free again, and a sheet with this name keeps its properties.
     ASSERT_EQ(sheets_tool("rename shelf table"), 0) << errors_;
     EXPECT_FALSE(sheets().at(1).contains("room"));
     ASSERT_EQ(sheets_tool("remove desk"), 0) << errors_;
@@ -95,7 +95,7 @@ TEST_F(SheetsTool, reprint_makes_the_very_same_page) {
         EXPECT_THAT(errors_, IsEmpty());
         EXPECT_EQ(file("again-" + name), file(name)) << name;
     }
-    // One page of several: the same text, and the same picture.
+    // One of several pages is reprinted with the same text and the same picture.
     ASSERT_EQ(sheets_tool("reprint tiles-2 -o again.pdf"), 0) << errors_;
     ASSERT_EQ(shell("pdftotext -f 2 -l 2 tiles.pdf before.txt && pdftotext again.pdf after.txt && "
                     "pdftoppm -r 300 -gray -f 2 -l 2 -singlefile tiles.pdf before && "

@@ -1,4 +1,4 @@
-// Prints into a sheet file and locates with it.
+// Prints into a sheet file, and locates with the sheet file.
 #pragma once
 
 #include <cmath>
@@ -9,8 +9,8 @@
 
 namespace dotpose::test {
 
-/// A nominal frame of a place on a page, given in mm of the page; only the numbers of the sheet
-/// file say where on the code plane that is.
+/// Returns a nominal frame of a place on a page, given in mm of the page. The place on the code
+/// plane follows from the numbers in the sheet file.
 inline GreyImage frame_of(const json& sheet, double x_mm, double y_mm, double theta_rad,
                           std::uint64_t seed) {
     Setup setup;
@@ -43,7 +43,7 @@ class SheetsCommand : public LocateCommand {
     int print(const std::string& arguments) { return ToolCommand::run("print " + arguments); }
     json sheets() const { return json::parse(read_file(directory_ / "sheets.json"))["sheets"]; }
 
-    /// As a user does it, with an editor.
+    /// Edits the sheet file, as a user does with an editor.
     template <typename Edit>
     void edit_sheet(std::size_t index, const Edit& edit) const {
         json document = json::parse(read_file(directory_ / "sheets.json"));
@@ -51,7 +51,7 @@ class SheetsCommand : public LocateCommand {
         write("sheets.json", document.dump());
     }
 
-    /// One record, of the image given.
+    /// Returns the record of an image.
     json locate_with_sheets(const GreyImage& image) {
         write_pgm(directory_ / "frame.pgm", image.view());
         run("--sheets sheets.json frame.pgm");

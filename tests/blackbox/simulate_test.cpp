@@ -1,4 +1,4 @@
-// `dotpose simulate` as its user sees it.
+// Black-box tests of `dotpose simulate`.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -126,7 +126,7 @@ class SimulateDrive : public SheetsCommand {
 };
 
 TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
-    // The second page lies to the right of the first one, turned by 90 degrees.
+    // The second page is to the right of the first one, rotated by 90 degrees.
     ASSERT_EQ(print("-o a.svg --paper 60x40 --sheets sheets.json --name a"), 0) << errors_;
     ASSERT_EQ(print("-o b.svg --paper 40x60 --sheets sheets.json --name b"), 0) << errors_;
     ASSERT_EQ(ToolCommand::run("sheets place a --x 0 --y 0 --yaw 0"), 0);
@@ -147,7 +147,7 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
             continue;
         }
         sheets.insert(record["sheet"]);
-        // The eight of 120 x 40 mm, less the reach of the camera and 5 mm on each side.
+        // The figure eight has 120 x 40 mm, minus the view of the camera and 5 mm on each side.
         EXPECT_GT(record["x_m"], 0.0095);
         EXPECT_LT(record["x_m"], 0.1105);
         if (last) {

@@ -1,5 +1,5 @@
-// Simulated frames with known poses, seen through `locate` alone. DOTPOSE_LONG_TESTS=1 in the
-// environment runs more of them.
+// Simulated frames with known poses, tested through `locate` alone. DOTPOSE_LONG_TESTS=1 in the
+// environment increases their number.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -21,7 +21,7 @@ std::uint64_t frames_of(std::uint64_t usual, std::uint64_t many) {
     return std::getenv("DOTPOSE_LONG_TESTS") != nullptr ? many : usual;
 }
 
-/// How a run of frames went.
+/// Results of a run of frames.
 struct Tally {
     std::uint64_t frames = 0;
     std::uint64_t located = 0;
@@ -39,7 +39,8 @@ struct Tally {
     }
 };
 
-/// Wrong: another cell than the true one, or the next; or another section; or another direction.
+/// Judges a fix. It is wrong if the cell is neither the true one nor a neighbour, or if the section
+/// or the direction differs.
 void judge(const Fix& fix, const Shot& shot, Tally& tally) {
     ++tally.frames;
     if (fix.status != Status::ok) return;
@@ -83,7 +84,7 @@ TEST(SimulatedFrames, NominalFramesAreLocated) {
     EXPECT_GE(tally.located_share(), 0.995) << "seed " << kFramesSeed;
     EXPECT_EQ(tally.wrong, 0u);
     EXPECT_LE(tally.median_um(), 1.2) << "seed " << kFramesSeed;
-    // The camera sees 8.6 mm: 3 um at its border are 0.7 mrad.
+    // The camera sees 8.6 mm. An error of 3 µm at its border corresponds to 0.7 mrad.
     EXPECT_LE(tally.percentile(tally.errors_mrad, 0.5), 1);
 }
 
@@ -102,8 +103,9 @@ TEST(SimulatedFrames, HardFramesAreLocated) {
 }
 
 TEST(SimulatedFrames, FramesInDoubtAreLookedAtOnceMore) {
-    // Dark and noisy, or with graphics along the grid: through the first grid a third of their bits
-    // contradict. In the last, words turn the first estimate of the grid by 26 degrees.
+    // Frames that are dark and noisy, or have graphics along the grid. With the first grid, a third
+    // of their bits contradict the position. In the last frame, words rotate the first estimate of
+    // the grid by 26 degrees.
     const auto memory = std::make_unique<LargeMemory>();
     Tally tally;
     for (const std::uint64_t index :
@@ -139,7 +141,8 @@ TEST(SimulatedFrames, OtherProfilesAreNotTakenForOnesOwn) {
 
 TEST(SimulatedFrames, BothEndsOfTheCodeAreReadAsTheMiddle) {
     const auto memory = std::make_unique<LargeMemory>();
-    // All that the camera sees lies on the plane: it reaches 10 cells from its centre.
+    // The camera sees 10 cells in each direction from its centre, so the whole view is on the
+    // plane.
     constexpr std::uint32_t kNear = 12;
     constexpr std::uint32_t kFar = kPositionsPerAxis - 13;
     Tally tally;

@@ -1,4 +1,4 @@
-// Sheets that are not one plane, seen through `locate` and through the tool.
+// Sheets that are not one plane, tested through `locate` and through the tool.
 #include "../slipped_frames.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ Shot nominal_shot(std::uint64_t index) {
     return draw_shot(setup, index);
 }
 
-/// The largest error of x, y and theta in units of their sigmas.
+/// Returns the maximum error of x, y and theta in units of their standard deviations.
 double sigmas_off(const Fix& fix, const Truth& truth) {
     const Deviation off = deviation_of(fix, truth);
     const double errors[] = {off.x_grid, off.y_grid, off.theta_rad};
@@ -38,7 +38,8 @@ double sigmas_off(const Fix& fix, const Shot& shot) {
     return sigmas_off(fix, truth_of(shot));
 }
 
-// 97.6 % were within 4 sigmas while small steps in the middle were not seen, and 99.8 % are.
+// 99.8 % of the errors are within 4 sigmas. When small steps in the middle were not detected, 97.6
+// % were.
 TEST(SeamedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     constexpr int kFrames = 400;
     constexpr double kAnywhere_px = std::numeric_limits<double>::infinity();
@@ -78,17 +79,19 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         divided += outcome.fix.surface == Surface::divided ? 1 : 0;
     }
     EXPECT_GE(fixes, kFrames * 9 / 10);
-    // So few frames exceed 3 % by chance once in 70 runs where 1 % is true.
+    // If the true fraction is 1 %, a fraction of more than 3 % of so few frames occurs by chance
+    // once in 70 runs.
     EXPECT_LE(claim_too_much, fixes * 3 / 100);
-    // Many lines cut off a corner only, or displace by less than dots scatter.
+    // Many slips cut off only a corner, or displace dots by less than their scatter.
     EXPECT_GE(divided, fixes / 2);
 }
 
-/// What the covariances of frames of one kind of sheet are worth.
+/// Errors of the frames of one kind of sheet relative to their covariances.
 struct Claims {
     int fixes = 0;
     int within_4_sigmas = 0;
-    double mean_square = 0;  ///< of the errors of x, in variances that the fixes claim
+    double mean_square =
+        0;  ///< mean square of the errors of x, in units of the variance of the fix
 
     explicit Claims(double wrinkled_by) {
         constexpr int kFrames = 150;
@@ -107,8 +110,8 @@ struct Claims {
     }
 };
 
-// What waves of 8 mm and more look like beyond 9 x 6 mm is not known; before what blocks share
-// counted from 1.5 deviations on, 62 and 72 % of the errors were within 4 sigmas.
+// Waves of 8 mm and more cannot be observed in a view of 9 x 6 mm. Before the mean residuals of
+// blocks were counted from 1.5 deviations on, 62 and 72 % of the errors were within 4 sigmas.
 TEST(WrinkledSheet, MostErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Claims slightly(0.02);
     EXPECT_EQ(slightly.fixes, 150);
@@ -126,7 +129,7 @@ TEST(WrinkledSheet, DoesNotMakeFlatOnesLookInexact) {
     EXPECT_LT(flat.mean_square, 1.25);
 }
 
-/// A third of the view is displaced by a fifth of a spacing.
+/// Returns a shot in which a third of the view is displaced by a fifth of a spacing.
 Shot slipped_shot() {
     Shot shot = nominal_shot(0);
     apply({half_extent_grid(shot, 1) / 3, 1, {0.2, -0.05}, 0.005}, shot);
@@ -146,8 +149,8 @@ TEST(SlippedSheet, PredictionsAreNoHelpToTheOtherSide) {
     EXPECT_LT(sigmas_off(tracked, shot), 4);
 }
 
-// Blurred dots are pale, and what light that falls off adds to them is large beside them. With one
-// slope for the whole image, and none where corners are darker, the mean square was 2.9 and 2.4.
+// Blurred dots are pale, so the bias caused by a gradient of the background light is large. With
+// one slope for the whole image, and no slope in darker corners, the mean squares were 2.9 and 2.4.
 TEST(BlurredFrames, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     constexpr int kFrames = 150;
     const auto memory = std::make_unique<LargeMemory>();
@@ -166,7 +169,7 @@ TEST(BlurredFrames, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         y += off.y_grid * off.y_grid / double{fix.covariance[1][1]};
     }
     EXPECT_EQ(fixes, kFrames);
-    // The mean of 150 squared normal numbers has a deviation of 0.12.
+    // The mean of 150 squared standard normal numbers has a standard deviation of 0.12.
     EXPECT_LT(x / fixes, 1.5);
     EXPECT_LT(y / fixes, 1.5);
 }

@@ -1,4 +1,4 @@
-// What frames are read from: all commands take the same sources, and give the same for the same
+// Sources of frames. All commands accept the same sources, and give the same results for the same
 // frames.
 #include <algorithm>
 #include <cmath>
@@ -24,8 +24,7 @@ class Sources : public ToolCommand {
   protected:
     static constexpr int kFrames = 6;
 
-    /// Puts simulated frames into the folder frames, and the same without loss into drive.mkv and
-    /// drive.raw.
+    /// Writes simulated frames to the folder frames, and losslessly to drive.mkv and drive.raw.
     void SetUp() override {
         ASSERT_EQ(run("simulate -o frames --seed 91 --frames " + std::to_string(kFrames)), 0);
         ASSERT_EQ(encode("-c:v ffv1 drive.mkv"), 0) << errors_;
@@ -51,7 +50,7 @@ class Sources : public ToolCommand {
         return all;
     }
 
-    /// The lines of the last run, without what differs between runs and sources.
+    /// Returns the lines of the last run, without fields that differ between runs and sources.
     std::vector<json> poses() const {
         std::vector<json> all = records();
         for (json& record : all) {
@@ -161,7 +160,7 @@ TEST_F(Sources, EvaluateSaysWhichPosesAreMissing) {
     fs::copy_file(directory_ / image(0), directory_ / "frames/other.pgm");
     EXPECT_EQ(run("evaluate frames/other.pgm"), 1);
     EXPECT_EQ(errors_, "dotpose: frames/truth.csv has no pose of frames/other.pgm\n");
-    // The video is shorter than the file of poses, or longer.
+    // The video is shorter or longer than the file of poses.
     const std::string truth = file("frames/truth.csv");
     std::ofstream(directory_ / "more.csv") << truth << truth.substr(truth.find('\n') + 1);
     EXPECT_EQ(run("evaluate drive.mkv --format json --poses more.csv"), 1);
@@ -207,7 +206,7 @@ TEST_F(Sources, WrongOnesAreNamed) {
     EXPECT_THAT(errors_, HasSubstr("leaves the frame of 188x120 px"));
 }
 
-// The camera file is for whole frames: the pose is that of the whole frame's reference.
+// The camera file is for whole frames, and the pose is that of the reference of the whole frame.
 TEST_F(Sources, APartOfAFrameIsLocatedWithTheCameraFileOfTheWhole) {
     std::ofstream(directory_ / "camera.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: 0, "
@@ -230,7 +229,7 @@ TEST_F(Sources, APartOfAFrameIsLocatedWithTheCameraFileOfTheWhole) {
     const json other_part = pose("--reference 93.5,59.5 --roi 20,10,150x100 ");
     EXPECT_NEAR(other_part["x_mm"], other["x_mm"], 0.01);
     EXPECT_NEAR(other_part["y_mm"], other["y_mm"], 0.01);
-    // The frames must have the file's size, and the part must be inside.
+    // The frames must have the size in the camera file, and the part must be inside of them.
     ASSERT_EQ(run("simulate -o large --size 200x120 --frames 1"), 0);
     EXPECT_EQ(run("locate --camera camera.yaml --roi 20,10,150x100 large"), 1);
     EXPECT_THAT(errors_, HasSubstr("frame_000000.pgm: the camera file is for images of 188 x 120 "
@@ -262,7 +261,7 @@ TEST_F(Sources, AreFlippedForAllCommands) {
         EXPECT_EQ(record["status"], "ok");
 }
 
-/// A number that the camera file states.
+/// Returns a number in the camera file.
 double value_of(const std::string& yaml, const std::string& name) {
     const std::size_t at = yaml.find(name + ": ");
     return at == std::string::npos ? -1 : std::stod(yaml.substr(at + name.size() + 2));
@@ -270,7 +269,7 @@ double value_of(const std::string& yaml, const std::string& name) {
 
 TEST_F(Sources, CalibrateChoosesTheFramesOfAVideoThatShowNewPlaces) {
     ASSERT_EQ(run("simulate -o frames --seed 91 --k -8.7e-6 --frames 12"), 0) << errors_;
-    // Each frame three times in a row, as of a camera that rests.
+    // Each frame is repeated three times, as by a camera at rest.
     ASSERT_EQ(encode("-vf fps=90 -c:v ffv1 slow.mkv"), 0) << errors_;
     ASSERT_EQ(run("calibrate frames/*.pgm -o images.yaml"), 0) << errors_;
     ASSERT_EQ(run("calibrate slow.mkv -o video.yaml"), 0) << errors_;

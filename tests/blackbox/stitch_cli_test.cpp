@@ -1,4 +1,5 @@
-// `dotpose calibrate --stitch`: from frames over a seam to world poses in the sheet file.
+// `dotpose calibrate --stitch`: computes the world poses in the sheet file from frames that show a
+// seam between sheets.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -18,7 +19,7 @@ using testing::Not;
 
 constexpr double kSpacing_mm = kDefaultSpacing_mm;
 constexpr int kSide_cells = 60;
-/// The second sheet lies to the right of the first, lower and turned clockwise.
+/// The second sheet is to the right of the first, lower and rotated clockwise.
 constexpr double kRight_mm = 31.5;
 constexpr double kDown_mm = 0.7;
 constexpr double kTurn_rad = 0.012;
@@ -33,7 +34,7 @@ SheetEntry sheet(const std::string& name, std::uint32_t origin_x) {
     return entry;
 }
 
-/// Looks at a place of one sheet, in mm from its corner.
+/// Returns a frame of a place on one sheet, in mm from its corner.
 GreyImage sheet_frame(const Shot& like, const SheetEntry& entry, double x_mm, double y_mm,
                       double theta_rad) {
     Shot shot = like;
@@ -47,8 +48,9 @@ GreyImage sheet_frame(const Shot& like, const SheetEntry& entry, double x_mm, do
     return render(shot);
 }
 
-/// Looks at a place of the table, whose frame is that of the first sheet. Light and noise of both
-/// renderings are the same, so that the darker pixel is that with the dot.
+/// Returns a frame of a place on the table, whose coordinates are those of the first sheet. Light
+/// and noise of both renderings are equal, so of each pair of pixels, the darker one belongs to a
+/// dot.
 GreyImage table_frame(std::uint64_t index, double x_mm, double y_mm, double theta_rad) {
     Setup setup;
     setup.camera.width_px = 376;
@@ -85,7 +87,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     ASSERT_EQ(run("calibrate --stitch --sheets sheets.json seam*.pgm"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("frames      12 of 12 show two sheets"));
     EXPECT_THAT(output_, HasSubstr("sheet       left: stays where it is"));
-    // Without a camera file, whose mm per px are known.
+    // Without a camera file, the mm per px are unknown.
     EXPECT_THAT(output_, HasSubstr("(UNKNOWN) along x"));
     EXPECT_THAT(output_, HasSubstr("UNKNOWN:    these frames do not determine the scales"));
     const auto sheets = read_sheets(directory_ / "sheets.json");
@@ -94,7 +96,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_NEAR(sheets[1].world->y_m, 1 - kDown_mm / 1000, 3e-5);
     EXPECT_NEAR(sheets[1].world->yaw_rad, -kTurn_rad, 0.02 * std::numbers::pi / 180);
 
-    // Both sheets tell one world.
+    // Both sheets give the same place in the world.
     write_pgm(directory_ / "right.pgm", table_frame(20, 45, 12, 0.3).view());
     ASSERT_EQ(run("locate --sheets sheets.json right.pgm"), 0) << errors_;
     const json record = json::parse(output_);
@@ -103,7 +105,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_NEAR(record["y_m"].get<double>(), 1 - 0.012, 3e-5);
     EXPECT_NEAR(record["yaw_rad"].get<double>(), -0.3, 0.001);
 
-    // A mounted camera tells print scales as well.
+    // A mounted camera also determines the scales of the prints.
     std::ofstream(directory_ / "camera.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 376, height_px: 240, k_per_px2: 0, "
            "centre_px: [187.5, 119.5], mm_per_px: [0.046, 0.046]}";
@@ -112,12 +114,13 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_THAT(output_, HasSubstr("scale       by the camera's mm per px"));
     EXPECT_THAT(output_, Not(HasSubstr("UNKNOWN")));
     EXPECT_THAT(file("sheets.svg"), HasSubstr("</svg>"));
-    // To a tenth of a millimetre in 200.
+    // The scales are accurate to 0.1 mm in 200 mm.
     for (const SheetEntry& entry : read_sheets(directory_ / "sheets.json")) {
         EXPECT_NEAR(entry.print_scale_x, 1, 5e-4) << entry.name;
         EXPECT_NEAR(entry.print_scale_y, 1, 5e-4) << entry.name;
     }
-    // By a ruler the right sheet is 0.5 % too long, and so is the camera's view.
+    // According to the ruler, the right sheet is 0.5 % longer than nominal. The camera's scale
+    // changes by the same factor.
     const double width_mm = 1.005 * (kSide_cells - 1) * kSpacing_mm;
     ASSERT_EQ(run(stitch + "--true-scale right=" + std::to_string(width_mm) + " seam*.pgm"), 0)
         << errors_;

@@ -1,4 +1,4 @@
-/// `dotpose` as its user sees it: a program in a directory with files.
+/// Runs `dotpose` as a black box, in a directory with files.
 #pragma once
 
 #include <filesystem>
@@ -21,29 +21,30 @@ inline std::string read_file(const fs::path& path) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// A camera file for images of 640 x 480 px, and what is said of each image of another size.
+/// A camera file for images of 640 x 480 px, and the message for images of another size.
 inline constexpr const char* kLargeCamera =
     "{format: dotpose-camera, version: 1, width_px: 640, height_px: 480, k_per_px2: 0, "
     "centre_px: [319.5, 239.5]}";
 inline constexpr const char* kNotForLargeCamera = ": the camera file is for images of 640 x 480";
 
-/// A shell command that waits until the tool, run in the background as process $tool, has a handler
-/// for SIGTERM (bit 14 of the mask that Linux tells): before, the signal would end it at once.
+/// Shell command that waits until the tool, running in the background as process $tool, has
+/// installed a handler for SIGTERM (bit 14 of the signal mask that Linux reports). Before that, the
+/// signal would end the tool immediately.
 inline constexpr const char* kUntilItHandlesSignals =
     "until grep -qE '^SigCgt:.*[4-7c-f][0-9a-f]{3}$' /proc/$tool/status || ! kill -0 $tool; "
     "do sleep 0.02; done; ";
 
-/// Runs the tool in a directory of its own, and keeps what the last run said.
+/// Runs the tool in a temporary directory, and keeps the output of the last run.
 class ToolCommand : public testing::Test {
   protected:
     ToolCommand() { fs::create_directory(directory_); }
 
-    /// Runs `dotpose ARGUMENTS`, which a shell reads, and returns the exit code.
+    /// Runs `dotpose ARGUMENTS` in a shell, and returns the exit code.
     int run(const std::string& arguments, const std::string& input = "/dev/null") {
         return shell("{ \"$T\" " + arguments + "; } <" + input);
     }
 
-    /// Runs shell commands, in which $T is the tool, and returns the exit code.
+    /// Runs shell commands, in which $T is the tool. Returns the exit code.
     int shell(const std::string& commands) {
         const fs::path errors = root_.path() / "errors";
         const ShellOutcome outcome =

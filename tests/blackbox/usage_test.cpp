@@ -1,4 +1,4 @@
-// Help, and what the tool says to command lines that it does not understand.
+// Help, and messages for invalid command lines.
 #include <sstream>
 #include <string>
 
@@ -15,7 +15,7 @@ using testing::StartsWith;
 
 class Usage : public ToolCommand {
   protected:
-    /// Expects that the tool refuses the arguments with these two lines and nothing else.
+    /// Expects that the tool refuses the arguments with exactly these two lines.
     void expect_refusal(const std::string& arguments, const std::string& message,
                         const std::string& help) {
         EXPECT_EQ(run(arguments), 2) << arguments;

@@ -1,4 +1,4 @@
-// `dotpose watch --camera`: the pose is that of the robot, as `dotpose locate --camera` tells it.
+// `dotpose watch --camera` reports the pose of the robot, as `dotpose locate --camera` does.
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -21,7 +21,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr int kFrames = 8;
-constexpr int kMoving = 220;  ///< the first frame: the robot drives on the first sheet
+constexpr int kMoving = 220;  ///< first frame; the robot drives on the first sheet
 
 class WatchCamera : public ToolCommand {
   protected:
@@ -76,7 +76,7 @@ TEST_F(WatchCamera, ThePoseIsThatOfTheRobot) {
             30, 0.05);
         tracked += watched[i]["attempt"] == "tracked" ? 1 : 0;
     }
-    // The track is that of the robot as well, and predicts what the camera sees.
+    // The track is the pose of the robot as well, and still predicts the view of the camera.
     EXPECT_GE(tracked, kFrames - 3);
     EXPECT_NEAR(watched.back()["track_x_mm"].get<double>(),
                 watched.back()["x_m"].get<double>() * 1000, 0.1);

@@ -56,7 +56,7 @@ class WatchCommand : public ToolCommand {
                       static_cast<std::streamsize>(image.pixels.size()));
         }
     }
-    /// And as a video without loss.
+    /// Writes frames of the drive as a lossless video.
     void put_video(int frames, const std::string& name) {
         put_raw(frames);
         encode("-c:v ffv1", name);

@@ -1,4 +1,4 @@
-// What `dotpose watch` saves and says of frames: images for calibration, and why most frames fail.
+// Frames that `dotpose watch` saves for calibration, and its report of why most frames fail.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -21,8 +21,8 @@ class WatchSave : public ToolCommand {
   protected:
     static constexpr int kPlaces = 5;
 
-    /// Puts simulated frames of different places into the folder frames, and each of them three
-    /// times in a row into slow.raw.
+    /// Writes simulated frames of different places to the folder frames, and to slow.raw with each
+    /// frame repeated three times.
     void SetUp() override {
         ASSERT_EQ(run("simulate -o frames --seed 91 --frames " + std::to_string(kPlaces)), 0);
         ASSERT_EQ(shell("ffmpeg -v error -framerate 10 -i frames/frame_%06d.pgm -vf fps=30 "
@@ -56,7 +56,7 @@ TEST_F(WatchSave, OneFramePerNewPlaceAndNothingIsOverwritten) {
         const std::string number = "frame_00000" + std::to_string(i);
         EXPECT_EQ(pixels("saved/" + number + ".png"), pixels("frames/" + number + ".pgm"));
     }
-    // They are what calibration asks for.
+    // Calibration accepts the saved frames.
     EXPECT_EQ(run("calibrate saved"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("5 of 5 located"));
 
@@ -95,7 +95,7 @@ class WatchHint : public WatchSave {};
 TEST_F(WatchHint, AtTheEndOfAShortRun) {
     ASSERT_EQ(watch(""), 0);
     EXPECT_THAT(errors_, Not(HasSubstr("not located")));
-    // Almost no light, and the noise of the camera.
+    // Almost no light, with the noise of the camera.
     std::string frames = file("slow.raw");
     for (std::uint32_t i = 0; i < frames.size(); ++i) {
         const std::uint32_t noise = (i * 2654435761U >> 20) % 4;

@@ -1,4 +1,4 @@
-// `dotpose watch`: what it says of its sources, and where their frames begin and end.
+// Messages of `dotpose watch` about its sources, and the boundaries of frames.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ using testing::Not;
 
 using WatchSources = WatchCommand;
 
-/// How often a text occurs in another one.
+/// Returns the number of occurrences of a text in another text.
 int count(const std::string& text, const std::string& part) {
     int found = 0;
     for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
@@ -25,7 +25,7 @@ int count(const std::string& text, const std::string& part) {
 
 TEST_F(WatchSources, SaysOnceWhyMostFramesFail) {
     const DriveCamera camera(188, 120);
-    // Noise of a camera in the dark.
+    // A dark frame with the noise of the camera.
     GreyImage dark{{}, 188, 120};
     for (std::uint32_t i = 0; i < 188 * 120; ++i)
         dark.pixels.push_back(static_cast<std::uint8_t>((i * 2654435761U >> 20) % 2 * 2));
@@ -71,7 +71,7 @@ TEST_F(WatchSources, LooksAtAPartOfTheFrame) {
     put_video(2, "drive.avi");
     ASSERT_EQ(run(std::string("watch drive.avi --frames 1 --roi 60,60,200x120 ") + kTrack), 0);
     const json part = parsed(output_).at(0);
-    // The middle of the part is at (159.5, 119.5), that of the whole frame.
+    // The middle of the part is at (159.5, 119.5), the same as that of the whole frame.
     const DriveState truth = drive_.at(0);
     EXPECT_NEAR(part["x_m"].get<double>() * 1000, truth.x_mm, 0.02);
     EXPECT_LT(part["dots_seen"], 300);
@@ -82,7 +82,7 @@ TEST_F(WatchSources, LooksAtAPartOfTheFrame) {
 
 TEST_F(WatchSources, StopsCleanlyOnAnInterrupt) {
     put_raw(60);
-    // The pipe stays open, so that only the signal ends the run.
+    // The pipe stays open, so the run ends only by the signal.
     shell(
         "mkfifo pipe && bash -c '(cat drive.raw; exec sleep 30) > pipe & writer=$!; "
         "\"" +
@@ -118,7 +118,7 @@ TEST_F(WatchSources, SaysWhatIsWrongWithTheSource) {
 
 TEST_F(WatchSources, TellsWhereRawFramesEnd) {
     put_raw(31);
-    // Cut inside the 31st frame.
+    // The file is cut inside the 31st frame.
     std::ofstream(directory_ / "cut.raw", std::ios::binary)
         << file("drive.raw").substr(0, 30 * kWidth * kHeight + 1000);
     EXPECT_EQ(run("watch - " + std::string(kRaw) + " " + kTrack, (directory_ / "cut.raw").string()),

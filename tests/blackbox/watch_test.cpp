@@ -41,11 +41,11 @@ DriveReading reading_of(const json& line) {
     return reading;
 }
 
-/// What the lines say against where the robot was.
+/// Returns the errors of the lines relative to the true drive.
 DriveErrors errors_of(const std::vector<json>& lines, const Drive& drive, int first = 0) {
     DriveErrors errors;
     for (const json& line : lines) {
-        // By the time, not the number: of a damaged video frames are missing.
+        // Finds the frame by its time, because a damaged video lacks frames.
         const int frame = static_cast<int>(std::lround(line["t_s"].get<double>() * kDriveFps));
         errors.add(drive.at(first + frame), reading_of(line));
     }
@@ -56,8 +56,8 @@ int frame_at(double seconds) {
     return static_cast<int>(std::lround(seconds * kDriveFps));
 }
 
-/// The first frame after `from` at which the robot is 0.1 mm, along an axis, from where it is at
-/// frame `place`; the step -1 looks back.
+/// Returns the first frame after `from` at which the robot is 0.1 mm, along an axis, from its
+/// position at frame `place`. With step -1, searches backwards.
 int first_away(const Drive& drive, int from, int step, int place) {
     const DriveState rest = drive.at(place);
     int frame = from;
@@ -82,9 +82,9 @@ void expect_events(const std::vector<json>& lines, const Drive& drive) {
     EXPECT_EQ(events[0].first, 0);
     EXPECT_EQ(events[1].first, frame_at(0.5));
     EXPECT_NEAR(events[2].first, first_away(drive, frame_at(plan.start), 1, 0), 1);
-    // 70 ms are 14 frames after the last one before the robot was lifted.
+    // The robot is lost 70 ms, or 14 frames, after the last frame before it was lifted.
     EXPECT_EQ(events[3].first, frame_at(plan.lift) - 1 + 14);
-    // The third frame that sees it beyond its reach of 400 mm/s.
+    // The third frame that shows the robot farther away than it can have driven at 400 mm/s.
     EXPECT_EQ(events[4].first, frame_at(plan.put_down) + 2);
     EXPECT_EQ(events[5].first, frame_at(plan.second_lift) - 1 + 14);
     EXPECT_EQ(events[6].first, frame_at(plan.second_put_down));
@@ -97,13 +97,14 @@ void expect_accurate(const std::vector<json>& lines, const Drive& drive) {
     const int lifted = frame_at(0.3) + frame_at(0.15);
     EXPECT_EQ(errors.wrong(), 0);
     EXPECT_GE(errors.fixes(), drive.frames() - lifted - 2);
-    // Nearly all are printing errors, which the filter cannot take away; it must add none.
+    // Nearly all errors are printing errors, which the filter cannot remove. The filter must not
+    // add errors.
     EXPECT_LT(errors.filtered_um(), 1.01 * errors.raw_um());
     EXPECT_LT(errors.velocity_mm_s(), 0.3);
     EXPECT_LT(errors.turn_deg_s(), 1);
 }
 
-/// Frames that show both sheets are read as well as all others.
+/// Expects that frames that show both sheets are located as accurately as all others.
 void expect_accurate_at_seam(const std::vector<json>& lines, const Drive& drive) {
     int frames = 0;
     for (const json& line : lines) {
@@ -119,7 +120,7 @@ void expect_accurate_at_seam(const std::vector<json>& lines, const Drive& drive)
     EXPECT_GT(frames, 10);
 }
 
-// One test, because the drive takes seconds to render and to locate.
+// A single test, because rendering and locating the drive takes seconds.
 TEST_F(Watch, FollowsADrive) {
     put_video(drive_.frames(), "drive.avi");
     ASSERT_EQ(run(std::string("watch drive.avi ") + kTrack), 0);
@@ -155,7 +156,7 @@ TEST_F(Watch, WritesLogMapPacketsAndVideo) {
     EXPECT_EQ(packets, 60);
     EXPECT_EQ(reader.packet().sequence, 59);
     EXPECT_EQ(reader.packet().time_us, 295'000U);
-    // The recording has the frame, 800 px wide, and a panel of 400.
+    // The recording consists of the frame, 800 px wide, and a panel of 400 px.
     shell(
         "ffprobe -v error -count_frames -select_streams v -show_entries "
         "stream=codec_name,nb_read_frames,width -of csv=p=0 run.mp4 > probe");
@@ -185,7 +186,8 @@ TEST_F(Watch, GoesThroughImages) {
     EXPECT_EQ(lines[2]["frame"], 3);
     EXPECT_DOUBLE_EQ(lines[2]["t_s"], 0.06);
     EXPECT_EQ(lines[0]["sheet"], "left");
-    // The first frame is located from nothing; then dots are looked for where they were.
+    // The first frame has no prediction. In the following frames, dots are measured at their
+    // predicted places.
     EXPECT_EQ(lines[0]["attempt"], "first");
     for (std::size_t i = 1; i < lines.size(); ++i)
         EXPECT_EQ(lines[i]["attempt"], "tracked");
@@ -194,7 +196,7 @@ TEST_F(Watch, GoesThroughImages) {
     EXPECT_EQ(parsed(output_).size(), 3U);
 }
 
-/// Leaves of a frame only the middle: a window of `side` px.
+/// Covers all of a frame except a window of `side` px in the middle.
 void cover_all_but(GreyImage& image, int side) {
     for (int v = 0; v < image.height_px; ++v) {
         for (int u = 0; u < image.width_px; ++u) {
@@ -206,7 +208,7 @@ void cover_all_but(GreyImage& image, int side) {
 }
 
 TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
-    // Whole frames are as sure as 1e-13 demands, those that show some 90 dots are not.
+    // Whole frames reach the certainty of 1e-13. Frames with about 90 dots do not.
     const DriveCamera camera(188, 120);
     std::ofstream raw(directory_ / "weak.raw", std::ios::binary);
     std::vector<bool> is_covered;
@@ -235,7 +237,7 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
         EXPECT_EQ(lines[i]["verdict"], "accepted") << i;
     }
     EXPECT_GE(with_prior, 3);
-    // Alone, in the first frame, the same view is refused.
+    // As a single frame, without a track, the same view is refused.
     ASSERT_EQ(run(std::string("watch - --size 188x120 --fps 200 --max-p-wrong 1e-13 --roi "
                               "40,6,108x108 ") +
                       kTrack,
@@ -245,7 +247,7 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
         EXPECT_NE(line["verdict"], "with_prior");
 }
 
-// At 250 mm/s, where a frame with the time of its neighbour is 1 mm off.
+// At 250 mm/s, a frame with the time of its neighbour has an error of 1 mm.
 TEST_F(Watch, KeepsTimesWhateverTheContainer) {
     constexpr int kFirst = 200;
     constexpr int kLength = 60;
@@ -258,7 +260,7 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
         EXPECT_GE(errors.fixes(), static_cast<int>(lines.size()) - 1) << name;
         return lines.size();
     };
-    // Frames of H.264 leave the decoder in another order than they enter it.
+    // H.264 decodes frames in a different order than they are displayed.
     encode("-c:v libx264 -crf 12", "ordered.mp4");
     encode("-c:v libx264 -crf 12", "ordered.avi");
     EXPECT_EQ(watch("ordered.mp4"), std::size_t{kLength});
@@ -269,7 +271,7 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
     encode("-c:v mjpeg -q:v 2", "whole.mkv");
     encode("-c:v mjpeg -q:v 2", "whole.avi");
     for (const std::string name : {"hole.mp4", "hole.mkv", "hole.avi"}) {
-        // The last tenth of AVI and MP4 is not touched: it has the index.
+        // The last tenth of AVI and MP4 files contains the index and is left intact.
         std::string video = file("whole" + name.substr(4));
         std::fill_n(video.begin() + static_cast<std::ptrdiff_t>(video.size() / 2),
                     video.size() / 50, '\0');
@@ -277,7 +279,8 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
         EXPECT_LT(watch(name), std::size_t{kLength});
         EXPECT_GT(parsed(output_).size(), std::size_t{kLength} * 8 / 10) << name;
         EXPECT_GT(parsed(output_).back()["t_s"], 0.29) << name;
-        // Matroska does not say how many frames there are; some may never have been recorded.
+        // Matroska files do not contain the number of frames. Missing frames may never have been
+        // recorded.
         const bool is_counted = name != "hole.mkv";
         EXPECT_EQ(exit_code_, is_counted ? 1 : 0);
         EXPECT_THAT(errors_,
@@ -285,7 +288,7 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
                                                  : " has gaps, from damage or from its ")));
         EXPECT_THAT(errors_, HasSubstr(" of 60 frames were read\n"));
     }
-    // An AVI that lacks some bytes, so that the index does not fit.
+    // An AVI without some of its bytes, so its index does not match.
     std::string video = file("whole.avi");
     video.erase(video.size() / 2, video.size() / 50);
     std::ofstream(directory_ / "lacking.avi", std::ios::binary) << video;

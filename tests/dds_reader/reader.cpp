@@ -1,10 +1,11 @@
-// Reads topics with the DDS of another vendor, eProsima Fast DDS, as a node of ROS 2 does that uses
-// it. Prints each sample as a line: topic, type of ROS, bytes as they came in hexadecimal digits.
+// Reads topics with the DDS implementation of another vendor, eProsima Fast DDS, as a ROS 2 node
+// with that implementation does. Prints each sample as a line: topic, ROS type, and the received
+// bytes in hexadecimal.
 //
 //   dotpose_dds_reader best-effort|reliable NAME TOPIC TYPE [TOPIC TYPE]...
 //
-// TOPIC is a topic of ROS, TYPE a type such as nav_msgs/Odometry. The file NAME appears once all
-// topics have writers. It ends when these have gone, or after five minutes.
+// TOPIC is a ROS topic, TYPE a type such as nav_msgs/Odometry. The program creates the file NAME
+// when all topics have writers. It ends when the writers have left, or after five minutes.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -33,7 +34,7 @@ using namespace eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
 
-/// Keeps the bytes of samples as they came.
+/// Type support that keeps the received bytes of samples.
 class RawType : public TopicDataType {
   public:
     explicit RawType(const std::string& name) {
@@ -56,7 +57,7 @@ class RawType : public TopicDataType {
     using Bytes = std::vector<unsigned char>;
 };
 
-/// Returns the name that ROS gives a type in DDS.
+/// Returns the DDS name of a ROS type.
 std::string dds_name(const std::string& type) {
     const std::size_t slash = type.find('/');
     return type.substr(0, slash) + "::msg::dds_::" + type.substr(slash + 1) + '_';
@@ -100,12 +101,12 @@ class Printer : public DataReaderListener {
     std::atomic<bool> has_gone_ = false;
 };
 
-/// With ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST, hears no multicast and looks for participants at
-/// the ports of this computer, as nodes of ROS do.
+/// With ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST, uses no multicast and searches for participants at
+/// the ports of this computer, as ROS nodes do.
 DomainParticipantQos participant_quality() {
     DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
     if (std::getenv("ROS_AUTOMATIC_DISCOVERY_RANGE") == nullptr) return qos;
-    constexpr uint32_t kFirstPort = 7410;  // of domain 0
+    constexpr uint32_t kFirstPort = 7410;  // first port of domain 0
     constexpr uint32_t kParticipants = 8;
     auto& discovery = qos.wire_protocol().builtin;
     for (uint32_t i = 0; i < kParticipants; ++i) {
@@ -118,7 +119,7 @@ DomainParticipantQos participant_quality() {
     return qos;
 }
 
-/// Says which writers of ROS topics have no type hash in their user data.
+/// Reports writers of ROS topics without a type hash in their user data.
 class HashCheck : public DomainParticipantListener {
   public:
     void on_publisher_discovery(DomainParticipant*,

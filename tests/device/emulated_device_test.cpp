@@ -1,6 +1,6 @@
-// The device of embedded/ in an emulator, from a drive's frames to the lines of `dotpose listen`:
-// the same packets as on the desktop to the bit, the poses of the desktop's device attempt, all
-// frames in time, none lost.
+// The device program of embedded/ in an emulator, from the frames of a drive to the lines of
+// `dotpose listen`. The packets must be bit-identical to those of the desktop program, the poses
+// equal to those of the device attempt on the desktop, all frames on time, and none lost.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -37,14 +37,14 @@ constexpr std::int64_t kFrameTime_us = 20'000;
 constexpr double kFps = 50;
 constexpr double kSpacing_mm = 0.508;
 
-/// A robot that rests, drives half a circle at up to 170 mm/s, and rests for so long that frames
-/// are taken once a second.
+/// A robot that rests, drives half a circle at up to 170 mm/s, and then rests long enough for
+/// frames to be taken once per second.
 constexpr double kStart_s = 0.2;
 constexpr double kStop_s = 2.2;
 constexpr double kEnd_s = 10;
 constexpr double kRadius_mm = 60;
 
-/// The angle on the circle, which begins and ends smoothly.
+/// Returns the angle on the circle, with smooth start and end.
 double angle_at(double t_s) {
     const double u = std::clamp((t_s - kStart_s) / (kStop_s - kStart_s), 0.0, 1.0);
     return 3.0 * u * u * u * (10 - 15 * u + 6 * u * u);
@@ -62,7 +62,7 @@ CameraPose pose_at(double t_s) {
     return pose;
 }
 
-/// The frames of the drive; those of the rest after it are all alike.
+/// Returns the frames of the drive. The frames of the final rest are all equal.
 std::vector<GreyImage> drive() {
     Setup setup;
     setup.seed = 27;
@@ -81,7 +81,8 @@ std::vector<GreyImage> drive() {
     return frames;
 }
 
-// The board of the desktop: a camera that delivers the frames, and a line that keeps all bytes.
+// The board of the desktop program: a camera that delivers the frames, and a line that keeps all
+// bytes.
 struct EndOfFrames {};
 std::vector<GreyImage> camera;
 std::string line;
@@ -136,8 +137,8 @@ class EmulatedDevice : public testing::Test {
         return {std::istreambuf_iterator<char>(in), {}};
     }
 
-    /// Runs the emulator, whose serial line is a terminal that `dotpose listen` reads. Returns the
-    /// exit code of the emulator.
+    /// Runs the emulator, with its serial line connected to a terminal that `dotpose listen` reads.
+    /// Returns the exit code of the emulator.
     int emulate() const {
         std::ofstream out(directory_.path() / "drive.frames", std::ios::binary);
         for (const GreyImage& image : camera) {
@@ -147,8 +148,8 @@ class EmulatedDevice : public testing::Test {
         }
         out.close();
         const SerialLine serial;
-        // Bytes that arrive before the line is set up would be changed, and those that are on the
-        // way when listening ends are lost.
+        // Bytes that arrive before the line is configured would be changed. Bytes still in transit
+        // when listening ends are lost.
         const std::string commands =
             "cd " + directory_.path().string() + "; " + test::tool_path() + " listen " +
             serial.name() +
@@ -166,10 +167,12 @@ class EmulatedDevice : public testing::Test {
     }
 
   private:
-    /// A pseudo-terminal: what shells write to kDescriptor can be read from the terminal `name`.
+    /// A pseudo-terminal. Bytes that shells write to kDescriptor can be read from the terminal
+    /// `name`.
     class SerialLine {
       public:
-        static constexpr int kDescriptor = 9;  ///< of one digit, as shells know no others
+        static constexpr int kDescriptor =
+            9;  ///< one digit, because shells support no larger descriptors
         SerialLine() {
             int master = -1;
             std::array<char, 256> name{};
@@ -202,7 +205,8 @@ class EmulatedDevice : public testing::Test {
     test::TemporaryDirectory directory_;
 };
 
-/// The sending loop on the desktop, which the emulated one is compared with, against the truth.
+/// Compares the sending loop on the desktop with the true poses. The emulated loop must send the
+/// same packets.
 TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
     PacketReader reader;
     DeviceMemory memory;
@@ -218,7 +222,7 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         const bool was_missed = is_missed;
         is_missed = packet.status != Status::ok;
         if (is_missed) {
-            // Its rows are gone; the next one is located without a prediction.
+            // The rows of the frame are lost. The next frame is located without a prediction.
             EXPECT_EQ(packet.status, Status::not_tracked);
             EXPECT_FALSE(was_missed) << packet.time_us;
             ++missed;
@@ -227,7 +231,7 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         const CameraPose truth = pose_at(packet.time_us / 1e6);
         EXPECT_NEAR(packet.x_grid(), x_grid(truth), 0.012) << packet.time_us;
         EXPECT_NEAR(packet.y_grid(), y_grid(truth), 0.012) << packet.time_us;
-        // The desktop's device attempt, without a prediction.
+        // The device attempt on the desktop, without a prediction.
         const Fix fix =
             alone.locate(camera[static_cast<std::size_t>(packet.time_us / kFrameTime_us)].view());
         ASSERT_EQ(fix.status, Status::ok);
@@ -235,10 +239,10 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         EXPECT_NEAR(packet.y_grid(), fix.y_grid(), 0.012) << packet.time_us;
     }
     EXPECT_EQ(reader.damaged(), 0U);
-    // docs/firmware.md: 99.6 % of frames are tracked.
+    // docs/firmware.md: 99.6 % of the frames are tracked.
     EXPECT_LE(missed, 3);
     ASSERT_GT(times_us.size(), 300U);
-    // Every frame while it drives and 5 s after it stopped, then one a second.
+    // Every frame during the drive and for 5 s after its end, then one per second.
     for (std::size_t i = 0; i < 300; ++i)
         ASSERT_EQ(times_us[i], static_cast<std::int64_t>(i) * kFrameTime_us);
     EXPECT_EQ(times_us.back() - times_us[times_us.size() - 2], 1'000'000);

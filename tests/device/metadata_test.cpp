@@ -1,4 +1,4 @@
-// What package managers read of the exported folder.
+// Metadata of the exported folder that package managers read.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -41,7 +41,7 @@ std::set<std::string> names_in(const fs::path& folder) {
     return names;
 }
 
-// https://arduino.github.io/arduino-cli/latest/library-specification: these must be there.
+// Files required by https://arduino.github.io/arduino-cli/latest/library-specification.
 TEST(Metadata, ArduinoHasAllThatItsSpecificationWants) {
     const auto found = properties();
     for (const char* key : {"name", "version", "author", "maintainer", "sentence", "paragraph",
@@ -89,7 +89,7 @@ TEST(Metadata, EspIdfGetsVersionAndCompilerThatIsNewEnough) {
     const YAML::Node component = YAML::Load(text_of("idf_component.yml"));
     EXPECT_EQ(component["version"].as<std::string>(), DOTPOSE_VERSION);
     EXPECT_FALSE(component["description"].as<std::string>().empty());
-    // ESP-IDF 5.1 is the first with GCC 12.
+    // ESP-IDF 5.1 is the first version with GCC 12.
     EXPECT_EQ(component["dependencies"]["idf"].as<std::string>(), ">=5.1");
 }
 

@@ -1,5 +1,5 @@
-// A program with nothing but the exported folder, in C++: a white frame shows no dots, and its
-// packet says so at the other end.
+// A C++ program that uses only the exported folder. A white frame has no dots, and the receiver of
+// its packet gets the status no_contrast.
 #include <cstdint>
 #include <cstdio>
 
@@ -9,7 +9,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Locates a white frame of the size that the memory is for.
+/// Locates a white frame of the size that the memory is dimensioned for.
 template <int Width, int Height>
 Fix locate_white() {
     static DeviceMemoryFor<Width, Height> memory;

@@ -1,8 +1,8 @@
-// A camera for a machine without one: loaded with LD_PRELOAD, it answers what OpenCV asks the
-// kernel about /dev/video0. It shows the raw grey frames of the file FAKE_CAMERA, of the size
-// FAKE_CAMERA_SIZE, again and again; without the file it is unplugged. What it is asked to set, and
-// the times of its frames in us, stand in the file FAKE_CAMERA_LOG. It says that it can do 640x480
-// at 15 frames/s as well.
+// A fake camera for machines without a camera. Loaded with LD_PRELOAD, it answers the requests of
+// OpenCV to the kernel about /dev/video0. It repeats the raw grey frames of the file FAKE_CAMERA,
+// of the size FAKE_CAMERA_SIZE. Without the file, the camera is unplugged. Requested settings, and
+// the times of its frames in µs, are written to the file FAKE_CAMERA_LOG. The camera also offers
+// 640x480 at 15 frames/s.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -26,17 +26,17 @@ namespace {
 constexpr int kBuffers = 4;
 
 struct FakeCamera {
-    int descriptor = -1;  ///< a piece of memory in place of the device; holds the buffers
+    int descriptor = -1;  ///< memory file that replaces the device and contains the buffers
     int width_px = 0;
     int height_px = 0;
     double fps = 30;
-    bool waits[kBuffers] = {};  ///< buffers that want a frame
+    bool waits[kBuffers] = {};  ///< true for buffers that wait for a frame
     std::vector<char> frames;
     unsigned sequence = 0;
     double next_s = 0;
 
     std::size_t frame_size() const { return static_cast<std::size_t>(width_px * height_px); }
-    /// YUYV, and whole pages of memory.
+    /// Returns the size of a YUYV frame, rounded up to whole pages of memory.
     std::size_t buffer_size() const { return (2 * frame_size() + 4095) / 4096 * 4096; }
 };
 FakeCamera camera;
@@ -83,7 +83,7 @@ void tell_format(v4l2_format& format) {
     pixels.sizeimage = pixels.bytesperline * pixels.height;
 }
 
-/// The next frame, when its time has come; late ones are not made up for.
+/// Returns the next frame when it is due. Missed frames are not repeated.
 int give_frame(v4l2_buffer& buffer) {
     while (now_s() < camera.next_s)
         usleep(500);
@@ -112,7 +112,7 @@ int give_frame(v4l2_buffer& buffer) {
     return 0;
 }
 
-/// The size with this index, 0 x 0 after the last one.
+/// Returns the size with an index, or 0 x 0 after the last one.
 v4l2_frmsize_discrete size_at(unsigned index) {
     if (index == 0) {
         return {static_cast<unsigned>(camera.width_px), static_cast<unsigned>(camera.height_px)};
@@ -120,7 +120,7 @@ v4l2_frmsize_discrete size_at(unsigned index) {
     return index == 1 ? v4l2_frmsize_discrete{640, 480} : v4l2_frmsize_discrete{};
 }
 
-/// Answers what the camera can do.
+/// Answers requests for the capabilities of the camera.
 int tell_entry(unsigned long request, void* argument) {
     if (request == VIDIOC_ENUM_FMT) {
         auto& format = *static_cast<v4l2_fmtdesc*>(argument);

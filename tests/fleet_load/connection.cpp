@@ -19,7 +19,7 @@
 namespace dotpose::test {
 namespace {
 
-// The first byte of packets, MQTT 3.1.1 section 2.2.
+// First bytes of packets, MQTT 3.1.1 section 2.2.
 constexpr std::uint8_t kConnect = 0x10;
 constexpr std::uint8_t kConnectAnswer = 0x20;
 constexpr std::uint8_t kPublishQos1 = 0x32;
@@ -86,8 +86,8 @@ Connection Connection::to_broker(int port, const std::string& client) {
     std::string body;
     add_text(body, "MQTT");
     body += '\x04';   // version 3.1.1
-    body += '\x02';   // a session of its own
-    add_16(body, 0);  // no pings
+    body += '\x02';   // clean session
+    add_16(body, 0);  // no keep-alive pings
     add_text(body, client);
     add_packet(connection.outgoing_, kConnect, body);
     while (!connection.is_ready_)
@@ -165,8 +165,8 @@ void Connection::receive_some() {
     if (size == 0) throw std::runtime_error("disconnected");
     if (size < 0 && errno != EAGAIN) fail("cannot receive");
     if (size > 0) incoming_.append(block.data(), static_cast<std::size_t>(size));
-    // Packets that a broker sends to a publisher are so short that their length is one byte, the
-    // second.
+    // Packets from a broker to a publisher are short, so their length is a single byte, the second
+    // of the packet.
     std::size_t at = 0;
     while (incoming_.size() >= at + 2) {
         const std::size_t length = static_cast<std::uint8_t>(incoming_[at + 1]);

@@ -1,8 +1,8 @@
-/// A connection that publishes MQTT messages of QoS 1 in batches: to a broker, or, in place of a
-/// broker, to a subscriber.
+/// A connection that publishes MQTT messages with QoS 1 in batches, either to a broker or, acting
+/// as a broker, to a subscriber.
 ///
-/// It writes packets of MQTT 3.1.1 itself: with a library, which makes several calls of the
-/// operating system for each message, the load would take more time than what is to be measured.
+/// It writes packets of MQTT 3.1.1 without a library. A library makes several system calls per
+/// message, and the load would take more time than the program under test.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,23 @@ namespace dotpose::test {
 
 class Connection {
   public:
-    /// Connects to a broker on this computer. Throws std::runtime_error.
+    /// Connects to a broker on this computer. Throws std::runtime_error if that fails.
     static Connection to_broker(int port, const std::string& client);
-    /// Waits for a subscriber, and accepts whatever it subscribes to. Throws std::runtime_error.
+    /// Waits for a subscriber, and accepts any subscription. Throws std::runtime_error if there is
+    /// none.
     static Connection to_subscriber(int port);
 
     ~Connection();
     Connection(Connection&& other) noexcept;
     Connection& operator=(Connection&&) = delete;
 
-    /// Whether another message may be published: not too many are without an answer.
+    /// Returns true if another message may be published, because the number of unanswered messages
+    /// is below its limit.
     bool has_room() const { return published_ - answered_ < kMaxUnanswered; }
     void publish(const std::string& topic, const std::string& payload);
 
-    /// Sends and receives until `until_us` of the monotonic clock, or until nothing is left to be
-    /// sent if that has passed. Throws std::runtime_error if the other side leaves.
+    /// Sends and receives until `until_us` of the monotonic clock. If that time has passed,
+    /// continues until everything is sent. Throws std::runtime_error if the other side disconnects.
     void exchange(std::int64_t until_us);
 
     std::int64_t published() const { return published_; }
@@ -42,14 +44,14 @@ class Connection {
 
     int descriptor_;
     std::string outgoing_;
-    std::size_t sent_ = 0;  ///< bytes of `outgoing_` that are sent
+    std::size_t sent_ = 0;  ///< number of bytes of `outgoing_` that are sent
     std::string incoming_;
     std::int64_t published_ = 0;
     std::int64_t answered_ = 0;
-    bool is_ready_ = false;  ///< connected, or subscribed
+    bool is_ready_ = false;  ///< true after a connect answer or a subscribe request was received
 };
 
-/// Time on the monotonic clock.
+/// Returns the time of the monotonic clock.
 std::int64_t monotonic_us();
 
 }  // namespace dotpose::test

@@ -1,5 +1,5 @@
-// Publishes the states of many robots at QoS 1, each robot at a steady rate with numbers from 0,
-// and prints how many were sent and answered. docs/fleet.md has what was measured with it.
+// Publishes the states of many robots with QoS 1, each robot at a constant rate with numbers from
+// 0, and prints the numbers of sent and answered states. docs/fleet.md contains the results.
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
@@ -31,11 +31,11 @@ struct Arguments {
 struct Outcome {
     std::int64_t published = 0;
     std::int64_t answered = 0;
-    std::int64_t latest_us = 0;  ///< by how much a state was sent after its time
+    std::int64_t latest_us = 0;  ///< maximum delay of a state after its time
 };
 
-/// Publishes all states of the robots over a connection: those of different robots are spread over
-/// the time between two states of a robot.
+/// Publishes all states of the robots over a connection. The states of different robots are
+/// distributed evenly over the period of a robot.
 Outcome publish_all(Connection& connection, const Robots& robots, const Arguments& arguments) {
     constexpr std::int64_t kBatch_us = 1000;
     constexpr std::int64_t kPatience_us = 30'000'000;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kPoints = 40;
 
-/// Returns the state of a robot at one of the points of its circle, 20 to a second.
+/// Returns the state of a robot at a point of its circle. There are 20 points per second.
 cli::RobotState state_at(int robot, int point) {
     constexpr double kRadius_m = 0.2;
     constexpr double kBetween_m = 0.5;
@@ -35,7 +35,7 @@ cli::RobotState state_at(int robot, int point) {
     return state;
 }
 
-/// Returns the part of a message after number and time.
+/// Returns the part of a message after the number and the time.
 std::string tail_of(const cli::RobotState& state) {
     const std::string text = cli::json_of(state);
     return text.substr(text.find(R"(","version")"));

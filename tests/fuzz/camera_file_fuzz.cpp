@@ -1,4 +1,4 @@
-// Any file: `read_camera` gives a camera that images can be located with, or throws Error.
+// Any file: `read_camera` returns a camera with which images can be located, or throws Error.
 #include <cstdlib>
 
 #include "dotpose/files/camera_file.hpp"

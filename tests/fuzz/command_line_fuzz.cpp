@@ -1,4 +1,5 @@
-// Any command line, an argument a line: options that several commands share are taken or refused.
+// Any command line, with one argument per line: options shared by several commands are accepted or
+// refused.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -13,7 +14,7 @@ namespace {
 
 using namespace dotpose;
 
-/// What the options are for; all of it has bounds of its own.
+/// The values of the options. Each value has its own bounds.
 struct Values {
     CodeVariant code = CodeVariant::anoto;
     Section section;

@@ -1,5 +1,5 @@
-// Any messages of a broker, a line each, a topic and a tab before the payload: the fleet takes them
-// or counts them as bad, and its table and map can be made.
+// Any messages of a broker, one per line, with a tab between topic and payload: the fleet accepts
+// them or counts them as bad, and its table and map can be created.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// clang gives this function of fmt 9 another name than GCC, with which the library was compiled, so
-// that it is not found there.
+// Defines a function of fmt 9 that clang mangles differently than GCC, with which the library was
+// compiled.
 #include <fmt/format.h>
 
 template void fmt::detail::vformat_to(buffer<char>&, string_view,

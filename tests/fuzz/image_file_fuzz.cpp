@@ -1,4 +1,4 @@
-// Any file: `read_image` gives an image and `read_origin` its origin, or they throw Error.
+// Any file: `read_image` returns an image and `read_origin` its origin, or they throw Error.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -8,7 +8,8 @@
 
 using namespace dotpose;
 
-// A few bytes may announce images of gigabytes, which the fuzzer would take for a fault.
+// A few bytes may announce an image of gigabytes. The fuzzer would report the allocation as a
+// fault.
 constexpr int kMaxPixels = 1 << 20;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

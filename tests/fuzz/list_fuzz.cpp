@@ -1,4 +1,4 @@
-// Any text: `next_line` gives its lines, each short enough, or throws Error.
+// Any text: `next_line` returns its lines, each with limited length, or throws Error.
 #include <cstdint>
 #include <cstdlib>
 #include <sstream>

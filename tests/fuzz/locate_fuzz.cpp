@@ -1,5 +1,5 @@
-// Any image, with any options and predictions: `locate` ends, touches nothing that is not its own,
-// and a fix is a whole and finite one that keeps the limits asked for.
+// Any image, with any options and predictions: `locate` ends and accesses only its own memory, and
+// a fix is complete, finite, and within the limits of the options.
 #include <memory>
 #include <span>
 

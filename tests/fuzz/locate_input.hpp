@@ -1,4 +1,4 @@
-// What the bytes of `locate_fuzz` mean: a header, then pixels, or symbols to draw dots from.
+// Input format of `locate_fuzz`: a header, then pixels, or symbols from which dots are drawn.
 #pragma once
 
 #include <algorithm>
@@ -16,21 +16,21 @@
 
 namespace dotpose::fuzz {
 
-/// In the byte order of the machine. Any values are meant to be harmless.
+/// Header in the byte order of the machine. All values must be harmless.
 struct LocateHeader {
     enum Flag : std::uint8_t {
         default_options = 1,
         window_decoder = 2,
         one_attempt = 4,
-        drawn = 8,  ///< dots are drawn from symbols instead of taking pixels
+        drawn = 8,  ///< dots are drawn from symbols instead of reading pixels
         rows_pushed = 16,
-        own_prediction = 32,  ///< of what was found in the frame, moved
+        own_prediction = 32,  ///< the prediction is the moved fix of the frame
     };
     std::uint16_t width_px = 64;  ///< modulo 512
     std::uint16_t height_px = 64;
     std::uint8_t code = 0;  ///< modulo 3
     std::uint8_t flags = default_options;
-    std::uint8_t padding_px = 0;  ///< between rows
+    std::uint8_t padding_px = 0;  ///< padding between rows, px
     std::int8_t max_p_wrong_log2 = -30;
     std::int16_t max_bit_error_q8 = 46;
     std::int16_t low_q8 = 120;
@@ -44,9 +44,9 @@ struct LocateHeader {
     std::int32_t k_q40 = 0;
     std::int32_t reference_dx_q8 = 0;  ///< modulo 2^20: 4096 px
     std::int32_t reference_dy_q8 = 0;
-    // Of drawn dots
+    // Parameters of drawn dots.
     std::uint16_t angle = 0;             ///< 65536 is a full turn
-    std::uint16_t spacing_q8 = 8 * 256;  ///< px; at least 4
+    std::uint16_t spacing_q8 = 8 * 256;  ///< spacing in px, at least 4
 };
 static_assert(sizeof(LocateHeader) == 44 && std::is_trivially_copyable_v<LocateHeader>);
 
@@ -67,8 +67,8 @@ inline Options options_of(const LocateHeader& header) {
     return options;
 }
 
-/// From the last bytes, which are pixels as well: any map to any place, or that of what was found
-/// in the frame, moved by up to 2 spacings and 11 degrees.
+/// Returns a prediction: either any map to any place, read from the last bytes (which are also
+/// pixels), or the fix of the frame, moved by up to 2 spacings and 11 degrees.
 inline Prediction prediction_of(const LocateHeader& header, std::span<const std::uint8_t> rest,
                                 const Fix& fix) {
     static_assert(std::is_trivially_copyable_v<Prediction>);
@@ -88,7 +88,7 @@ inline Prediction prediction_of(const LocateHeader& header, std::span<const std:
                  prediction.pattern_from_image.centre_q8);
 }
 
-/// An image that ends where its memory does, so that a read past its end is seen.
+/// An image that ends at the end of its memory, to detect reads past its end.
 struct Pixels {
     std::vector<std::uint8_t> bytes;
     int width_px = 0;
@@ -107,10 +107,11 @@ struct Pixels {
     std::uint8_t& at(int u, int v) { return bytes[static_cast<std::size_t>(stride_bytes * v + u)]; }
 };
 
-/// Symbols per row of cells in drawn images; cell (0, 0) is the middle one of as many rows.
+/// Number of symbols per row of cells, and of rows, in drawn images. Cell (0, 0) is in the middle.
 inline constexpr int kDrawnSide = 40;
 
-/// Dots a third of the spacing wide, one symbol per byte; of bytes from 240 on, none.
+/// Draws dots that are a third of the spacing wide, with one symbol per byte. Bytes from 240 on
+/// draw no dot.
 inline void draw_dots(const LocateHeader& header, std::span<const std::uint8_t> symbols,
                       Pixels& image) {
     const double spacing = std::max(header.spacing_q8 / 256.0, 4.0);
@@ -138,13 +139,13 @@ inline void draw_dots(const LocateHeader& header, std::span<const std::uint8_t> 
     }
 }
 
-/// Pixels that are not there repeat the ones that are.
+/// Returns the pixels of an image. Missing pixels are filled by repeating the given ones.
 inline Pixels pixels_of(const LocateHeader& header, std::span<const std::uint8_t> rest) {
     constexpr std::uint8_t kPaper = 200;
     Pixels image(header, kPaper);
     if ((header.flags & LocateHeader::drawn) != 0) {
-        constexpr std::size_t kMax = std::size_t{kDrawnSide} * kDrawnSide;
-        draw_dots(header, rest.first(std::min(rest.size(), kMax)), image);
+        constexpr std::size_t kMaxSymbols = std::size_t{kDrawnSide} * kDrawnSide;
+        draw_dots(header, rest.first(std::min(rest.size(), kMaxSymbols)), image);
     } else if (!rest.empty()) {
         std::size_t from = 0;
         for (int v = 0; v < image.height_px; ++v) {

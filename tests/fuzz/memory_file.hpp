@@ -1,4 +1,4 @@
-/// Files for what reads files, without a disk.
+/// Files in memory, for functions that read files.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace dotpose::fuzz {
 
-/// A file that lives in memory; where the system has none of these, the fuzzer ends.
+/// A file in memory. The fuzzer ends if the system does not support such files.
 class MemoryFile {
   public:
     MemoryFile() : descriptor_(memfd_create("fuzzed", 0)) {

@@ -1,5 +1,6 @@
-// Any value in any option, on frames that can be read: `locate` ends, and a fix keeps what was
-// asked for. An input is a list of changes to the defaults: which field, and its value.
+// Any value in any option, on frames that can be located: `locate` ends, and a fix is within the
+// limits of the options. An input is a list of changes to the defaults: the index of a field, and
+// its value.
 #include <array>
 #include <cstring>
 #include <memory>
@@ -11,7 +12,7 @@ namespace {
 
 using namespace dotpose;
 
-/// The field and its value, in the byte order of the machine.
+/// A field and its value, in the byte order of the machine.
 struct Change {
     std::uint8_t field = 0;
     std::int32_t value = 0;

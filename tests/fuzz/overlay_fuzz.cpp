@@ -1,4 +1,5 @@
-// Any document: `overlay_pdf` lays dots over it, with its colours changed or not, or throws Error.
+// Any document: `overlay_pdf` lays dots over it, with or without changes of its colours, or throws
+// Error.
 #include <filesystem>
 
 #include "dotpose/tools/overlay.hpp"
@@ -9,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::filesystem::path kOut =
         std::filesystem::temp_directory_path() / ("overlay_fuzz-" + std::to_string(getpid()));
     OverlayOptions options;
-    // Few dots, and limits that a short input can come near to.
+    // Few dots, and limits that short inputs can reach.
     options.pattern.spacing_mm = 8;
     options.max_content_mb = 1;
     for (const bool changes_colours : {false, true}) {

@@ -1,4 +1,4 @@
-// Any bytes on a line: each packet found in them is one that `encode` makes.
+// Any bytes on a line: each packet found equals one that `encode` produces.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

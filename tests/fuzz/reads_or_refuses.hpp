@@ -1,4 +1,4 @@
-/// What holds for every reader of files: it returns, or throws Error with words.
+/// Check of every reader of files: it returns, or throws Error with a message.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace dotpose::fuzz {
 
-/// Hands `read` the path of a file with these bytes. What it throws otherwise ends the fuzzer.
+/// Calls `read` with the path of a file with these bytes. Any other exception ends the fuzzer.
 template <typename Read>
 int reads_or_refuses(const std::uint8_t* data, std::size_t size, Read read) {
     static MemoryFile file;

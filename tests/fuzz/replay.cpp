@@ -1,4 +1,4 @@
-// Runs a fuzz target on files, or on all files of folders, where there is no libFuzzer.
+// Runs a fuzz target on files, or on all files in folders, without libFuzzer.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -1,4 +1,5 @@
-// Any file: `read_log` gives rows whose figures and picture can be made, or throws Error.
+// Any file: `read_log` returns rows from which figures and a picture can be computed, or throws
+// Error.
 #include "reads_or_refuses.hpp"
 #include "run_log.hpp"
 

@@ -1,4 +1,4 @@
-// Any file: `read_sheets` gives sheets that can be printed, or throws Error.
+// Any file: `read_sheets` returns sheets that can be printed, or throws Error.
 #include <cstdlib>
 
 #include "dotpose/files/sheet_file.hpp"

@@ -1,5 +1,5 @@
-// `dotpose watch` on cameras: one at this computer, which the kernel is only made to have
-// (tests/fake_camera), and one in the network. Both go away in mid-run and come back.
+// `dotpose watch` on cameras: a fake local camera of the kernel (tests/fake_camera), and a network
+// camera. Both are disconnected during the run and reconnected.
 #include <algorithm>
 #include <fstream>
 #include <set>
@@ -22,11 +22,13 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// Shell functions: waits until so many lines of a file hold a word, as long as the tool runs.
+/// Shell functions: wait until a number of lines of a file contain a word, while the tool is
+/// running.
 constexpr const char* kWaiting =
     "has() { until [ $(grep -c \"$2\" $1) -ge $3 ]; do kill -0 $watch; sleep 0.05; done; }\n"
     "set -e; touch lines told; trap 'kill $camera $watch 2>/dev/null || true' EXIT\n";
-/// From the first frames to the end of the run, for a camera that `unplug` and `plug_in` work on.
+/// Runs the tool from the first frames to the end, with a camera that `unplug` and `plug_in`
+/// control.
 constexpr const char* kRun =
     "has lines '\"ok\"' 30; unplug\n"
     "has told 'does not answer; waiting for it' 1; has lines '\"lost\"' 2\n"
@@ -56,7 +58,8 @@ class Cameras : public ToolCommand {
         return lines;
     }
 
-    /// The robot was seen, lost while the camera was away, and seen again, where it truly is.
+    /// Expects that the robot was located, lost while the camera was away, and located again, each
+    /// time at its true pose.
     void expect_seen_lost_and_seen() {
         std::string events;
         std::int64_t last_frame = -1;
@@ -104,19 +107,19 @@ TEST_F(Cameras, AtThisComputer) {
         if (what == "time") times_us.insert(value);
         settings.insert(fmt::format("{} {}", what, value));
     }
-    // Again when it is back.
+    // The settings are applied again after the camera has been reconnected.
     for (const char* setting : {"width 188", "fps 100", "exposure_auto 1", "exposure 50", "gain 3"})
         EXPECT_EQ(settings.count(setting), 2U) << setting;
     for (const json& line : lines()) {
         const auto time_us = std::llround(line["t_s"].get<double>() * 1e6);
-        // The driver tells them in milliseconds, of type double.
+        // The driver reports the times in milliseconds, as doubles.
         const auto at = times_us.lower_bound(time_us - 1);
         const bool is_of_driver = at != times_us.end() && *at <= time_us + 1;
         EXPECT_EQ(is_of_driver, line["status"] == "ok") << line;
     }
 }
 
-/// The camera listens (0A) until somebody has connected (01), which may be at once.
+/// The camera listens (0A) until a client has connected (01), which may happen immediately.
 TEST_F(Cameras, InTheNetwork) {
     ASSERT_EQ(
         shell(fmt::format("port={}\n", free_port()) + kWaiting +
@@ -174,7 +177,7 @@ TEST_F(Cameras, CalibrateTakesItsFramesUntilTheUserEndsIt) {
                     "kill -INT $tool; wait $tool; echo $? > status"),
               0)
         << errors_;
-    // The camera rests.
+    // The camera is at rest.
     EXPECT_THAT(file("told"), HasSubstr("frames located; 1 that show new places are used"));
     EXPECT_THAT(file("told"), HasSubstr("a single frame"));
     EXPECT_EQ(file("status"), "1\n");
@@ -197,7 +200,7 @@ TEST_F(Window, ShowsTheFramesAndEndsWithAKey) {
     GTEST_SKIP() << "the libraries of the window keep memory to the end";
 #endif
     if (shell("command -v Xvfb && command -v xdotool") != 0) GTEST_SKIP() << "no Xvfb, no xdotool";
-    // Without the key it would not end.
+    // Without the key press, the program would not end.
     ASSERT_EQ(shell(std::string(kWaiting) +
                     "mkfifo display frames; Xvfb -displayfd 1 > display 2>/dev/null & camera=$!\n"
                     "read number < display; export DISPLAY=:$number QT_LOGGING_RULES='*=false'\n"
@@ -208,7 +211,7 @@ TEST_F(Window, ShowsTheFramesAndEndsWithAKey) {
                     "wait $watch"),
               0)
         << errors_ << file("told");
-    // The frame, 800 px wide, and a panel of 400.
+    // The frame, 800 px wide, and a panel of 400 px.
     EXPECT_THAT(output_, HasSubstr("Geometry: 1200x"));
 }
 

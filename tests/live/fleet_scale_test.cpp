@@ -1,5 +1,5 @@
-// `dotpose fleet` with many robots, with others that share the work, behind bridged brokers, and at
-// its end.
+// `dotpose fleet` with many robots, with shared subscriptions, with bridged brokers, and at its
+// end.
 #include <array>
 #include <csignal>
 #include <filesystem>
@@ -25,7 +25,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A state in the log of a fleet: robot and number.
+/// A state in the log of a fleet: the robot and the number of the state.
 using Logged = std::pair<std::string, int>;
 
 class FleetScale : public Mqtt {
@@ -35,7 +35,8 @@ class FleetScale : public Mqtt {
         return directory_ / name;
     }
 
-    /// Publishes `states` of each robot, 20 per second, and returns when the broker has all.
+    /// Publishes `states` of each robot, 20 per second. Returns when the broker has received all of
+    /// them.
     void publish(const Broker& broker, int robots, int states, int first = 0) {
         const ShellOutcome outcome = run_shell(fmt::format(
             "'{}' --port {} --robots {} --hz 20 --seconds {} --first {}",
@@ -43,7 +44,7 @@ class FleetScale : public Mqtt {
         EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     }
 
-    /// The states in the logs of some fleets, of each as many as it is in there.
+    /// Returns the states in the logs of some fleets, with repetitions.
     std::multiset<Logged> logged(const std::vector<fs::path>& folders) {
         std::multiset<Logged> states;
         for (const fs::path& folder : folders) {
@@ -64,7 +65,7 @@ class FleetScale : public Mqtt {
         wait_until([&] { return logged(folders).size() >= count; }, 60s);
     }
 
-    /// All states with these numbers of robots, each once.
+    /// Returns all states with these numbers of robots and states, each once.
     static std::multiset<Logged> states_of(int robots, int states) {
         std::multiset<Logged> all;
         for (int robot = 0; robot < robots; ++robot) {
@@ -101,12 +102,13 @@ TEST_F(FleetScale, AGroupSharesTheStates) {
     const std::string arguments = "--qos 1 --share group --log log.csv --mqtt " + broker.url();
     WatchedFleet a(folders[0], arguments);
     WatchedFleet b(folders[1], arguments);
-    // The broker takes turns: of an odd number of robots, each member gets every other state of
-    // each.
+    // The broker alternates between the members. With an odd number of robots, each member receives
+    // every other state of each robot.
     publish(broker, 51, 40);
     wait_for_states(folders, 51 * 40);
     for (WatchedFleet* fleet : {&a, &b}) {
-        // None knows which states went to the other, so it tells of no missing ones.
+        // A member does not know which states the other one received, so it reports no missing
+        // states.
         EXPECT_THAT(fleet->table(),
                     testing::ContainsRegex("\n51 robots, [0-9]+ states, 0 bad, 0 repe"));
     }
@@ -144,7 +146,7 @@ TEST_F(FleetScale, BridgedBrokersPassOnEachStateOnce) {
                                   west.port()));
     WatchedFleet in_east(folders[0], "--qos 1 --log log.csv --mqtt " + east.url());
     WatchedFleet in_west(folders[1], "--qos 1 --log log.csv --mqtt " + west.url());
-    // The bridge is there when a state gets across.
+    // The bridge works when a state gets across.
     wait_until([&] {
         publish(west, 1, 1, 1000);
         std::this_thread::sleep_for(200ms);
@@ -157,7 +159,7 @@ TEST_F(FleetScale, BridgedBrokersPassOnEachStateOnce) {
     for (const fs::path& folder : folders) {
         wait_until([&] { return logged({folder}).size() >= before + 100 * 60; }, 60s);
     }
-    std::this_thread::sleep_for(500ms);  // for what might come twice
+    std::this_thread::sleep_for(500ms);  // for repeated states
     for (WatchedFleet* fleet : {&in_east, &in_west}) {
         const std::string table = fleet->table();
         EXPECT_THAT(table, HasSubstr("101 robots, "));
@@ -214,7 +216,8 @@ TEST_F(FleetScale, ARobotThatVanishesIsLost) {
     const std::string table = fleet.table();
     EXPECT_THAT(table, HasSubstr("\nanna             lost  "));
     EXPECT_THAT(table, HasSubstr("1 robots, 20 states, 0 bad, 0 missed, 0 late, 0 repeated"));
-    EXPECT_THAT(file("fleet.svg"), HasSubstr("anna (lost)"));  // and so it was located before
+    EXPECT_THAT(file("fleet.svg"),
+                HasSubstr("anna (lost)"));  // the robot was located before it was lost
 }
 
 TEST_F(FleetScale, RefusesHalvesThatAreNone) {

@@ -136,7 +136,7 @@ TEST_F(Fleet, TopicsTellWhoARobotIsAndTextsDoNotActOnTheTerminal) {
                    Message{"\x1b[2J", 1, time, "\x1b]0;OWNED\x07\nroot moving"}.json());
     for (const char* bad : {"2026-11-24T16:00:nanZ", "2026-11-24T16:00:00", "", "now"})
         sender.publish(topic_of("carl"), Message{"carl", 1, bad}.json());
-    sender.publish(topic_of("\x1b[31mred"), "{}");  // the library sends no such topic
+    sender.publish(topic_of("\x1b[31mred"), "{}");  // a topic that the library does not send
     sender.publish(topic_of("dora"), std::string(1'000'000, '['));
     EXPECT_TRUE(sender.flush(20s));
     EXPECT_EQ(sender.dropped(), 1);
@@ -196,7 +196,7 @@ TEST_F(Fleet, SubscribesWithTls) {
         sender.publish(topic_of("anna"), Message{"anna", i, time_now()}.json());
     EXPECT_TRUE(sender.flush(20s));
     std::this_thread::sleep_for(500ms);
-    // Some states are late: among the queued states, the newest are sent first.
+    // Some states are late. Among the queued states, the newest are sent first.
     EXPECT_THAT(fleet.table(), HasSubstr("1 robots, 200 states, 0 bad, 0 missed, "));
 }
 

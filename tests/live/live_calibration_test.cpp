@@ -1,5 +1,4 @@
-// `dotpose calibrate --live` on a camera that the kernel is only made to have (tests/fake_camera),
-// and in a window.
+// `dotpose calibrate --live` with a fake camera of the kernel (tests/fake_camera), and in a window.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -15,7 +14,7 @@ using testing::HasSubstr;
 
 class LiveCalibration : public ToolCommand {
   protected:
-    /// Puts the frames of a camera that rests at 30 places, three at each, into camera.raw.
+    /// Writes the frames of a camera that rests at 30 places, three frames at each, to camera.raw.
     void SetUp() override {
         ToolCommand::SetUp();
         ASSERT_EQ(run("simulate -o frames --seed 5 --k -8.7e-6 --frames 30"), 0) << errors_;
@@ -30,7 +29,7 @@ TEST_F(LiveCalibration, OfACameraEndsByItself) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the sanitizer must be loaded first";
 #endif
-    // The camera goes through its frames again and again.
+    // The camera repeats its frames.
     ASSERT_EQ(shell("export FAKE_CAMERA=$PWD/camera.raw FAKE_CAMERA_SIZE=188x120 "
                     "FAKE_CAMERA_LOG=$PWD/log\n"
                     "LD_PRELOAD='" +
@@ -50,7 +49,7 @@ TEST_F(LiveCalibration, HasAWindowAndEndsWithAKey) {
     GTEST_SKIP() << "the libraries of the window keep memory to the end";
 #endif
     if (shell("command -v Xvfb && command -v xdotool") != 0) GTEST_SKIP() << "no Xvfb, no xdotool";
-    // Only 2 places are shown. Without the key it would not end.
+    // Only 2 places are shown. Without the key press, the program would not end.
     ASSERT_EQ(
         shell("mkfifo display frames.raw; Xvfb -displayfd 1 > display 2>/dev/null & server=$!\n"
               "trap 'kill $server' EXIT; head -c $((188 * 120 * 6)) camera.raw > two.raw\n"

@@ -1,4 +1,4 @@
-/// What the tests with a real broker share.
+/// Helpers shared by the tests with a real broker.
 #pragma once
 
 #include <chrono>
@@ -25,7 +25,7 @@ inline void wait_until(const std::function<bool()>& condition,
     ASSERT_TRUE(condition());
 }
 
-/// What was told, by any thread.
+/// Messages reported from any thread.
 class News {
   public:
     std::function<void(const std::string&)> listener() {

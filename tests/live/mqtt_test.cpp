@@ -1,4 +1,5 @@
-// Publishing to a real broker: what arrives, what is dropped, and what happens when it goes away.
+// Publishing to a real broker: the messages that arrive and the messages that are dropped, also
+// when the broker disconnects.
 #include "publish/mqtt.hpp"
 
 #include <algorithm>
@@ -46,7 +47,7 @@ TEST_F(Mqtt, ReadsUrls) {
 
 TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
     Broker broker(directory_);
-    // A session that the broker keeps, so that nothing it accepts is lost, and the order is seen.
+    // A persistent session, in which the broker keeps all messages that it accepted, in order.
     const std::string reader =
         fmt::format("mosquitto_sub -h 127.0.0.1 -p {} -c -i reader -q 1 -t t ", broker.port());
     shell(reader + "-E");
@@ -68,7 +69,7 @@ TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
     wait_until([&] { return !publisher.is_connected(); });
     publish(100);
     EXPECT_EQ(publisher.dropped(), 70);
-    std::this_thread::sleep_for(3s);  // several attempts in vain
+    std::this_thread::sleep_for(3s);  // several failing attempts
     broker.start();
     wait_until([&] { return publisher.is_connected(); });
     ASSERT_TRUE(publisher.flush(10s));
@@ -81,12 +82,12 @@ TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
     std::vector<int> expected;
     for (int i = 0; i < 10; ++i)
         expected.push_back(i);
-    for (int i = 109; i >= 80; --i)  // the newest first
+    for (int i = 109; i >= 80; --i)  // newest first
         expected.push_back(i);
     EXPECT_EQ(numbers, expected);
 }
 
-/// Numbers of the states that a broker kept for a session, in the order in which they came.
+/// Returns the numbers of the states that a broker kept for a session, in the order of arrival.
 std::vector<int> header_ids(const std::string& lines) {
     std::istringstream stream(lines);
     std::vector<int> ids;
@@ -96,7 +97,8 @@ std::vector<int> header_ids(const std::string& lines) {
 }
 
 TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
-    // At 50 frames/s, or as fast as this machine can; by frames the broker comes and goes.
+    // At 50 frames/s, or as fast as possible on this machine. The broker is stopped and started at
+    // given frames.
     constexpr int kFrames = 700;
     constexpr auto kFrame = 20ms;
     constexpr int kGone = 100;
@@ -110,7 +112,7 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     shell("mkfifo frames");
     std::thread camera([&] {
         const GreyImage image = DriveCamera(188, 120).frame(Drive(), 0);
-        // Closed on exec: the broker that is started meanwhile must not hold it open.
+        // Closed on exec, because the broker started meanwhile must not keep the pipe open.
         std::FILE* pipe = std::fopen((directory_ / "frames").c_str(), "wbe");
         const auto begun = std::chrono::steady_clock::now();
         for (int i = 1; i <= kFrames; ++i) {
@@ -144,21 +146,22 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
         << errors_;
     std::printf("%d states sent, %d dropped\n", sent, dropped);
     EXPECT_EQ(sent + dropped, kFrames);
-    // Less the 50 states that are kept, and some until it is seen that the broker is gone.
+    // Minus the 50 states that are kept, and states published before the loss of the broker is
+    // detected.
     EXPECT_GT(dropped, kBack - kGone - 100);
 
-    // One that was under way when the broker went may come twice.
+    // A state in transit when the broker was stopped may arrive twice.
     const std::vector<int> ids = header_ids(shell(reader + "-W 5 || true"));
     EXPECT_EQ(std::set<int>(ids.begin(), ids.end()).size(), static_cast<std::size_t>(sent));
-    // After the gap the newest come first. A machine that is busy makes small gaps of its own.
+    // After the gap, the newest states come first. A busy machine causes small gaps.
     ASSERT_GT(ids.size(), 22U);
     auto before = ids.begin();
     for (auto i = ids.begin(); i + 1 != ids.end(); ++i) {
         if (i[1] - i[0] > before[1] - before[0]) before = i;
     }
     EXPECT_GT(before[1] - before[0], kBack - kGone - 100);
-    // The newest 50 were kept. What was under way when the broker went, and frames that are taken
-    // meanwhile, come in between.
+    // The newest 50 states were kept. States in transit when the broker was stopped, and states of
+    // new frames, come in between.
     std::vector<int> waited;
     std::copy_if(before + 1, ids.end(), std::back_inserter(waited),
                  [&](int id) { return id > before[1] - 50 && id <= before[1]; });
@@ -188,10 +191,9 @@ TEST_F(Mqtt, FindsItsBrokerAgainAsFastWithTls) {
     ASSERT_TRUE(publisher.is_connected()) << news_.text();
     broker.stop();
     wait_until([&] { return !publisher.is_connected(); });
-    std::this_thread::sleep_for(1500ms);  // some attempts in vain
+    std::this_thread::sleep_for(1500ms);  // some failing attempts
     broker.start();
-    // Half a second from attempt to attempt, and time for a slow machine; the library's own
-    // patience is ten seconds.
+    // The publisher retries every half second. The library's own delay is ten seconds.
     wait_until([&] { return publisher.is_connected(); }, 4s);
 }
 
@@ -217,7 +219,7 @@ TEST_F(Mqtt, TellsThatTheUserIsRefused) {
     EXPECT_THAT(errors_, HasSubstr("refuses the connection"));
 }
 
-/// Options of a publisher whose presence is a word on the topic `presence`.
+/// Returns options of a publisher that announces its presence by a word on the topic `presence`.
 MqttOptions with_presence(MqttOptions options) {
     options.presence_topic = "presence";
     options.presence = [](publish::Presence presence) -> std::string {
@@ -234,7 +236,7 @@ MqttOptions with_presence(MqttOptions options) {
     return options;
 }
 
-/// A subscriber that joins the payloads it receives, each followed by a space.
+/// A subscriber that concatenates the payloads it receives, each followed by a space.
 class Heard {
   public:
     explicit Heard(const MqttOptions& options)

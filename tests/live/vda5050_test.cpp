@@ -1,5 +1,5 @@
-// The messages of `dotpose watch --mqtt` against VDA 5050, version 2.0.0. The schemas have the
-// required fields, types and ranges of its tables, sections 6.11 and 6.14.
+// Checks the messages of `dotpose watch --mqtt` against VDA 5050, version 2.0.0. The schemas
+// contain the required fields, types and ranges of its tables, sections 6.11 and 6.14.
 #include <algorithm>
 #include <sstream>
 #include <string>
@@ -55,13 +55,13 @@ JsonSchema connection() {
     return JsonSchema({{"type", "object"}, {"required", required}, {"properties", properties}});
 }
 
-/// Time by ISO 8601 in UTC.
+/// Time in UTC according to ISO 8601.
 constexpr const char* kTimestamp =
     "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}\\.[0-9]+Z$";
 
 class Vda5050 : public Mqtt {
   protected:
-    /// Follows ten frames of a robot, the last five of which show no pattern.
+    /// Watches ten frames of a robot. The last five have no pattern.
     void watch(const Broker& broker) {
         const DriveCamera camera(188, 120);
         for (int i = 0; i < 10; ++i) {
@@ -76,7 +76,7 @@ class Vda5050 : public Mqtt {
 
 TEST_F(Vda5050, MessagesAreValid) {
     const Broker broker(directory_);
-    // A session that the broker keeps.
+    // A persistent session of the broker.
     const std::string reader = fmt::format(
         "mosquitto_sub -h 127.0.0.1 -p {} -c -i reader -q 1 -v -t 'uagv/v2/#' ", broker.port());
     shell(reader + "-E");
@@ -101,7 +101,7 @@ TEST_F(Vda5050, MessagesAreValid) {
     EXPECT_EQ(std::ranges::count(subjects, "connection"), 2);
     EXPECT_EQ(std::ranges::count(subjects, "visualization"), 10);
     EXPECT_GE(poses, 5);
-    EXPECT_LT(poses, 10);  // a robot that is lost has no pose
+    EXPECT_LT(poses, 10);  // a lost robot has no pose
 }
 
 TEST_F(Vda5050, ASubscriberThatComesLateLearnsThatTheRobotHasLeft) {

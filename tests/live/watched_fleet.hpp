@@ -1,4 +1,4 @@
-/// `dotpose fleet` as a program that runs while a test publishes states.
+/// Runs `dotpose fleet` as a separate program while a test publishes states.
 #pragma once
 
 #include <csignal>
@@ -10,8 +10,8 @@
 
 namespace dotpose::test {
 
-/// `dotpose fleet` in the background, in a directory of its own; it is waited for until its
-/// subscription is there.
+/// `dotpose fleet` in the background, in a separate directory. The constructor waits for its
+/// subscription.
 class WatchedFleet {
   public:
     WatchedFleet(const fs::path& directory, const std::string& arguments)
@@ -22,7 +22,7 @@ class WatchedFleet {
           }) {
         wait_until([this] { return fs::exists(directory_ / "fleet.svg"); });
     }
-    /// Ends it, and returns the last table.
+    /// Ends the program, and returns the last table.
     std::string table() {
         signal(SIGINT);
         thread_.join();

@@ -1,4 +1,4 @@
-// Encode and decode agree on random windows, upright and turned: on a million by night.
+// Encode and decode agree on random windows, upright and turned. The nightly test checks a million.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@ constexpr std::uint64_t kSeed = 6667695;
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
 constexpr int kDraws = 200'000;
 #else
-constexpr int kDraws = 50'000;  // unoptimised or under sanitizers
+constexpr int kDraws = 50'000;  // few enough for builds without optimization or with sanitizers
 #endif
 constexpr int kDrawsAtLength = 5 * kDraws;
 
@@ -33,7 +33,7 @@ std::string describe(const Draw& draw) {
            " x " + std::to_string(draw.rows) + " turned " + std::to_string(draw.quarter_turns);
 }
 
-/// One position in 16 stands within 40 of the wrap, where windows run past it.
+/// Returns a position. One in 16 is within 40 of the end of the axis, where windows wrap around.
 template <typename Rng>
 std::uint32_t random_position(Rng& rng) {
     if (random_int(rng, 0, 15) != 0) return random_place(rng).cell.x;
@@ -42,13 +42,14 @@ std::uint32_t random_position(Rng& rng) {
 
 Draw random_draw(std::uint64_t seed) {
     std::minstd_rand rng(static_cast<std::uint32_t>(seed % 2147483646 + 1));
-    rng.discard(3);  // neighbouring seeds start alike
+    rng.discard(3);  // discards some numbers, because neighbouring seeds begin with similar ones
     Draw draw;
     draw.code = kCodeVariants[static_cast<std::size_t>(random_int(rng, 0, 2))];
     draw.place = random_place(rng);
     draw.place.cell = {random_position(rng), random_position(rng)};
     draw.quarter_turns = random_int(rng, 0, 3);
-    // Below 8 x 8, windows of code variant `published` may be ambiguous: see decode_test.cpp.
+    // Windows smaller than 8 x 8 may be ambiguous in the code variant `libdots`: see
+    // decode_test.cpp.
     const int smallest = draw.code == CodeVariant::libdots ? 8 : 6;
     const int kind = random_int(rng, 0, 15);
     draw.columns = draw.rows = kind < 8 ? smallest : 8;
@@ -71,7 +72,7 @@ Grid encode(const Draw& draw) {
     return grid;
 }
 
-/// Why a window that is not upright was treated wrongly; "" if it was not.
+/// Checks the result for a turned window. Returns the fault, or "" if there is none.
 std::string check_turned(const Draw& draw, const Grid& upright) {
     Grid seen = upright;
     for (int i = 0; i < draw.quarter_turns; ++i)
@@ -79,8 +80,8 @@ std::string check_turned(const Draw& draw, const Grid& upright) {
     if (draw.quarter_turns > 0) {
         Place place;
         const Status status = decode(draw.code, seen.window(), place);
-        // Turning reverses and flips the bits of at least one axis, and 7 such bits are not in
-        // main.
+        // Turning reverses and flips the bits of at least one axis. 7 such bits do not occur in the
+        // main sequence.
         if (draw.columns >= 7 && draw.rows >= 7 && status != Status::not_in_code) {
             return "a turned window was not refused";
         }
@@ -94,7 +95,7 @@ std::string check_turned(const Draw& draw, const Grid& upright) {
     return "";
 }
 
-/// Why a draw failed; "" if it did not.
+/// Checks a draw. Returns the fault, or "" if there is none.
 std::string check(const Draw& draw) {
     const Grid grid = encode(draw);
     if (grid != reference_window(draw.code, draw.place, draw.columns, draw.rows)) {
@@ -159,13 +160,13 @@ TEST(CodeProperty, EverySectionAtAndAcrossTheWrap) {
                 ASSERT_EQ(check(draw), "") << describe(draw);
                 ++n;
             }
-            ++n;  // so that no x keeps its code variant
+            ++n;  // draws another code variant for the same x
         }
     }
 }
 
 TEST(CodeProperty, EveryPositionOfOneSheet) {
-    // A page of 400 x 3 windows, each one step from the last.
+    // A page of 400 x 3 windows, each one step from the previous one.
     for (std::uint32_t x = 0; x < 400; ++x) {
         for (std::uint32_t y = 0; y < 3; ++y) {
             for (const CodeVariant code : kCodeVariants) {

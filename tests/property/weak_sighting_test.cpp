@@ -1,5 +1,5 @@
-// Weak sightings: the probability that a place inside the tracker's gate was taken for another one
-// there, by enumeration, beside the bound that the tracker uses (docs/tracking.md).
+// Weak sightings: compares, by enumeration, the probability that a place inside the tracker's gate
+// was mistaken for another one there with the bound that the tracker uses (docs/tracking.md).
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -19,7 +19,7 @@ namespace dotpose {
 namespace {
 
 constexpr int kMaxSide = 16;
-/// Two places inside a gate of less than 15 cells to either side are at most so far apart.
+/// Maximum distance of two places inside a gate of less than 15 cells to each side.
 constexpr int kReach = 29;
 constexpr std::uint64_t kSeed = 20;
 constexpr std::array kCodeVariants{CodeVariant::anoto, CodeVariant::libdots,
@@ -31,7 +31,7 @@ struct View {
     Place place;
     int columns = 0;
     int rows = 0;
-    double odds_log2 = 0;  ///< that a bit of full weight is right
+    double odds_log2 = 0;  ///< log2 odds that a bit of full weight is correct
     std::array<GridCell, kMaxSide * kMaxSide> cells{};
 
     core::Grid grid() {
@@ -44,7 +44,7 @@ struct View {
     }
 };
 
-/// Draws size and noise, and reads what stands at the place.
+/// Draws size and noise, and reads the bits at the place.
 void read(View& view, Rng& rng) {
     view.columns = 8 + static_cast<int>(rng.below(5));
     view.rows = 8 + static_cast<int>(rng.below(5));
@@ -68,7 +68,8 @@ void read(View& view, Rng& rng) {
     }
 }
 
-/// The p_wrong that the decoder claims, as a power of two; 1 if it found another place or none.
+/// Returns the p_wrong reported by the decoder, as a power of two. Returns 1 if the decoder found
+/// another place or none.
 int claim(View& view) {
     core::Grid grid = view.grid();
     Decoding decoding;
@@ -84,7 +85,8 @@ int claim(View& view) {
                : 1;
 }
 
-/// Where each line that may be in view starts in the main sequence, at the view's first cell.
+/// Returns, for each line that may be in view, its start in the main sequence at the first cell of
+/// the view.
 std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std::uint32_t cross) {
     std::vector<int> result;
     for (int i = -kReach; i < kReach + kMaxSide; ++i) {
@@ -94,8 +96,8 @@ std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std:
     return result;
 }
 
-/// Odds of every other place within reach, against the true one: the product over all bits.
-/// sums[k]: of those at most k cells away along both axes.
+/// Returns the odds of all other places within reach relative to the true one, as products over all
+/// bits. sums[k] is the sum over the places at most k cells away along both axes.
 std::array<double, kReach + 1> odds_by_distance(View& view) {
     const auto& [cell, section] = view.place;
     const auto columns = starts(view.code, cell.x, section.u, cell.y);
@@ -103,8 +105,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     const auto main = [](int index) {
         return main_bit(static_cast<std::uint32_t>(index + kSections));
     };
-    // What the bits of a line say for it: their weights if it starts in the main sequence at
-    // some index.
+    // Sum of the weights of the bits of a line, positive where they agree with the main sequence
+    // from an index on.
     const core::Grid grid = view.grid();
     const auto score = [&](bool is_x, int line, int start) {
         int sum = 0;
@@ -127,8 +129,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     for (int dy = -kReach; dy <= kReach; ++dy) {
         for (int dx = -kReach; dx <= kReach; ++dx) {
             if (dx == 0 && dy == 0) continue;
-            // Half of the loss: a bit that contradicts adds its weight to one sum, and takes it
-            // from the other.
+            // Half of the loss, because a contradicting bit is added to one sum and subtracted from
+            // the other.
             const double odds = std::exp2(view.odds_log2 / 127 * (total(dx, dy) - of_truth) / 2);
             for (int k = std::max(std::abs(dx), std::abs(dy)); k <= kReach; ++k)
                 sums[static_cast<std::size_t>(k)] += odds;
@@ -137,7 +139,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     return sums;
 }
 
-/// Draws views of a place until one is weak, and compares; gives the least margin.
+/// Draws views of a place until one is weak. Returns the minimum margin of the tracker's bound, in
+/// bits.
 double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     View view;
     view.code = code;
@@ -150,7 +153,8 @@ double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     const auto sums = odds_by_distance(view);
     double least = 1e9;
     for (unsigned k = 1; k <= kReach; ++k) {
-        // The narrowest gate with two places that far apart: k + 2 cells, as the tracker counts.
+        // The smallest gate that contains two places at this distance has k + 2 cells, as the
+        // tracker counts.
         const int cells_log2 = std::bit_width(k + 1);
         least = std::min(least, p_wrong_log2 + cells_log2 - 36 - std::log2(sums[k]));
     }
@@ -170,14 +174,15 @@ TEST(WeakSighting, NoPlaceInTheGateIsLikelierThanTheBound) {
     }
 }
 
-/// Five lines in a row that stand again, all rolled alike, a few lines on.
+/// Five consecutive lines that are repeated a few lines later, all rolled by the same amount.
 struct Repetition {
     std::uint32_t position = 0;
     int distance = 0;  ///< in lines
-    int roll = 0;      ///< by how much those further on are rolled, 0 to 62
+    int roll = 0;      ///< roll of the later lines relative to the earlier ones, 0 to 62
 };
 
-/// All that there are within reach: where the same four digits stand again in all four sequences.
+/// Returns all repetitions within reach. They are where the same four digits are repeated in all
+/// four sequences.
 std::vector<Repetition> repetitions(CodeVariant code) {
     const code::Basis& basis = code::basis(code);
     std::vector<Repetition> found;
@@ -209,14 +214,14 @@ std::vector<Repetition> repetitions(CodeVariant code) {
     return found;
 }
 
-/// A place, and a step within reach to another that shows five of the same columns and rows.
+/// A place, and a step within reach to another place with five equal columns and rows.
 struct Twin {
     Place place;
     int dx = 0;
     int dy = 0;
 };
 
-/// All of them: the step along each axis undoes the roll along the other.
+/// Returns all twins. The step along each axis compensates the roll along the other axis.
 std::vector<Twin> twins(CodeVariant code) {
     const auto found = repetitions(code);
     std::vector<Twin> twins;

@@ -1,4 +1,5 @@
-// Messages as bytes: those of another serialiser (golden.txt), and what types say of themselves.
+// CDR encoding of messages: compared with the bytes of another serialiser (golden.txt), and checked
+// against the message definitions of the types.
 #include <fstream>
 #include <map>
 #include <string>
@@ -24,7 +25,7 @@ std::string hex(const std::vector<std::uint8_t>& bytes) {
     return text;
 }
 
-/// Returns the bytes of a type that the other serialiser made, by golden.mjs.
+/// Returns the bytes of a type written by the other serialiser (golden.mjs).
 std::string golden(const std::string& wanted) {
     std::ifstream file(test::source_dir() + "/tests/robots/golden.txt");
     std::string type;
@@ -68,8 +69,8 @@ TEST(Cdr, HasTheBytesOfAnotherSerialiser) {
 }
 
 TEST(Cdr, CountsTheBytesOfATextAndItsEnd) {
-    // The other serialiser counts characters, so this one is by the standard: 2 bytes of UTF-8, and
-    // the 0 at the end.
+    // The other serialiser counts characters, so the expected bytes follow the standard: 2 bytes of
+    // UTF-8, and the terminating 0.
     const std::string bytes = hex(to_cdr(CompressedImage{{{1, 2}, "\u00e4"}, "", {}}));
     EXPECT_EQ(bytes,
               "00010000"

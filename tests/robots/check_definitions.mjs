@@ -1,6 +1,6 @@
-// Reads types and their definitions, as JSON on standard input, and says where they differ from
-// those of ROS 2. Comments, and constants, do not matter. The hashes of the types are those that REP 2011
-// computes from the definitions of ROS 2.
+// Reads types and their definitions, as JSON on standard input, and prints their differences from
+// the definitions of ROS 2. Comments and constants are ignored. The type hashes are computed from
+// the definitions of ROS 2 according to REP 2011.
 import { createHash } from "node:crypto";
 import { readFile } from "node:fs/promises";
 
@@ -8,7 +8,7 @@ import { parse } from "@foxglove/rosmsg";
 
 import { definitionsOf } from "./definitions.mjs";
 
-/** The members that a message has, as texts. */
+/** Returns the members of a message as texts. */
 function members(definition) {
   return definition.definitions
     .filter((member) => !member.isConstant)
@@ -21,7 +21,7 @@ const typeIds = { message: 1, uint8: 3, int32: 6, uint32: 7, float64: 11, byte: 
 const kOfArrays = 48;
 const kOfSequences = 144;
 
-/** The npm package replaces `byte`. */
+/** Types in the definitions of ROS, for which the npm package has replaced `byte`. */
 const asInRos = { "diagnostic_msgs/DiagnosticStatus level": "byte" };
 
 function described({ name, definitions }) {
@@ -43,14 +43,15 @@ function described({ name, definitions }) {
   return { type_name: name.replace("/", "/msg/"), fields };
 }
 
-/** The hash of a type, whose definition comes first, as JSON with spaces after commas and colons. */
+/** Returns the hash of a type, whose definition comes first, from JSON with spaces after commas
+   and colons. */
 function typeHash([whole, ...parts]) {
   const byName = (a, b) => (a.type_name < b.type_name ? -1 : 1);
   const text = JSON.stringify({
     type_description: described(whole),
     referenced_type_descriptions: parts.map(described).sort(byName),
   });
-  const spaced = text.replace(/([,:])/g, "$1 ");  // no name contains either
+  const spaced = text.replace(/([,:])/g, "$1 ");  // names contain neither commas nor colons
   return `RIHS01_${createHash("sha256").update(spaced).digest("hex")}`;
 }
 
@@ -63,7 +64,7 @@ let differ = false;
 for (const { name, definition, hash } of JSON.parse(await readFile("/dev/stdin", "utf8"))) {
   const type = name.replace("/msg/", "/");
   const parts = parse(definition, { ros2: true });
-  // Their readers know a time without a definition; files of ROS have one.
+  // These readers know the time without a definition, but files of ROS contain its definition.
   const time = parts.find((part) => part.name === "builtin_interfaces/Time");
   if (members(time) !== "int32 sec, uint32 nanosec") {
     console.log(`${name}: a time is ${members(time)}`);
@@ -80,7 +81,7 @@ for (const { name, definition, hash } of JSON.parse(await readFile("/dev/stdin",
     differ = true;
   }
   for (const wanted of theirs) {
-    // The first one has no name.
+    // The first definition has no name.
     const found = wanted.name === type ? ours[0] : ours.find((each) => each.name === wanted.name);
     if (found !== undefined && members(found) === members(wanted)) continue;
     console.log(`${wanted.name}: ${found && members(found)} instead of ${members(wanted)}`);

@@ -1,5 +1,5 @@
-// `dotpose watch --dds`, read by the DDS of another vendor in a network of its own, and decoded by
-// a reader that is not ours.
+// `dotpose watch --dds`, read by another DDS implementation in a separate network namespace, and
+// decoded by an independent reader.
 #include <string>
 #include <vector>
 
@@ -25,7 +25,8 @@ constexpr const char* kTopics =
     "/anna/pose geometry_msgs/PoseWithCovarianceStamped /anna/odom nav_msgs/Odometry "
     "/anna/status diagnostic_msgs/DiagnosticArray /tf tf2_msgs/TFMessage";
 
-/// A network with nothing but the loopback interface, which takes multicast as DDS needs it.
+/// Commands for a network that consists of the loopback interface only, with the multicast that DDS
+/// needs.
 constexpr const char* kNetwork =
     "ip link set lo up multicast on; ip route add 239.0.0.0/8 dev lo; ";
 
@@ -33,19 +34,19 @@ class Dds : public WatchCommand {
   protected:
     using ToolCommand::shell;
 
-    /// Whether networks of their own may be made here, as in most containers.
+    /// Returns true if network namespaces can be created here. In most containers, they cannot.
     static bool has_networks() {
         return run_shell(std::string("unshare -rn sh -c '") + kNetwork + "' 2>&1").exit_code == 0;
     }
 
     /// Runs `dotpose watch` with frames that `frames` writes, and a reader of its messages, which
-    /// is there first. Returns what the reader got.
+    /// is started first. Returns the messages received by the reader.
     std::vector<json> read_drive(const std::string& frames, const std::string& reliability,
                                  const std::string& options, const std::string& environment = "") {
         const std::string watch = "'" + test::tool_path() + "' watch - " + kRaw + " " + kTrack +
                                   " --units ros --dds --robot anna -o lines " + options;
-        // The frames come when reader and writers know of each other; the reader says when it
-        // knows.
+        // The frames start when reader and writers have discovered each other. The reader signals
+        // when that is the case.
         const std::string ready =
             "until [ -e ready ] || ! kill -0 $reader; do sleep 0.1; done; sleep 1; ";
         std::ofstream(directory_ / "run.sh")
@@ -63,7 +64,7 @@ class Dds : public WatchCommand {
     }
 };
 
-/// Skips a test where something is missing that it needs.
+/// Skips a test if something is missing that it needs.
 #define DOTPOSE_NEEDS_DDS()                                                                  \
     DOTPOSE_NEEDS_NPM();                                                                     \
     if (kReader == nullptr) GTEST_SKIP() << "built without Cyclone DDS or without Fast DDS"; \
@@ -72,7 +73,7 @@ class Dds : public WatchCommand {
 TEST_F(Dds, HasThePosesOfTheLines) {
     DOTPOSE_NEEDS_DDS();
     put_raw(drive_.frames());
-    // Frames without pacing: no message may be lost.
+    // The frames are not paced, and no message may be lost.
     const auto messages = read_drive("cat drive.raw", "reliable", "--dds-reliable");
     expect_messages_of(parsed(file("lines")), messages, "anna", kAsWatched);
 }
@@ -84,7 +85,7 @@ TEST_F(Dds, SendsSensorDataAsRosDoes) {
         "ffmpeg -v error -readrate 0.5 -f rawvideo -pix_fmt gray -s 320x240 -r 200 -i drive.raw "
         "-f rawvideo -",
         "best-effort", "");
-    // Nothing is lost on a quiet loopback interface, but nothing promises that.
+    // A quiet loopback interface loses nothing, but this is not guaranteed.
     EXPECT_GT(of_topic(messages, "/anna/pose").size(), 150U);
     EXPECT_EQ(of_topic(messages, "/tf").size(), 200U);
 }
@@ -92,7 +93,7 @@ TEST_F(Dds, SendsSensorDataAsRosDoes) {
 TEST_F(Dds, IsFoundOnThisComputerAloneIfRosSaysSo) {
     DOTPOSE_NEEDS_DDS();
     put_raw(20);
-    // The reader hears no multicast then, by which programs find each other in a network.
+    // The reader then receives no multicast, by which programs discover each other in a network.
     const auto messages = read_drive("cat drive.raw", "reliable", "--dds-reliable",
                                      "export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; ");
     EXPECT_EQ(of_topic(messages, "/anna/pose").size(), 20U);

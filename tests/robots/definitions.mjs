@@ -1,9 +1,10 @@
-// The definitions of messages as ROS 2 has them, from a package that is not ours.
+// The definitions of ROS 2 messages, from an independent package.
 import common from "@foxglove/rosmsg-msgs-common";
 
 const all = common.ros2jazzy;
 
-/** The definition of a type such as "nav_msgs/Odometry", then those of all types in it. */
+/** Returns the definition of a type such as "nav_msgs/Odometry", followed by those of all types
+   in it. */
 export function definitionsOf(type, found = new Map()) {
   const definition = all[type] ?? all[type.replace("builtin_interfaces/", "")];
   if (definition === undefined) throw new Error(`no definition of ${type}`);

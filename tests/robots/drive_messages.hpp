@@ -1,4 +1,4 @@
-/// Compares messages, as their readers decode them, with the lines of the same run (--units ros).
+/// Compares messages, as decoded by their readers, with the lines of the same run (--units ros).
 #pragma once
 
 #include <array>
@@ -14,15 +14,15 @@
 
 namespace dotpose::test {
 
-/// How far messages may be from the lines, which are rounded to nanometres and 1e-8 rad.
+/// Maximum differences between messages and lines, which are rounded to nanometres and 1e-8 rad.
 struct MessageTolerance {
     double length_m = 0.6e-9;
     double angle_rad = 1e-8;
-    double speed_m_s = 0.6e-6;  ///< the lines have micrometres per second
+    double speed_m_s = 0.6e-6;  ///< the lines are rounded to micrometres per second
     double turn_rad_s = 0.6e-6;
 };
 inline constexpr MessageTolerance kAsWatched;
-/// The log has degrees with six decimals, and velocities in mm and degrees with three.
+/// The log has degrees with six decimals, and velocities in mm and degrees with three decimals.
 inline constexpr MessageTolerance kAsLogged = {2e-9, 2e-8, 2e-6, 1e-5};
 
 inline double yaw_of(const nlohmann::json& rotation) {
@@ -40,7 +40,7 @@ inline std::int64_t time_us(const nlohmann::json& line) {
     return std::llround(line["t_s"].get<double>() * 1e6);
 }
 
-/// The lines with a fix and the poses must be the same, one for one, with the same times.
+/// Expects that the poses equal the lines with a fix, one by one, with the same times.
 inline void expect_poses_of(const std::vector<nlohmann::json>& lines,
                             const std::vector<nlohmann::json>& poses,
                             const MessageTolerance& tolerance) {
@@ -71,7 +71,7 @@ inline void expect_poses_of(const std::vector<nlohmann::json>& lines,
     EXPECT_EQ(next, poses.size()) << "there are poses without a fix";
 }
 
-/// All messages of a run.
+/// Compares all messages of a run.
 inline void expect_messages_of(const std::vector<nlohmann::json>& lines,
                                const std::vector<nlohmann::json>& messages,
                                const std::string& robot, const MessageTolerance& tolerance) {
@@ -103,8 +103,8 @@ inline void expect_messages_of(const std::vector<nlohmann::json>& lines,
     EXPECT_EQ(next, odometry.size());
 }
 
-/// The transforms, one after the other, must lead to where the tracker has the robot; odom to
-/// base_link must go on smoothly where the robot jumps.
+/// Expects that the composed transforms equal the pose of the tracker, and that odom to base_link
+/// is continuous where the robot jumps.
 inline void expect_odometry_of(const std::vector<nlohmann::json>& lines,
                                const std::vector<nlohmann::json>& messages,
                                const std::string& robot) {
@@ -129,7 +129,7 @@ inline void expect_odometry_of(const std::vector<nlohmann::json>& lines,
         EXPECT_NEAR(
             map["translation"]["y"].get<double>() + std::sin(angle) * x + std::cos(angle) * y,
             line["track_y_m"].get<double>(), 1e-9);
-        // At most 300 mm/s, 5 ms from frame to frame.
+        // At most 300 mm/s, with 5 ms per frame.
         EXPECT_LT(std::hypot(x - before_x, y - before_y), 0.003);
         if (map != map_before) ++jumps;
         map_before = map;
@@ -137,7 +137,7 @@ inline void expect_odometry_of(const std::vector<nlohmann::json>& lines,
         before_y = y;
     }
     EXPECT_EQ(next, transforms.size());
-    // It was found at first, where it was put down, and where it was put aside.
+    // The robot was found at the start, where it was put down, and where it was put aside.
     EXPECT_EQ(jumps, 3);
 }
 

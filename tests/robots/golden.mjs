@@ -1,5 +1,6 @@
-// Serialises messages with a serialiser and by definitions that are not ours, and prints each as a
-// line: its type and its bytes. golden.txt has them; cdr_test.cpp builds the same messages.
+// Serialises messages with an independent serialiser and independent definitions, and prints each
+// as a line with its type and its bytes. golden.txt contains the output; cdr_test.cpp builds the
+// same messages.
 //
 //   node golden.mjs > golden.txt
 import { MessageWriter } from "@foxglove/rosmsg2-serialization";

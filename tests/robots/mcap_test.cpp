@@ -1,4 +1,4 @@
-// MCAP files, as another program reads them: both of its readers, all check sums.
+// MCAP files, read by the two readers of another program with all checksums.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -27,7 +27,7 @@ PoseWithCovarianceStamped pose(int number) {
 
 class Mcap : public testing::Test {
   protected:
-    /// Writes poses, with a status at every tenth.
+    /// Writes poses, and a status with every tenth pose.
     void write(McapFile& file, int poses) {
         const McapChannel channel = file.add_channel("/anna/pose", type_of(pose(0)));
         std::optional<McapChannel> states;
@@ -60,7 +60,7 @@ class Mcap : public testing::Test {
 TEST_F(Mcap, IsReadByOthers) {
     DOTPOSE_NEEDS_NPM();
     McapFile file(path_);
-    write(file, 1234);  // 12 s, a chunk for each
+    write(file, 1234);  // 12 s, with one chunk per second
     file.finish();
     const auto messages = read_mcap(path_);
     expect_poses(messages, 1234, 1234);
@@ -77,7 +77,7 @@ TEST_F(Mcap, IsCompleteAtEveryMoment) {
     DOTPOSE_NEEDS_NPM();
     McapFile file(path_);
     write(file, 456);
-    // Nothing is finished: this is what a killed program leaves. The last second may be missing.
+    // The file is not finished, as after killing the program. The last second may be missing.
     expect_poses(read_mcap(path_), 456 - 101, 456);
     file.finish();
     expect_poses(read_mcap(path_), 456, 456);
@@ -88,7 +88,8 @@ TEST_F(Mcap, CutOffAnywhereItHasAllFinishedChunks) {
     McapFile file(path_);
     write(file, 456);
     file.finish();
-    // Cut in the middle of the data, as by a full disk: no end, no index.
+    // The file is cut in the middle of the data, as by a full disk. It has neither an end nor an
+    // index.
     std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
     const auto messages = read_mcap(path_, "--stream");
     EXPECT_GT(messages.size(), 100U);
@@ -102,7 +103,7 @@ TEST_F(Mcap, LargeMessagesEndTheirChunk) {
     const McapChannel channel = file.add_channel("/image", type_of(image));
     for (int i = 0; i < 5; ++i)
         file.write(channel, i, to_cdr(image));
-    // Two of two images each are written.
+    // Two images of each of the two topics are written.
     EXPECT_EQ(read_mcap(path_).size(), 4U);
     file.finish();
     EXPECT_EQ(read_mcap(path_).size(), 5U);
@@ -112,7 +113,8 @@ TEST_F(Mcap, TheIndexStaysSmallerThanTheData) {
     McapFile file(path_, {.chunk_ns = 1});
     write(file, 20'000);
     file.finish();
-    // Chunks grow with the index, so that writing it again with each costs no more than the data.
+    // Chunks grow with the index, so that rewriting the index with each chunk costs no more than
+    // the data.
     constexpr std::size_t kRecord = 420;  // of a pose: 9 + 22 and 4 + 384 bytes
     EXPECT_LT(std::filesystem::file_size(path_), 20'000 * kRecord * 3 / 2);
 }

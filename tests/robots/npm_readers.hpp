@@ -1,4 +1,4 @@
-/// Readers of messages that are not ours, from npm.
+/// Independent readers of messages, from npm.
 #pragma once
 
 #include <sstream>
@@ -13,24 +13,24 @@
 
 namespace dotpose::test {
 
-/// Returns the folder with the readers, which is filled at the first call; empty if there is no npm
-/// or no network.
+/// Returns the folder with the readers, which is filled in the first call. Returns an empty string
+/// if there is no npm or no network.
 inline std::string npm_folder() {
     static const ShellOutcome installed =
         run_shell("'" + source_dir() + "/tests/robots/npm_packages' '" DOTPOSE_NPM_FOLDER "'");
     return installed.exit_code == 0 ? DOTPOSE_NPM_FOLDER : "";
 }
 
-/// Skips a test that needs the readers where they cannot be had.
+/// Skips a test if the readers are not available.
 #define DOTPOSE_NEEDS_NPM() \
     if (npm_folder().empty()) GTEST_SKIP() << "no npm, or no network to get its packages"
 
-/// Runs one of the programs beside this file, with node.
+/// Runs a program in this folder with node.
 inline ShellOutcome run_node(const std::string& command) {
     return run_shell("node '" + npm_folder() + "'/" + command);
 }
 
-/// Reads all messages of an MCAP file, with both readers and all check sums.
+/// Reads all messages of an MCAP file, with both readers and all checksums.
 inline std::vector<nlohmann::json> read_mcap(const std::string& path,
                                              const std::string& option = "") {
     const ShellOutcome read = run_node("read_mcap.mjs '" + path + "' " + option + " 2>&1");

@@ -1,5 +1,5 @@
-// A simulated drive over two sheets, recorded and replayed: the messages against the lines of the
-// same run.
+// A simulated drive over two sheets, recorded and replayed. The messages are compared with the
+// lines of the same run.
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -22,8 +22,8 @@ class Recording : public WatchCommand {
   protected:
     using ToolCommand::shell;
 
-    /// Records frames that come through a pipe, sends the signal after so many, and returns the
-    /// exit code.
+    /// Records frames from a pipe, sends the signal after a number of frames, and returns the exit
+    /// code.
     int stop_after(int frames, const std::string& signal) {
         return shell("mkfifo frames; : >lines; \"$T\" watch - " + std::string(kRaw) + " " + kTrack +
                      " --no-window --mcap run.mcap -o lines <frames & tool=$!; exec 3>frames; "
@@ -37,7 +37,7 @@ class Recording : public WatchCommand {
     }
 };
 
-// One test, because the drive takes seconds to locate and its recording as long to read.
+// A single test, because locating the drive takes seconds, and reading its recording takes as long.
 TEST_F(Recording, HasThePosesAndTheOdometryOfTheLines) {
     DOTPOSE_NEEDS_NPM();
     put_raw(drive_.frames());
@@ -52,7 +52,7 @@ TEST_F(Recording, HasThePosesAndTheOdometryOfTheLines) {
     expect_messages_of(lines, messages, "anna", kAsWatched);
     expect_odometry_of(lines, messages, "anna");
 
-    // The log has rounded numbers, and less of the covariances of the velocities.
+    // The log has rounded numbers, and only a part of the covariances of the velocities.
     ASSERT_EQ(run("replay run.csv -o again.mcap --robot anna"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("frames with a fix "));
     expect_messages_of(lines, recorded("again.mcap"), "anna", kAsLogged);
@@ -86,7 +86,7 @@ TEST_F(Recording, HasTheFramesIfAskedFor) {
     const json& message = images[3]["message"];
     EXPECT_EQ(message["format"], "png");
     EXPECT_EQ(message["header"]["frame_id"], "camera_optical");
-    // The same pixels as the frame, which another program decodes.
+    // The image is decoded by another program, and has the same pixels as the frame.
     const auto bytes = message["data"].get<std::vector<std::uint8_t>>();
     std::ofstream(directory_ / "frame.png", std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),
@@ -112,7 +112,8 @@ TEST_F(Recording, TellsWhereTheCameraSits) {
     const json& mount = mounts[0]["message"]["transforms"][0];
     EXPECT_EQ(mount["child_frame_id"], "camera_optical");
     EXPECT_NEAR(mount["transform"]["translation"]["x"], 0.00458, 1e-9);
-    // `ros2 bag play` offers it so that listeners of transforms take it: transient local.
+    // The quality of service with which `ros2 bag play` publishes it, transient local, is accepted
+    // by listeners of transforms.
     EXPECT_THAT(mounts[0]["offered"], HasSubstr("\n  durability: 1\n"));
     const auto poses = of_topic(recorded("run.mcap"), "/robot/pose");
     EXPECT_THAT(poses.at(0)["offered"], HasSubstr("\n  durability: 2\n"));
@@ -143,7 +144,8 @@ TEST_F(Recording, KilledItIsStillReadable) {
     DOTPOSE_NEEDS_NPM();
     put_raw(400);
     ASSERT_EQ(stop_after(400, "KILL"), 128 + 9);
-    // 2 s were seen; the last chunk, of at most a second, may be missing. Both readers can read it.
+    // 2 s were watched. The last chunk, of at most a second, may be missing. Both readers can read
+    // the file.
     const auto poses = of_topic(recorded("run.mcap"), "/robot/pose");
     EXPECT_GE(poses.size(), 199U);
     EXPECT_LE(poses.size(), 400U);

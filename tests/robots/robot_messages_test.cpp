@@ -1,4 +1,5 @@
-// From fixes and tracks to messages: frames, units and covariances, worked out by hand.
+// From fixes and tracks to messages: frames, units and covariances, compared with values computed
+// by hand.
 #include "dotpose/tools/robot_messages.hpp"
 
 #include <cmath>
@@ -19,7 +20,8 @@ double yaw(const Quaternion& rotation) {
     return 2 * std::atan2(rotation.z, rotation.w);
 }
 
-/// A robot at 2 m, 1 m, 90 degrees, that drives 0.3 m/s along the y axis of the world and turns.
+/// Returns the motion of a robot at 2 m, 1 m, 90 degrees, that drives at 0.3 m/s along the y axis
+/// of the world and turns.
 PlanarMotion northwards() {
     PlanarMotion motion;
     motion.pose = {2, 1, kRightAngle};
@@ -87,7 +89,7 @@ TEST(RobotMessages, APrefixIsOfTheRobotsOwnFrames) {
 
 TEST(RobotMessages, NeverSaysThatAnythingIsExact) {
     RobotUpdate seen;
-    seen.fix = PlanarFix{};  // without a covariance
+    seen.fix = PlanarFix{};  // a fix without a covariance
     const RobotMessages messages = RobotMessenger("anna").messages(seen);
     for (std::size_t i = 0; i < 6; ++i)
         EXPECT_EQ(messages.pose->pose.covariance[7 * i], kUnobserved) << i;
@@ -106,7 +108,7 @@ TEST(RobotMessages, OdometryBeginsWhereTheRobotIsFirstSeen) {
     expect_transform(start.tf->transforms[0], 2, 1, kRightAngle);
     expect_transform(start.tf->transforms[1], 0, 0, 0);
 
-    // 0.1 m north, which is forward, and 0.2 m west, which is left.
+    // 0.1 m north, which is forwards, and 0.2 m west, which is to the left.
     PlanarMotion next = first;
     next.pose = {1.8, 1.1, kRightAngle + 0.25};
     const RobotMessages then = messenger.messages(update(next));
@@ -116,7 +118,7 @@ TEST(RobotMessages, OdometryBeginsWhereTheRobotIsFirstSeen) {
     EXPECT_EQ(then.odometry->child_frame_id, "base_link");
     EXPECT_NEAR(then.odometry->pose.pose.position.x, 0.1, 1e-12);
     EXPECT_NEAR(then.odometry->pose.pose.position.y, 0.2, 1e-12);
-    // The axes of odom are those of the world turned by 90 degrees: x and y change places.
+    // The axes of odom are those of the world rotated by 90 degrees, so x and y are exchanged.
     EXPECT_NEAR(then.odometry->pose.covariance[0], 2, 1e-12);
     EXPECT_NEAR(then.odometry->pose.covariance[7], 1, 1e-12);
     EXPECT_NEAR(then.odometry->pose.covariance[35], 3, 1e-12);
@@ -128,11 +130,11 @@ TEST(RobotMessages, OdometryGoesOnWhenTheRobotIsPutElsewhere) {
     PlanarMotion next = northwards();
     next.pose.y_m += 0.5;
     messenger.messages(update(next));
-    // Lifted, and put down 10 m away, turned around.
+    // The robot is lifted and put down 10 m away, turned around.
     next.pose = {10, -3, 0};
     const RobotMessages again = messenger.messages(update(next, true));
     expect_transform(again.tf->transforms[1], 0.5, 0, 0);
-    // map to odom, then odom to base_link, is where the robot is.
+    // The transform from map to odom to base_link is the pose of the robot.
     expect_transform(again.tf->transforms[0], 9.5, -3, 0);
     next.pose.x_m += 0.25;
     const RobotMessages then = messenger.messages(update(next));
@@ -158,7 +160,8 @@ TEST(RobotMessages, VelocitiesAreThoseOfTheRobot) {
     EXPECT_NEAR(twist.twist.linear.x, 0.3, 1e-12);
     EXPECT_NEAR(twist.twist.linear.y, 0, 1e-12);
     EXPECT_EQ(twist.twist.angular.z, -0.5);
-    // Forward is y of the world. To the left, an angle off by 1 adds 0.3 m/s; its variance is 3.
+    // Forwards is the y axis of the world. Sideways, an angle error of 1 adds 0.3 m/s; its variance
+    // is 3.
     EXPECT_NEAR(twist.covariance[0], 5, 1e-12);
     EXPECT_NEAR(twist.covariance[7], 4 + 0.3 * 0.3 * 3, 1e-12);
     EXPECT_NEAR(twist.covariance[35], 6, 1e-12);
@@ -183,7 +186,7 @@ TEST(RobotMessages, StatusSaysWhatIsWrong) {
     EXPECT_EQ(state(seen).values.at(0).value, "lost");
 }
 
-/// A track in the pattern: y down, angles clockwise.
+/// Returns a track in the pattern frame, with y down and clockwise angles.
 Followed followed_in_pattern() {
     Followed followed;
     Fix& fix = followed.located.fix;
@@ -219,7 +222,7 @@ TEST(RobotUpdates, ThePatternHasYUp) {
     const PlanarCovariance& covariance = *seen.fix->covariance;
     EXPECT_DOUBLE_EQ(covariance[0][0], 4 * 0.25e-6);
     EXPECT_DOUBLE_EQ(covariance[0][1], -0.25e-6);
-    EXPECT_DOUBLE_EQ(covariance[1][2], 0.5 * 0.5e-3);  // both are reversed
+    EXPECT_DOUBLE_EQ(covariance[1][2], 0.5 * 0.5e-3);  // both signs are reversed
     EXPECT_DOUBLE_EQ(covariance[2][2], 16);
     ASSERT_TRUE(seen.motion);
     EXPECT_DOUBLE_EQ(seen.motion->pose.y_m, -1);
@@ -265,7 +268,7 @@ TEST(CameraMount, IsWhereTheImageCentreIsSeenFromTheRobot) {
     camera.centre_px = {100, 50};
     camera.paper = PaperScale{.mm_per_px_x = 0.05, .mm_per_px_y = 0.05};
     camera.focal_px = 400;
-    // The robot's centre: 10 mm behind the image centre, along the image x axis.
+    // The robot's centre is 10 mm behind the image centre, along the image x axis.
     camera.reference_px = PixelPoint{-100, 50};
     const auto ahead = camera_mount(camera);
     ASSERT_TRUE(ahead);
@@ -274,16 +277,16 @@ TEST(CameraMount, IsWhereTheImageCentreIsSeenFromTheRobot) {
     EXPECT_NEAR(ahead->transform.translation.x, 0.01, 1e-12);
     EXPECT_NEAR(ahead->transform.translation.y, 0, 1e-12);
     EXPECT_NEAR(ahead->transform.translation.z, 0.02, 1e-12);
-    // Half a turn about x: the image's y axis points to the right, z down.
+    // A rotation by half a turn about x: the image's y axis points to the right and z down.
     EXPECT_NEAR(ahead->transform.rotation.x, 1, 1e-12);
 
-    // The robot looks along the image's y axis, which points down in the image: what lies at the
-    // image's +x is at its left, as y is up, so the camera is 10 mm to its left.
+    // The robot's heading is the image's y axis, which points down in the image. A point at the
+    // image's +x is to the left of the robot, as y is up, so the camera is 10 mm to its left.
     camera.theta_offset_rad = kRightAngle;
     const auto left = camera_mount(camera);
     EXPECT_NEAR(left->transform.translation.x, 0, 1e-12);
     EXPECT_NEAR(left->transform.translation.y, 0.01, 1e-12);
-    // The image x axis is the robot's y axis: the rotation maps (1, 0, 0) to (0, 1, 0).
+    // The image x axis is the robot's y axis, so the rotation maps (1, 0, 0) to (0, 1, 0).
     const Quaternion& q = left->transform.rotation;
     EXPECT_NEAR(1 - 2 * (q.y * q.y + q.z * q.z), 0, 1e-12);
     EXPECT_NEAR(2 * (q.x * q.y + q.w * q.z), 1, 1e-12);

@@ -1,5 +1,5 @@
-// From a document to the place on its pages: `dotpose overlay`, a renderer in place of the printer,
-// the simulated camera, `dotpose locate`.
+// From a document to the place on its pages: `dotpose overlay`, a renderer instead of a printer,
+// the simulated camera, and `dotpose locate`.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -28,26 +28,28 @@ using nlohmann::json;
 constexpr int kPages = 5;
 constexpr double kPageWidth_mm = 60;
 constexpr double kPageHeight_mm = 80;
-// Nothing but the document's own margin lies within; frames reach 5.2 mm around their centre.
+// Distance from the edge of the page, which contains only the margin of the document. Frames reach
+// 5.2 mm around their centre.
 constexpr double kEdge_mm = 8;
 constexpr int kPrinter_dpi = 1200;
-// A renderer may move all dots by one of its pixels (0.021 mm); a fix adds 0.002 mm.
+// A renderer may move all dots by one of its pixels (0.021 mm). A fix adds 0.002 mm.
 constexpr double kTolerance_mm = 0.03;
 
-/// Where a frame was taken.
+/// The place of a frame.
 struct TakenFrame {
     int page = 1;
     Vec2 at_mm;
     double theta_rad = 0;
 };
 
-/// What the camera sees, and how the document is printed for it.
+/// A kind of camera, and the options of printing for it.
 struct Camera {
     const char* name;
     const char* overlay_options;
     bool is_infrared;
     int places;
-    int min_found;  ///< of the places; black text hides dots from a camera that sees it
+    int min_found;  ///< minimum number of located places; cameras that see black text miss the
+                    ///< dots under it
 };
 
 class OverlaidBook : public testing::TestWithParam<Camera> {
@@ -56,7 +58,8 @@ class OverlaidBook : public testing::TestWithParam<Camera> {
         return run(fmt::format("cd '{}' && {}", directory_.path().string(), command));
     }
 
-    /// Pages of text in in.pdf, the same with dots in out.pdf, both in sheets.json beside others.
+    /// Writes pages of text to in.pdf, and the same pages with dots to out.pdf. sheets.json
+    /// contains both and other sheets.
     void make_book() const {
         std::ofstream roff(directory_.path() / "book.roff");
         roff << ".pl 8c\n.po 0.6c\n.ll 4.8c\n.ps 9\n.vs 11\n.hy 0\n";
@@ -74,7 +77,7 @@ class OverlaidBook : public testing::TestWithParam<Camera> {
                      GetParam().overlay_options);
     }
 
-    /// Frames of random places; their names, in the order of the list, stand in list.txt.
+    /// Writes frames of random places, and their names, in order, to list.txt.
     std::vector<TakenFrame> take_frames() const {
         constexpr std::uint64_t kSeed = 41;
         fmt::print("seed {}\n", kSeed);

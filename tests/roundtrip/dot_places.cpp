@@ -12,8 +12,8 @@ struct Point {
     double y = 0;
 };
 
-/// Centroid of the ink around an intersection. Own ink ends 0.25 spacings from it, that of the
-/// neighbours begins at 0.75.
+/// Returns the centroid of the ink around an intersection. The ink of a dot ends 0.25 spacings from
+/// its intersection, and that of its neighbours begins at 0.75.
 std::optional<Point> centroid_px(const GreyPage& page, Point centre, double half_px) {
     double ink = 0;
     Point sum;
@@ -32,7 +32,7 @@ std::optional<Point> centroid_px(const GreyPage& page, Point centre, double half
     return Point{sum.x / ink, sum.y / ink};
 }
 
-/// The symbol whose displacement points most nearly along `from_intersection`.
+/// Returns the symbol whose displacement has the direction closest to `from_intersection`.
 Symbol nearest_symbol(Point from_intersection) {
     Symbol best = Symbol::up;
     double best_dot = -1e9;
@@ -54,7 +54,7 @@ DotErrors measure_dots(const GreyPage& page, const Sheet& sheet, double dpi) {
     const double um_per_px = 25'400 / dpi;
     DotErrors result;
     Point offset;
-    // The second pass looks around where the first found the dots.
+    // The second pass searches around the dots found in the first pass.
     for (int pass = 0; pass < 2; ++pass) {
         std::vector<Point> errors;
         result = DotErrors{};

@@ -1,4 +1,4 @@
-/// Where the dots of a rendered sheet really are.
+/// The actual places of the dots of a rendered sheet.
 #pragma once
 
 #include "dotpose/tools/print.hpp"
@@ -8,9 +8,11 @@ namespace dotpose::roundtrip {
 
 struct DotErrors {
     int dots = 0;
-    int missing = 0;        ///< places without any ink
-    int wrong_symbols = 0;  ///< dots nearer to another symbol's place than to that of `symbol_at`
-    double mean_um = 0;     ///< distance of the centroid from its place, after one constant offset
+    int missing = 0;        ///< number of places without any ink
+    int wrong_symbols = 0;  ///< number of dots that are closer to the place of another symbol than
+                            ///< to that of `symbol_at`
+    double mean_um = 0;     ///< mean distance of the centroids from their places, after subtracting
+                            ///< one constant offset
     double largest_um = 0;
     double offset_x_um = 0;
     double offset_y_um = 0;

@@ -1,4 +1,4 @@
-// Documents that are made to exhaust stack, memory or patience.
+// Documents designed to exhaust stack, memory or time.
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -22,7 +22,7 @@ using testing::HasSubstr;
 constexpr const char* kCatalogue = "<< /Type /Catalog /Pages 2 0 R >>";
 constexpr int kDeep = 9000;
 
-/// As the filter FlateDecode unpacks it.
+/// Returns data compressed for the filter FlateDecode.
 std::string packed(std::string data, int times = 1) {
     for (int i = 0; i < times; ++i) {
         uLongf size = compressBound(data.size());
@@ -38,7 +38,7 @@ std::string stream_with(const std::string& keys, const std::string& data) {
     return fmt::format("<< /Length {} {} >>\nstream\n{}\nendstream", data.size(), keys, data);
 }
 
-/// One page; `more` are the objects from 5 on.
+/// Returns one page. `more` are the objects from number 5 on.
 std::vector<std::string> page_with(const std::string& keys, const std::string& content = stream(""),
                                    const std::vector<std::string>& more = {}) {
     std::vector<std::string> objects = {
@@ -49,7 +49,7 @@ std::vector<std::string> page_with(const std::string& keys, const std::string& c
     return objects;
 }
 
-/// Objects from 5 on, each of which `names` the next one.
+/// Returns objects from number 5 on. `names` makes each object refer to the next one.
 std::vector<std::string> chain(const std::function<std::string(int)>& names) {
     std::vector<std::string> objects;
     for (int number = 5; number < 5 + kDeep; ++number)
@@ -101,7 +101,7 @@ TEST_F(HostileDocument, depth_is_bounded_and_named) {
     const char* const kDraws = "/Resources << /XObject << /A 5 0 R >> >>";
     expect_refused(page_with(kDraws, stream("/A Do"), forms("/A Do")),
                    "in.pdf, page 1: its forms are nested deeper than 100 levels");
-    // What is not drawn is converted too.
+    // Forms that are not drawn are converted too.
     expect_refused(page_with(kDraws, stream(""), forms("")),
                    "in.pdf, page 1: its resources are nested deeper than 100 levels",
                    change_colours_);
@@ -176,7 +176,7 @@ TEST_F(HostileDocument, the_content_of_all_pages_is_bounded) {
         options);
 }
 
-/// A document whose objects are listed by a stream with these keys and data.
+/// Returns a document whose objects are listed by a stream with these keys and data.
 std::string with_cross_reference_stream(const std::string& keys, const std::string& data) {
     const std::string catalogue = "%PDF-1.5\n1 0 obj\n<< /Type /Catalog >>\nendobj\n";
     return fmt::format(
@@ -203,7 +203,7 @@ TEST_F(HostileDocument, lists_of_objects_are_bounded) {
         with_cross_reference_stream("/Filter [/FlateDecode /FlateDecode]", packed(zeros, 2));
     write("junk in front\n" + twice);
     expect(too_much);
-    // An older list, that a table leads to.
+    // An older list, to which a table refers.
     for (const char* key : {"Prev", "XRefStm"}) {
         const std::size_t place = twice.find("2 0 obj");
         write(twice + fmt::format("xref\n0 1\n0000000000 65535 f \ntrailer\n<< /Size 3 /Root 1 0 R "
@@ -213,12 +213,12 @@ TEST_F(HostileDocument, lists_of_objects_are_bounded) {
     }
     write(with_cross_reference_stream("/Filter /FlateDecode", packed(std::string(12, '\0'))));
     expect("in.pdf");
-    // Lists that end before they begin.
+    // Incomplete lists.
     for (const char* cut : {"xref\n0 1\n", "2 0 obj\n", "2 0 obj\n<< /Type (", "trailer <<"}) {
         write(std::string("%PDF-1.5\n") + cut + "\nstartxref\n9\n%%EOF\n");
         expect("in.pdf: damaged PDF");
     }
-    // A place that no integer holds.
+    // An offset that does not fit into an integer.
     write("%PDF-1.5\nxref\n0 1\nstartxref\n" + std::string(60, '7') + "\n%%EOF\n");
     expect("in.pdf: damaged PDF");
 }

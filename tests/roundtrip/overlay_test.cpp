@@ -26,8 +26,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// Makes in.pdf from two pages of text (page.roff) or a picture (page.ps) in its directory, or
-/// brings one.
+/// A producer of the document in.pdf, from two pages of text (page.roff) or a picture (page.ps) in
+/// its directory, or an existing document.
 struct Producer {
     const char* name;
     const char* command;
@@ -62,7 +62,8 @@ class Documents : public testing::Test {
     std::string text(const std::string& name) const {
         return in_directory("pdftotext -layout " + name + " - 2>&1");
     }
-    /// A page as large as page `number` of in.pdf with the same dots and nothing else.
+    /// Writes a page of the same size as page `number` of in.pdf with the same dots and no other
+    /// content.
     void write_blank(const OverlayReport& report, std::size_t page) const {
         const Sheet& sheet = report.pages[page].sheet;
         write_pdf(path("blank.pdf"),
@@ -78,8 +79,8 @@ class Documents : public testing::Test {
     test::TemporaryDirectory directory_;
 };
 
-/// Renderers that draw a document as it was. The mutool of Debian 13 refuses what it has converted
-/// itself, as it forgets a resource.
+/// Returns the renderers that draw a document unchanged. mutool of Debian 13 refuses documents that
+/// it has converted, because it loses a resource.
 std::vector<const char*> renderers_of(const fs::path& pdf) {
     try {
         render("mutool", pdf, 72);
@@ -133,7 +134,7 @@ TEST_P(OverlaidDocument, leaves_black_ink_to_the_dots_when_asked) {
     EXPECT_THAT(report.warnings, IsEmpty());
     EXPECT_EQ(text("out.pdf"), text("in.pdf"));
     write_blank(report, 0);
-    // Average amounts of cyan, magenta, yellow and black on the first page, in percent.
+    // Mean amounts of cyan, magenta, yellow and black on the first page, in percent.
     const auto inks = [&](const char* name) {
         std::array<double, 4> ink{};
         const std::string output = in_directory(
@@ -193,8 +194,8 @@ TEST_F(Documents, user_units_make_the_page_larger) {
     EXPECT_EQ(errors.wrong_symbols + errors.missing, 0);
 }
 
-/// Two pages that share content and inherit resources; a link, a form field, an outline; content
-/// that leaves the graphics state and the coordinates changed.
+/// Returns two pages that share content and inherit resources, with a link, a form field, an
+/// outline, and content that leaves the graphics state and the coordinates changed.
 std::vector<std::string> rich_document() {
     return {"<< /Type /Catalog /Pages 2 0 R /Outlines 8 0 R /AcroForm << /Fields [9 0 R] >> >>",
             "<< /Type /Pages /Kids [3 0 R 4 0 R] /Count 2 /MediaBox [0 0 200 100] "

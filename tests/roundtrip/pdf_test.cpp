@@ -14,21 +14,23 @@
 namespace dotpose::roundtrip {
 namespace {
 
-/// Of a dot's centroid from its nominal place, after one constant offset.
+/// Limits of the distance of a dot's centroid from its nominal place, after subtracting one
+/// constant offset.
 struct Limits {
     double mean_um;
     double largest_um;
 };
-// A seventh of the 85 um that carry a symbol at 0.508 mm.
+// A seventh of the displacement of 85 µm that encodes a symbol at a spacing of 0.508 mm.
 constexpr Limits kUsual = {4, 12};
-// 0.3 mm are 3.5 pixels at 300 dpi: no page can show more, because neighbouring dots may ink the
-// same pixel. A symbol is carried by 50 um.
+// At 300 dpi, 0.3 mm are 3.5 pixels. No page can be more accurate, because neighbouring dots may
+// ink the same pixel. The displacement of a symbol is 50 µm.
 constexpr Limits kFineOnCoarse = {6, 30};
 
-// Even a perfect rendering hides where in a pixel a narrower dot lies: up to 17 um for one of 0.05
-// mm at 300 dpi. A dot of whole pixels in whole places is exact at any size.
+// Minimum diameter of a dot whose place can be measured exactly. Even a perfect rendering does not
+// show the place of a smaller dot within a pixel: the error is up to 17 µm for a dot of 0.05 mm at
+// 300 dpi. A dot of whole pixels in whole places is exact at any size.
 constexpr double kExactDot_px = 2.3;
-// The widest at 0.3 mm that leaves a pixel white between any two dots is 1.6 pixels.
+// Maximum diameter at 0.3 mm that leaves a white pixel between any two dots: 1.6 pixels.
 constexpr double kFineDot_px = 1.63;
 
 struct Dots {
@@ -41,7 +43,7 @@ bool is_whole(double px) {
     return std::abs(px - std::round(px)) < 1e-6;
 }
 
-/// What a renderer makes of a sheet that was written for 600 dpi.
+/// Returns the errors of a rendered sheet that was written for 600 dpi.
 DotErrors rendered_errors(const Sheet& sheet, DotDrawing drawing, const char* renderer, int dpi) {
     PrintOptions print;
     print.drawing = drawing;
@@ -66,8 +68,8 @@ TEST_P(RenderedPdf, shows_every_dot_in_its_place) {
     options.pattern.dot_mm = is_coarse ? coarse_dot_px * 25.4 / dpi : dots.spacing_mm / 6;
     options.pattern.section = {5, 60};
     options.origin = {123'456, 400'000'000};
-    options.paper = {150,
-                     21.3};  // no whole number of pixels high; long enough to see errors add up
+    options.paper = {
+        150, 21.3};  // not a whole number of pixels high, and long enough for errors to accumulate
     options.margin_mm = 5;
     const Sheet sheet = make_sheet(options);
     const DotErrors errors = rendered_errors(sheet, dots.drawing, renderer, dpi);
@@ -101,10 +103,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 class OddResolution : public testing::TestWithParam<const char*> {};
 
-// Why letters are for whole pixels only: a renderer moves each to its own pixels (or parts of
-// them), and a stroke to where it belongs.
+// The reason why letters are used for whole pixels only: a renderer moves each letter to whole
+// pixels (or parts of pixels), but draws strokes at their exact places.
 TEST_P(OddResolution, moves_letters_and_leaves_strokes) {
-    constexpr int kOdd_dpi = 310;  // 6.2 pixels from dot to dot
+    constexpr int kOdd_dpi = 310;  // a spacing of 6.2 pixels
     SheetOptions options;
     options.pattern.dot_mm = options.pattern.spacing_mm / 3;
     options.paper = {150, 21.3};

@@ -14,7 +14,7 @@ namespace dotpose::roundtrip {
 namespace fs = std::filesystem;
 namespace {
 
-/// The samples after a header that has been read.
+/// Reads the samples after a header.
 std::vector<std::uint8_t> read_samples(std::ifstream& file, std::size_t count,
                                        const fs::path& path) {
     std::vector<std::uint8_t> samples(count);
@@ -27,7 +27,7 @@ std::size_t area(const GreyPage& page) {
     return static_cast<std::size_t>(page.width_px) * static_cast<std::size_t>(page.height_px);
 }
 
-/// Binary PGM with 8 bits, as all three renderers write it; '#' begins a comment.
+/// Reads a binary 8-bit PGM file, as written by all three renderers. '#' begins a comment.
 GreyPage read_pgm(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::array<std::string, 4> header;  // P5, width, height, 255
@@ -43,7 +43,8 @@ GreyPage read_pgm(const fs::path& path) {
     return page;
 }
 
-/// The black ink of a PAM with 8 bits of cyan, magenta, yellow and black, where 255 is ink.
+/// Returns the black ink of an 8-bit PAM file with cyan, magenta, yellow and black, where 255 is
+/// ink.
 GreyPage read_black_of_pam(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     GreyPage page;

@@ -1,4 +1,4 @@
-/// Pages of a PDF as free renderers paint them.
+/// Pages of a PDF document, painted by free renderers.
 #pragma once
 
 #include <cstdint>
@@ -22,16 +22,17 @@ struct GreyPage {
 
 inline constexpr const char* kRenderers[] = {"pdftoppm", "gs", "mutool"};
 
-/// One page, from 1, with smooth edges. Throws std::runtime_error if the renderer fails.
+/// Renders a page, numbered from 1, with anti-aliasing. Throws std::runtime_error if the renderer
+/// fails.
 GreyPage render(const std::string& renderer, const std::filesystem::path& pdf, int dpi,
                 int page = 1);
 
-/// Its black ink alone, by Ghostscript: what infrared light shows, which passes through cyan,
-/// magenta and yellow.
+/// Renders only the black ink of a page with Ghostscript. This is the image in infrared light,
+/// which passes through cyan, magenta and yellow.
 GreyPage render_black(const std::filesystem::path& pdf, int dpi, int page);
 
-/// Runs a shell command; throws std::runtime_error with its output unless it ends with status 0.
-/// Returns what it printed.
+/// Runs a shell command, and returns its output. Throws std::runtime_error with the output unless
+/// the exit status is 0.
 std::string run(const std::string& command);
 
 }  // namespace dotpose::roundtrip

@@ -1,4 +1,4 @@
-/// A PDF written out by hand, with everything that laying dots over it must not lose.
+/// A PDF written by hand, with all properties that must survive laying dots over it.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,8 @@
 
 namespace dotpose::roundtrip {
 
-/// Objects 1, 2, ... as text without "obj" and "endobj"; the first is the catalogue.
+/// Writes the objects 1, 2, ... given as text without "obj" and "endobj". The first object is the
+/// catalogue.
 void write_pdf(const std::filesystem::path& path, const std::vector<std::string>& objects);
 
 std::string stream(const std::string& data);

@@ -1,8 +1,11 @@
-// Caches all files of this build for offline use. vite.config.js inserts the list.
+// Caches all files of this build for offline use. vite.config.js inserts the list of files.
 declare const __FILES__: string[];
 declare const __BUILD__: string;
 
-/** The parts of ServiceWorkerGlobalScope used here; its types conflict with those of a page. */
+/**
+ * The parts of ServiceWorkerGlobalScope used here. Its TypeScript types conflict with those of a
+ * page.
+ */
 interface WorkEvent extends Event {
     waitUntil(work: Promise<unknown>): void;
 }
@@ -24,7 +27,7 @@ const kCache = kPrefix + __BUILD__;
 
 async function install(): Promise<void> {
     const cache = await caches.open(kCache);
-    // Bypass the browser's HTTP cache, which may still have files of the previous build.
+    // Bypasses the HTTP cache of the browser, which may still contain files of the previous build.
     await cache.addAll(__FILES__.map((file) => new Request(file, { cache: "reload" })));
     await worker.skipWaiting();
 }

@@ -1,4 +1,5 @@
-// The built page in Chromium, for the tests: a server for dist/, a browser with a fake camera.
+// Opens the built page in Chromium, for the tests: a server for dist/, and a browser with a fake
+// camera.
 import { execFileSync } from "node:child_process";
 import { createServer } from "node:http";
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
@@ -10,7 +11,7 @@ import { chromium } from "playwright-core";
 const kRoot = fileURLToPath(new URL("../..", import.meta.url));
 const kDist = fileURLToPath(new URL("../dist", import.meta.url));
 const kChromium = process.env.CHROMIUM ?? "/usr/bin/chromium";
-/** The tool of the same checkout, which makes frames and checks prints. */
+/** The tool of the same checkout, which renders frames and checks prints. */
 const kTool = process.env.DOTPOSE_TOOL ?? join(kRoot, "build/release/bin/dotpose");
 
 const kTypes = {
@@ -48,7 +49,7 @@ export async function serve() {
     };
 }
 
-/** Starts Chromium; `clip` is the y4m file that its camera shows. */
+/** Starts Chromium. `clip` is the y4m file that its fake camera shows. */
 export async function launch({ clip, ...options } = {}) {
     const profile = mkdtempSync(join(tmpdir(), "dotpose-page-"));
     const quiet = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"];
@@ -61,7 +62,7 @@ export async function launch({ clip, ...options } = {}) {
         args: [...quiet, ...offline, ...camera, ...(clip ? [`--use-file-for-fake-video-capture=${clip}`] : [])],
         ...options,
     });
-    // Generous, for a busy machine.
+    // Long enough for a busy machine.
     context.setDefaultTimeout(120_000);
     return {
         context,
@@ -72,7 +73,7 @@ export async function launch({ clip, ...options } = {}) {
     };
 }
 
-/** Opens a page; collects its complaints and its requests to other servers. */
+/** Opens a page, and collects its errors, warnings and requests to other servers. */
 export async function open(context, url) {
     const page = await context.newPage();
     const complaints = [];
@@ -89,7 +90,7 @@ export async function open(context, url) {
     return { page, complaints };
 }
 
-/** Runs the tool; returns its output. */
+/** Runs the tool and returns its output. */
 export function dotpose(...args) {
     return execFileSync(kTool, args, { encoding: "utf8", maxBuffer: 1 << 28 });
 }

@@ -1,25 +1,25 @@
-// Clips for Chromium's fake camera, whose poses are known: frames of the tool's simulated camera.
+// Clips with known poses for the fake camera of Chromium: frames of the tool's simulated camera.
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { dotpose } from "./browser.mjs";
 
-/** Returns the lines of a CSV file as objects, numbers as numbers. */
+/** Returns the lines of a CSV file as objects. Numeric fields are converted to numbers. */
 export function readCsv(text) {
     const [head, ...lines] = text.trim().split("\n").map((line) => line.split(","));
     const value = (field) => (field !== "" && Number.isFinite(Number(field)) ? Number(field) : field);
     return lines.map((line) => Object.fromEntries(head.map((name, i) => [name, value(line[i])])));
 }
 
-/** Returns size and pixels of a binary PGM file of the tool. */
+/** Returns the size and the pixels of a binary PGM file written by the tool. */
 function readPgm(bytes) {
     const [, width, height] = /^P5\s+(\d+)\s+(\d+)\s+255\s/.exec(bytes.subarray(0, 64).toString("latin1")).map(Number);
     return { width, height, pixels: bytes.subarray(bytes.length - width * height) };
 }
 
 /**
- * Writes `clip.y4m` into the folder; returns for each of its frames the true pose, the line of the tool for
- * its luma (`tool`), and the frame as a picture file (`png`).
+ * Writes `clip.y4m` into the folder. Returns for each of its frames the true pose, the tool's
+ * line for the luma of the frame (`tool`), and the frame as a picture file (`png`).
  */
 export function makeClip(folder, { frames, size }) {
     const still = join(folder, "frames");
@@ -31,7 +31,7 @@ export function makeClip(folder, { frames, size }) {
     const lumas = [];
     for (const { file } of truth) {
         const { pixels } = readPgm(readFileSync(join(still, file)));
-        // Chromium takes the clip as limited range, 16 to 235.
+        // Chromium expects luma in the limited range of 16 to 235.
         const luma = Buffer.from(pixels, 0).map((level) => 16 + Math.round((level * 219) / 255));
         parts.push(Buffer.from("FRAME\n"), luma, chroma);
         const path = join(folder, `luma_${file}`);

@@ -1,4 +1,4 @@
-// Look, with a camera that shows a clip of known poses, with both methods for the luma.
+// Look, with a camera that shows a clip with known poses, for both methods of reading the luma.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -24,7 +24,10 @@ after(async () => {
     if (folder) rmSync(folder, { recursive: true, force: true });
 });
 
-/** Runs the camera until `frames` frames are logged; returns the log and the page's complaints. */
+/**
+ * Runs the camera until `frames` frames are logged. Returns the log and the complaints of the
+ * page.
+ */
 async function runCamera(address, frames) {
     const { page, complaints } = await open(browser.context, server.url + address);
     await page.click("#look-start");
@@ -37,7 +40,10 @@ async function runCamera(address, frames) {
     return { page, complaints, rate, log };
 }
 
-/** Returns the true pose for a line of the log: the nearest one, as frames are metres apart. */
+/**
+ * Returns the true pose of a line of the log. This is the nearest one, because frames of the
+ * clip are metres apart.
+ */
 function truthOf(line) {
     const near = (at) => Math.hypot(at.x_mm - line.x_mm, at.y_mm - line.y_mm);
     return truth.reduce((best, at) => (near(at) < near(best) ? at : best));
@@ -50,9 +56,9 @@ function requireTruth(lines) {
         const at = truthOf(line);
         seen.add(at.file);
         const off_mm = Math.hypot(at.x_mm - line.x_mm, at.y_mm - line.y_mm);
-        assert.ok(off_mm < 0.005, `${off_mm} mm off the truth in ${at.file}`);
+        assert.ok(off_mm < 0.005, `position error of ${off_mm} mm in ${at.file}`);
         const turn_deg = ((line.theta_deg - at.theta_deg + 540) % 360) - 180;
-        assert.ok(Math.abs(turn_deg) < 0.1, `${turn_deg} degrees off the truth in ${at.file}`);
+        assert.ok(Math.abs(turn_deg) < 0.1, `angle error of ${turn_deg} degrees in ${at.file}`);
     }
     assert.ok(seen.size >= 4, `only ${seen.size} of ${truth.length} frames of the clip were seen`);
 }
@@ -62,7 +68,7 @@ test("the luma straight from the camera gives the poses of the clip, to the bit 
     assert.match(rate, /^\d+ frames per second, straight from the camera$/);
     const lines = readCsv(log);
     requireTruth(lines);
-    // Frames that were not predicted are read as the tool reads them.
+    // Frames without a prediction must have the same pose as in the tool.
     const first = lines.filter((line) => line.attempt === "first");
     assert.ok(first.length >= 4, `${first.length} frames were read without prediction`);
     for (const line of first) {
@@ -86,7 +92,7 @@ test("the columns of a log are keys of the tool's lines", async () => {
     const { page, log } = await runCamera("#look", 2);
     const schema = JSON.parse(readFileSync(new URL("../../docs/schema/lines-1.json", import.meta.url), "utf8"));
     const known = new Set(Object.values(schema.$defs).flatMap(({ properties }) => Object.keys(properties ?? {})));
-    // An array has a column for each element.
+    // Array fields have one column per element.
     for (const column of log.split("\n")[0].split(",")) assert.ok(known.has(column.replace(/^(section)_[uv]$/, "$1")), column);
     await page.close();
 });

@@ -1,4 +1,5 @@
-// The whole page: accessible, offline, installable, without outside requests.
+// The whole page is accessible, works offline, is installable, and makes no requests to other
+// servers.
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";

@@ -8,7 +8,7 @@ let browser;
 
 before(async () => {
     server = await serve();
-    // With reduced motion the camera waits to be moved.
+    // With reduced motion, the camera does not drive automatically.
     browser = await launch({ viewport: { width: 1200, height: 1000 }, reducedMotion: "reduce" });
 });
 after(async () => {
@@ -29,7 +29,7 @@ async function shown(page) {
     return { x_mm: parseFloat(x), y_mm: parseFloat(y), error_mm: parseFloat(error) * unit_mm };
 }
 
-/** Changes something and waits until it is drawn. */
+/** Makes a change and waits until it is drawn. */
 async function settled(page, change) {
     await change();
     await page.waitForFunction(() => document.getElementById("try-camera").dataset.busy === "false");

@@ -4,11 +4,14 @@ import { writeFile, mkdir } from "node:fs/promises";
 import { chromium } from "playwright-core";
 
 const kFolder = new URL("../public/icons/", import.meta.url);
-/** Five rows of symbols: u, d, l, r are the displacements of the dots. */
+/** Five rows of symbols. The letters u, d, l, r are the displacements of the dots. */
 const kRows = ["rulud", "udrlu", "lrudr", "durlu", "ldurl"];
 const kStep = { u: [0, -1], d: [0, 1], l: [-1, 0], r: [1, 0] };
 
-/** `inset` keeps the drawing inside the circle to which phones may crop it. */
+/**
+ * Returns an icon as SVG. `inset` keeps the drawing inside the circle to which phones may crop
+ * the icon.
+ */
 function icon({ radius, inset }) {
     const cell = (512 - 2 * inset) / 5;
     const at = (i) => inset + (i + 0.5) * cell;

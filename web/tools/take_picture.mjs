@@ -1,4 +1,5 @@
-// Takes the picture of the page for web/README.md: node tools/take_picture.mjs, after web/build.
+// Takes the picture of the page for web/README.md. Run `node tools/take_picture.mjs` after
+// web/build.
 import { fileURLToPath } from "node:url";
 import { launch, open, serve } from "../test/browser.mjs";
 
@@ -8,7 +9,7 @@ try {
     const { page } = await open(browser.context, server.url);
     await page.waitForFunction(() => document.getElementById("try-x").textContent !== "–");
     await page.click("#try-drive");
-    // Wait until the path is visible and the engine has optimised the code.
+    // Waits until the path is visible and the JavaScript engine has optimised the code.
     await page.waitForTimeout(8000);
     const path = fileURLToPath(new URL("../../docs/pictures/page.png", import.meta.url));
     await page.screenshot({ path, fullPage: true });

@@ -1,4 +1,4 @@
-// Sheets whose code is not known, and the dots of the last frame: what devices do not have.
+// Detection of the code of a sheet, and the dots of the last frame. Not available on devices.
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
@@ -10,7 +10,8 @@ namespace {
 
 using namespace dotpose;
 
-/// The state of the evidence, as the core has it: log odds before, factors here, the cell, frames.
+/// Layout of the evidence in the core: prior log odds, factors of the current frame, the cell, the
+/// number of frames.
 struct State {
     std::int32_t log2_q8[kCodeVariantCount];
     float factors[kCodeVariantCount];
@@ -22,7 +23,8 @@ static_assert(sizeof(State) == sizeof(dotpose_code_evidence));
 static_assert(sizeof(State) == sizeof(CodeEvidence));
 static_assert(std::is_trivially_copyable_v<CodeEvidence>);
 
-/// Reads evidence, none from null. BAD_VALUE: it was neither zeroed nor written by this library.
+/// Reads evidence. Null is no evidence. Returns BAD_VALUE if the evidence was neither zeroed nor
+/// written by this library.
 dotpose_status read_evidence(const dotpose_code_evidence* given, CodeEvidence& evidence) {
     if (given == nullptr) return DOTPOSE_OK;
     State state;
@@ -49,7 +51,7 @@ void give(const CodeReading& reading, dotpose_code_reading* result) {
     c::to_c(Place{reading.other_cell, reading.other_section}, result->other);
 }
 
-/// Checks a locator that must be no device's.
+/// Checks that the locator is valid and not a device locator.
 dotpose_status check_desktop(const dotpose_locator* locator) {
     const dotpose_status status = c::check(locator);
     if (status != DOTPOSE_OK) return status;

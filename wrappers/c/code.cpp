@@ -1,4 +1,4 @@
-// The position code: which way each dot of a sheet is displaced.
+// The position code: the displacement of each dot of a sheet.
 #include "dotpose/code.hpp"
 
 #include <algorithm>
@@ -12,14 +12,16 @@ using namespace dotpose;
 
 constexpr std::int32_t kMaxCells = 65535;
 
-/// Columns that are written together, so that their rolls are computed once and need little memory.
+/// Number of columns that are written together. Their rolls are computed once and need little
+/// memory.
 constexpr std::uint32_t kBlock_columns = 64;
 
 bool are_sides(std::int32_t columns, std::int32_t rows) {
     return columns >= 1 && columns <= kMaxCells && rows >= 1 && rows <= kMaxCells;
 }
 
-/// Writes the symbols of a block of columns; `width` is that of the whole rectangle.
+/// Writes the symbols of a block of columns. `width` is the number of columns of the whole
+/// rectangle.
 void write_block(CodeVariant code, const dotpose_place& first, std::uint32_t columns,
                  std::uint32_t rows, std::uint8_t* symbols, std::size_t width) {
     std::array<std::uint32_t, kBlock_columns> column_bits;
@@ -57,7 +59,7 @@ dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int3
         return DOTPOSE_BAD_VALUE;
     const auto width = static_cast<std::uint32_t>(columns);
     const auto height = static_cast<std::uint32_t>(rows);
-    // Both are below 2^16.
+    // Both factors are below 2^16, so the product does not overflow.
     if (bytes < width * height) return DOTPOSE_TOO_LITTLE_MEMORY;
     dotpose_place first = *top_left;
     for (std::uint32_t i = 0; i < width; i += kBlock_columns) {

@@ -25,7 +25,8 @@ dotpose_plane to_c(const PlaneFromImage& p) {
             p.perspective_q30.x, p.perspective_q30.y, p.lens_q40};
 }
 
-/// Sets nine numbers: the covariance, whose x and y are in spacings, times a unit in spacings.
+/// Writes the covariance, whose x and y are in spacings, with x and y in another unit. `unit` is
+/// the length of a spacing in that unit.
 void set_covariance(const Fix& fix, double unit, float (&result)[9]) {
     const std::array<double, 3> factors{unit, unit, 1};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -36,7 +37,7 @@ void set_covariance(const Fix& fix, double unit, float (&result)[9]) {
     }
 }
 
-/// Sets a member of one struct from that of the other one.
+/// Assigns a member of one struct to the corresponding member of the other struct.
 template <typename From, typename To>
 void assign(const From& from, To& to) {
     to = static_cast<To>(from);
@@ -54,7 +55,7 @@ void assign(const dotpose_plane& from, PlaneFromImage& to) {
     to = to_core(from);
 }
 
-constexpr std::size_t kFirstFixBytes = 240;  ///< size of a fix in the first version
+constexpr std::size_t kFirstFixBytes = 240;  ///< size of a fix in version 1 of the struct
 
 bool is_size_of_fix(std::size_t bytes) {
     return bytes >= kFirstFixBytes && bytes <= sizeof(dotpose_fix) && bytes % 8 == 0;

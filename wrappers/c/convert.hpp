@@ -1,5 +1,5 @@
-// Conversions between the structs of dotpose.h and those of the core. Those towards the core check
-// every value, since a C caller can pass anything.
+// Conversions between the structs of dotpose.h and those of the core. Conversions to the core check
+// every value, because a C caller can pass any value.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace dotpose::c {
 
-/// Whether an integer is a value of an enumeration that begins at 0 and ends with `last`.
+/// Returns true if an integer is a value of an enumeration from 0 to `last`.
 template <typename Enum>
 constexpr bool is_one_of(std::int32_t value, Enum last) {
     return value >= 0 && value <= static_cast<std::int32_t>(last);
@@ -22,8 +22,8 @@ inline bool is_code(std::int32_t code) {
     return is_one_of(code, CodeVariant::microdots);
 }
 
-/// Returns a struct of options: the defaults, and over them as much as the caller's version has.
-/// `first_bytes` is the size in the first version.
+/// Reads options: overwrites the defaults in `options` with the members that the caller's version
+/// of the struct has. `first_bytes` is the size of the struct in its first version.
 template <typename Options>
 dotpose_status read_sized(const Options* given, std::size_t first_bytes, Options& options) {
     if (given == nullptr) return DOTPOSE_OK;
@@ -33,7 +33,7 @@ dotpose_status read_sized(const Options* given, std::size_t first_bytes, Options
     return DOTPOSE_OK;
 }
 
-/// Sets the defaults of a struct of options as far as the caller's version has members for them.
+/// Writes the default options, limited to the members that the caller's version of the struct has.
 template <typename Options>
 dotpose_status write_sized(Options defaults, std::size_t first_bytes, Options* options,
                            std::size_t bytes) {
@@ -44,7 +44,8 @@ dotpose_status write_sized(Options defaults, std::size_t first_bytes, Options* o
     return DOTPOSE_OK;
 }
 
-/// Whether a time or a place of a tracker is so small that no difference of two overflows.
+/// Returns true if a time or coordinate of a tracker is at most 2^bits in magnitude, so that no
+/// difference of two values overflows.
 constexpr bool is_within_range(std::int64_t value, int bits) {
     return value >= -(std::int64_t{1} << bits) && value <= std::int64_t{1} << bits;
 }
@@ -52,30 +53,31 @@ constexpr bool is_within_range(std::int64_t value, int bits) {
 bool is_place(const dotpose_place& place);
 Place to_core(const dotpose_place& place);
 
-/// Reads options, or the defaults from null. BAD_ARGUMENT: one is outside of its range.
+/// Reads options. Null selects the defaults. Returns BAD_ARGUMENT if an option is out of range.
 dotpose_status to_core(const dotpose_options* given, LocatorOptions& options);
 
-/// Reads a prediction. BAD_VALUE: it names no place of the code.
+/// Reads a prediction. Returns BAD_VALUE if its place is not in the code.
 dotpose_status to_core(const dotpose_prediction& given, Prediction& prediction);
 
-/// Whether there is a fix that can be written and read: NULL_POINTER, BAD_SIZE.
+/// Checks that a fix can be read and written. Returns NULL_POINTER or BAD_SIZE otherwise.
 dotpose_status check(const dotpose_fix* fix);
 
-/// Reads a fix, whatever its status. Errors: those of `check`; BAD_VALUE if no function of this
-/// library has written it.
+/// Reads a fix with any status. Returns the errors of `check`, or BAD_VALUE if the fix was not
+/// written by this library.
 dotpose_status to_core(const dotpose_fix* given, Fix& fix);
-/// Reads a fix that must be ok, otherwise NO_FIX.
+/// Reads a fix whose status must be ok. Otherwise returns NO_FIX.
 dotpose_status to_core_ok(const dotpose_fix* given, Fix& fix);
 
-/// Whether a prediction can be moved without an overflow; those of fixes can.
+/// Returns true if the prediction can be moved without an overflow. Predictions made from fixes
+/// always can.
 bool can_move(const Prediction& prediction);
 
-/// Writes a fix, whose size was checked.
+/// Writes a fix. The size of `result` must have been checked.
 void to_c(const Fix& fix, dotpose_fix& result);
 void to_c(const Place& place, dotpose_place& result);
 void to_c(const Prediction& prediction, dotpose_prediction& result);
 
-/// Sets the result of a call that was misused, and returns its status.
+/// Writes the result of a misused call, and returns its status.
 dotpose_status refuse(dotpose_status status, dotpose_fix& result);
 
 }  // namespace dotpose::c

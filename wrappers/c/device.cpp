@@ -1,5 +1,5 @@
-// Locators of microcontrollers, apart from the others: a program that makes only these contains
-// nothing else.
+// Initialisation of microcontroller locators. In a separate file, so that a program that uses only
+// these contains no other kinds.
 #include "locator.hpp"
 
 namespace {

@@ -1,4 +1,5 @@
-/* dotpose for C: where a camera is, from one small frame of a sheet printed with dots. C99 or C++.
+/* dotpose for C: the pose of a camera, from one small frame of a sheet printed with dots. C99 or
+ * C++.
  *
  *     dotpose_locator* locator = NULL;
  *     if (dotpose_locator_create(DOTPOSE_KIND_LARGE, NULL, &locator) != DOTPOSE_OK) return 1;
@@ -10,21 +11,23 @@
  *         puts(dotpose_status_message(fix.status));
  *     dotpose_locator_destroy(locator);
  *
- * Link with -ldotpose_c -lm; no C++ library is needed. On a microcontroller give the memory
- * (`dotpose_device_init`) and push the rows as the camera delivers them (`dotpose_begin`,
+ * Link with -ldotpose_c -lm. No C++ library is needed. On a microcontroller, provide static
+ * memory (`dotpose_device_init`) and push the rows as the camera delivers them (`dotpose_begin`,
  * `dotpose_push_row`, `dotpose_finish`).
  *
- * Every function that can fail returns a dotpose_status: 0 (DOTPOSE_OK), why a frame shows no pose,
- * or how the function was misused. Nothing is thrown or printed, only dotpose_locator_create
- * allocates, and there are no globals: different objects may be used at the same time.
+ * Every function that can fail returns a dotpose_status: 0 (DOTPOSE_OK), the reason why a frame
+ * has no pose, or the kind of misuse of the function. No function throws or prints, and only
+ * dotpose_locator_create allocates memory. There are no globals, so different objects may be
+ * used concurrently.
  *
- * Frames: the pattern has x to the right and y DOWN, as the printed page is read. The centre of an
- * image's first pixel is (0, 0), u to the right, v down. Fixed point: a suffix _qN marks a value in
- * units of 2^-N; _bam a binary angle, of which 2^31 is half a turn.
+ * Coordinates: in the pattern frame, x points to the right and y DOWN on the printed page as it
+ * is read. In images, u points to the right and v down. The origin is the centre of the first
+ * pixel. Fixed point: the suffix _qN marks a value in units of 2^-N, and _bam a binary angle, in
+ * which 2^31 is half a turn.
  *
- * Layout: all fields have a fixed size and offset on every platform, without padding. Structs whose
- * first member is `size` may grow at their end; the others change only together with the number of
- * the shared library. */
+ * Layout: all fields have a fixed size and offset on every platform, without padding. Structs
+ * whose first member is `size` may gain members at their end. Other structs change only together
+ * with the version number of the shared library. */
 #ifndef DOTPOSE_H
 #define DOTPOSE_H
 
@@ -40,7 +43,7 @@ extern "C" {
 
 /* ---- Statuses ------------------------------------------------------------------------------- */
 
-/* Why a call gave a result or why it did not. Values keep their numbers. */
+/* Result of a call, or the reason why it failed. Values never change their numbers. */
 typedef int32_t dotpose_status;
 enum {
     /* Located. */
@@ -81,25 +84,26 @@ enum {
     DOTPOSE_OTHER = 255,
     /* Misuse of the functions of this header. */
     DOTPOSE_NULL_POINTER = 1000,
-    DOTPOSE_NOT_ALIGNED = 1001, /* memory does not begin at a multiple of 8 */
+    DOTPOSE_NOT_ALIGNED = 1001, /* the address of the memory is not a multiple of 8 */
     DOTPOSE_TOO_LITTLE_MEMORY = 1002,
-    DOTPOSE_OUT_OF_MEMORY = 1003,   /* the system gave none */
-    DOTPOSE_NOT_INITIALIZED = 1004, /* the object was not set up, or is destroyed */
-    DOTPOSE_BAD_SIZE = 1005,        /* the member `size` is that of no version: set up the struct */
+    DOTPOSE_OUT_OF_MEMORY = 1003,   /* the system has no memory left */
+    DOTPOSE_NOT_INITIALIZED = 1004, /* the object was not set up, or was destroyed */
+    DOTPOSE_BAD_SIZE = 1005,        /* the member `size` matches no version of the struct */
     DOTPOSE_BAD_VALUE = 1006,       /* an argument is out of its range */
     DOTPOSE_BAD_STRIDE = 1007,      /* rows overlap */
-    DOTPOSE_WRONG_KIND = 1008,      /* this kind of locator cannot do that */
+    DOTPOSE_WRONG_KIND = 1008,      /* this kind of locator does not support the call */
     DOTPOSE_NO_FRAME = 1009,        /* no frame was begun, or all its rows were pushed */
-    DOTPOSE_NO_FIX = 1010,          /* the fix that is needed has another status than ok */
-    DOTPOSE_NO_PACKET = 1011        /* the byte completed no packet: no misuse, most bytes do not */
+    DOTPOSE_NO_FIX = 1010,          /* a fix with the status ok is required */
+    DOTPOSE_NO_PACKET = 1011        /* the byte did not complete a packet; not a misuse */
 };
 
-/* Returns the identifier, for example "too_few_dots"; never null. */
+/* Returns the identifier of a status, for example "too_few_dots". Never returns null. */
 const char* dotpose_status_name(dotpose_status status);
-/* Returns one plain sentence, without a full stop; never null. */
+/* Returns a description of a status: one sentence without a full stop. Never returns null. */
 const char* dotpose_status_message(dotpose_status status);
 
-/* Version of this header, for the preprocessor too. DOTPOSE_VERSION_NUMBER grows. */
+/* Version of this header. DOTPOSE_VERSION_NUMBER is for the preprocessor and increases with
+ * every version. */
 #define DOTPOSE_VERSION "0.2.0"
 #define DOTPOSE_VERSION_NUMBER 200
 
@@ -108,12 +112,12 @@ const char* dotpose_version(void);
 
 /* ---- The position code ---------------------------------------------------------------------- */
 
-/* Which table of the code a sheet is printed with. */
+/* Variants of the position code in which sheets are printed. */
 enum {
-    DOTPOSE_CODE_DETECT = -1,  /* in options: the frames show it */
-    DOTPOSE_CODE_ANOTO = 0,    /* for everything new */
-    DOTPOSE_CODE_LIBDOTS = 1,  /* as libdots and other open tools print it */
-    DOTPOSE_CODE_MICRODOTS = 2 /* as py-microdots prints it */
+    DOTPOSE_CODE_DETECT = -1,  /* in options: detect the code from the frames */
+    DOTPOSE_CODE_ANOTO = 0,    /* default for new sheets */
+    DOTPOSE_CODE_LIBDOTS = 1,  /* printed by libdots and other open tools */
+    DOTPOSE_CODE_MICRODOTS = 2 /* printed by py-microdots */
 };
 
 #define DOTPOSE_POSITIONS_PER_AXIS 410815348u
@@ -121,10 +125,10 @@ enum {
 
 /* A place in the code: 16 bytes. */
 typedef struct dotpose_place {
-    uint32_t x; /*  0: column, below DOTPOSE_POSITIONS_PER_AXIS */
-    uint32_t y; /*  4: row, the same */
-    uint32_t u; /*  8: section along x, below DOTPOSE_SECTIONS */
-    uint32_t v; /* 12: section along y, the same */
+    uint32_t x; /*  0: column, less than DOTPOSE_POSITIONS_PER_AXIS */
+    uint32_t y; /*  4: row, less than DOTPOSE_POSITIONS_PER_AXIS */
+    uint32_t u; /*  8: section along x, less than DOTPOSE_SECTIONS */
+    uint32_t v; /* 12: section along y, less than DOTPOSE_SECTIONS */
 } dotpose_place;
 
 /* Direction in which a dot is displaced from its intersection. */
@@ -135,14 +139,14 @@ enum {
     DOTPOSE_SYMBOL_DOWN = 3
 };
 
-/* Gives the displacement of the dot at a place, in units of the displacement length (a sixth of the
- * spacing on usual sheets): of `dx` and `dy`, down, one is -1 or 1, the other 0. */
+/* Returns the displacement of the dot at a place, in units of the displacement length (usually a
+ * sixth of the spacing). One of `dx` and `dy` (down) is -1 or 1, the other 0. */
 dotpose_status dotpose_displacement(int32_t code, const dotpose_place* place, int32_t* dx,
                                     int32_t* dy);
 
-/* Gives columns x rows symbols, row by row, of which the first stands at `top_left`: what a sheet
- * of this size is printed from. Past the end of an axis the pattern continues at its other end, as
- * locators read it. 1 to 65535 columns and rows. */
+/* Returns the symbols of columns x rows dots, row by row from `top_left`, for printing a sheet
+ * of this size. The pattern wraps around at the end of an axis, as in locators. `columns` and
+ * `rows` are 1 to 65535. */
 dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int32_t columns,
                                int32_t rows, uint8_t* symbols, size_t bytes);
 
@@ -164,7 +168,7 @@ typedef struct dotpose_plane {
     int32_t lens_q40;          /* 40: per px^2 */
 } dotpose_plane;
 
-/* What made a fix: see `attempt`. */
+/* Attempts that can produce a fix, for the member `attempt`. */
 enum {
     /* Dots were measured where a prediction expected them. */
     DOTPOSE_ATTEMPT_TRACKED = 0,
@@ -176,7 +180,7 @@ enum {
     DOTPOSE_ATTEMPT_DEVICE = 3
 };
 
-/* Flatness of the paper in view: see `surface`. */
+/* Flatness of the paper in view, for the member `surface`. */
 enum {
     /* One plane explains all dots. */
     DOTPOSE_SURFACE_EVEN = 0,
@@ -187,12 +191,12 @@ enum {
     DOTPOSE_SURFACE_UNEVEN = 2
 };
 
-/* The pose that one frame shows, with its evidence: 240 bytes. Its members are those that
- * include/dotpose/fix_fields.def lists.
+/* The pose computed from one frame, with its evidence: 240 bytes. The members are listed in
+ * include/dotpose/fix_fields.def.
  *
- * The pose is that of the pattern under the reference point of the image, by default its centre.
- * Unless `status` is DOTPOSE_OK, x_mm, y_mm and theta_rad are not numbers, and only `status`,
- * `dots_seen` and the counts of what the frame reached are valid. */
+ * The pose is the pattern position at the reference point of the image, by default the image
+ * centre. Unless `status` is DOTPOSE_OK, x_mm, y_mm and theta_rad are NaN, and only `status`,
+ * `dots_seen` and the counts of the stages reached are valid. */
 typedef struct dotpose_fix {
     /* Size of this struct; dotpose_fix_init sets it. */
     uint32_t size; /* 0 */
@@ -254,12 +258,12 @@ typedef struct dotpose_fix {
     float covariance_grid[9]; /* 204 */
 } dotpose_fix;
 
-/* Sets up a fix before the first call that writes it; `bytes` is sizeof(dotpose_fix) of the caller.
- * Functions that write or read a fix return BAD_SIZE, and leave it alone, if its size is that of no
- * version. */
+/* Sets up a fix before the first call that writes to it. `bytes` is sizeof(dotpose_fix) in the
+ * caller. Functions that read or write a fix return BAD_SIZE, and leave the fix unchanged, if
+ * its size matches no version. */
 dotpose_status dotpose_fix_init(dotpose_fix* fix, size_t bytes);
 
-/* Where the pattern is expected in the next frame: 72 bytes. */
+/* Expected position of the pattern in the next frame: 72 bytes. */
 typedef struct dotpose_prediction {
     dotpose_plane pattern_from_image; /*  0 */
     dotpose_place place;              /* 44 */
@@ -268,92 +272,95 @@ typedef struct dotpose_prediction {
     int32_t sigma_theta_bam;          /* 68: standard deviation of theta */
 } dotpose_prediction;
 
-/* Gives the prediction that the next frame looks like this one. A frame that a prediction helps is
- * located in a fraction of the time; one that does not confirm it is located without it. */
+/* Returns the prediction that the next frame has the same pose as `fix`. A frame that confirms
+ * its prediction is located in a fraction of the time. Otherwise the frame is located without
+ * the prediction. */
 dotpose_status dotpose_prediction_like(const dotpose_fix* fix, dotpose_prediction* prediction);
 
 /* Moves a prediction by `by_x_q16` and `by_y_q16` spacings in the pattern frame, and turns it by
- * `turn_bam` about the image point `pivot_u_q8`, `pivot_v_q8`; by at most 4096 spacings. */
+ * `turn_bam` about the image point `pivot_u_q8`, `pivot_v_q8`. Each movement is at most 4096
+ * spacings. */
 dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t code,
                                        int32_t by_x_q16, int32_t by_y_q16, int32_t turn_bam,
                                        int32_t pivot_u_q8, int32_t pivot_v_q8);
 
 /* ---- Locators ------------------------------------------------------------------------------- */
 
-/* Kinds of locators, by the memory they take. */
+/* Kinds of locators, with the memory that they need. */
 enum {
     DOTPOSE_KIND_DEVICE = 0, /* microcontrollers: integers only, images up to 188 px wide, 13 KB */
     DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 250 KB */
     DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 1.7 MB */
-    DOTPOSE_KIND_DEVICE_160X120 = 3, /* as a device, images up to 160 px wide, 11 KB */
-    DOTPOSE_KIND_DEVICE_320X240 = 4  /* as a device, images up to 320 x 240 px, 23 KB */
+    DOTPOSE_KIND_DEVICE_160X120 = 3, /* like a device, images up to 160 px wide, 11 KB */
+    DOTPOSE_KIND_DEVICE_320X240 = 4  /* like a device, images up to 320 x 240 px, 23 KB */
 };
 
-/* How many attempts a locator makes; a device makes only its own. */
+/* Number of attempts of a locator. A device locator always uses the device attempt. */
 enum {
-    DOTPOSE_EFFORT_DEVICE = 0, /* one, in integers, as a device makes it */
+    DOTPOSE_EFFORT_DEVICE = 0, /* one, in integers, as on a device */
     DOTPOSE_EFFORT_ONCE = 1,   /* one */
-    DOTPOSE_EFFORT_TWICE = 2   /* a frame that could not be read is filtered and read again */
+    DOTPOSE_EFFORT_TWICE = 2   /* a frame that cannot be located is filtered and located again */
 };
 
-/* Which dots the position is read from. */
+/* Dots from which the position is decoded. */
 enum {
-    DOTPOSE_DECODER_WINDOW = 0, /* the best 8 x 8, as in the paper */
-    DOTPOSE_DECODER_ALL = 1     /* all in view */
+    DOTPOSE_DECODER_WINDOW = 0, /* the best window of 8 x 8 dots, as in the paper */
+    DOTPOSE_DECODER_ALL = 1     /* all dots in view */
 };
 
-/* Options of a locator: 96 bytes. include/dotpose/locator_options.hpp says what each does and when
- * to change it. */
+/* Options of a locator: 96 bytes. include/dotpose/locator_options.hpp documents the effect of
+ * each option and when to change it. */
 typedef struct dotpose_options {
     uint32_t size; /* 0: set by dotpose_options_init */
-    /* DOTPOSE_CODE_ of the sheet; default DETECT, from all whole images so far. Devices and rows
-     * read anoto, or the code that the last image showed. */
+    /* DOTPOSE_CODE_ of the sheet. The default DETECT uses all whole images so far. Device
+     * locators and frames pushed row by row use anoto, or the code of the last image. */
     int32_t code;             /*  4 */
     int32_t effort;           /*  8: DOTPOSE_EFFORT_; default twice */
     int32_t decoder;          /* 12: DOTPOSE_DECODER_; default all */
-    double spacing_mm;        /* 16: of the printed grid; default 0.508, 0: not known */
-    double lens_k_per_px2;    /* 24: radial distortion, negative for barrels */
-    double lens_centre_dx_px; /* 32: its centre, from the image centre */
+    double spacing_mm;        /* 16: spacing of the printed grid; default 0.508, 0 if unknown */
+    double lens_k_per_px2;    /* 24: radial distortion, negative for barrel distortion */
+    double lens_centre_dx_px; /* 32: centre of distortion, from the image centre */
     double lens_centre_dy_px; /* 40 */
-    double reference_dx_px;   /* 48: point whose pose is wanted, from the image centre */
+    double reference_dx_px;   /* 48: reference point of the pose, from the image centre */
     double reference_dy_px;   /* 56 */
-    double max_p_wrong;       /* 64: positions that may be wrong by more are refused; 1e-9 */
-    double max_bit_errors;    /* 72: largest ratio of contradicting bits; 0.18 */
-    int32_t min_contrast;     /* 80: grey levels; paler frames are refused; 0 */
-    int32_t min_dots;         /* 84: 40 */
-    int32_t show_stages;      /* 88: 1 keeps all dots for dotpose_dots, which takes time; 0 */
+    double max_p_wrong;       /* 64: limit of p_wrong for positions; default 1e-9 */
+    double max_bit_errors;    /* 72: limit of the ratio of bit errors; default 0.18 */
+    int32_t min_contrast;     /* 80: grey levels; minimum contrast; default 0 */
+    int32_t min_dots;         /* 84: minimum number of dots; default 40 */
+    int32_t show_stages;      /* 88: 1 keeps all dots for dotpose_dots (slower); default 0 */
     int32_t reserved;         /* 92: zero */
 } dotpose_options;
 
-/* Sets the defaults; `bytes` is sizeof(dotpose_options) of the caller. */
+/* Sets the default options. `bytes` is sizeof(dotpose_options) in the caller. */
 dotpose_status dotpose_options_init(dotpose_options* options, size_t bytes);
-/* Returns the name of the first member that is outside of its range, for which functions return
- * BAD_ARGUMENT; null if there is none. */
+/* Returns the name of the first member that is out of range, for which functions return
+ * BAD_ARGUMENT. Returns null if all members are valid. */
 const char* dotpose_bad_option(const dotpose_options* options);
 
-/* A locator; its content is private. One thread at a time may use it. */
+/* A locator, as an opaque type. It must not be used by several threads at the same time. */
 typedef struct dotpose_locator dotpose_locator;
 
-/* At least what dotpose_locator_bytes(DOTPOSE_KIND_DEVICE) returns, for static memory:
+/* Memory sizes for static memory: at least dotpose_locator_bytes(DOTPOSE_KIND_DEVICE), and the
+ * same for the other device kinds.
  *     static uint64_t memory[DOTPOSE_DEVICE_BYTES / 8]; */
 #define DOTPOSE_DEVICE_BYTES (sizeof(void*) == 4 ? 12736u : 13504u)
 #define DOTPOSE_DEVICE_160X120_BYTES (sizeof(void*) == 4 ? 10768u : 12000u)
 #define DOTPOSE_DEVICE_320X240_BYTES (sizeof(void*) == 4 ? 23232u : 25232u)
 
-/* Returns how much memory a locator of this kind takes; 0 if there is no such kind. */
+/* Returns the memory, in bytes, that a locator of a kind needs, or 0 for an unknown kind. */
 size_t dotpose_locator_bytes(int32_t kind);
 
-/* Makes a locator in memory that the caller gives, which begins at a multiple of 8, is left alone
- * and never copied while the locator is in use, and may then be given up without a call. `options`
- * may be null: the defaults. */
+/* Sets up a locator in memory provided by the caller. The address must be a multiple of 8. The
+ * memory must not be modified or copied while the locator is in use. It may be released without
+ * a further call. If `options` is null, the defaults are used. */
 dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
                                     const dotpose_options* options, dotpose_locator** locator);
 
-/* Does so for DOTPOSE_KIND_DEVICE. A program that calls only this function to make locators does
- * not contain the others, if its linker drops unused sections. */
+/* Sets up a locator of DOTPOSE_KIND_DEVICE. A program that sets up locators only with this
+ * function does not contain the other kinds, if its linker removes unused sections. */
 dotpose_status dotpose_device_init(void* memory, size_t bytes, const dotpose_options* options,
                                    dotpose_locator** locator);
-/* The same for DOTPOSE_KIND_DEVICE_160X120 and DOTPOSE_KIND_DEVICE_320X240. */
+/* As above, for DOTPOSE_KIND_DEVICE_160X120 and DOTPOSE_KIND_DEVICE_320X240. */
 dotpose_status dotpose_device_160x120_init(void* memory, size_t bytes,
                                            const dotpose_options* options,
                                            dotpose_locator** locator);
@@ -361,85 +368,88 @@ dotpose_status dotpose_device_320x240_init(void* memory, size_t bytes,
                                            const dotpose_options* options,
                                            dotpose_locator** locator);
 
-/* Makes a locator in memory that is allocated. */
+/* Creates a locator in allocated memory. */
 dotpose_status dotpose_locator_create(int32_t kind, const dotpose_options* options,
                                       dotpose_locator** locator);
-/* Ends the use of a locator and frees what dotpose_locator_create allocated. Null: does nothing. */
+/* Destroys a locator and frees the memory allocated by dotpose_locator_create. Does nothing if
+ * `locator` is null. */
 void dotpose_locator_destroy(dotpose_locator* locator);
 
-/* Changes the options. A frame that was begun and not finished is dropped. */
+/* Changes the options. Drops a frame that was begun and not finished. */
 dotpose_status dotpose_set_options(dotpose_locator* locator, const dotpose_options* options);
 
-/* Locates an 8-bit grey image, dark dots on light paper, whose row v begins at
- * pixels + v * stride_bytes. `prediction` may be null. Returns and gives the same status. */
+/* Locates the pattern in an 8-bit grey image with dark dots on light paper. Row v begins at
+ * pixels + v * stride_bytes. `prediction` may be null. Returns the status of the fix. */
 dotpose_status dotpose_locate(dotpose_locator* locator, const uint8_t* pixels, int32_t width_px,
                               int32_t height_px, ptrdiff_t stride_bytes,
                               const dotpose_prediction* prediction, dotpose_fix* fix);
 
-/* Gives the code of the options or, if it is detected, of the last image: predictions of its fix
- * are moved in it, and packets name it. */
+/* Returns the code of the options or, if it is detected, the code of the last image. Move
+ * predictions of the fix of that image with this code, and pass it to dotpose_packet_of. */
 dotpose_status dotpose_code_of(const dotpose_locator* locator, int32_t* code);
 
-/* Locates an image that comes row by row: dotpose_begin, then dotpose_push_row for each row from
- * the top, then dotpose_finish. Rows need not stay valid. `prediction` may be null; a frame that
- * does not confirm it gets the status not_tracked. */
+/* Locates an image row by row: dotpose_begin, then dotpose_push_row for each row from the top,
+ * then dotpose_finish. A row need not stay valid after its call. `prediction` may be null. A
+ * frame that does not confirm its prediction gets the status not_tracked. */
 dotpose_status dotpose_begin(dotpose_locator* locator, int32_t width_px, int32_t height_px,
                              const dotpose_prediction* prediction);
 dotpose_status dotpose_push_row(dotpose_locator* locator, const uint8_t* pixels);
 dotpose_status dotpose_finish(dotpose_locator* locator, dotpose_fix* fix);
 
-/* A dot that was found in an image: 16 bytes. */
+/* A dot found in an image: 16 bytes. */
 typedef struct dotpose_dot {
-    float u_px;      /*  0: as a camera without distortion would see it */
+    float u_px;      /*  0: undistorted position */
     float v_px;      /*  4 */
-    int32_t mass;    /*  8: sum of the darkness of its pixels, grey levels */
+    int32_t mass;    /*  8: sum of the darkness of its pixels, in grey levels */
     int32_t area_px; /* 12 */
 } dotpose_dot;
 
-/* Gives the dots of the last frame, up to `capacity` of them, and how many there are. The option
- * show_stages makes every attempt keep them. Not for devices: WRONG_KIND. */
+/* Returns up to `capacity` dots of the last frame, and their total number. With the option
+ * show_stages, every attempt keeps its dots. Not for devices: WRONG_KIND. */
 dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, int32_t capacity,
                             int32_t* count);
 
 /* ---- Sheets whose code is not known --------------------------------------------------------- */
 
-/* How likely each code is for one sheet, by all its frames so far; zeros: no frame yet.
+/* Likelihood of each code for one sheet, from all its frames so far. Initialise it with zeros:
  *     dotpose_code_evidence evidence = {{0}}; */
 typedef struct dotpose_code_evidence {
     int32_t state[9];
 } dotpose_code_evidence;
 
-/* In which code a frame was read, and what else it may be: 28 bytes. */
+/* The code in which a frame was read, and an alternative: 28 bytes. */
 typedef struct dotpose_code_reading {
-    int32_t code;        /*  0: DOTPOSE_CODE_ in which the fix was read */
-    int32_t has_other;   /*  4: 1 if a place in another code explains the frame as well, else 0 */
-    int32_t other_code;  /*  8: that code */
-    dotpose_place other; /* 12: that place, of the fix's cell */
+    int32_t code;        /*  0: DOTPOSE_CODE_ in which the frame was read */
+    int32_t has_other;   /*  4: 1 if a place in another code also explains the frame, else 0 */
+    int32_t other_code;  /*  8: DOTPOSE_CODE_ of the alternative */
+    dotpose_place other; /* 12: place of the fix's cell in the alternative */
 } dotpose_code_reading;
 
-/* Locates an image whose code is not known and adds it to the evidence. A frame that two codes
- * explain about equally well gets the status ambiguous_code. Afterwards the locator has the code
- * that was read, in which a prediction must have been made. `prediction`, `evidence`
- * (one frame alone) and `reading` may be null. Not for devices: WRONG_KIND. */
+/* Locates an image whose code is not known, and adds the image to the evidence. A frame that two
+ * codes explain about equally well gets the status ambiguous_code. Afterwards the locator has
+ * the code that was read, and a prediction must have been made in that code. `prediction`,
+ * `evidence` (to use only this frame) and `reading` may be null. Not for devices: WRONG_KIND. */
 dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* pixels,
                                        int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                        const dotpose_prediction* prediction,
                                        dotpose_code_evidence* evidence,
                                        dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Locates an image in the code of the options, and says whether another code explains it as well.
- * `reading` may be null. Not for devices: WRONG_KIND. */
+/* Locates an image in the code of the options, and reports whether another code also explains
+ * the image. `reading` may be null. Not for devices: WRONG_KIND. */
 dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* pixels,
                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                       dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Gives the likeliest code, and a bound of the probability that it is another one. */
+/* Returns the likeliest code, and an upper bound of the probability that another code is
+ * correct. */
 dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* code,
                                       float* p_wrong);
 
 /* ---- Trackers ------------------------------------------------------------------------------- */
 
-/* Follows a robot from frame to frame; its content is private. It may be copied.
+/* A tracker follows a robot from frame to frame. Its content is private. The struct may be
+ * copied.
  *
  *     dotpose_tracker tracker;
  *     dotpose_tracker_init(&tracker, NULL);
@@ -451,79 +461,79 @@ dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int
  *                                                        locator, &prediction) == DOTPOSE_OK;
  *     }
  *
- * include/dotpose/track.hpp and docs/tracking.md explain what it does. */
+ * See include/dotpose/track.hpp and docs/tracking.md. */
 typedef struct dotpose_tracker {
     uint64_t state[216];
 } dotpose_tracker;
 
-/* How the robot moves, and when sightings are accepted: 80 bytes. */
+/* Motion of the robot, and limits for accepting sightings: 80 bytes. Comments give the defaults. */
 typedef struct dotpose_track_options {
     uint32_t size;                         /*  0: set by dotpose_track_options_init */
-    float acceleration_mm_s2;              /*  4: standard deviation while it manoeuvres; 600 */
+    float acceleration_mm_s2;              /*  4: standard deviation while manoeuvring; 600 */
     float angular_acceleration_rad_s2;     /*  8: 6 */
-    float max_acceleration_mm_s2;          /* 12: physically possible; 10000 */
+    float max_acceleration_mm_s2;          /* 12: physical limit; 10000 */
     float max_angular_acceleration_rad_s2; /* 16: 200 */
     float max_speed_mm_s;                  /* 20: 1000 */
     float max_turn_rad_s;                  /* 24: 20 */
     float gate_sigmas;                     /* 28: 5 */
-    int32_t confirmations;                 /* 32: sightings before a jump is accepted; 3 */
-    float still_mm;                        /* 36: within this, a robot is stationary; 0.1 */
+    int32_t confirmations;                 /* 32: sightings that confirm a jump; 3 */
+    float still_mm;                        /* 36: maximum movement of a stationary robot; 0.1 */
     float still_rad;                       /* 40: 0.02 */
-    float min_sigma_mm;                    /* 44: errors of printing; 0.0002 */
+    float min_sigma_mm;                    /* 44: minimum, for printing errors; 0.0002 */
     float min_sigma_rad;                   /* 48: 0.00002 */
-    int32_t max_p_wrong_log2;              /* 52: above this a sighting is weak; -30 */
-    int32_t max_weak_p_wrong_log2; /* 56: above this it is never accepted; -10, at most -1 */
-    float spacing_mm;              /* 60: of the pattern; 0.508 */
-    int64_t lost_after_us;         /* 64: 70000 */
-    int64_t stationary_after_us;   /* 72: 500000 */
+    int32_t max_p_wrong_log2;              /* 52: limit above which a sighting is weak; -30 */
+    int32_t max_weak_p_wrong_log2;         /* 56: limit of weak sightings; -10, at most -1 */
+    float spacing_mm;                      /* 60: spacing of the pattern; 0.508 */
+    int64_t lost_after_us;                 /* 64: 70000 */
+    int64_t stationary_after_us;           /* 72: 500000 */
 } dotpose_track_options;
 
-/* Position and angle of the robot as seen in one frame, in any plane: 80 bytes. */
+/* Position and angle of the robot measured in one frame, in any plane: 80 bytes. */
 typedef struct dotpose_sighting {
     int64_t time_us;      /*  0: middle of the exposure, within 2^62 */
     int64_t x_nm;         /*  8: within 2^60 */
     int64_t y_nm;         /* 16 */
     int32_t theta_bam;    /* 24 */
-    uint32_t plane;       /* 28: sightings of different planes are not related to each other */
+    uint32_t plane;       /* 28: sightings in different planes are unrelated */
     float covariance[9];  /* 32: of x, y and theta, row by row, in mm and rad */
     int32_t p_wrong_log2; /* 68 */
-    int32_t spacing_nm;   /* 72: of the pattern that was seen */
-    int32_t is_y_up;      /* 76: 1 if y points up the paper in this plane, else 0 */
+    int32_t spacing_nm;   /* 72: spacing of the pattern */
+    int32_t is_y_up;      /* 76: 1 if y points up the page in this plane, else 0 */
 } dotpose_sighting;
 
-/* How the tracker judged a sighting. */
+/* Verdict of the tracker on a sighting. */
 enum {
     DOTPOSE_VERDICT_NONE = 0, /* there was no sighting */
     DOTPOSE_VERDICT_BELIEVED = 1,
-    DOTPOSE_VERDICT_WITH_PRIOR = 2, /* weak, but certain enough together with where it was */
-    DOTPOSE_VERDICT_GATED = 3,      /* physically impossible, and not confirmed yet */
+    DOTPOSE_VERDICT_WITH_PRIOR = 2, /* weak, but certain enough given the previous position */
+    DOTPOSE_VERDICT_GATED = 3,      /* physically impossible, and not yet confirmed */
     DOTPOSE_VERDICT_TOO_WEAK = 4
 };
 
-/* Bits of `events`: what a frame brought. */
+/* Bits of `events`: changes caused by a frame. */
 enum {
-    DOTPOSE_EVENT_FIX = 1,        /* the robot was lost and is found */
-    DOTPOSE_EVENT_LOST = 2,       /* it was not seen for too long */
-    DOTPOSE_EVENT_KIDNAPPED = 4,  /* it is where it cannot have driven to */
-    DOTPOSE_EVENT_STATIONARY = 8, /* it came to rest */
-    DOTPOSE_EVENT_MOVING = 16     /* it moves again */
+    DOTPOSE_EVENT_FIX = 1,        /* the robot was lost and was found */
+    DOTPOSE_EVENT_LOST = 2,       /* the robot was not seen for too long */
+    DOTPOSE_EVENT_KIDNAPPED = 4,  /* the robot is at a position that it cannot have driven to */
+    DOTPOSE_EVENT_STATIONARY = 8, /* the robot came to rest */
+    DOTPOSE_EVENT_MOVING = 16     /* the robot moves again */
 };
 
-/* Where the robot is and how it moves, at the time of the newest frame: 232 bytes. While it is
- * lost, the pose is not valid. */
+/* State of the robot at the time of the newest frame: 232 bytes. The pose is invalid while the
+ * robot is lost. */
 typedef struct dotpose_track {
     int64_t time_us;       /*  0 */
     double x_mm;           /*  8 */
     double y_mm;           /* 16 */
     double theta_rad;      /* 24 */
-    int64_t x_nm;          /* 32: the same in exact integers */
+    int64_t x_nm;          /* 32: x as an exact integer */
     int64_t y_nm;          /* 40 */
     int32_t theta_bam;     /* 48 */
     uint32_t plane;        /* 52 */
     float vx_mm_s;         /* 56 */
     float vy_mm_s;         /* 60 */
     float turn_rad_s;      /* 64 */
-    int32_t p_wrong_log2;  /* 68: bound that the pose is wrong, given where the robot was */
+    int32_t p_wrong_log2;  /* 68: upper bound of p_wrong, given the previous track */
     int32_t verdict;       /* 72: DOTPOSE_VERDICT_ */
     int32_t is_lost;       /* 76: 1 or 0 */
     int32_t is_stationary; /* 80: 1 or 0 */
@@ -531,23 +541,24 @@ typedef struct dotpose_track {
     float covariance[36];  /* 88: of x, y, theta and their velocities, row by row; mm, rad, s */
 } dotpose_track;
 
-/* Sets the defaults; `bytes` is sizeof(dotpose_track_options) of the caller. */
+/* Sets the default options. `bytes` is sizeof(dotpose_track_options) in the caller. */
 dotpose_status dotpose_track_options_init(dotpose_track_options* options, size_t bytes);
 
-/* Sets up a tracker, which starts as lost. `options` may be null: the defaults. */
+/* Sets up a tracker in the state `lost`. If `options` is null, the defaults are used. */
 dotpose_status dotpose_tracker_init(dotpose_tracker* tracker, const dotpose_track_options* options);
 
-/* Gives the sighting of a fix in the pattern frame. The spacing must be known, at most 20 mm. */
+/* Returns the sighting of a fix in the pattern frame. The spacing must be known and at most 20
+ * mm. */
 dotpose_status dotpose_sighting_of(const dotpose_fix* fix, int64_t time_us,
                                    dotpose_sighting* sighting);
 
-/* Takes the next frame by its time and its sighting (null: no fix) and gives the state after it.
- * Frames that are not newer than the last one are ignored. */
+/* Updates the tracker with the time and the sighting of the next frame (null if the frame has no
+ * fix), and returns the new state. Frames that are not newer than the last frame are ignored. */
 dotpose_status dotpose_tracker_update(dotpose_tracker* tracker, int64_t time_us,
                                       const dotpose_sighting* sighting, dotpose_track* track);
 
-/* Predicts where the frame at `time_us` will show the pattern, from the newest fix and its
- * sighting; `locator` is that which will locate it. */
+/* Predicts the position of the pattern in the frame at `time_us`, from the newest fix and its
+ * sighting. `locator` is the locator that will locate the frame. */
 dotpose_status dotpose_tracker_predict(const dotpose_tracker* tracker, int64_t time_us,
                                        const dotpose_fix* newest, const dotpose_sighting* seen,
                                        const dotpose_locator* locator,
@@ -557,11 +568,11 @@ dotpose_status dotpose_tracker_predict(const dotpose_tracker* tracker, int64_t t
 
 #define DOTPOSE_PACKET_BYTES 32
 
-/* The result of one frame, as far as a packet carries it: 52 bytes. Unless `status` is DOTPOSE_OK,
- * only the members above `cell_x` are valid. */
+/* Contents of a pose packet, the result of one frame: 52 bytes. Unless `status` is DOTPOSE_OK,
+ * only the members before `cell_x` are valid. */
 typedef struct dotpose_packet {
-    uint32_t sequence;       /*  0: counts frames, 16 bits; a gap shows lost packets */
-    uint32_t time_us;        /*  4: on the sender's clock */
+    uint32_t sequence;       /*  0: frame counter, 16 bits; gaps indicate lost packets */
+    uint32_t time_us;        /*  4: on the clock of the sender */
     dotpose_status status;   /*  8 */
     int32_t code;            /* 12: DOTPOSE_CODE_ */
     uint32_t cell_x;         /* 16: x in spacings is cell_x + fraction_x_q16 / 65536.0 */
@@ -571,54 +582,55 @@ typedef struct dotpose_packet {
     int32_t theta_bam16;     /* 32: 2^15 is half a turn */
     uint32_t section_u;      /* 36 */
     uint32_t section_v;      /* 40 */
-    uint32_t certainty;     /* 44: wrong with a probability of at most 2^-certainty; 255: or less */
-    uint32_t deviation_q12; /* 48: larger one of x and y, spacings; 255: or more, or not known */
+    uint32_t certainty;      /* 44: p_wrong is at most 2^-certainty; 255 also for less */
+    uint32_t deviation_q12;  /* 48: maximum of x and y, spacings; 255: more or unknown */
 } dotpose_packet;
 
-/* Gives the packet of a fix, of any status. */
+/* Returns the packet of a fix with any status. */
 dotpose_status dotpose_packet_of(const dotpose_fix* fix, int32_t code, uint32_t sequence,
                                  uint32_t time_us, dotpose_packet* packet);
 
-/* Gives the bytes of a packet, ready to be sent; `bytes` has room for DOTPOSE_PACKET_BYTES. */
+/* Encodes a packet. `bytes` must have room for DOTPOSE_PACKET_BYTES. */
 dotpose_status dotpose_packet_encode(const dotpose_packet* packet, uint8_t* bytes, size_t capacity);
 
-/* Finds packets in a stream of bytes, whatever else is in it; its content is private. */
+/* A packet reader finds packets in a byte stream, which may contain other data. Its content is
+ * private. */
 typedef struct dotpose_packet_reader {
     uint64_t state[14];
 } dotpose_packet_reader;
 
 dotpose_status dotpose_packet_reader_init(dotpose_packet_reader* reader);
-/* Takes the next byte. OK: it completed the packet that is given; NO_PACKET: it did not. */
+/* Processes the next byte. Returns OK if the byte completes a packet, and NO_PACKET otherwise. */
 dotpose_status dotpose_packet_reader_push(dotpose_packet_reader* reader, uint8_t byte,
                                           dotpose_packet* packet);
-/* Gives the number of stretches that were no packet, because they were damaged. */
+/* Returns the number of byte sequences that were not a packet because they were damaged. */
 dotpose_status dotpose_packet_reader_damaged(const dotpose_packet_reader* reader,
                                              uint32_t* damaged);
 
 /* ---- Pacing of frames, to spare a battery --------------------------------------------------- */
 
-/* Says when the next frame is worth taking; its content is private. */
+/* A pacer determines when to take the next frame. Its content is private. */
 typedef struct dotpose_pacer {
     uint64_t state[40];
 } dotpose_pacer;
 
-/* When a device counts as moving, and how often it takes frames: 40 bytes. */
+/* Definition of movement, and periods of frames: 40 bytes. Comments give the defaults. */
 typedef struct dotpose_pacer_options {
     uint32_t size;                /*  0: set by dotpose_pacer_options_init */
-    int32_t moved_q16;            /*  4: spacings per axis that count as movement; 6554 */
-    int32_t turned_bam;           /*  8: turn that does; 11930465, one degree */
-    int32_t lost_is_moved;        /* 12: 1 if a resting device that sees nothing was moved; 1 */
+    int32_t moved_q16;            /*  4: minimum movement per axis, spacings; 6554 */
+    int32_t turned_bam;           /*  8: minimum turn; 11930465, one degree */
+    int32_t lost_is_moved;        /* 12: 1: a resting device without a fix has moved; 1 */
     int64_t stationary_after_us;  /* 16: 5000000 */
-    int64_t stationary_period_us; /* 24: from frame to frame while stationary; 1000000 */
-    int64_t moving_period_us;     /* 32: while moving; 0 */
+    int64_t stationary_period_us; /* 24: period while stationary; 1000000 */
+    int64_t moving_period_us;     /* 32: period while moving; 0 */
 } dotpose_pacer_options;
 
-/* Sets the defaults; `bytes` is sizeof(dotpose_pacer_options) of the caller. */
+/* Sets the default options. `bytes` is sizeof(dotpose_pacer_options) in the caller. */
 dotpose_status dotpose_pacer_options_init(dotpose_pacer_options* options, size_t bytes);
-/* Sets up a pacer. `options` may be null: the defaults. */
+/* Sets up a pacer. If `options` is null, the defaults are used. */
 dotpose_status dotpose_pacer_init(dotpose_pacer* pacer, const dotpose_pacer_options* options);
-/* Takes the result of a frame, of any status, and its time, and gives the time from which the next
- * frame is wanted, and whether the device moves (1 or 0; may be null). */
+/* Updates the pacer with the fix of a frame, with any status, and its time. Returns the earliest
+ * time of the next frame, and whether the device is moving (1 or 0; `is_moving` may be null). */
 dotpose_status dotpose_pacer_next_frame(dotpose_pacer* pacer, const dotpose_fix* fix,
                                         int64_t time_us, int64_t* next_us, int32_t* is_moving);
 

@@ -1,4 +1,4 @@
-// Locators of every kind, in memory that the caller gives or that is allocated.
+// Locators of every kind, in memory of the caller or in allocated memory.
 #include <array>
 #include <cstdlib>
 
@@ -19,7 +19,7 @@ constexpr Kind kind_of() {
     return {c::bytes_of<Made>(), c::init<Made>};
 }
 
-/// Indexed by DOTPOSE_KIND_.
+/// Properties of the kinds, indexed by DOTPOSE_KIND_.
 constexpr std::array<Kind, DOTPOSE_KIND_DEVICE_320X240 + 1> kKinds{
     kind_of<DeviceMemory, DeviceLocator>(),
     kind_of<SmallMemory, Locator>(),

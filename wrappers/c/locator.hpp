@@ -1,5 +1,5 @@
-// What stands behind a dotpose_locator: the core's memory and locator, for each kind in one object,
-// and the functions that this kind does in its own way.
+// Implementation of dotpose_locator: one object contains the memory and the locator of the core,
+// and pointers to the functions of its kind.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace dotpose::c {
 
-/// What kinds of locators do differently. Pointers, so that a program contains only the kinds that
-/// it makes. Devices do not have the last two.
+/// Functions that differ between kinds of locators. They are function pointers, so a program
+/// contains only the kinds that it creates. The last two are null for devices.
 struct Actions {
     void (*set_options)(RowLocator& locator, const LocatorOptions& options);
     Fix (*locate)(RowLocator& locator, const ImageView& image, const Prediction* prediction);
@@ -63,41 +63,41 @@ constexpr Actions actions_of() {
 template <typename Kind>
 inline constexpr Actions kActionsOf = actions_of<Kind>();
 
-/// By which an object is recognized that was set up.
+/// Mark of an object that was set up.
 inline constexpr std::uint32_t kLocatorMark = 0xD07C0001;
 
 }  // namespace dotpose::c
 
-/// What all kinds have, at the beginning of each.
+/// Common part of all kinds, at the beginning of each object.
 struct dotpose_locator {
     std::uint32_t mark = 0;
-    std::int32_t rows_left = 0;  ///< rows that the frame that was begun still takes
-    bool has_begun = false;      ///< whether dotpose_finish has a frame to finish
+    std::int32_t rows_left = 0;  ///< number of rows that the current frame still needs
+    bool has_begun = false;      ///< true if dotpose_finish has a frame to finish
     const dotpose::c::Actions* actions = nullptr;
     dotpose::RowLocator* locator = nullptr;
-    void* allocation = nullptr;  ///< what dotpose_locator_destroy frees, if anything
+    void* allocation = nullptr;  ///< memory to be freed by dotpose_locator_destroy, or null
 };
 
 namespace dotpose::c {
 
-/// Whether a locator can be used.
+/// Checks that a locator can be used.
 dotpose_status check(const dotpose_locator* locator);
-/// Forgets the frame whose rows are pushed.
+/// Drops the frame that was begun.
 void drop_frame(dotpose_locator& locator);
 
-/// An image and the prediction for it, as the core takes them.
+/// An image and its prediction, as types of the core.
 struct Frame {
     ImageView image;
     Prediction prediction;
-    const Prediction* expected = nullptr;  ///< the prediction, if there is one
+    const Prediction* expected = nullptr;  ///< pointer to `prediction`, or null
 };
 
 dotpose_status read_image(const std::uint8_t* pixels, std::int32_t width_px, std::int32_t height_px,
                           std::ptrdiff_t stride_bytes, Frame& frame);
-/// Reads a prediction, which may be null.
+/// Reads a prediction. `given` may be null.
 dotpose_status read_prediction(const dotpose_prediction* given, Frame& frame);
 
-/// Callers' memory begins at a multiple of this.
+/// Alignment of the caller's memory, in bytes.
 inline constexpr std::size_t kAlignment = 8;
 
 /// A locator of one kind, with its memory.
@@ -113,20 +113,20 @@ struct LocatorOf : dotpose_locator {
     Kind kind;
 };
 
-/// Returns the bytes of memory that has room for a T wherever it begins.
+/// Returns the size of memory that has room for a T at any address of alignment kAlignment.
 template <typename T>
 constexpr std::size_t bytes_of() {
     return sizeof(T) + (alignof(T) > kAlignment ? alignof(T) - kAlignment : 0);
 }
 
-/// Checks memory that a caller gives for an object of this many bytes.
+/// Checks that memory provided by the caller has room for an object of `needed` bytes.
 inline dotpose_status check_memory(const void* memory, std::size_t bytes, std::size_t needed) {
     if (memory == nullptr) return DOTPOSE_NULL_POINTER;
     if (reinterpret_cast<std::uintptr_t>(memory) % kAlignment != 0) return DOTPOSE_NOT_ALIGNED;
     return bytes < needed ? DOTPOSE_TOO_LITTLE_MEMORY : DOTPOSE_OK;
 }
 
-/// Makes a T, which is a LocatorOf, in memory that a caller gives.
+/// Creates a T, which is a LocatorOf, in memory provided by the caller.
 template <typename T>
 dotpose_status init(void* memory, std::size_t bytes, const dotpose_options* given,
                     dotpose_locator** result) {

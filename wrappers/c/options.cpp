@@ -4,7 +4,7 @@
 namespace dotpose {
 namespace {
 
-/// Size of the options in the first version.
+/// Size of the options in the first version of the struct.
 constexpr std::size_t kFirstBytes = 96;
 
 dotpose_options options_of(const LocatorOptions& o) {
@@ -47,7 +47,7 @@ LocatorOptions options_of(const dotpose_options& o) {
 }
 
 const char* bad_member(const dotpose_options& o) {
-    // Enumerations have fewer bits in C++, so they are checked here.
+    // Enumerations have fewer bits in C++, so they are checked before the conversion.
     if (o.code != DOTPOSE_CODE_DETECT && !c::is_code(o.code)) return "code";
     if (!c::is_one_of(o.effort, Effort::twice)) return "effort";
     if (!c::is_one_of(o.decoder, Decoder::all)) return "decoder";

@@ -14,19 +14,19 @@ struct Text {
 
 constexpr dotpose_status kFirst = DOTPOSE_NULL_POINTER;
 
-/// Statuses that only the functions for C have; indexed by the status, counted from the first.
+/// Statuses that exist only in the C interface, indexed by the status minus kFirst.
 constexpr std::array<Text, DOTPOSE_NO_PACKET - kFirst + 1> kTexts{{
-    {"null_pointer", "a pointer that must not be null is"},
-    {"not_aligned", "the memory does not begin at a multiple of 8"},
-    {"too_little_memory", "the memory is smaller than what is needed"},
+    {"null_pointer", "a required pointer is null"},
+    {"not_aligned", "the address of the memory is not a multiple of 8"},
+    {"too_little_memory", "the memory is too small"},
     {"out_of_memory", "the system has no memory left"},
-    {"not_initialized", "the object was not initialized, or is destroyed"},
-    {"bad_size", "the size of the struct is that of no version: initialize it first"},
+    {"not_initialized", "the object was not initialized, or was destroyed"},
+    {"bad_size", "the size of the struct matches no version: initialize the struct first"},
     {"bad_value", "an argument is out of its range"},
     {"bad_stride", "the rows of the image overlap"},
-    {"wrong_kind", "this kind of locator cannot do that"},
+    {"wrong_kind", "this kind of locator does not support the call"},
     {"no_frame", "no frame was begun, or all its rows were pushed"},
-    {"no_fix", "the fix that is needed is not ok"},
+    {"no_fix", "a fix with the status ok is required"},
     {"no_packet", "no packet is complete yet"},
 }};
 
@@ -34,7 +34,7 @@ constexpr bool is_of_c(dotpose_status status) {
     return status >= kFirst && status <= DOTPOSE_NO_PACKET;
 }
 
-/// Returns the status of the core: `other` for those that it does not have.
+/// Converts a status to the core. Unknown statuses become `other`.
 dotpose::Status of_core(dotpose_status status) {
     const bool is_known = status >= 0 && status < dotpose::kStatusCount;
     return is_known ? static_cast<dotpose::Status>(status) : dotpose::Status::other;

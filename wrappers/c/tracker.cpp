@@ -13,7 +13,7 @@ using namespace dotpose;
 using TrackerObject = c::Object<Tracker, 0xD07C0004>;
 
 constexpr std::size_t kFirstBytes = 80;
-/// Powers of two within which times and places are, so that no difference of two overflows.
+/// Limits of times and places, as powers of two. Differences of two values must not overflow.
 constexpr int kLatest_us = 62;
 constexpr int kFarthest_nm = 60;
 
@@ -58,7 +58,7 @@ TrackOptions options_of(const dotpose_track_options& o) {
             .spacing_mm = o.spacing_mm};
 }
 
-/// Whether a number is none below 0 and none that overflows when it is squared.
+/// Returns true if a number is not negative and can be squared without overflow.
 bool is_size(float value) {
     return value >= 0 && value <= 1e9F;
 }
@@ -80,7 +80,8 @@ bool are_good(const dotpose_track_options& o) {
            o.max_weak_p_wrong_log2 <= -1 && o.lost_after_us >= 0 && o.stationary_after_us >= 0;
 }
 
-/// Reads a sighting. BAD_VALUE: a member is not a number, or so large that sums overflow.
+/// Reads a sighting. Returns BAD_VALUE if a member is not a number, or so large that sums would
+/// overflow.
 dotpose_status to_core(const dotpose_sighting& given, Sighting& sighting) {
     constexpr float kMaxCovariance = 1e12F;
     const auto is_finite = [](float value) { return std::fabs(value) <= kMaxCovariance; };

@@ -1,12 +1,12 @@
-// Writes frames and what the core reads in them, to the bit, with which the wrappers are compared.
+// Writes frames and their fixes to the bit, with which the wrappers are compared.
 //
 //   dotpose_golden_files DIRECTORY
 //
 // For each set, `nominal` (200 frames), `hard` (150) and `vga` (40), it writes
 //
-//   SET.frames  binary PGM images one after the other: each frame, and the frame after it
-//   SET.csv     a line for each frame and way in which it was located; wrappers/golden/README.md
-//               says what the columns are
+//   SET.frames  a sequence of binary PGM images: each frame, and its next frame
+//   SET.csv     a line for each frame and way of locating; wrappers/golden/README.md describes
+//               the columns
 //
 // The frames are those of accuracy/golden.cpp.
 #include <bit>
@@ -63,7 +63,7 @@ void write(const GreyImage& image, std::FILE* file) {
     std::fwrite(image.pixels.data(), 1, image.pixels.size(), file);
 }
 
-/// Numbers in the order of the columns, floating-point numbers as their bits.
+/// Numbers in the order of the columns. Floating-point numbers are written as their bits.
 class Numbers {
   public:
     template <std::integral Int>
@@ -93,7 +93,8 @@ class Numbers {
         }
         put(plane.lens_q40);
     }
-    /// The covariance with lengths in a unit, given in spacings.
+    /// Writes the covariance with lengths in another unit. `unit` is the length of a spacing in
+    /// that unit.
     void put_covariance(const Fix& fix, double unit) {
         const double units[] = {unit, unit, 1};
         for (int i = 0; i < 9; ++i) {
@@ -107,7 +108,7 @@ class Numbers {
     std::vector<std::string> all_;
 };
 
-/// Returns all numbers of an ok fix.
+/// Returns all numbers of a fix with the status ok.
 std::string numbers_of(const Fix& fix) {
     Numbers all;
     const double mm = fix.spacing_mm();
@@ -136,7 +137,7 @@ class Lines {
     std::uint64_t index_;
 };
 
-/// Locates a frame in every way, and the frame after it with the prediction of the first.
+/// Locates a frame in every way, and the next frame with the prediction of the first.
 void locate(const GreyImage& image, const GreyImage& next, Lines lines) {
     const auto memory = std::make_unique<LargeMemory>();
     Locator locator(*memory, Options{});

@@ -1,6 +1,6 @@
 """Builds the package: CMake compiles its module from the sources of dotpose around this folder.
 
-DOTPOSE_BUILD names a build directory that CMake has configured, to compile nothing twice.
+DOTPOSE_BUILD names a configured build directory, to compile nothing twice.
 """
 
 import os
@@ -15,12 +15,12 @@ from setuptools.command.build_ext import build_ext
 from setuptools.command.sdist import sdist
 
 HERE = Path(__file__).resolve().parent
-# A source distribution carries the sources of dotpose along.
+# A source distribution contains the sources of dotpose.
 PACKED = HERE / "source"
 ROOT = PACKED if PACKED.exists() else HERE.parents[1]
 NEEDED = ["CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "CONTRIBUTING.md"]
 NEEDED += ["apps", "cmake", "docs", "examples", "include", "src", "wrappers"]
-# What is made there, the tree of the source distribution itself too.
+# Names that are generated in the source tree, including the source distribution itself.
 UNWANTED = ["build", "dist", "dotpose-[0-9]*", "node_modules", "*.egg-info", "__pycache__"]
 
 

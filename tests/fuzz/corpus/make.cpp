@@ -1,4 +1,4 @@
-// Makes the seeds of the fuzz targets: dotpose_fuzz_corpus DIRECTORY
+// Generates the seeds of the fuzz targets: dotpose_fuzz_corpus DIRECTORY
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -60,7 +60,7 @@ void make_frames(const fs::path& folder) {
         header.width_px = header.height_px = static_cast<std::uint16_t>(seed.side_px);
         header.flags = seed.flags;
         GreyImage image = frame(seed.preset, seed.side_px, seed.spacing_px, n);
-        // Not moved.
+        // The prediction is not moved.
         image.pixels.insert(image.pixels.end(), sizeof(Prediction), 0);
         write(folder / ("frame-" + std::to_string(n++)), locate_input(header, image.pixels));
     }
@@ -111,7 +111,7 @@ void make_images(const fs::path& folder) {
     }
 }
 
-/// One change to each of the options of options_fuzz.cpp.
+/// Writes one change to each of the options of options_fuzz.cpp.
 void make_options(const fs::path& folder) {
     constexpr std::uint8_t kFields = 20;
     for (std::uint8_t field = 0; field < kFields; ++field) {

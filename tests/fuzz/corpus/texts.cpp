@@ -7,7 +7,8 @@
 namespace dotpose::fuzz {
 namespace {
 
-/// Objects 1, 2, ... of a document without their numbers; the first is the catalogue.
+/// Returns a document with the objects 1, 2, ... given without their numbers. The first object is
+/// the catalogue.
 std::string pdf(const std::vector<std::string>& objects) {
     std::string text = "%PDF-1.5\n";
     std::string places = "0000000000 65535 f \n";

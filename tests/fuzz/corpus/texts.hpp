@@ -1,4 +1,4 @@
-/// Seeds that are written down rather than computed: what each reader was made to read.
+/// Seeds that are written by hand: valid input of each reader.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 namespace dotpose::fuzz {
 
 struct TextSeed {
-    std::string path;  ///< below the folder of the corpus
+    std::string path;  ///< relative to the folder of the corpus
     std::string bytes;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Places a fix on a sheet of a sheet file, and in the world that the sheet lies in.
+/// Computes the place of a fix on a sheet of a sheet file, and in the world of the sheet.
 bool place(const std::filesystem::path& folder) {
     std::ofstream(folder / "sheets.json")
         << R"({"format": "dotpose-sheets", "version": 1, "sheets": [{"name": "table", "page": 1,
@@ -34,7 +34,7 @@ bool place(const std::filesystem::path& folder) {
            place->covariance[0][0] > 0 && world->covariance[1][1] > 0;
 }
 
-/// Keeps a camera in a file.
+/// Writes a camera file and reads it again.
 bool keep_camera(const std::filesystem::path& folder) {
     Camera camera;
     camera.width_px = 188;
@@ -46,7 +46,7 @@ bool keep_camera(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// A program that reads the files of a robot needs neither printing nor calibration.
+// A program that reads the files of a robot links neither printing nor calibration.
 int main() {
     const std::filesystem::path folder = "consumer-out";
     std::filesystem::create_directories(folder);

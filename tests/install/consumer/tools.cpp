@@ -14,7 +14,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Prints a small sheet, and once more over itself.
+/// Prints a small sheet, and lays dots over it.
 void print(const std::filesystem::path& folder) {
     SheetOptions options;
     options.paper = {20, 20};
@@ -25,7 +25,7 @@ void print(const std::filesystem::path& folder) {
     std::printf("%d x %d dots on %zu page\n", sheet.columns, sheet.rows, report.pages.size());
 }
 
-/// Simulates a frame, writes and reads it, locates it, and draws what was found.
+/// Simulates a frame, writes and reads it, locates it, and draws the result.
 bool locate_simulated(const std::filesystem::path& folder) {
     const Shot shot = draw_shot(Setup{}, 0);
     write_png(folder / "frame.png", render(shot).view());
@@ -37,7 +37,7 @@ bool locate_simulated(const std::filesystem::path& folder) {
     return fix.status == Status::ok && fix.cell == shot.pose.cell;
 }
 
-/// Calibrates a simulated camera, and keeps the result in a file.
+/// Calibrates a simulated camera, and writes the camera file.
 bool calibrate(const std::filesystem::path& folder) {
     const auto frame_at = [](int i) { return render(draw_shot(Setup{}, i)); };
     const LensCalibration lens = calibrate_lens(kWantedFrames, frame_at, {});
@@ -49,7 +49,7 @@ bool calibrate(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// Each library that the tools depend on is used: it is found, it links, and it runs.
+// Uses each library that the tools depend on, to check that it is found, links and runs.
 int main() {
     const std::filesystem::path folder = "consumer-out";
     std::filesystem::create_directories(folder);

@@ -1,4 +1,4 @@
-// Checks of prints that a renderer of the tests' own has scanned (tests/scanned_page.hpp).
+// Checks of prints, scanned by an independent renderer (tests/scanned_page.hpp).
 #include "dotpose/tools/check_print.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Returns the scan as it is after saving it as JPEG.
+/// Returns the scan after saving it as JPEG and reading it again.
 GreyImage through_jpeg(const GreyImage& scan, int quality) {
     const test::TemporaryDirectory directory;
     const auto path = directory.path() / "scan.jpg";
@@ -89,7 +89,8 @@ TEST(CheckPrint, says_when_a_scan_is_too_coarse) {
 }
 
 TEST(CheckPrint, finds_dots_that_run_together) {
-    // Dots of 0.3 mm touch where neighbours are displaced towards each other: 0.339 mm apart.
+    // The dots of 0.3 mm touch if neighbours are displaced towards each other, to a distance of
+    // 0.339 mm.
     ScanSettings settings;
     settings.dot_growth = 3.7;
     const PrintCheck result = check(scan_page(small_sheet(), settings), 600);
@@ -123,16 +124,16 @@ TEST(CheckPrint, tells_other_print_from_faults) {
     EXPECT_LT(field.missing_share(), 0.002);
     EXPECT_LT(field.merged_share(), 0.002);
     EXPECT_LT(field.wrong_share(), 0.002);
-    // A bar touches a row of cells if it is no farther than half a cell from its intersections: 1
-    // mm and a cell, of every 5 mm, on 30 of the 60 mm across. Along the edge of the grey, cells
-    // differ from the paper in up to a tile of 24 cells (12 mm).
+    // A bar covers a row of cells if its distance from the intersections is at most half a cell: 1
+    // mm and a cell of every 5 mm, over 30 of the 60 mm across. Along the edge of the grey area,
+    // cells differ from the paper in up to one tile of 24 cells (12 mm).
     const double bars = (1 + 0.508) / 5 * 30 / 60;
     const double edge = 12.0 * (25 + 30 + 25) / (60 * 80);
     EXPECT_GT(field.covered_share(), 0.9 * bars);
     EXPECT_LT(field.covered_share(), bars + edge);
 }
 
-// Blank paper around the card is most of what its tiles show.
+// The tiles of a card consist mostly of blank paper around the card.
 TEST(CheckPrint, dots_of_a_small_card_on_a_noisy_scan_are_not_covered) {
     SheetOptions options;
     options.paper = {20, 20};
@@ -160,7 +161,7 @@ TEST(CheckPrint, maps_distortion) {
     settings.wave_mm = 0.3;
     const PrintCheck result = check(scan_page(make_sheet(options), settings), 300);
     ASSERT_EQ(result.fields.size(), 1U);
-    // The fitted scale removes a part of the sine.
+    // The fitted scale removes a part of the sine wave.
     EXPECT_NEAR(result.fields[0].largest_distortion_mm, settings.wave_mm, 0.1);
     EXPECT_LT(result.fields[0].scatter_mm, 0.01);
     EXPECT_THAT(remarks(result), Contains("distorted"));
@@ -176,7 +177,7 @@ TEST(CheckPrint, maps_distortion) {
 }
 
 TEST(CheckPrint, bits_of_another_place_are_wrong) {
-    // The lower 12 rows were printed from another cell, as a driver that tiles pages may do.
+    // The lower 12 rows are printed from another cell, as by a driver that tiles pages.
     Sheet upper = small_sheet();
     Sheet lower = upper;
     upper.rows -= 12;
@@ -216,8 +217,8 @@ TEST(CheckPrint, sees_a_photo_without_scale) {
     EXPECT_THAT(remarks(result), Contains("no_resolution"));
 }
 
-/// Returns a photo of a flawless print of 110 x 90 mm from near, with as much perspective as in a
-/// phone's photo of a page that fills its view.
+/// Returns a close-up photo of a flawless print of 110 x 90 mm, with the perspective of a phone's
+/// photo of a page that fills its view.
 GreyImage phone_photo(double tilt_rad, double mm_per_px = 0.06, double missing = 0) {
     SheetOptions options;
     options.paper = {110, 90};
@@ -243,7 +244,7 @@ GreyImage phone_photo(double tilt_rad, double mm_per_px = 0.06, double missing =
 
 TEST(CheckPrint, photos_of_a_flawless_print_have_no_faults_and_no_scale) {
     for (const double tilt_degrees : {1.0, 10.0, 25.0}) {
-        // The resolution given is that in the middle of the view.
+        // The given resolution is that in the middle of the view.
         const PrintCheck result = check(phone_photo(tilt_degrees * kDegree_rad), 25.4 / 0.06);
         ASSERT_EQ(result.fields.size(), 1U) << tilt_degrees;
         const PrintField& field = result.fields[0];
@@ -305,7 +306,7 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
     options.dots = {2, 4, 6};
     const PrintPage page = make_test_page(options);
     ScanSettings settings;
-    settings.dot_growth = 1.5;  // the printer swells its dots
+    settings.dot_growth = 1.5;  // the printer enlarges the dots
     settings.rotation_rad = 0.3 * kDegree_rad;
     const PrintCheck result = check(scan_page(page.sheets, settings), 600);
     EXPECT_TRUE(result.is_test_page);
@@ -322,7 +323,8 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
         EXPECT_EQ(field->bits_wrong, 0);
         EXPECT_NEAR(field->gain(), 0.5, 0.1);
     }
-    // The best dots are a sixth of the spacing: 4 and 6 units, printed as 6 (or 3) and as 9 (or 6).
+    // The best dots have a diameter of a sixth of the spacing: 4 and 6 units, printed as 6 (or 3)
+    // and as 9 (or 6).
     ASSERT_EQ(result.best_per_spacing.size(), 2U);
     const auto dot_of = [&](std::size_t i) {
         return std::lround(result.fields[result.best_per_spacing[i]].pattern.dot_mm / kTestUnit_mm);
@@ -335,7 +337,7 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
 }
 
 TEST(CheckPrint, patches_whose_dots_reach_all_around_are_not_good) {
-    // Dots of 0.27 mm are 0.25 mm apart where they come nearest, 0.38 mm elsewhere.
+    // Dots of 0.27 mm are 0.25 mm apart at their closest, and 0.38 mm elsewhere.
     TestPageOptions options;
     options.paper = {60, 60};
     options.margin_mm = 5;

@@ -1,4 +1,4 @@
-// What is still missing for a calibration, and how well a lens is known in the corner.
+// Views that a calibration still needs, and the accuracy of a lens in the corner.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -34,7 +34,7 @@ std::vector<Kind> kinds(const std::vector<CalibrationNeed>& needs) {
 }
 
 /// Returns a frame at a place, in spacings of 10 px, with a dot in the middle of each part of the
-/// image, except for those in `empty`.
+/// image except those in `empty`.
 CalibrationView view_at(double x_grid, double y_grid, double theta_deg,
                         const std::vector<std::pair<int, int>>& empty = {}) {
     CalibrationView view;
@@ -51,7 +51,7 @@ CalibrationView view_at(double x_grid, double y_grid, double theta_deg,
     return view;
 }
 
-/// Returns a lens whose corner is known to `sigma_px`, as of k alone.
+/// Returns a lens with the standard deviation `sigma_px` in the corner, caused by k alone.
 Camera lens_known_to(double sigma_px) {
     Camera camera;
     camera.width_px = kWidth_px;
@@ -66,7 +66,7 @@ Camera lens_known_to(double sigma_px) {
 TEST(ImageCoverage, MarksThePartThatAPixelLiesIn) {
     ImageCoverage image(kWidth_px, kHeight_px);
     EXPECT_EQ(image.share(), 0);
-    // Pixel 9 is the last of the first part; its right border lies at 9.5.
+    // Pixel 9 is the last pixel of the first part. Its right border is at 9.5.
     EXPECT_TRUE(image.add({9.4, 0}));
     EXPECT_FALSE(image.add({0, 9.4}));
     EXPECT_TRUE(image.add({9.6, 0}));
@@ -85,7 +85,7 @@ TEST(CalibrationCoverage, CountsPlacesDirectionsAndNewParts) {
     EXPECT_EQ(coverage.parts_added_by(view_at(0, 0, 0, {{3, 4}})), 95);
     coverage.add(view_at(0, 0, 0, {{3, 4}}));
     EXPECT_EQ(coverage.parts_added_by(view_at(0, 0, 0)), 1);
-    // The shorter side of the image shows 8 spacings.
+    // The shorter side of the image spans 8 spacings.
     coverage.add(view_at(1.9, 0, 44));
     EXPECT_EQ(coverage.places(), 1);
     EXPECT_EQ(coverage.directions(), 1);
@@ -98,7 +98,7 @@ TEST(CalibrationCoverage, CountsPlacesDirectionsAndNewParts) {
     EXPECT_TRUE(coverage.has_direction(1));
     EXPECT_TRUE(coverage.has_direction(7));
     EXPECT_FALSE(coverage.has_direction(4));
-    // The same place of another sheet.
+    // The same place on another sheet.
     CalibrationView other = view_at(0, 0, 0);
     other.section = {1, 0};
     coverage.add(other);
@@ -129,7 +129,7 @@ TEST(CalibrationCoverage, NamesThePartOfTheImageThatIsMissing) {
                                                      {2, 6}, {0, 7}, {1, 7}, {2, 7}};
     CalibrationCoverage coverage(kWidth_px, kHeight_px);
     coverage.add(view_at(0, 0, 0, corner));
-    // More than the share that a calibration needs, but not in each corner.
+    // More than the fraction that a calibration needs, but not in every corner.
     ASSERT_GT(coverage.image().share(), kMinCoverage);
     const auto needs = coverage.missing(std::nullopt);
     ASSERT_EQ(needs[0].kind, Kind::image);
@@ -141,13 +141,13 @@ TEST(CornerSigma, IsThatOfTheDivisionModel) {
     camera.width_px = 188;
     camera.height_px = 120;
     camera.k_per_px2 = -8.7e-6;
-    camera.centre_px = {94, 59};  // the corner at (0, 119) is farthest
+    camera.centre_px = {94, 59};  // the corner at (0, 119) is the farthest
     const double x = -94;
     const double y = 60;
     const double d = 1 + camera.k_per_px2 * (x * x + y * y);
     camera.sigma = {{"k_per_px2", 2e-8}, {"centre_u_px", 0}, {"centre_v_px", 0}};
-    // Eq. 2 of the paper is p = r / (1 + k r^2), so dp/dk = -r r^2 / (1 + k r^2)^2. That of the
-    // middle of the image, half a pixel away from the centre, is zero to eight digits.
+    // Eq. 2 of the paper is p = r / (1 + k r^2), so dp/dk = -r r^2 / (1 + k r^2)^2. In the middle
+    // of the image, half a pixel from the centre, the derivative is zero to eight digits.
     const double by_k = std::pow(std::hypot(x, y), 3) / (d * d) * 2e-8;
     EXPECT_NEAR(corner_sigma_px(camera), by_k, 1e-5 * by_k);
 

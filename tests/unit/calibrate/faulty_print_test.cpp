@@ -1,5 +1,4 @@
-// Prints with one known fault each, scanned by a renderer of the tests' own
-// (tests/scanned_page.hpp).
+// Prints with one known fault each, scanned by an independent renderer (tests/scanned_page.hpp).
 #include <ostream>
 #include <string>
 #include <vector>
@@ -18,7 +17,7 @@ using test::ScanSettings;
 struct Fault {
     const char* name;
     ScanSettings settings;
-    std::vector<std::string> verdict;  ///< faults that must be found, and no others
+    std::vector<std::string> verdict;  ///< exactly the faults that must be found
 };
 void PrintTo(const Fault& fault, std::ostream* out) {
     *out << fault.name << " at " << fault.settings.dpi << " dpi";

@@ -1,4 +1,4 @@
-/// Simulated frames for calibrations, with poses that a test decides.
+/// Simulated frames for calibrations, with poses chosen by a test.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ inline CameraModel paper_camera() {
     return camera;
 }
 
-/// Returns frame `index` of a run with preset nominal and a tilt.
+/// Returns frame `index` of a run with the preset nominal and a tilt.
 inline GreyImage nominal_frame(const CameraModel& camera, std::uint64_t seed, int index,
                                double tilt_x_deg = 0, double tilt_y_deg = 0) {
     Setup setup;
@@ -37,8 +37,7 @@ inline GreyImage nominal_frame(const CameraModel& camera, std::uint64_t seed, in
     return render(shot);
 }
 
-/// Returns the shot, moved so that its centre looks at this place of the pattern, in section (0,
-/// 0).
+/// Returns the shot with its centre moved to a place of the pattern in section (0, 0).
 inline Shot moved_to(Shot shot, double x_mm, double y_mm, double theta_rad) {
     const double x = x_mm / kDefaultSpacing_mm;
     const double y = y_mm / kDefaultSpacing_mm;
@@ -63,10 +62,10 @@ inline Camera true_camera(const CameraModel& model) {
 
 // ---- A robot that carries the camera ----
 
-/// Place of the image centre, from the robot's centre, along the image axes.
+/// Position of the image centre relative to the robot's centre, along the image axes.
 inline constexpr Vec2 kCameraOnRobot_mm{-14.5, 6.25};
 
-/// Returns the frame of a robot that stands at a place, with the image x axis in a direction.
+/// Returns the frame of a robot at a place, with the image x axis in a direction.
 inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int index, double x_mm,
                              double y_mm, double theta_rad) {
     Setup setup;
@@ -83,8 +82,8 @@ inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int 
 inline constexpr double kPivot_x_mm = 60'000;
 inline constexpr double kPivot_y_mm = 45'000;
 
-/// Error of the located place of a robot that stands elsewhere, along its own axes, and of its
-/// angle: means over many directions, which leave only the error of the calibration.
+/// Error of the located robot, along its own axes, and of its angle. The means over many directions
+/// leave only the error of the calibration.
 struct RobotError {
     Vec2 place_mm;
     double heading_rad = 0;
@@ -121,12 +120,12 @@ inline RobotError robot_error(const Camera& camera, const CameraModel& model, st
 
 // ---- A table with four sheets ----
 
-/// Sheets have 120 x 120 dots; the pattern reaches to the edge except for this margin.
+/// Number of dots per side of a sheet. The pattern extends to the edge except for a margin.
 inline constexpr int kSide_cells = 120;
 inline constexpr double kMargin_mm = 0.3;
 inline constexpr double kPage_mm = (kSide_cells - 1) * kDefaultSpacing_mm + 2 * kMargin_mm;
 
-/// Place of a sheet on the table: mm, x right, y down, angles clockwise.
+/// Pose of a sheet on the table: mm, x right, y down, clockwise angles.
 struct Lying {
     double x_mm;
     double y_mm;
@@ -135,7 +134,7 @@ struct Lying {
 };
 using Table = std::array<Lying, 4>;
 
-/// A table with gaps of 0 to 3 mm and turns of up to 1 degree.
+/// A table with gaps of 0 to 3 mm between the sheets, and rotations of up to 1 degree.
 inline const Table kTable = {Lying{0, 0, 0}, Lying{kPage_mm + 0.2, 0.4, 0.6 * kDegree_rad},
                              Lying{-0.3, kPage_mm + 1.4, -0.3 * kDegree_rad},
                              Lying{kPage_mm + 2.6, kPage_mm + 1.9, -1.0 * kDegree_rad}};
@@ -163,7 +162,8 @@ inline CameraModel wide_camera() {
     return camera;
 }
 
-/// Returns the camera's frame at a place of the table; dots of all sheets are dark on one paper.
+/// Returns the camera's frame at a place of the table. The dots of all sheets are dark on the same
+/// paper.
 inline GreyImage table_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
                              int index, double x_mm, double y_mm, double theta_rad) {
     Setup setup;
@@ -177,7 +177,7 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         const double dy = y_mm - lying.y_mm;
         const double c = std::cos(lying.turn_rad);
         const double s = std::sin(lying.turn_rad);
-        constexpr double kTooFar_mm = kPage_mm / 2 + 12;  // beyond, no dot is in view
+        constexpr double kTooFar_mm = kPage_mm / 2 + 12;  // at a larger distance, no dot is in view
         if (std::abs(dx - kPage_mm / 2) > kTooFar_mm) continue;
         if (std::abs(dy - kPage_mm / 2) > kTooFar_mm) continue;
         const Sheet& sheet = entries[i].sheet;
@@ -189,7 +189,7 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         shot.page = page_of(sheet, seed + i + 1);
         shot.page.print_scale = lying.print;
         const GreyImage image = render(shot);
-        // Light and noise are the same for each sheet.
+        // Light and noise are equal for all sheets.
         if (result.pixels.empty()) result = image;
         for (std::size_t k = 0; k < image.pixels.size(); ++k)
             result.pixels[k] = std::min(result.pixels[k], image.pixels[k]);

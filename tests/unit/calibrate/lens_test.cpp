@@ -1,4 +1,4 @@
-// Lens calibrations of simulated cameras, whose lens, tilt and focal length are known.
+// Lens calibrations of simulated cameras with known lens, tilt and focal length.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -19,11 +19,11 @@ using namespace dotpose::calibrate_test;
 using testing::HasSubstr;
 
 constexpr int kFrames = 20;
-/// Residual of nominal frames, in px: print jitter 0.010 mm, and about 0.05 px of the measurement.
+/// Residual of nominal frames, in px: printing errors of 0.010 mm, and about 0.05 px of measurement
+/// noise.
 constexpr double kNominalResidual_px = 0.222;
 
-/// Errors are at most this many standard deviations as reported; chance exceeds that once in
-/// 16,000.
+/// Limit of errors, in reported standard deviations. Chance exceeds it once in 16,000.
 constexpr double kMaxSigmas = 4;
 
 void expect_near_truth(const Camera& camera, const char* sigma, double value, double truth) {
@@ -50,16 +50,16 @@ TEST(CalibrateLens, FindsThePapersLens) {
     expect_lens(result, truth);
     ASSERT_TRUE(result.is_mounted);
     const PaperScale& paper = result.camera.paper.value();
-    // The field of 188 x 120 px decides, because its size is known better than the scale at its
-    // centre.
+    // The scale is a mean over the field of 188 x 120 px, which is determined more accurately than
+    // the scale at its centre.
     EXPECT_NEAR(paper.mm_per_px_x, truth.mm_per_px, 5e-4 * truth.mm_per_px);
     EXPECT_NEAR(paper.mm_per_px_y, truth.mm_per_px, 5e-4 * truth.mm_per_px);
     expect_near_truth(result.camera, "mm_per_px_x", paper.mm_per_px_x, truth.mm_per_px);
     expect_near_truth(result.camera, "mm_per_px_y", paper.mm_per_px_y, truth.mm_per_px);
     expect_near_truth(result.camera, "skew", paper.skew, 0);
-    EXPECT_FALSE(result.camera.focal_px.has_value());  // not determined by frames from straight
-                                                       // above
-    // Without the lens, noise is the smallest part of the residual.
+    EXPECT_FALSE(result.camera.focal_px.has_value());  // not determined by frames seen from
+                                                       // straight above above
+    // Without the lens, noise is only a small part of the residual.
     EXPECT_GT(result.residual_before_px, 3 * result.residual_px);
     EXPECT_EQ(result.coverage, 1);
 }
@@ -78,8 +78,8 @@ TEST(CalibrateLens, FindsTheTiltOfAMountedCamera) {
     expect_near_truth(result.camera, "tilt_y_rad", result.camera.tilt->y_rad, -15 * kDegree_rad);
 }
 
-// From the dots that `locate` reads, the focal length of a slightly tilted camera came out too
-// long, by three standard deviations on average.
+// With the dots that `locate` reads, the focal length of a slightly tilted camera was biased by
+// three standard deviations.
 TEST(CalibrateLens, ASlightTiltTellsAnUnbiasedFocalLength) {
     const CameraModel truth = paper_camera();
     const double focal_px = truth.working_distance_mm / truth.mm_per_px;
@@ -132,7 +132,7 @@ TEST(CalibrateLensAtLength, FindsTheFocalLengthOfALargeCameraHeldByHand) {
 }
 
 TEST(CalibrateLens, FindsACentreOffTheMiddle) {
-    // The frame is cut out of a larger one, so that the lens sits off its middle.
+    // The frame is cut out of a larger frame, so the centre of distortion is not in its middle.
     CameraModel larger = paper_camera();
     larger.width_px = 200;
     larger.height_px = 124;
@@ -217,7 +217,7 @@ TEST(CalibrateLens, SaysWhatIsWrongWithPoorSeries) {
                                         },
                                         {});
     EXPECT_EQ(blurred.verdict, CalibrationVerdict::out_of_focus) << blurred.dot_width;
-    EXPECT_LT(few.dot_width, 0.25);  // sharp, except for a blur of 0.4 to 0.7 px
+    EXPECT_LT(few.dot_width, 0.25);  // sharp, with a blur of only 0.4 to 0.7 px
 }
 
 TEST(CalibrateLens, CountsFramesThatAreGivenTwiceOnce) {

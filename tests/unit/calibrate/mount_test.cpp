@@ -1,4 +1,4 @@
-// The place of a camera on a robot that turns on the spot and drives straight ahead.
+// The mount of a camera on a robot that turns on the spot and drives straight ahead.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -78,7 +78,7 @@ TEST(CalibrateSpin, TheReferenceStaysPutAfterwards) {
         ASSERT_EQ(fix.status, Status::ok);
         EXPECT_NEAR(fix.x_mm(), kPivot_x_mm, 0.03);
         EXPECT_NEAR(fix.y_mm(), kPivot_y_mm, 0.03);
-        // At 16 mm from the camera, the angle makes most of the error.
+        // At 16 mm from the camera, the angle contributes most of the error.
         const auto variance = static_cast<double>(fix.covariance[0][0]);
         EXPECT_LT(std::abs(fix.x_mm() - kPivot_x_mm), 5 * kDefaultSpacing_mm * std::sqrt(variance));
     }
@@ -89,8 +89,8 @@ double off_mm(const RobotError& error) {
     return std::hypot(error.place_mm.x, error.place_mm.y);
 }
 
-// At a distance of 15.8 mm, 4 um and 3e-4 radians across give 5.3 um per axis: an uncertainty of
-// the camera file is also one of the reference.
+// The uncertainty of the camera file adds to that of the reference: at a distance of 15.8 mm, 4 µm
+// and 3e-4 rad give 5.3 µm per axis.
 TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
     const CameraModel model = paper_camera();
     const auto frame_at = [&](int i) {
@@ -104,8 +104,8 @@ TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
                 std::hypot(of_turn_mm, 0.004, 3e-4 * away_mm / std::sqrt(2)), 1e-5);
 }
 
-// In undistorted pixels this far outside the image, an estimated lens is wrong by more than this.
-// The same lens gives the reference and all fixes, so the error never shows on the paper.
+// At this distance from the image, undistorted pixels of an estimated lens have larger errors.
+// However, the reference and all fixes use the same lens, so the error has no effect on the paper.
 TEST(CalibrateSpin, IsExactWithAnEstimatedLens) {
     const CameraModel model = paper_camera();
     for (const std::uint64_t seed : {61, 62, 63}) {
@@ -127,7 +127,7 @@ TEST(CalibrateSpin, IsExactWithAnEstimatedLens) {
         again.reference_px = reference_in(again, spin.camera);
         EXPECT_LT(off_mm(robot_error(again, model, seed + 20)), 0.02) << "seed " << seed;
 
-        // The heading is that at the image centre, wherever the reference is.
+        // The heading is the direction at the image centre, independent of the reference.
         const auto drive_frame = [&](int i) {
             return robot_frame(model, seed + 40, i, kPivot_x_mm + 5 * i, kPivot_y_mm, 0);
         };
@@ -193,8 +193,8 @@ std::string refusal(const std::function<void()>& calibrate) {
     return "not refused";
 }
 
-/// Returns frame `i` of 12 of a robot that turns by `step_deg` and moves by `drift_mm` along x from
-/// frame to frame.
+/// Returns frame `i` of 12 frames of a robot that turns by `step_deg` and moves by `drift_mm` along
+/// x per frame.
 FrameAt turning(const CameraModel& model, double step_deg, double drift_mm) {
     return [=](int i) {
         return robot_frame(model, 65, i, kPivot_x_mm + drift_mm * i, kPivot_y_mm,
@@ -202,8 +202,8 @@ FrameAt turning(const CameraModel& model, double step_deg, double drift_mm) {
     };
 }
 
-// A drive of a slowly turning robot is not a turn on the spot, however well an arc about a far
-// point fits it.
+// A drive of a slowly turning robot is not a turn on the spot, even if an arc about a distant point
+// fits well.
 TEST(CalibrateSpin, RefusesADrive) {
     const CameraModel model;
     EXPECT_THAT(
@@ -211,13 +211,13 @@ TEST(CalibrateSpin, RefusesADrive) {
         HasSubstr("the frames do not show a turn on the spot: the centre of rotation moved by"));
     EXPECT_THAT(refusal([&] { calibrate_spin(12, turning(model, 30, 4), {}, {}); }),
                 HasSubstr("do not show a turn on the spot"));
-    // The robot moves by half a millimetre in all over 40 degrees: the residual is small, and the
-    // point far off.
+    // The robot moves by half a millimetre in total over 40 degrees. The residual is small, but the
+    // estimated point is far from the true one.
     EXPECT_THAT(refusal([&] { calibrate_spin(12, turning(model, 3.6, 0.05), {}, {}); }),
                 HasSubstr("the robot moved on while it turned"));
 }
 
-// In 12 frames all around, the robot moves on by 0.02 mm from frame to frame.
+// In 12 frames over a full turn, the robot moves by 0.02 mm per frame.
 TEST(CalibrateSpin, CountsADriftInItsDeviation) {
     const CameraModel model;
     const SpinCalibration still = calibrate_spin(12, turning(model, 30, 0), {}, {});

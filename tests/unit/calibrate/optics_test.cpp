@@ -1,4 +1,4 @@
-// The numbers of the paper's section III-A, and those of a thin lens.
+// The numbers in section III-A of the paper, and those of a thin lens.
 #include "dotpose/tools/optics.hpp"
 
 #include <cmath>
@@ -46,7 +46,7 @@ TEST(Optics, IsThatOfAThinLens) {
     EXPECT_NEAR(report.blur_px, 0.5, 1e-9);
     EXPECT_NEAR(report.longest_exposure_s, 0.002, 1e-9);
     EXPECT_NEAR(report.fastest_mm_s, 12, 1e-9);
-    // A point at the near end is imaged behind the sensor; its cone is one pixel wide there.
+    // A point at the near end is imaged behind the sensor, where its cone is one pixel wide.
     for (const double end_mm : {report.near_mm, report.far_mm}) {
         const double image_mm = 1 / (1 / optics.focal_mm - 1 / end_mm);
         const double aperture_mm = optics.focal_mm / optics.f_number;
@@ -66,7 +66,7 @@ TEST(Optics, SaysWhatToChange) {
     Optics optics;
     optics.width_px = 188;
     optics.pixel_um = 24;
-    optics.distance_mm = 50;  // 3 px from dot to dot
+    optics.distance_mm = 50;  // a spacing of 3 px
     optics.speed_mm_s = 5000;
     const auto faults = design_optics(optics).advice;
     const auto says = [](const char* words) {
@@ -77,7 +77,7 @@ TEST(Optics, SaysWhatToChange) {
     EXPECT_THAT(faults, says("go closer (20.1 mm)"));
     EXPECT_THAT(faults, says("print larger dots"));
 
-    optics.distance_mm = 10;  // too near: few dots in view
+    optics.distance_mm = 10;  // too close, with few dots in view
     const auto narrow = design_optics(optics).advice;
     EXPECT_THAT(narrow, says("8 x 8 dots do not fit at every angle"));
     EXPECT_THAT(narrow, says("motion blurs the image"));

@@ -1,4 +1,5 @@
-// Pages seen by cameras whose geometry is computed here, without the code under test.
+// Pages seen by cameras whose geometry is computed in the test, independently of the code under
+// test.
 #include "calibrate/print_view.hpp"
 
 #include <cmath>
@@ -13,9 +14,9 @@ namespace {
 constexpr double kLongerSide_px = 4000;
 const Eigen::Vector2d kMiddle_px(1999.5, 1499.5);
 
-/// Returns a photo of a page of 240 x 180 mm, 3 dots per cm, from a camera of focal length 3000 px
-/// at 260 mm, turned by `tilt` about an axis of the paper at `azimuth`. The print is too wide by
-/// the share `wide`.
+/// Returns a photo of a page of 240 x 180 mm with 3 dots per cm, from a camera with a focal length
+/// of 3000 px at 260 mm. The camera is tilted by `tilt` about an axis of the paper at `azimuth`.
+/// The width of the print is 1 + `wide` times the nominal width.
 std::vector<Match> photo(double tilt, double azimuth, double wide) {
     std::vector<Match> matches;
     for (double x_mm = -120; x_mm <= 120; x_mm += 10.0 / 3) {
@@ -38,7 +39,7 @@ TEST(PrintView, tells_cameras_from_scanners) {
     for (const double tilt : {0.5, 1.0, 10.0, 25.0}) {
         const auto signs = signs_of_camera(photo(tilt * kDegree, 0, 0), kMiddle_px);
         ASSERT_TRUE(signs) << tilt;
-        // The far end is farther away than the near one by 180 mm times the sine, of 260 mm.
+        // The far end is farther away than the near end by 180 mm * sin(tilt), relative to 260 mm.
         EXPECT_NEAR(signs->perspective, 180 * std::sin(tilt * kDegree) / 260, 1e-6);
         EXPECT_NEAR(signs->lens, 0, 1e-6);
     }
@@ -69,7 +70,8 @@ TEST(PrintView, tells_the_ratio_of_the_scales_as_far_as_it_is_known) {
             EXPECT_LT(ratio->uncertainty, 0.006) << tilt;
         }
     }
-    // For a tilt about an axis of the paper, foreshortening cannot be told from a ratio.
+    // For a tilt about an axis of the paper, foreshortening cannot be distinguished from a ratio of
+    // scales.
     const PlaneFit fit = fit_plane(photo(20 * kDegree, 0, 0), ViewModel::camera, kMiddle_px);
     EXPECT_FALSE(scale_ratio_of(fit, kLongerSide_px));
 }

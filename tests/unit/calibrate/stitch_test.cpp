@@ -1,4 +1,4 @@
-// Four adjacent sheets with gaps and small turns, and a camera over their seams.
+// Four adjacent sheets with gaps and small rotations, and a camera over their seams.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -24,13 +24,13 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A frame that looks at the middle of one sheet.
+/// Returns a frame at the middle of one sheet.
 GreyImage plain_frame(const CameraModel& camera, int index) {
     return table_frame(kTable, camera, 62, index, 30, 30, 0.1 * index);
 }
 
-/// Returns a table of sheets with usual print errors: up to 0.3 %, and different along the axes.
-/// The mean of the first sheet is 1.
+/// Returns a table of sheets with usual printing errors of up to 0.3 %, different along the axes.
+/// The mean scale of the first sheet is 1.
 Table printed_table() {
     Table table = kTable;
     table[0].print = {1.0012, 1 / 1.0012};
@@ -71,10 +71,10 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     for (const Seam& seam : stitching.seams)
         EXPECT_LT(seam.residual_mm, 0.02) << seam.first << seam.second;
 
-    // All places are in one world: on both sides of a seam, and as far from the seam as possible.
+    // All places are in one world, both across a seam and as far from the seam as possible.
     Locator locator{Options{}};
     Camera camera = true_camera(model);
-    // The reference is 20 mm to the right of the image, so that a wrong scale would show.
+    // The reference is 20 mm to the right of the image, to make a wrong scale visible.
     camera.reference_px =
         PixelPoint{(model.width_px - 1) / 2.0 + 20 / model.mm_per_px, (model.height_px - 1) / 2.0};
     for (const auto& [x_mm, y_mm] : {std::pair(20.0, 40.0), std::pair(90.0, 110.0)}) {
@@ -96,7 +96,7 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     }
 }
 
-// The whole image reads one sheet, and its fix counts the dots of that sheet only.
+// Only one sheet is located in the whole image, and its fix contains only the dots of that sheet.
 TEST(StitchSheets, FindsBothSheetsOfAPhotoWithWideMargins) {
     CameraModel model = wide_camera();
     model.width_px = 1000;
@@ -112,7 +112,7 @@ TEST(StitchSheets, FindsBothSheetsOfAPhotoWithWideMargins) {
     EXPECT_LT(off_mm(stitching.sheets[1].world.value(), table[1]), 0.05);
 }
 
-/// Returns frames over the upper seam only: sheets a and b.
+/// Returns frames over the upper seam only, which show the sheets a and b.
 FrameAt upper_seam(const Table& table, const CameraModel& model) {
     return [&](int i) {
         return table_frame(table, model, 65, i, kPage_mm + 0.5, 8 + 2.0 * i, 0.7 * i);
@@ -130,7 +130,8 @@ TEST(StitchSheets, OnlyAReferenceMakesPrintScalesTrue) {
         EXPECT_NEAR(stitching.sheets[i].print_scale_x, x, 5 * sheet.sigma_scale_x) << i;
         EXPECT_NEAR(stitching.sheets[i].print_scale_y, y, 5 * sheet.sigma_scale_y) << i;
     };
-    // The file has 1 for the first sheet: that mean stays, and all other scales follow from it.
+    // The file contains a mean scale of 1 for the first sheet, which is kept. All other scales
+    // follow from it.
     const auto relative = stitch_sheets(25, frame_at, sheets_of_table(), true_camera(model), {});
     expect_scale(relative, 0, 1.001, 0.999);
     expect_scale(relative, 1, 1.001 / 1.003, 1.003 / 1.003);
@@ -152,7 +153,7 @@ TEST(StitchSheets, OnlyAReferenceMakesPrintScalesTrue) {
     EXPECT_LT(off_mm(*by_width.sheets[1].world, table[1]), 0.02);
 }
 
-// Dots have the same error in all frames that show them, so the same frames again add nothing.
+// Dots have the same printing error in all frames, so repeated frames add no information.
 TEST(StitchSheets, FramesThatRepeatDotsDoNotMakeItMoreCertain) {
     const CameraModel model = wide_camera();
     const FrameAt seam = upper_seam(kTable, model);
@@ -186,7 +187,7 @@ TEST(DrawStitching, ShowsSheetsBeforeAndAfter) {
         return text.str();
     };
     EXPECT_THAT(picture(), HasSubstr("not all of these sheets had a world pose"));
-    // The sheet file has the sheet 1 mm to the right of its true place: 0.71 mm rms per axis.
+    // In the sheet file, the sheet is 1 mm to the right of its true place: 0.71 mm rms per axis.
     before[1].world =
         WorldPose{(kTable[1].x_mm + 1) / 1000, -kTable[1].y_mm / 1000, -kTable[1].turn_rad};
     EXPECT_THAT(picture(), testing::AllOf(HasSubstr(">Before<"), HasSubstr(">After<"),
@@ -197,19 +198,20 @@ TEST(DrawStitching, ShowsSheetsBeforeAndAfter) {
 TEST(StitchSheets, SaysWhichScalesTheFramesDoNotTell) {
     const CameraModel model = wide_camera();
     Camera camera = true_camera(model);
-    camera.paper.reset();  // held by hand: its height is not known
+    camera.paper.reset();  // hand-held, at an unknown height
     auto entries = sheets_of_table();
     entries[1].print_scale_x = 1.002;
     const auto stitching = stitch_sheets(12, upper_seam(kTable, model), entries, camera, {});
     ASSERT_EQ(stitching.stitched.size(), 2U);
-    // No frame shows how much longer the first sheet is along one axis than along the other.
+    // The frames do not determine the ratio of the scales of the first sheet along its axes.
     for (const StitchedSheet& sheet : stitching.stitched) {
         EXPECT_FALSE(is_scale_known(sheet.sigma_scale_x)) << sheet.name;
         EXPECT_FALSE(is_scale_known(sheet.sigma_scale_y)) << sheet.name;
     }
     EXPECT_NEAR(stitching.sheets[0].print_scale_x, 1, 1e-5);
     EXPECT_NEAR(stitching.sheets[0].print_scale_y, 1, 1e-5);
-    // The second sheet can be compared with the first sheet along the seam, and a little across.
+    // The scale of the second sheet relative to the first is determined along the seam, and less
+    // accurately across the seam.
     EXPECT_NEAR(stitching.sheets[1].print_scale_y, 1, 5e-4);
     EXPECT_NEAR(stitching.sheets[1].print_scale_x, 1, 2e-3);
     EXPECT_LT(off_mm(*stitching.sheets[1].world, kTable[1]), 0.05);
@@ -225,14 +227,14 @@ TEST(StitchSheets, RefusesReferencesThatTellNothing) {
     EXPECT_THROW(stitch(std::nullopt, {By::camera, "", 0}), BadArgument);
     EXPECT_THROW(stitch(true_camera(model), {By::width, "none", 60}), BadArgument);
     EXPECT_THROW(stitch(true_camera(model), {By::width, "a", 0}), BadArgument);
-    EXPECT_THROW(stitch(true_camera(model), {By::width, "c", 60}), Error);  // not seen
+    EXPECT_THROW(stitch(true_camera(model), {By::width, "c", 60}), Error);  // not in any frame
 }
 
 TEST(StitchSheets, KeepsTheSheetThatLiesInTheWorldAndNamesThoseNotSeen) {
     const CameraModel model = wide_camera();
     std::vector<SheetEntry> entries = sheets_of_table();
     entries[1].world = WorldPose{1.25, -0.5, 0.3};
-    // The frames are over the upper seam only: sheets a and b.
+    // The frames are over the upper seam only, and show the sheets a and b.
     const auto frame_at = [&](int i) {
         return table_frame(kTable, model, 64, i, kPage_mm + 0.5, 10 + 2.0 * i, 0.7 * i);
     };
@@ -243,7 +245,7 @@ TEST(StitchSheets, KeepsTheSheetThatLiesInTheWorldAndNamesThoseNotSeen) {
     EXPECT_EQ(b.x_m, 1.25);
     EXPECT_EQ(b.y_m, -0.5);
     EXPECT_EQ(b.yaw_rad, 0.3);
-    // Sheet a against b: back from b's corner by b's turn, then into the world by b's yaw.
+    // The pose of sheet a: from b's corner back by b's rotation, then into the world by b's yaw.
     const WorldPose& a = stitching.sheets[0].world.value();
     const double yaw = 0.3 + kTable[1].turn_rad;
     EXPECT_NEAR(a.yaw_rad, yaw, 0.02 * kDegree_rad);

@@ -12,7 +12,7 @@ std::uint64_t number(int value) {
     return static_cast<std::uint64_t>(value);
 }
 
-/// The samples of one row, packed to bytes.
+/// Returns the samples of one row, packed to bytes.
 Bytes packed_row(const Raster& raster, int v, bool big_endian = true) {
     Writer row(big_endian);
     const int length = raster.width_px * raster.channels;
@@ -56,7 +56,7 @@ std::uint32_t adler_of(const Bytes& bytes) {
     return b << 16 | a;
 }
 
-/// A zlib stream of one stored block; up to 65,535 bytes.
+/// Returns a zlib stream with one stored block of up to 65,535 bytes.
 Bytes stored(const Bytes& bytes) {
     const Bytes length = Writer(false).integers(2, {bytes.size(), ~bytes.size()}).data;
     return Writer()
@@ -99,7 +99,8 @@ class BitWriter {
     int count_ = 0;
 };
 
-/// With all quantizers 8, the DC coefficient of a flat block is its level above 128.
+/// Returns a scan with all quantizers 8, so the DC coefficient of a flat block is its level minus
+/// 128.
 Bytes jpeg_scan(const Raster& raster) {
     BitWriter scan;
     std::array<int, 4> previous{};
@@ -117,7 +118,7 @@ Bytes jpeg_scan(const Raster& raster) {
     return scan.finish();
 }
 
-/// An entry of a TIFF directory: shorts, or one long.
+/// An entry of a TIFF directory: shorts, or a single long.
 struct TiffEntry {
     std::uint64_t tag;
     std::uint64_t count;
@@ -134,7 +135,7 @@ void append_entry(Writer& tiff, const TiffEntry& entry) {
     }
 }
 
-/// All reds, then all greens, then all blues, 16 bits each.
+/// Returns all reds, then all greens, then all blues, 16 bits each.
 Bytes tiff_palette(const Bytes& palette, bool big_endian) {
     Writer colours(big_endian);
     for (std::size_t channel = 0; !palette.empty() && channel < 3; ++channel) {
@@ -233,7 +234,7 @@ Bytes encode_bmp(const Raster& raster, const Bytes& palette) {
 Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     constexpr std::uint64_t kDirectoryAt = 8;
     constexpr std::uint64_t kEntries = 10;
-    // Behind the directory: the bits of each channel, then the palette, then the pixels.
+    // After the directory: the bits of each channel, then the palette, then the pixels.
     constexpr std::uint64_t kBitsAt = kDirectoryAt + 2 + kEntries * 12 + 4;
     constexpr std::uint64_t kPaletteAt = kBitsAt + 8;
     const Bytes colours = tiff_palette(palette, big_endian);
@@ -243,7 +244,7 @@ Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     const auto channels = number(raster.channels);
     const auto bits = number(raster.bits);
     const std::uint64_t colour_space = !palette.empty() ? 3 : channels >= 3 ? 2 : 1;
-    TiffEntry last{296, 1, 2};  // a unit of length: without any effect
+    TiffEntry last{296, 1, 2};  // a unit of length, which has no effect
     if (channels % 2 == 0) last = {338, 1, 2};
     if (!palette.empty()) last = {320, 768, kPaletteAt};
 
@@ -252,7 +253,7 @@ Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     tiff.integers(2, {kEntries});
     append_entry(tiff, {256, 1, number(raster.width_px), true});
     append_entry(tiff, {257, 1, number(raster.height_px), true});
-    // Two shorts still fit into the entry itself, the first one in front.
+    // Two shorts fit into the entry itself, the first one in front.
     const std::uint64_t two_bits = big_endian ? bits << 16 | bits : bits | bits << 16;
     append_entry(tiff, {258, channels, channels == 1 ? bits : channels == 2 ? two_bits : kBitsAt});
     append_entry(tiff, {259, 1, 1});

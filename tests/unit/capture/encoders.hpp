@@ -1,4 +1,4 @@
-/// Image files made by hand, so that the reader is not tested against the library it is built on.
+/// Image files written by hand, to test the reader independently of the library it uses.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@ namespace dotpose::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Appends bytes and integers of either byte order.
+/// Appends bytes, and integers of either byte order.
 class Writer {
   public:
     explicit Writer(bool big_endian = true) : big_endian_(big_endian) {}
 
     Writer& text(std::string_view text);
     Writer& bytes(const Bytes& bytes);
-    /// The low `size` bytes of each value.
+    /// Appends the low `size` bytes of each value.
     Writer& integers(int size, std::initializer_list<std::uint64_t> values);
 
     Bytes data;
@@ -27,7 +27,8 @@ class Writer {
     bool big_endian_;
 };
 
-/// Samples row by row, `channels` per pixel, each of `bits` bits (8 or 16, or less in PNG).
+/// Samples row by row, with `channels` per pixel and `bits` bits per sample (8 or 16; in PNG also
+/// fewer).
 struct Raster {
     int width_px = 0;
     int height_px = 0;
@@ -36,20 +37,23 @@ struct Raster {
     std::vector<std::uint16_t> samples;
 };
 
-/// 1 channel gives P2 or P5, 3 give P3 or P6.
+/// Encodes 1 channel as P2 or P5, and 3 channels as P3 or P6.
 Bytes encode_pnm(const Raster& raster, bool as_text, int max_value);
 
-/// 1 to 4 channels: grey, grey and opacity, RGB, RGBA. With a palette (RGB triples), 1 channel.
+/// Encodes 1 to 4 channels: grey, grey and opacity, RGB, RGBA. With a palette (RGB triples), 1
+/// channel.
 Bytes encode_png(const Raster& raster, const Bytes& palette = {});
 
-/// 8 bits; 1 channel needs a palette (RGB triples), 3 are RGB.
+/// Encodes 8-bit samples. 1 channel needs a palette (RGB triples), 3 channels are RGB.
 Bytes encode_bmp(const Raster& raster, const Bytes& palette = {});
 
-/// Uncompressed, one strip, the directory before the pixels. Channels and palette as in PNG.
+/// Encodes an uncompressed file with one strip and the directory before the pixels. Channels and
+/// palette are as in PNG.
 Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette = {});
 
-/// Baseline; each sample becomes a flat block of 8 x 8 px, which JPEG keeps exactly. 8 bits.
-/// 1 channel is grey, 3 are Y, Cb and Cr, 4 are CMYK, stored inverted as Adobe's programs do.
+/// Encodes a baseline file. Each 8-bit sample becomes a flat block of 8 x 8 px, which JPEG
+/// reproduces exactly. 1 channel is grey, 3 are Y, Cb and Cr, 4 are CMYK, stored inverted as by
+/// Adobe's programs.
 Bytes encode_jpeg(const Raster& raster);
 
 }  // namespace dotpose::test

@@ -33,8 +33,9 @@ class ImageFileTest : public testing::Test {
     ~ImageFileTest() override { std::filesystem::remove_all(directory); }
 
     std::filesystem::path write(const Bytes& bytes) const {
-        auto path = directory / "image";  // without an extension: it must not matter
-        // Not truncated instead: some file systems then flush, which made the test 10 times slower.
+        auto path = directory / "image";  // without an extension, which must not matter
+        // The file is removed and not truncated, because some file systems flush truncated files,
+        // which made the test 10 times slower.
         std::filesystem::remove(path);
         std::ofstream(path, std::ios::binary)
             .write(reinterpret_cast<const char*>(bytes.data()),
@@ -43,7 +44,7 @@ class ImageFileTest : public testing::Test {
     }
     GreyImage read(const Bytes& bytes) const { return read_image(write(bytes)); }
 
-    /// The message of the Error, or "" if there was none.
+    /// Returns the message of the Error, or "" if there was none.
     static std::string error_of(const std::filesystem::path& path) {
         try {
             read_image(path);
@@ -70,7 +71,8 @@ const Raster kRgb16{2, 1, 3, 16, {65535, 0, 0, 1000, 1000, 1000}};
 const Raster kIndexed{3, 1, 1, 8, {2, 0, 1}};
 const Bytes kPalette{255, 0, 0, 9, 9, 9, 255, 255, 255};
 
-// What they must become: luma 0.299, 0.587, 0.114; 16 bits divided by 257; laid on white paper.
+// The expected grey levels: luma with 0.299, 0.587, 0.114; 16 bits divided by 257; transparency
+// over white paper.
 const Bytes kGreyLevels{0, 1, 2, 127, 128, 200, 254, 255};
 const Bytes kGrey16Levels{0, 0, 1, 255};
 const Bytes kRgbLevels{76, 150, 29, 77, 226};
@@ -149,14 +151,14 @@ TEST_F(ImageFileTest, reads_the_pages_of_tiff) {
     EXPECT_EQ(read_origin(path, 2).resolution->x_dpi, 300);
     EXPECT_THROW(read_image(path, kDefaultImagePixels, 3), Error);
     EXPECT_EQ(count_pages(write(encode_png(kGrey))), 1);
-    // The directory of the second page names the first one as the next.
+    // The directory of the second page refers to the first page as the next.
     std::string loop = test::tiff_of_pages({dark, light}, 300);
     const std::size_t second = loop.size() - 10 - 8 - 4 - 12 * 11 - 2;
     loop[second + 2 + 12 * 11] = 8;
     EXPECT_EQ(count_pages(write(text(loop))), 2);
 }
 
-/// The level of each block of 8 x 8 px; all its pixels must be alike.
+/// Returns the level of each block of 8 x 8 px. All its pixels must be equal.
 Bytes block_levels(const GreyImage& image) {
     Bytes levels;
     for (int v = 0; v < image.height_px; ++v) {
@@ -176,7 +178,7 @@ TEST_F(ImageFileTest, reads_jpeg) {
     EXPECT_EQ(block_levels(grey), kGreyLevels);
     const Raster colour{3, 1, 3, 8, {0, 128, 128, 90, 128, 128, 255, 128, 128}};
     EXPECT_THAT(block_levels(read(encode_jpeg(colour))), ElementsAre(0, 90, 255));
-    // Stored inverted: no ink, all black, half black, all of the three inks.
+    // Stored inverted: no ink, all black, half black, the three coloured inks in full.
     const Raster cmyk{4,
                       1,
                       4,
@@ -291,7 +293,7 @@ std::vector<Sample> samples() {
 TEST_F(ImageFileTest, refuses_files_cut_short) {
     for (const Sample& sample : samples()) {
         const std::size_t size = sample.bytes.size();
-        // A JPEG image ends with a marker of two bytes, and is read without it.
+        // A JPEG image ends with a marker of two bytes, and can be read without it.
         const std::size_t last = sample.format == std::string("JPEG") ? size - 3 : size - 1;
         for (const std::size_t kept : {size / 2, size * 95 / 100, last}) {
             Bytes cut = sample.bytes;
@@ -303,7 +305,7 @@ TEST_F(ImageFileTest, refuses_files_cut_short) {
     }
 }
 
-// Some cameras end the file with the last block of pixels.
+// Some cameras omit the end marker.
 TEST_F(ImageFileTest, reads_a_jpeg_without_its_end_marker_and_says_so) {
     const Bytes whole = encode_jpeg(kGrey);
     std::string note = "of another image";
@@ -319,7 +321,7 @@ TEST_F(ImageFileTest, reads_a_jpeg_without_its_end_marker_and_says_so) {
     }
 }
 
-// Sensors of 10 and 12 bits write them into the lower bits of 16.
+// Sensors with 10 and 12 bits use the lower bits of 16.
 TEST_F(ImageFileTest, scales_few_bits_in_16_by_the_bits_in_use) {
     const Raster ten{4, 1, 1, 16, {0, 512, 600, 1023}};
     const Raster twelve{4, 1, 1, 16, {0, 2048, 4000, 4095}};
@@ -334,13 +336,13 @@ TEST_F(ImageFileTest, scales_few_bits_in_16_by_the_bits_in_use) {
         EXPECT_EQ(read(encode_pnm(raster, false, 65535)).pixels, levels);
         EXPECT_EQ(read(encode_pnm(raster, true, 65535)).pixels, levels);
     }
-    // The maximum value that the file states is not questioned.
+    // A maximum value stated in the file is used.
     EXPECT_EQ(read(encode_pnm(ten, false, 1023)).pixels, of_ten);
     EXPECT_EQ(read(encode_pnm(ten, false, 40000)).pixels, (Bytes{0, 3, 4, 7}));
 }
 
 TEST_F(ImageFileTest, refuses_tiff_with_the_directory_cut) {
-    // The directory of many writers stands at the end; its last word leads to the next page.
+    // Many writers put the directory at the end. Its last word refers to the next page.
     Bytes tiff = encode_tiff(kGrey, false);
     const std::size_t directory_bytes = 2 + 10 * 12 + 4;
     tiff.insert(tiff.end(), tiff.begin() + 8, tiff.begin() + 8 + directory_bytes);
@@ -353,7 +355,7 @@ TEST_F(ImageFileTest, refuses_tiff_with_the_directory_cut) {
 }
 
 TEST_F(ImageFileTest, reads_headers_with_line_breaks_of_two_characters) {
-    // The first pixel is 10 like a line break, so that only the size of the file tells them apart.
+    // The first pixel is 10, like a line break. Only the size of the file distinguishes them.
     const auto first_pixel = [this](const std::string& file) {
         std::ofstream(directory / "a.pgm", std::ios::binary) << file;
         return int{read_image(directory / "a.pgm").pixels.front()};
@@ -390,7 +392,7 @@ TEST_F(ImageFileTest, survives_random_damage) {
         int refused = 0;
         for (int round = 0; round < kRounds; ++round) {
             Bytes bytes = sample.bytes;
-            // Half of the damage hits the headers, where it matters most.
+            // Half of the damage is in the headers, where it has the largest effect.
             const std::size_t reach = round % 2 == 0 ? bytes.size() : std::size_t{200};
             for (std::uint32_t flips = 1 + random() % 8; flips > 0; --flips) {
                 bytes[random() % reach] = static_cast<std::uint8_t>(random());

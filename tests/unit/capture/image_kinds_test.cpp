@@ -1,4 +1,4 @@
-// Kinds of image files that are rarer than those of image_file_test.cpp.
+// Rarer kinds of image files than those of image_file_test.cpp.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -36,7 +36,7 @@ std::string error_of(ImageFormat format, const Bytes& file) {
     return "";
 }
 
-/// A BMP of 2 x 1 px with a header of 124 bytes, which contains the masks of four channels.
+/// Returns a BMP of 2 x 1 px with a header of 124 bytes, which contains the masks of four channels.
 Bytes bmp_with_masks(std::uint64_t bits, std::uint64_t compression,
                      std::initializer_list<std::uint64_t> masks,
                      std::initializer_list<std::uint64_t> pixels, std::int32_t height = 1) {
@@ -48,17 +48,17 @@ Bytes bmp_with_masks(std::uint64_t bits, std::uint64_t compression,
 }
 
 TEST(BmpKinds, HaveFieldsOfBits) {
-    // Pictures with opacity, as GIMP and ImageMagick write them: opaque red, and half transparent
-    // black.
+    // Pictures with transparency as written by GIMP and ImageMagick: opaque red, and
+    // half-transparent black.
     EXPECT_THAT(
         pixels_of(ImageFormat::bmp, bmp_with_masks(32, 3, {0xFF0000, 0xFF00, 0xFF, 0xFF000000},
                                                    {0xFFFF0000, 0x80000000})),
         ElementsAre(76, 127));
-    // Five, six and five bits: white, and green alone.
+    // Five, six and five bits: white, and pure green.
     EXPECT_THAT(pixels_of(ImageFormat::bmp,
                           bmp_with_masks(16, 3, {0xF800, 0x07E0, 0x001F, 0}, {0xFFFF, 0x07E0})),
                 ElementsAre(255, 150));
-    // Without fields the fourth byte has no meaning.
+    // Without masks, the fourth byte has no meaning.
     EXPECT_THAT(
         pixels_of(ImageFormat::bmp, bmp_with_masks(32, 0, {0, 0, 0, 0}, {0x00FFFFFF, 0x000000FF})),
         ElementsAre(255, 29));
@@ -146,7 +146,8 @@ class TiffKinds : public testing::Test {
 
 TEST_F(TiffKinds, HaveTilesAndStripsOf16BitsAndCompression) {
     std::vector<std::uint16_t> levels(kWidth * kHeight);
-    std::iota(levels.begin(), levels.end(), std::uint16_t{64});  // below 1024: of 10 bits
+    std::iota(levels.begin(), levels.end(),
+              std::uint16_t{64});  // below 1024, so 10 bits are in use
     Bytes expected;
     for (const std::uint16_t level : levels)
         expected.push_back(static_cast<std::uint8_t>((level * 255 + 511) / 1023));
@@ -157,7 +158,7 @@ TEST_F(TiffKinds, HaveTilesAndStripsOf16BitsAndCompression) {
     const auto strips = [](TIFF* tiff) {
         TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 7);
         TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_LZW);
-        TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_BOTRIGHT);  // is not followed
+        TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_BOTRIGHT);  // is ignored
     };
     for (const Bytes& file : {file_of(tiles, levels), file_of(strips, levels)}) {
         const Bytes pixels = pixels_of(ImageFormat::tiff, file);
@@ -173,7 +174,7 @@ TEST_F(TiffKinds, HaveTilesAndStripsOf16BitsAndCompression) {
 TEST_F(TiffKinds, HaveColoursThatAreMultipliedByTheirOpacity) {
     std::vector<std::uint16_t> levels;
     for (std::uint32_t i = 0; i < kWidth * kHeight; ++i) {
-        levels.push_back(13107);  // a fifth of white, in a pixel that is two fifths opaque
+        levels.push_back(13107);  // a fifth of white, in a pixel with an opacity of two fifths
         levels.push_back(26214);
     }
     const auto opacity = [](TIFF* tiff) {
@@ -182,7 +183,7 @@ TEST_F(TiffKinds, HaveColoursThatAreMultipliedByTheirOpacity) {
         TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &kind);
     };
     const Bytes pixels = pixels_of(ImageFormat::tiff, file_of(opacity, levels));
-    EXPECT_THAT(pixels, testing::Each(204));  // a fifth, and three fifths of white paper
+    EXPECT_THAT(pixels, testing::Each(204));  // a fifth, plus three fifths of the white paper
 }
 
 TEST_F(TiffKinds, HaveFewBits) {
@@ -215,7 +216,7 @@ TEST(JpegKinds, AreProgressive) {
     EXPECT_EQ(pixels_of(ImageFormat::jpeg, file).size(), 64U * 64U);
 }
 
-// Scans that refine the pixels may be missing without a trace.
+// Missing scans that refine the pixels leave no trace in the file.
 TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
     const Bytes file = progressive_jpeg();
     int refused = 0;
@@ -226,7 +227,7 @@ TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
     EXPECT_EQ(refused, static_cast<int>(file.size() - file.size() / 4));
 }
 
-// A file of some kilobytes with thousands of scans would occupy the decoder for hours.
+// A file of some kilobytes with thousands of scans would keep the decoder busy for hours.
 TEST(JpegKinds, AreRefusedWithTooManyScans) {
     Bytes file = progressive_jpeg();
     const Bytes marker{0xFF, 0xDA};

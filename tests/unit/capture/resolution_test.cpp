@@ -55,7 +55,7 @@ TEST_F(ResolutionTest, is_read_from_png_and_tiff) {
             write_sheet(make_sheet(options), directory_ / name, print);
             const auto resolution = read_origin(directory_ / name).resolution;
             ASSERT_TRUE(resolution) << name;
-            // PNG counts whole pixels per metre.
+            // PNG stores integer pixels per metre.
             EXPECT_NEAR(resolution->x_dpi, dpi, 0.013) << name;
             EXPECT_NEAR(resolution->y_dpi, dpi, 0.013) << name;
         }
@@ -113,8 +113,8 @@ TEST_F(ResolutionTest, is_that_of_a_scan_whose_exif_data_have_no_exposure) {
 TEST_F(ResolutionTest, finds_a_camera_in_png_and_tiff) {
     test::Raster raster{4, 4, 1, 8, std::vector<std::uint16_t>(16, 100)};
     const std::string exif = test::exif_of({test::f_number}, true);
-    // After the signature and the header come length, type, data and a checksum, which only readers
-    // of the data ask for.
+    // After the signature and the header there are length, type, data and a checksum, which only
+    // readers of the data check.
     const test::Bytes png = test::encode_png(raster);
     std::string content(png.begin(), png.end());
     constexpr std::size_t kHeader = 8 + 25;
@@ -127,14 +127,14 @@ TEST_F(ResolutionTest, finds_a_camera_in_png_and_tiff) {
         capture::is_from_camera(capture::ImageFormat::tiff, test::encode_tiff(raster, true)));
 }
 
-// Whatever is cut off or wrong in EXIF data, they are not read beyond their end; a sanitizer would
-// tell. What is left of them may still have a camera's tag.
+// EXIF data that are cut off or invalid are not read beyond their end, which a sanitizer would
+// report. The remaining part may still contain a camera tag.
 TEST_F(ResolutionTest, survives_exif_data_that_are_damaged) {
     const std::string exif = test::exif_of({test::date_taken, test::focal_length}, false);
     const std::string jpeg = test::with_exif("\xFF\xD8\xFF\xDA", exif, 2);
     for (std::size_t size = 0; size < exif.size(); ++size) {
         const test::Bytes cut = bytes_of(exif.substr(0, size));
-        // Its last entry is whole, only the offset of the next directory is missing.
+        // The last entry is complete. Only the offset of the next directory is missing.
         EXPECT_EQ(capture::is_from_camera(capture::ImageFormat::tiff, cut), size + 4 >= exif.size())
             << size;
     }

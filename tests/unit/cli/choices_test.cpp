@@ -10,7 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// An app with options of three kinds.
+/// An application with options of three kinds.
 struct Options {
     Options() {
         app.add_option("--code", code)->check(one_of({"anoto", "libdots"}));
@@ -18,7 +18,7 @@ struct Options {
         app.add_flag("--json", is_json);
     }
 
-    /// Returns the message of the error, empty if there was none.
+    /// Returns the message of the error, or "" if there was none.
     std::string parse_code(const std::string& value) {
         try {
             app.parse({value, "--code"});

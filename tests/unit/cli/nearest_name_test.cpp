@@ -13,7 +13,7 @@ TEST(EditDistance, CountsSingleChanges) {
     EXPECT_EQ(edit_distance("locate", "lokate"), 1);   // replaced
     EXPECT_EQ(edit_distance("locate", "locte"), 1);    // removed
     EXPECT_EQ(edit_distance("locate", "loccate"), 1);  // inserted
-    EXPECT_EQ(edit_distance("locate", "loacte"), 1);   // exchanged
+    EXPECT_EQ(edit_distance("locate", "loacte"), 1);   // transposed
     EXPECT_EQ(edit_distance("", "abc"), 3);
     EXPECT_EQ(edit_distance("", ""), 0);
 }
@@ -22,7 +22,7 @@ TEST(EditDistance, KnownPairs) {
     EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
     EXPECT_EQ(edit_distance("saturday", "sunday"), 3);
     EXPECT_EQ(edit_distance("sunday", "saturday"), 3);
-    // Two, if a letter could come between two that have been exchanged.
+    // The distance would be 2 if a letter could be inserted between transposed letters.
     EXPECT_EQ(edit_distance("ca", "abc"), 3);
 }
 

@@ -1,4 +1,4 @@
-// Positions of windows: exact where the code carries the window, refused everywhere else.
+// Positions of windows: exact if the code contains the window, and refused otherwise.
 #include <array>
 #include <cstdint>
 #include <random>
@@ -18,10 +18,10 @@ namespace {
 
 constexpr std::uint32_t kSeed = 7998798;
 
-/// The value that `place` must keep after a refusal.
+/// The value of `place`, which must not change if the window is refused.
 constexpr Place kUntouched{{1, 2}, {3, 4}};
 
-/// The places modulo 241 at which 5 digits of the published a4 also stand elsewhere.
+/// The places modulo 241 whose 5 digits also occur elsewhere in the a4 of libdots.
 const std::set<std::uint32_t> kTwinPlaces{82,  238, 170, 236, 177, 237,
                                           195, 217, 198, 218, 199, 219};
 
@@ -142,7 +142,7 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     };
     for (const CodeVariant code : kCodeVariants) {
         for (const Size size : {Size{6, 32}, Size{32, 6}, Size{7, 9}, Size{32, 32}, Size{6, 6}}) {
-            // The 5 digits at places 100 and 59 of the published a4 stand nowhere else in it.
+            // The 5 digits at the places 100 and 59 of the a4 of libdots are unique.
             const Place truth{{241 * 1000 + 100, 241 * 77 + 59}, {5, 60}};
             const Grid grid = reference_window(code, truth, size.columns, size.rows);
             Place place;
@@ -153,8 +153,8 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     }
 }
 
-/// The places of the published a4 at which a window is refused as ambiguous; elsewhere it must be
-/// found.
+/// Returns the places of the a4 of libdots at which a window is refused as ambiguous. At all other
+/// places, the window must be found.
 std::set<std::uint32_t> ambiguous_places(int columns, int rows, bool along_x) {
     std::set<std::uint32_t> result;
     for (std::uint32_t p = 0; p < 241; ++p) {
@@ -181,12 +181,14 @@ TEST(Decode, RefusesPublishedWindowsThatStandTwice) {
         EXPECT_EQ(ambiguous_places(7, 7, along_x), (std::set<std::uint32_t>{198, 218}));
         EXPECT_TRUE(ambiguous_places(8, 8, along_x).empty());
     }
-    EXPECT_EQ(ambiguous_places(6, 32, true), kTwinPlaces);  // long columns do not help x
+    EXPECT_EQ(ambiguous_places(6, 32, true),
+              kTwinPlaces);  // long columns do not help on the x axis
     EXPECT_TRUE(ambiguous_places(8, 6, true).empty());
 }
 
 TEST(Decode, RefusesEveryChangedSymbolIn8x8) {
-    // Two strings of 8 bits of main differ in at least 2 places, so one wrong bit is always seen.
+    // Two strings of 8 bits of the main sequence differ in at least 2 bits, so one wrong bit is
+    // always detected.
     std::mt19937 rng(kSeed);
     for (int n = 0; n < 300; ++n) {
         const CodeVariant code = kCodeVariants[static_cast<std::size_t>(n % 3)];
@@ -206,7 +208,8 @@ TEST(Decode, RefusesEveryChangedSymbolIn8x8) {
 }
 
 TEST(Decode, NeverGuessesFromAChanged6x6) {
-    // 6 x 6 has no redundancy: most changed windows stand somewhere else, and exactly there.
+    // 6 x 6 windows have no redundancy. Most changed windows occur at another place, and are found
+    // exactly there.
     std::mt19937 rng(kSeed);
     int elsewhere = 0;
     constexpr int kDraws = 20'000;
@@ -278,7 +281,7 @@ TEST(Decode, RefusesOneSymbolAllOver) {
     }
 }
 
-/// A window whose columns from `cut` on belong to another section.
+/// Returns a window whose columns from `cut` on belong to another section.
 Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int cut) {
     Grid seam = reference_window(CodeVariant::anoto, place, columns, 8);
     const Place other{place.cell, {other_u, place.section.v}};
@@ -292,8 +295,8 @@ Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int 
 }
 
 TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
-    // One difference is wrong. Of 10 differences, five on one side of it fix the position, which
-    // the wrong one contradicts.
+    // One difference is wrong. Of 10 differences, the five on one side of it determine the
+    // position, which the wrong one contradicts.
     std::mt19937 rng(kSeed);
     int found_in_8 = 0;
     constexpr int kDraws = 20'000;
@@ -311,13 +314,13 @@ TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
         ASSERT_TRUE(shows(CodeVariant::anoto, place, eight)) << describe(CodeVariant::anoto, place);
         ++found_in_8;
     }
-    // Eight columns are not always enough: 0.75 % by an independent simulation in another language
-    // (400,000 draws); standard deviation here 0.06 %.
+    // Eight columns are not always enough. An independent simulation in another language (400,000
+    // draws) gives 0.75 %. The standard deviation here is 0.06 %.
     EXPECT_NEAR(static_cast<double>(found_in_8) / kDraws, 0.0075, 0.0025);
 }
 
-// The code variant must be that of the sheet: windows were counted from the sequences by a program
-// in another language.
+// The code variant must be that of the sheet. The windows were counted from the sequences by a
+// program in another language.
 TEST(Decode, TheOtherProfileReadsSomeWindowsWrong) {
     using Pair = std::pair<CodeVariant, CodeVariant>;
     for (const auto& [printed, read] : {Pair{CodeVariant::anoto, CodeVariant::libdots},

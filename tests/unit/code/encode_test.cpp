@@ -1,5 +1,4 @@
-// Symbols of positions, compared with vectors, the plain sum, and a formula that shares nothing
-// with it.
+// Symbols of positions, compared with reference vectors, the plain sum, and an independent formula.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -19,8 +18,8 @@ namespace {
 
 constexpr std::uint32_t kSeed = 20130;
 
-/// Returns the roll by counting: each residue i of a sequence is passed ceil((p - i) / length)
-/// times before p.
+/// Returns the roll by counting: residue i of a sequence occurs ceil((p - i) / length) times before
+/// p.
 int roll_by_counting(CodeVariant code, std::uint64_t p) {
     const auto texts = secondary_texts(code);
     std::uint64_t sum = 5 * p;
@@ -121,7 +120,7 @@ TEST(Encode, RollAtRandomPositionsIsTheCountedSum) {
     std::mt19937 rng(kSeed);
     for (const CodeVariant code : kCodeVariants) {
         for (int i = 0; i < 20'000; ++i) {
-            const auto p = static_cast<std::uint32_t>(rng());  // a tenth of them below L
+            const auto p = static_cast<std::uint32_t>(rng());  // a tenth of these are below L
             const int expected = roll_by_counting(code, p);
             ASSERT_EQ(roll(code, p), expected) << "p " << p << " seed " << kSeed;
             ASSERT_EQ(reference_roll(code, p), expected) << "p " << p << " seed " << kSeed;
@@ -140,8 +139,9 @@ TEST(Encode, RollStepsByDeltaAcrossTheWrap) {
     }
 }
 
-// One whole turn adds 5 L and w_i (L / length_i) (digit sum of a_i): 52 modulo 63 for the patent's
-// sequences (dropping a 1 and inserting a 1 leaves the digit sum), 25 for py-microdots' a4.
+// One full period adds 5 L and w_i (L / length_i) (digit sum of a_i): 52 modulo 63 for the
+// sequences of the patent (dropping a 1 and inserting a 1 leaves the digit sum unchanged), and 25
+// for py-microdots' a4.
 TEST(Encode, ThePatternContinuesPastTheLastPosition) {
     EXPECT_EQ(kPositionsPerAxis, kL);
     EXPECT_EQ(kL, 410'815'348U);

@@ -1,6 +1,6 @@
-// A second position code, to judge the first: written from paper section II-A with loops instead of
-// tables, from its own copy of the sequences (patent US 6,667,695). Shares only types with
-// src/code.
+// A reference implementation of the position code, written from section II-A of the paper with
+// loops instead of tables, and with a separate copy of the sequences (patent US 6,667,695). Shares
+// only types with src/code.
 #pragma once
 
 #include <array>
@@ -44,7 +44,7 @@ inline constexpr std::string_view kA4MicrodotsText =
     "010020000122201221012200121201211012100120001122011210112001112011112222122211221112122121"
     "2112111110111001100010220102101020010120201201011020110101001";
 
-/// The sequences a1 to a4 of a code variant.
+/// Returns the sequences a1 to a4 of a code variant.
 inline std::array<std::string_view, 4> secondary_texts(CodeVariant code) {
     switch (code) {
         case CodeVariant::anoto:
@@ -71,7 +71,8 @@ inline int reference_delta(CodeVariant code, std::uint64_t p) {
     return d;
 }
 
-/// Sum of the differences before p: whole turns of each sequence, then digit by digit.
+/// Returns the sum of the differences before p: whole periods of each sequence, then the remaining
+/// digits.
 inline int reference_roll(CodeVariant code, std::uint64_t p) {
     const auto texts = secondary_texts(code);
     std::uint64_t sum = 5 * p;
@@ -101,7 +102,7 @@ struct Grid {
     friend bool operator==(const Grid&, const Grid&) = default;
 };
 
-/// How far a dot lies to the right and down of its intersection (the table of
+/// Displacement of a dot from its intersection, to the right and down (table of
 /// docs/position-code.md).
 struct Displacement {
     int right = 0;
@@ -134,7 +135,7 @@ inline Symbol symbol_of_letter(char c) {
     }
 }
 
-/// The window at `place`; it may run past position L.
+/// Returns the window at `place`, which may extend past position L.
 inline Grid reference_window(CodeVariant code, const Place& place, int columns, int rows) {
     const auto rolls = [code](std::uint64_t start, int section, int count) {
         std::vector<int> result{reference_roll(code, start) + section};
@@ -162,8 +163,8 @@ inline Grid reference_window(CodeVariant code, const Place& place, int columns, 
     return grid;
 }
 
-/// Returns the symbol as seen when the page is turned a quarter turn clockwise. With y down, that
-/// turns the vector (right, down) into (-down, right).
+/// Returns the symbol as seen after turning the page clockwise by a quarter turn. With y down, this
+/// maps the vector (right, down) to (-down, right).
 inline Symbol turned(Symbol symbol) {
     for (const auto& [from, d] : kDisplacements) {
         if (from != symbol) continue;
@@ -174,7 +175,7 @@ inline Symbol turned(Symbol symbol) {
     return symbol;
 }
 
-/// Returns the window on a page turned clockwise: its bottom left symbol comes to the top left.
+/// Returns the window on a page turned clockwise. Its bottom left symbol moves to the top left.
 inline Grid turned(const Grid& grid) {
     Grid result{grid.rows, grid.columns, grid.symbols};
     for (int r = 0; r < grid.rows; ++r) {
@@ -186,7 +187,7 @@ inline Grid turned(const Grid& grid) {
     return result;
 }
 
-/// Whether `place` really shows the window, as the status ok promises.
+/// Returns true if the window is at `place`, as the status ok promises.
 inline bool shows(CodeVariant code, const Place& place, const Grid& grid) {
     return place.cell.x < kL && place.cell.y < kL && place.section.u < 63 && place.section.v < 63 &&
            reference_window(code, place, grid.columns, grid.rows) == grid;

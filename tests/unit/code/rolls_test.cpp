@@ -1,4 +1,4 @@
-// Rolls of consecutive lines, compared with those computed one by one and by a second
+// Rolls of consecutive lines, compared with rolls computed one by one and with a second
 // implementation.
 #include "code/rolls.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kSeed = 50;
 
-/// Rolls of `count` lines; the first shows `first_roll`.
+/// Returns the rolls of `count` lines. The first roll is `first_roll`.
 std::vector<std::uint8_t> followed(CodeVariant code, std::uint32_t position, int first_roll,
                                    std::size_t count) {
     std::vector<std::uint8_t> rolls(count, 99);
@@ -73,7 +73,7 @@ TEST(FollowRolls, CountFromTheFirstRollGiven) {
 }
 
 TEST(FollowRolls, CarryOverTheEndOfTheCode) {
-    // The sequences all end with the code, and begin again; the roll goes on.
+    // All sequences end at the end of the code and restart there, but the roll continues.
     for (const CodeVariant code : kCodeVariants) {
         for (const std::uint32_t before : {1U, 2U, 31U, 200U}) {
             const std::uint32_t position = kL - before;

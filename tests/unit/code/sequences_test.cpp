@@ -1,5 +1,5 @@
-// Facts about the sequences that docs/position-code.md states and dotpose relies on, by enumeration
-// of the results of the public functions.
+// Properties of the sequences that docs/position-code.md states and dotpose relies on, checked by
+// enumeration of the results of the public functions.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -90,7 +90,7 @@ int smallest_distance_to_turned(std::size_t length) {
     return smallest;
 }
 
-/// Returns the strings that stand at several places, with these places.
+/// Returns the strings that occur at several places, with these places.
 std::map<std::string, std::vector<int>> doubled(const std::string& cycle, std::size_t length) {
     std::map<std::string, std::vector<int>> places;
     const auto all = strings_of(cycle, length);
@@ -148,8 +148,8 @@ TEST(MainSequence, LongerStringsDifferInMorePlaces) {
     EXPECT_EQ(smallest_distance_to_turned(17), 2);
 }
 
-// The paper (II-B.7) says 36 %; enumeration says 8/21. One bit of a string of 8 bits is flipped,
-// and the nearest string of main is chosen, with ties broken at random.
+// The paper (II-B.7) states 36 %. Enumeration gives 8/21. One bit of a string of 8 bits is flipped,
+// and the nearest string of the main sequence is chosen, with ties broken at random.
 TEST(MainSequence, TheNearestStringIsTheRightOneIn38Percent) {
     const auto all = main_strings(8);
     double right = 0;
@@ -193,7 +193,7 @@ TEST(A4, TheMicrodotsOneIsSound) {
     EXPECT_EQ(absent(a4).size(), 2U);
 }
 
-// The patent prints 240 digits; the 241st, a 1, was appended by open implementations.
+// The patent prints 240 digits. Open implementations append a 241st digit, a 1.
 TEST(A4, OnlyOneInsertedDigitRestoresThePatents) {
     const std::string printed = a4_of(CodeVariant::libdots).substr(0, 240);
     std::set<std::string> sound;

@@ -1,4 +1,4 @@
-// Every status has its identifier as name and one plain sentence as message.
+// Every status has its identifier as its name, and one plain sentence as its message.
 #include "dotpose/status.hpp"
 
 #include <cctype>
@@ -53,7 +53,7 @@ TEST(Status, ValuesCountFromZero) {
     }
 }
 
-// Receivers in other languages take the numbers from this document.
+// Receivers in other languages use the numbers of this document.
 TEST(Status, NumbersAreThoseOfTheDocumentedPackets) {
     std::ifstream file(test::source_dir() + "/docs/pose-packet.md");
     const std::string text(std::istreambuf_iterator<char>(file), {});

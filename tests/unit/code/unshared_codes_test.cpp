@@ -1,5 +1,5 @@
 // The table of lines that places of other code variants do not share, compared with the rolls of
-// the reference.
+// the reference implementation.
 #include "code/unshared_codes.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace dotpose::code_test::unshared_codes_test {
 namespace {
 
-/// Returns what the digits of a4 before each line from `place` on add to the roll.
+/// Returns, for each line from `place` on, the sum that the digits of a4 before it add to the roll.
 std::vector<int> a4_rolls(CodeVariant code, std::size_t place, int lines) {
     const std::string_view a4 = secondary_texts(code)[3];
     std::vector<int> rolls;

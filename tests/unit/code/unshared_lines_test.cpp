@@ -1,4 +1,4 @@
-// The table of lines that are not shared, counted again.
+// The table of lines that are not shared, checked by counting the lines.
 #include "code/unshared_lines.hpp"
 
 #include <algorithm>
@@ -13,13 +13,13 @@
 namespace dotpose::code {
 namespace {
 
-constexpr std::size_t kMax = 16;
-using Lines = std::array<std::size_t, kMax + 1>;
+constexpr std::size_t kMaxLines = 16;
+using Lines = std::array<std::size_t, kMaxLines + 1>;
 using Unshared = std::pair<std::size_t, std::size_t>;
 
-/// Returns, for every n, how many of the first n lines from one end have grown by the same offset
-/// at most.
-Lines max_equal(const std::array<int, kMax>& offsets, std::size_t lines, bool from_last) {
+/// Returns, for every n, the maximum number of lines with equal offsets among the first n lines
+/// from one end.
+Lines max_equal(const std::array<int, kMaxLines>& offsets, std::size_t lines, bool from_last) {
     std::array<std::size_t, kSections> counts{};
     Lines most{};
     for (std::size_t n = 0; n < lines; ++n) {
@@ -29,14 +29,14 @@ Lines max_equal(const std::array<int, kMax>& offsets, std::size_t lines, bool fr
     return most;
 }
 
-/// Returns the numbers of lines that no other place of the sequence shares, at one shift and on two
-/// sides.
+/// Returns the minimum numbers of lines that another place of the sequence does not share, at a
+/// single shift and at two shifts on the two sides of a border.
 Unshared counted(const Secondary& a, std::uint32_t place, std::size_t lines) {
     std::size_t max_at_one = 0;
     std::size_t max_on_both = 0;
     for (std::uint32_t other = 0; other < a.length; ++other) {
         if (other == place) continue;
-        std::array<int, kMax> offsets{};
+        std::array<int, kMaxLines> offsets{};
         for (std::size_t line = 0; line < lines; ++line)
             offsets[line] = (a.rolls[other + line] - a.rolls[place + line] + kSections) % kSections;
         const Lines before = max_equal(offsets, lines, false);
@@ -65,8 +65,8 @@ TEST(UnsharedLines, AreAsCounted) {
 
 using Counts = std::array<int, kMaxCounted>;
 
-/// Returns by n - 1 how many other positions of one sequence leave exactly n lines unshared, each
-/// counted at every shift at which it shares a line.
+/// Returns, at index n - 1, the number of other positions of one sequence that leave exactly n
+/// lines unshared. A position counts once for every shift at which it shares a line.
 Counts counted_by_unshared(const Secondary& a, std::uint32_t place, std::size_t lines) {
     Counts counts{};
     for (std::uint32_t other = 0; other < a.length; ++other) {

@@ -1,5 +1,4 @@
-// Test vectors of the position code: made by an independent implementation, or read from real
-// paper.
+// Test vectors of the position code, made by an independent implementation or read from real paper.
 #pragma once
 
 #include <array>
@@ -10,7 +9,7 @@
 
 namespace dotpose::code_test {
 
-/// The 8 x 8 letters of the window whose top left symbol stands at `place`.
+/// The 8 x 8 letters of the window with its top left symbol at `place`.
 struct CodeVector {
     CodeVariant code;
     Place place;
@@ -49,8 +48,8 @@ inline constexpr std::array<CodeVector, 7> kCodeVectors{{
 }};
 
 /// Offsets of the main sequence in adjacent rows of commercial paper, as published in 2005 with the
-/// Free Dot Toolkit. Six of them (five differences) determine a position; all of them form one
-/// straight run.
+/// Free Dot Toolkit. Six offsets (five differences) determine a position. All of them form one
+/// contiguous run.
 inline constexpr std::array<std::uint8_t, 25> kPaperRollsFrom1117{
     34, 46, 6, 33, 46, 41, 9, 52, 28, 44, 10, 18, 1, 59, 17, 8, 42, 54, 40, 29, 59, 31, 56, 51, 7};
 inline constexpr std::array<std::uint8_t, 30> kPaperRollsFrom1097{

@@ -1,5 +1,5 @@
-// Nothing is allocated after the start: a Locator uses only the memory given to it.
-// scripts/check-core-symbols checks the same in the object code, malloc included.
+// Nothing is allocated after construction: a Locator uses only the memory passed to it.
+// scripts/check-core-symbols checks the same in the object code, including malloc.
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -11,7 +11,8 @@
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/simulate.hpp"
 
-#ifndef __SANITIZE_ADDRESS__  // which has its own operator new, and must see what the tests do
+#ifndef __SANITIZE_ADDRESS__  // AddressSanitizer replaces operator new and must see the allocations
+                              // of the tests
 
 namespace {
 thread_local int allocations = 0;
@@ -26,8 +27,8 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-// The forms for arrays, and those that do not throw, call these. GCC warns of
-// `new` and `free` where it inlines one of them alone.
+// The forms for arrays and the non-throwing forms call these. GCC warns of `new` and `free` if it
+// inlines only one of them.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     return counted(size, alignof(std::max_align_t));
 }
@@ -50,7 +51,8 @@ void* counted(std::size_t size, std::size_t alignment) {
 namespace dotpose::core_test::allocation_test {
 namespace {
 
-/// Returns frames with every outcome: read at once, read at the second attempt, refused.
+/// Returns frames with every outcome: located by the first attempt, located by the second attempt,
+/// refused.
 std::vector<GreyImage> frames_of(int width_px, int height_px) {
     std::vector<GreyImage> frames;
     for (const Preset preset : kPresets) {
@@ -67,7 +69,8 @@ std::vector<GreyImage> frames_of(int width_px, int height_px) {
     return frames;
 }
 
-/// Locates all frames in all ways; `fixes` counts the fixes.
+/// Returns the number of allocations while locating all frames in all ways. Adds the number of
+/// fixes to `fixes`.
 int allocations_of(const std::vector<GreyImage>& frames, Locator& locator, int& fixes) {
     int counted = 0;
     for (const GreyImage& frame : frames) {

@@ -32,15 +32,16 @@ inline void fill(GreyImage& image, int u0, int v0, int u1, int v1, int level) {
     }
 }
 
-/// Returns the share of a Gaussian of deviation `sigma` about `centre` that falls on the pixel at
+/// Returns the fraction of a Gaussian with deviation `sigma` about `centre` that is on the pixel at
 /// `u`.
 inline double gaussian_share(int u, double centre, double sigma) {
     const double scale = sigma * std::numbers::sqrt2;
     return 0.5 * (std::erf((u + 0.5 - centre) / scale) - std::erf((u - 0.5 - centre) / scale));
 }
 
-/// Removes a Gaussian spot from the light, `depth` of it at the centre. The spot is integrated over
-/// each pixel, so its centroid is exact up to the rounding of the levels.
+/// Darkens the image by a Gaussian spot that removes the fraction `depth` of the light at its
+/// centre. The spot is integrated over each pixel, so its centroid is exact up to the rounding of
+/// the levels.
 inline void darken(GreyImage& image, Vec2 centre, double sigma, double depth) {
     const double peak = depth * 2 * std::numbers::pi * sigma * sigma;
     const int reach = static_cast<int>(6 * sigma) + 2;
@@ -57,7 +58,7 @@ inline void darken(GreyImage& image, Vec2 centre, double sigma, double depth) {
     }
 }
 
-/// Thresholds in a column of the band that was measured last: low and high.
+/// Thresholds in a column of the last measured band: low and high.
 struct Levels {
     int low = 0;
     int high = 0;

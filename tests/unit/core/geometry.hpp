@@ -1,5 +1,5 @@
-// Ideal grids and dots in double precision, from plane geometry alone, as the stages should find
-// them.
+// Ideal grids and dots in double precision, from plane geometry alone. The stages must find these
+// grids and dots.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace dotpose::core_test {
 
-// The tests of the core call its stages by their own names.
+// The tests of the core use the names of its stages without qualification.
 using namespace core;
 
 inline constexpr std::array kCodeVariants{CodeVariant::anoto, CodeVariant::libdots,
@@ -82,7 +82,7 @@ inline Mesh mesh_of(const Lattice& lattice) {
     return {real(lattice.u_q16, 16), real(lattice.v_q16, 16), real(lattice.origin_q16, 16)};
 }
 
-/// A dot and the intersection that it belongs to.
+/// A dot and its intersection.
 struct PlacedDot {
     FixedVec cell;
     Vec2 centre_px;
@@ -119,12 +119,12 @@ inline Vec2 random_displacement(Rng& rng) {
     return {dx(symbol) / 6.0, dy(symbol) / 6.0};
 }
 
-/// The pattern as seen by a camera above it, without perspective: the image point p_px is the
+/// The pattern as seen by a camera above it, without perspective. The image point p_px shows the
 /// pattern point place + `at_centre` + R(theta) (p_px - centre_px) / spacing_px.
 struct View {
     CodeVariant code = CodeVariant::anoto;
-    Place place;     ///< any cell of the pattern; pattern coordinates count from it
-    Vec2 at_centre;  ///< pattern point under the image centre, in spacings from `place`
+    Place place;     ///< any cell of the pattern; pattern coordinates are relative to it
+    Vec2 at_centre;  ///< pattern point at the image centre, in spacings from `place`
     double theta_rad = 0;
     double spacing_px = 11;
     Vec2 image_px{188, 120};
@@ -143,7 +143,7 @@ struct View {
         m.origin = centre_px() - at_centre.x * m.u - at_centre.y * m.v;
         return m;
     }
-    /// Returns the same grid as a stage may find it: `turn` maps its steps to pattern steps, and
+    /// Returns the same grid as a stage may find it. `turn` maps its steps to pattern steps, and
     /// its cell (0, 0) is the pattern's intersection `zero`.
     Mesh mesh_turned(QuarterTurn turn, FixedVec zero) const {
         const Mesh m = mesh();

@@ -1,4 +1,4 @@
-// Every option has a range in which no stage can overflow; values outside of it are refused.
+// Every option has a range in which no stage can overflow. Values out of range are refused.
 #include <climits>
 #include <cstdint>
 #include <functional>
@@ -21,7 +21,7 @@ GreyImage a_frame() {
     return render(draw_shot(setup, 0));
 }
 
-/// A field, and the ends of its range as options.hpp documents it.
+/// A field, and the ends of its range as documented in options.hpp.
 struct Range {
     const char* field;
     std::function<void(Options&, int)> set;
@@ -54,7 +54,7 @@ const Range kRanges[] = {
 
 #undef FIELD
 
-/// Does not compile if Options has a new field, which must then be added to the tests below.
+/// Fails to compile if Options has a new field, which must then be added to the tests below.
 [[maybe_unused]] void has_all_fields(const Options& o) {
     [[maybe_unused]] const auto& [code, effort, decoder, lens, threshold, blobs, lattice, integrity,
                                   contrast, max_dots, spacing, show_stages, dx, dy] = o;
@@ -65,7 +65,7 @@ const Range kRanges[] = {
     [[maybe_unused]] const auto& [max_p_wrong, max_bit_error] = integrity;
 }
 
-/// Expects each way to locate to refuse the options, or to accept them.
+/// Expects that every way to locate refuses the options, or that every way accepts them.
 void expect_refusal(const Options& options, bool is_refused, const char* field, int value) {
     static const auto kMemory = std::make_unique<LargeMemory>();
     static const GreyImage kFrame = a_frame();

@@ -5,7 +5,7 @@
 
 namespace dotpose::core_test {
 
-/// The formula of PlaneFromImage, in the numbers that the plane holds.
+/// Computes the formula of PlaneFromImage from the numbers of the plane.
 inline Vec2 formula(const PlaneFromImage& plane, Vec2 p) {
     const Vec2 r = p - real(plane.centre_q8, 8);
     const Vec2 perspective = real(plane.perspective_q30, 30);
@@ -16,7 +16,7 @@ inline Vec2 formula(const PlaneFromImage& plane, Vec2 p) {
 }
 
 /// Returns a plane without perspective or lens, in a square image. `dv` is 0.8 to `longest` times
-/// as long as `du`, at about a right angle.
+/// as long as `du`, at an angle of about 90 degrees.
 inline PlaneFromImage affine_plane(double side_px, double spacing_px, double longest, Rng& rng) {
     const double angle = rng.uniform(0, 6.3);
     const Vec2 du{std::cos(angle) / spacing_px, std::sin(angle) / spacing_px};

@@ -10,8 +10,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 73;
 
-/// Returns where a point of the image lies, in spacings from some intersection in the middle of the
-/// code.
+/// Returns the place of an image point, in spacings from an intersection in the middle of the code.
 Vec2 seen_from(const Prediction& p, Vec2 px, Cell from) {
     const Vec2 at = formula(p.pattern_from_image, px);
     return {at.x + p.place.cell.x - from.x, at.y + p.place.cell.y - from.y};
@@ -63,7 +62,7 @@ TEST(Prediction, MovesAndTurnsAboutThePivot) {
         EXPECT_EQ(after.place.section, before.place.section);
         EXPECT_EQ(after.displacement_q16, before.displacement_q16);
         EXPECT_EQ(after.sigma_q16, before.sigma_q16);
-        // The plane is counted from an intersection near its centre.
+        // The plane is relative to an intersection near its centre.
         EXPECT_GE(after.pattern_from_image.at_centre_q16.x, 0);
         EXPECT_LT(after.pattern_from_image.at_centre_q16.x, 65536);
     }

@@ -1,4 +1,4 @@
-// An ideal view of the pattern as the grid that the decoder gets.
+// An ideal view of the pattern as the grid that the decoder receives.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace dotpose::core_test {
 
-/// The dots of a view in the matrices P, with the grid found at some turn and cell.
+/// The dots of a view in the matrices P, with the grid found at a quarter turn and cell.
 struct Reading {
     Reading(const View& view_, QuarterTurn turn_, std::vector<DetectedDot> dots_, int side = 64)
         : view(view_), turn(turn_), dots(std::move(dots_)), owned(side) {
@@ -27,7 +27,7 @@ struct Reading {
         : Reading(view_, turn_, dots_of(pattern_dots(view_))) {}
 
     const Grid& grid() const { return owned.grid; }
-    /// Returns the true decoding of the grid, by geometry.
+    /// Returns the true decoding of the grid, from geometry.
     Decoding truth() const {
         Decoding true_decoding = decoding;
         true_decoding.pattern_from_grid = turn;

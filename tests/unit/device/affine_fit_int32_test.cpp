@@ -1,4 +1,5 @@
-// Least squares from image points to cells, compared with double precision.
+// Least-squares maps from image points to cells, compared with double precision and with
+// affine_fit_int64.hpp.
 #include "device/affine_fit_int32.hpp"
 
 #include <gtest/gtest.h>
@@ -74,8 +75,8 @@ TEST(AffineFitInt32, IsTheLeastSquaresSolution) {
     Rng rng(kSeed);
     for (int i = 0; i < 300; ++i) {
         SCOPED_TRACE(testing::Message() << "fit " << i << ", seed " << kSeed);
-        // The number of dots goes from six to the most there may be, the view from a small window
-        // to the largest image.
+        // The number of dots varies from six to the maximum, and the view from a small window to
+        // the largest image.
         const int count = i % 10 == 9 ? 1 << 14 : 6 + static_cast<int>(rng.below(400));
         const double reach = i % 3 == 0 ? 2048 : rng.uniform(40, 300);
         const auto pairs = random_pairs(rng, reach, i % 3 == 0 ? 6 : rng.uniform(6, 30), count);
@@ -86,14 +87,14 @@ TEST(AffineFitInt32, IsTheLeastSquaresSolution) {
         ASSERT_TRUE(fit.solve(0, plane));
         const Solution x = least_squares(pairs, &FixedVec::x);
         const Solution y = least_squares(pairs, &FixedVec::y);
-        // Moments are kept to some 28 bits, so slopes are right to 2^-24 and values over the reach
-        // to 1/1000 of a spacing.
+        // Moments have about 28 bits, so slopes are accurate to 2^-24, and values over the reach to
+        // 1/1000 of a spacing.
         constexpr double kSlope = 3.0 / (1 << 24);
         EXPECT_NEAR(std::ldexp(plane.du_q24.x, -24), static_cast<double>(x.du), kSlope);
         EXPECT_NEAR(std::ldexp(plane.dv_q24.x, -24), static_cast<double>(x.dv), kSlope);
         EXPECT_NEAR(std::ldexp(plane.du_q24.y, -24), static_cast<double>(y.du), kSlope);
         EXPECT_NEAR(std::ldexp(plane.dv_q24.y, -24), static_cast<double>(y.dv), kSlope);
-        // The error of the slopes at the mean point adds to that of the value at the centre.
+        // The error of the slopes at the mean point adds to the error of the value at the centre.
         const double tolerance = 2.0 / 65536 + kSlope * 0.3 * reach;
         EXPECT_NEAR(real(plane.at_centre_q16, 16).x, static_cast<double>(x.at_centre), tolerance);
         EXPECT_NEAR(real(plane.at_centre_q16, 16).y, static_cast<double>(y.at_centre), tolerance);
@@ -187,8 +188,9 @@ TEST(AffineFitInt32, TargetsMayBePartsOfCells) {
         }
         PlaneFromImage plane;
         ASSERT_TRUE(fit_of(pairs).solve(bits, plane));
-        // Rounding scatters targets by 0.29 of the last bit, the mean of 400 by 1/20 of that, and
-        // the ends of the shorter side by up to three times as much. Five deviations are allowed.
+        // Rounding displaces targets by 0.29 of the last bit rms, the mean of 400 targets by 1/20
+        // of that, and the ends of the shorter side by up to three times as much. The tolerance is
+        // five standard deviations.
         const double tolerance = std::ldexp(5 * 0.29 / 20, -bits) + 1e-4;
         const Vec2 zero = mesh.inverse({0, 0});
         EXPECT_NEAR(real(plane.at_centre_q16, 16).x, zero.x, tolerance);

@@ -1,4 +1,4 @@
-// The grid without perspective over the whole image, from a rough estimate in its middle.
+// Growing the grid without perspective over the whole image, from a rough estimate in the middle.
 #include "device/grow.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ TEST(GrowGrid, ReachesOverTheLargestImage) {
     Rng rng(kSeed);
     for (const double angle : {0.0, 0.3, 0.785}) {
         SCOPED_TRACE(testing::Message() << "angle " << angle << ", seed " << kSeed);
-        // The dots extend to the corners. Their number is near the capacity of the largest
+        // The dots extend to the corners. Their number is close to the capacity of the largest
         // workspace.
         constexpr Vec2 kLargest_px{4096, 4096};
         const Mesh mesh = square_mesh(33, angle, {2048, 2048});
@@ -39,7 +39,7 @@ TEST(GrowGrid, ReachesOverTheLargestImage) {
     }
 }
 
-/// Large numbers of dots are summed up in a different way.
+/// Large numbers of dots are summed in a different way.
 TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
     Rng rng(kSeed);
     for (int i = 0; i < 50; ++i) {
@@ -50,7 +50,7 @@ TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
         const Lattice first = lattice_of(spoilt(mesh, rng));
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), first, plane), Status::ok);
-        // Dots beyond 500 cells do not count, and the first lattice may be too wide by 3 %.
+        // Dots beyond 500 cells are ignored. The first lattice may be too wide by 3 %.
         const Vec2 far = mesh.at(530, 0);
         dots.resize(dots.size() + 5000, dot_at(far));
         PlaneFromImage same;
@@ -81,8 +81,8 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), lattice_of(spoilt(mesh, rng)), plane),
                   Status::ok);
-        // Half of the dots suffice to distinguish cells, in which dots are displaced by 1/6.
-        // Spurious dots add errors.
+        // Half of the dots are sufficient to distinguish cells in which dots are displaced by 1/6.
+        // Spurious dots increase the errors.
         expect_grid(plane, placed, intersections(mesh, placed), 0.25);
         if (testing::Test::HasFatalFailure()) return;
     }

@@ -1,4 +1,4 @@
-// The origin of the grid from the phase of its dots, with displaced, missing and false ones.
+// The origin of the grid from the phases of its dots, with displaced, missing and spurious dots.
 #include "device/origin.hpp"
 
 #include <numeric>
@@ -26,14 +26,14 @@ Vec2 origin_of(const std::vector<DetectedDot>& dots, const Mesh& mesh, Vec2 near
     return real(lattice.origin_q16, 16);
 }
 
-/// Returns the distance of a point from the nearest intersection, in spacings, along the worse
-/// axis.
+/// Returns the distance of a point from the nearest intersection, in spacings, along the axis on
+/// which it is larger.
 double off_intersection(const Mesh& mesh, Vec2 p) {
     const Vec2 g = mesh.inverse(p);
     return std::max(std::abs(g.x - std::round(g.x)), std::abs(g.y - std::round(g.y)));
 }
 
-/// Expects the origin at the intersection nearest to a point, within a tolerance in spacings.
+/// Expects the origin at the intersection closest to a point, within a tolerance in spacings.
 void expect_origin(const std::vector<DetectedDot>& dots, const Mesh& mesh, Vec2 near_px,
                    double tolerance) {
     const Vec2 origin = origin_of(dots, mesh, near_px);
@@ -42,7 +42,7 @@ void expect_origin(const std::vector<DetectedDot>& dots, const Mesh& mesh, Vec2 
     EXPECT_LT(std::max(std::abs(g.x), std::abs(g.y)), 0.5 + tolerance);
 }
 
-/// Runs a check for grids of many spacings, angles and phases.
+/// Runs a check for grids with many spacings, angles and phases.
 template <typename Check>
 void for_many_grids(Check check) {
     Rng rng(kSeed);
@@ -67,9 +67,9 @@ TEST(Origin, IsThatOfAPlainGrid) {
 }
 
 TEST(Origin, IsTheMeanOfDisplacedDots) {
-    // Nine times nine dots are displaced by 1/6 on one of the axes at random: by 0.12 on average,
-    // their mean by 0.013, or where only a dozen are in view by 0.035. A grid that is taken for one
-    // that begins half a cell beside it would be off by half.
+    // The 9 x 9 dots are displaced by 1/6 along one random axis: by 0.12 on average, and their mean
+    // by 0.013, or by 0.035 if only a dozen are in view. If the grid were found half a cell beside
+    // its place, the error would be 0.5.
     for_many_grids([](const Mesh& mesh, Rng& rng) {
         const auto dots = dots_of(
             placed_dots(mesh, 20, kImage_px, [&](int, int) { return random_displacement(rng); }));
@@ -94,8 +94,8 @@ TEST(Origin, BearsDotsThatAreMissingOrFalse) {
 }
 
 TEST(Origin, OnlyDotsAFewCellsAwayHaveASay) {
-    // Farther away, an axis that is a little too long would put dots half a cell beside their
-    // places.
+    // At larger distances, an axis that is slightly too long would place dots half a cell beside
+    // their places.
     for_many_grids([](const Mesh& mesh, Rng&) {
         const auto displaced_far_away = [](int i, int j) {
             return std::max(std::abs(i), std::abs(j)) <= 6 ? Vec2{} : Vec2{0.3, -0.3};

@@ -1,4 +1,4 @@
-// Which cells are read: those that have all their pixels in the image, and no others.
+// Exactly those cells are read whose pixels are all in the image.
 #include "device/read_dots.hpp"
 
 #include <array>

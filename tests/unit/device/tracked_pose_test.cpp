@@ -1,4 +1,4 @@
-// The fit of a tracked frame compared with the map by which its dots were displaced.
+// The fit of a tracked frame, compared with the map by which its dots were displaced.
 #include "device/tracked_pose.hpp"
 
 #include <array>
@@ -14,8 +14,8 @@ namespace {
 
 using namespace core;
 
-/// Cells 11 px apart, turned by an angle about the centre of an image of 188 x 120 px. Dots are off
-/// the cells as `add` says.
+/// Cells 11 px apart, rotated about the centre of an image of 188 x 120 px. `add` sets the offsets
+/// of the dots from the cells.
 struct Frame {
     explicit Frame(double angle_rad) {
         const double along = 11 * 65536 * std::cos(angle_rad);
@@ -35,7 +35,7 @@ struct Frame {
         tracking.displacement_q12 = 4096 / 6;
         set_displacement(4096 / 6, tracking);
     }
-    /// Adds a dot that lies so far off to the sums of its row.
+    /// Adds a dot with an offset of (x_px, y_px) to the sums of its row.
     void add(int i, int j, int symbol, std::int32_t mass, double x_px, double y_px) {
         TrackedRow& row = rows[static_cast<std::size_t>(j)];
         const FixedVec off{static_cast<std::int32_t>(std::lround(x_px * 256 * mass)),
@@ -70,7 +70,7 @@ TEST(TrackedPose, GoesThroughTheDots) {
         const double y0 = rng.uniform(-0.5, 0.5);
         const double yi = rng.uniform(-0.03, 0.03);
         const double yj = rng.uniform(-0.03, 0.03);
-        // Light makes dots on one side up to twice as dark, which must not change the fit.
+        // Light makes dots on one side up to twice as dark. This must not change the fit.
         const std::int32_t mass = round % 2 == 0 ? 1000 : 60;
         for (int j = 10; j <= 21; ++j) {
             for (int i = 9; i <= 24; ++i) {

@@ -1,5 +1,5 @@
-// The tracked attempt of devices: which predictions it follows, and that it never follows a wrong
-// one.
+// The tracked attempt of devices: the predictions that it confirms, and that it never confirms a
+// wrong one.
 #include "device/tracked.hpp"
 
 #include <array>
@@ -35,7 +35,7 @@ double y_off(const Fix& fix, const Shot& shot) {
     return std::remainder(fix.y_grid() - y_grid(shot.pose), double{kPositionsPerAxis});
 }
 
-/// Whether cell and section are those of the shot.
+/// Returns true if the cell and section are those of the shot.
 bool is_right(const Fix& fix, const Shot& shot) {
     return std::hypot(x_off(fix, shot), y_off(fix, shot)) < 0.3 &&
            fix.section == shot.page.pattern.section;
@@ -43,7 +43,7 @@ bool is_right(const Fix& fix, const Shot& shot) {
 
 class DeviceTracked : public testing::Test {
   protected:
-    /// Locates by the device's tracked attempt alone.
+    /// Locates with the tracked attempt of devices only.
     Fix tracked(const GreyImage& image, const Prediction& prediction) {
         static_cast<void>(locator_.begin(image.width_px, image.height_px, prediction));
         for (int v = 0; v < image.height_px; ++v)
@@ -102,7 +102,7 @@ TEST_F(DeviceTracked, GoesOnFromItsOwnFixes) {
         shot.pose.fraction_y -= 0.2;
         shot.pose.theta_rad += 0.03;
         shot.seed += 1;
-        // The light changes, as under clouds.
+        // The light changes, as with passing clouds.
         shot.imperfections.paper_level = 230 - 90 * (i % 2);
         fix = locator_.locate(render(shot).view(), Prediction::like(fix));
         ASSERT_EQ(fix.status, Status::ok) << i;
@@ -125,8 +125,8 @@ TEST_F(DeviceTracked, LocatesAfreshWhatItRefuses) {
     EXPECT_EQ(fix.cell, before.cell);
 }
 
-/// Returns the place whose columns, from 16 to the left of `place` to 16 to the right, share most
-/// rolls with it.
+/// Returns the place whose columns, from 16 to the left of `place` to 16 to the right, share the
+/// maximum number of rolls with those of `place`.
 Place worst_alternative(Place place) {
     constexpr std::size_t kLines = 20;
     const code::Basis& basis = code::basis(CodeVariant::anoto);
@@ -156,7 +156,7 @@ Place worst_alternative(Place place) {
             }
         }
     }
-    // The rows stay as they were.
+    // The rows are unchanged.
     const int row =
         code::roll_from(CodeVariant::anoto, place.cell.y, place.section.v, place.cell.x);
     alternative.section.v = static_cast<std::uint8_t>(
@@ -179,11 +179,11 @@ TEST_F(DeviceTracked, FollowsNoWrongPrediction) {
         wrong[2].place = moved(CodeVariant::anoto, right.place, 0, -2);
         wrong[3].place.section.v = static_cast<std::uint8_t>((right.place.section.v + 5) % 63);
         wrong[4].place.cell.y = (right.place.cell.y + 12345) % kPositionsPerAxis;
-        // Turned by a quarter turn.
+        // Rotated by a quarter turn.
         std::swap(wrong[5].pattern_from_image.du_q24, wrong[5].pattern_from_image.dv_q24);
         wrong[5].pattern_from_image.du_q24.x *= -1;
         wrong[5].pattern_from_image.du_q24.y *= -1;
-        // Counted from the first line in view.
+        // Relative to the first line in view.
         const Place first = moved(CodeVariant::anoto, right.place,
                                   (right.pattern_from_image.at_centre_q16.x >> 16) - 10, 0);
         wrong[6].place = worst_alternative(first);
@@ -222,7 +222,7 @@ TEST_F(DeviceTracked, TakesPredictionsOfAnyBits) {
         Prediction prediction = Prediction::like(before);
         std::array<std::uint32_t, sizeof prediction / 4> words;
         std::memcpy(words.data(), &prediction, sizeof words);
-        // Either all words are random, or a few words of the right prediction.
+        // Either all words are random, or a few words of the correct prediction.
         const int changes = i % 4 == 0 ? static_cast<int>(4 * words.size()) : 1 + i % 4;
         for (int n = 0; n < changes; ++n) {
             const auto word = static_cast<std::size_t>(rng_.below(words.size()));
@@ -247,8 +247,8 @@ TEST_F(DeviceTracked, RefusesFramesThatEndTooSoonOrHaveNoRoom) {
     EXPECT_EQ(locator_.finish().status, Status::not_tracked);
     EXPECT_EQ(locator_.begin(63, 64, prediction), Status::image_too_small);
     EXPECT_EQ(locator_.begin(188, 4096, prediction), Status::not_tracked);
-    // A frame begun without a prediction is located, not tracked, however far the last prediction
-    // is off.
+    // A frame begun without a prediction is located and not tracked, regardless of the error of the
+    // last prediction.
     const Prediction wrong = moved(prediction, CodeVariant::anoto, {50 << 16, 0}, 0, {});
     EXPECT_EQ(tracked(image, wrong).status, Status::not_tracked);
     ASSERT_EQ(locator_.begin(188, 120), Status::ok);

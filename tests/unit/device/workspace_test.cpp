@@ -1,5 +1,5 @@
-// Device workspace: devices with memory for frames of other sizes locate and track those, and
-// refuse larger ones.
+// Device workspaces for other frame sizes locate and track frames of these sizes, and refuse larger
+// frames.
 #include "device/workspace.hpp"
 
 #include <cmath>
@@ -16,15 +16,15 @@
 namespace dotpose::core_test::device_workspace_test {
 namespace {
 
-/// A size of frames, and what is expected of it.
-template <int Width, int Height, int LeastDots, int Limit_log2 = -30>
+/// A frame size, and the expected results.
+template <int Width, int Height, int MinDots, int Limit_log2 = -30>
 struct Size {
     static constexpr int kWidth_px = Width;
     static constexpr int kHeight_px = Height;
-    /// Dots that nearly every frame shows, 11 px apart, in the cells that are kept.
-    static constexpr int kMinDots = LeastDots;
-    /// Greatest probability of a wrong position that is allowed. The smallest frames show too few
-    /// dots for the usual one.
+    /// Number of dots, 11 px apart, in the stored cells of almost every frame.
+    static constexpr int kMinDots = MinDots;
+    /// Maximum probability of a wrong position, log2. The smallest frames have too few dots for the
+    /// usual limit.
     static constexpr int kLimit_log2 = Limit_log2;
     using Memory = DeviceMemoryFor<Width, Height>;
 };
@@ -40,7 +40,7 @@ Shot shot_of(std::uint64_t index) {
     return draw_shot(setup, index);
 }
 
-/// Distance between the pose of a fix and the true one, in spacings.
+/// Returns the distance between the pose of a fix and the true pose, in spacings.
 double distance(const Fix& fix, const Shot& shot) {
     return std::hypot(std::remainder(fix.x_grid() - x_grid(shot.pose), double{kPositionsPerAxis}),
                       std::remainder(fix.y_grid() - y_grid(shot.pose), double{kPositionsPerAxis}));
@@ -49,7 +49,7 @@ double distance(const Fix& fix, const Shot& shot) {
 template <typename Frame>
 class DeviceWorkspace : public testing::Test {
   protected:
-    /// Locates by the tracked attempt alone.
+    /// Locates with the tracked attempt only.
     Fix tracked(const GreyImage& image, const Prediction& prediction) {
         static_cast<void>(locator_.begin(image.width_px, image.height_px, prediction));
         for (int v = 0; v < image.height_px; ++v)
@@ -57,7 +57,7 @@ class DeviceWorkspace : public testing::Test {
         return locator_.finish();
     }
 
-    /// Moves a prediction by up to half a spacing, and turns it by up to 4 degrees.
+    /// Returns a prediction moved by up to half a spacing, and rotated by up to 4 degrees.
     Prediction disturbed(const Fix& fix) {
         const double shift_q16 = 32768 * std::sqrt(rng_.uniform());
         const double direction_rad = rng_.uniform(-std::numbers::pi, std::numbers::pi);
@@ -103,14 +103,15 @@ TYPED_TEST(DeviceWorkspace, LocatesAndTracksFramesOfItsSize) {
         EXPECT_EQ(next.attempt, Attempt::tracked);
         EXPECT_EQ(next.section, fix.section);
         EXPECT_GT(next.dots_used, 100) << i;
-        // Planes count pixels from the corner of the frame, whatever part of it was tracked.
+        // Planes count pixels from the corner of the frame, independent of the part that was
+        // tracked.
         EXPECT_EQ(next.pattern_from_image.centre_q8.x, (TypeParam::kWidth_px - 1) * 128);
         EXPECT_EQ(next.pattern_from_image.centre_q8.y, (TypeParam::kHeight_px - 1) * 128);
         tracked_squares += std::pow(distance(next, shot), 2);
     }
     EXPECT_GE(located, kFrames - 1);
     EXPECT_GE(followed, TypeParam::kWidth_px == 160 ? 50 : kFrames - 2);
-    // 0.004 spacings are 2 um.
+    // 0.004 spacings are 2 µm.
     EXPECT_LT(std::sqrt(squares / located), 0.004);
     EXPECT_LT(std::sqrt(tracked_squares / followed), 0.004);
     this->RecordProperty("error_grid", std::to_string(std::sqrt(squares / located)));
@@ -135,7 +136,7 @@ TYPED_TEST(DeviceWorkspace, RefusesLargerFrames) {
     constexpr int kWidth_px = TypeParam::kWidth_px;
     EXPECT_EQ(this->locator_.begin(kWidth_px + 1, 120), Status::image_too_large);
     EXPECT_EQ(this->locator_.begin(kWidth_px, 4097), Status::image_too_large);
-    // Wide frames that are also high have bands of tiles for which there is no room.
+    // Frames that are both wide and high have more bands of tiles than there is room for.
     const int max_px = kWidth_px == 320 ? 240 : 4096;
     EXPECT_EQ(this->locator_.begin(kWidth_px, max_px), Status::ok);
     EXPECT_EQ(this->locator_.begin(kWidth_px, max_px + 1), Status::image_too_large);
@@ -161,7 +162,7 @@ TYPED_TEST(DeviceWorkspace, TakesAnyNoise) {
 }
 
 TEST(DeviceMemories, HaveTheSizesThatAreStated) {
-    // Pointers make memory larger on desktops; `make budget` shows that of devices.
+    // Pointers make the memory larger on desktops. `make budget` reports the size on devices.
     EXPECT_LT(sizeof(DeviceMemoryFor<160, 120>), 12'000U);
     EXPECT_LT(sizeof(DeviceMemoryFor<188, 120>), 13'400U);
     EXPECT_LT(sizeof(DeviceMemoryFor<320, 240>), 25'200U);

@@ -24,7 +24,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// A frame, located.
+/// A located frame.
 struct Located {
     explicit Located(const GreyImage& frame, const Options& with = {})
         : image(frame), locator(std::make_unique<Locator>(showing(with))) {
@@ -57,7 +57,7 @@ Shot clean_shot(double theta_rad = 0.3) {
     return shot;
 }
 
-/// What stands between the start of a group and its end.
+/// Returns the text between the start and the end of a group.
 std::string group(const std::string& svg, const std::string& group_class, std::size_t from = 0) {
     const std::size_t begin = svg.find("<g class=\"" + group_class + "\"", from);
     if (begin == std::string::npos) return {};
@@ -77,7 +77,7 @@ struct Mark {
     char letter = ' ';
 };
 
-/// Centres of circles, in pixels of the image.
+/// Returns the centres of circles, in pixels of the image.
 std::vector<Mark> circles(const std::string& text, const GreyImage& image) {
     const double scale = 1200.0 / std::max(image.width_px, image.height_px);
     std::vector<Mark> marks;
@@ -94,7 +94,7 @@ std::vector<Mark> circles(const std::string& text, const GreyImage& image) {
     return marks;
 }
 
-/// Letters and their places.
+/// Returns the letters and their places.
 std::vector<Mark> letters(const std::string& text, const GreyImage& image) {
     const double scale = 1200.0 / std::max(image.width_px, image.height_px);
     std::vector<Mark> marks;
@@ -112,7 +112,7 @@ std::vector<Mark> letters(const std::string& text, const GreyImage& image) {
     return marks;
 }
 
-/// The intersection nearest to a pixel, in cells from the one of the pose.
+/// Returns the intersection closest to a pixel, in cells relative to that of the pose.
 FixedVec nearest_cell(const Shot& shot, Vec2 pixel) {
     const double spacing_mm = shot.page.pattern.spacing_mm;
     const Vec2 offset_mm = Projection(shot.camera, shot.pose).offset_from_pixel(pixel);
@@ -135,12 +135,12 @@ TEST(DrawFrame, shows_every_dot_where_it_is) {
 }
 
 TEST(DrawFrame, connects_only_the_dots_that_were_connected) {
-    // Of the first attempt no dots are connected: its grid comes from waves.
+    // The first attempt connects no dots, because its grid comes from waves.
     Options device;
     device.effort = Effort::device;
     const Located at_once(render(clean_shot()), device);
     EXPECT_GT(count(group(at_once.drawn(), "connections"), "<line "), 100u);
-    // A second attempt measures all dots once more, in another order.
+    // The second attempt measures all dots again, in another order.
     dotpose::Setup setup;
     setup.preset = Preset::hard;
     for (std::uint64_t i = 0;; ++i) {
@@ -193,7 +193,7 @@ TEST_P(DrawTurned, letters_are_those_of_the_pattern) {
         const char expected = letter(symbol_at(pattern.code, place.cell, place.section));
         if (std::tolower(mark.letter) != expected) ++errors;
     }
-    // Misread dots, at most a bit or two each, are marked as such.
+    // Misread dots, usually with one or two wrong bits each, are marked.
     EXPECT_LE(errors, static_cast<std::size_t>(located.fix.bit_errors));
     EXPECT_LE(errors, 1U);
     EXPECT_EQ(count(symbols, "stroke=\"#d500f9\""), errors);
@@ -235,7 +235,7 @@ TEST(DrawFrame, names_the_sheet) {
     EXPECT_THAT(on_sheet, HasSubstr(">x on the sheet<"));
     EXPECT_THAT(on_sheet, HasSubstr("font-weight=\"bold\">12.500 mm<"));
     EXPECT_THAT(on_sheet, HasSubstr(">on sheet table; in the pattern: x "));
-    // The world has y up: 1 m - 30.25 mm.
+    // In the world, y points up: 1 m - 30.25 mm.
     entry.world = WorldPose{2, 1, 0};
     const std::string in_world = located.drawn({.place = place});
     EXPECT_THAT(in_world, HasSubstr(">y in the world<"));
@@ -258,7 +258,7 @@ TEST(DrawFrame, says_why_there_is_no_fix) {
     EXPECT_THAT(svg, Not(HasSubstr(" mm<")));
 }
 
-// A photo of a phone: 12 million pixels and thousands of dots.
+// A phone photo with 12 million pixels and thousands of dots.
 TEST(DrawFrame, a_photo_stays_below_a_megabyte) {
     dotpose::Setup setup;
     setup.camera.width_px = 4032;
@@ -281,8 +281,8 @@ TEST(DrawFrame, head_and_note_of_a_panel_do_not_overlap) {
         const std::regex note(R"re(font-size="([0-9.]+)" text-anchor="end" [^>]*>([^<]*)<)re");
         int notes = 0;
         for (std::sregex_iterator found(svg.begin(), svg.end(), note), end; found != end; ++found) {
-            // In DejaVu Sans, the widest of the fonts, the longer head is 562 of the 1200 units
-            // wide, and a letter of a note 0.634 of the font's size at most.
+            // In DejaVu Sans, the widest of the fonts, the longer heading is 562 of the 1200 units
+            // wide, and a letter of a note at most 0.634 of the font size.
             const double size = std::stod((*found)[1]);
             EXPECT_LT(562 + 0.634 * size * static_cast<double>((*found)[2].length()), 1200)
                 << (*found)[2];
@@ -302,7 +302,7 @@ TEST(DrawFrame, escapes_the_title) {
 }
 
 TEST(DrawFrame, works_whatever_the_status) {
-    // Of a trace that a located frame filled, and of one that nothing has filled.
+    // A trace filled by a located frame, and an empty trace.
     Located full(render(clean_shot()));
     Located empty(render(clean_shot()));
     empty.trace = {};

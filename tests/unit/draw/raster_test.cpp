@@ -1,4 +1,4 @@
-// Drawings in pixels: as large, and where what was drawn is.
+// Drawings in pixels: their size, and the place of their content.
 #include "evaluate/raster.hpp"
 
 #include <fstream>
@@ -21,7 +21,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// 30 x 20 units, black from (10, 5) to (20, 10).
+/// Returns a drawing of 30 x 20 units, black from (10, 5) to (20, 10).
 std::string drawing() {
     draw::Svg svg(30, 20, "a bar");
     svg.add(R"(<rect x="10" y="5" width="10" height="5" fill="#000000"/>)");

@@ -42,7 +42,7 @@ std::string drawn(const std::vector<SheetEntry>& sheets) {
 
 using Corner = std::array<double, 2>;
 
-/// The corners of all sheets on the drawing, in the order of the file.
+/// Returns the corners of all sheets on the drawing, in the order of the file.
 std::vector<std::array<Corner, 4>> outlines(const std::string& svg) {
     const std::string start = R"(<polygon class="sheet" points=")";
     std::vector<std::array<Corner, 4>> result;
@@ -73,14 +73,15 @@ TEST(sheet_map, shows_every_sheet_where_it_lies_with_y_up) {
     expect_step(straight[0], straight[1], 0.1 * per_m, 0);
     expect_step(straight[1], straight[2], 0, 0.05 * per_m);
     expect_step(straight[2], straight[3], -0.1 * per_m, 0);
-    // Turned by 90 degrees counter-clockwise, the upper edge runs up and the page lies right of it.
+    // Rotated by 90 degrees counter-clockwise, the upper edge points up, and the page is to its
+    // right.
     expect_step(straight[0], turned[0], 0.2 * per_m, -0.1 * per_m);
     expect_step(turned[0], turned[1], 0, -0.1 * per_m);
     expect_step(turned[1], turned[2], 0.05 * per_m, 0);
     EXPECT_THAT(svg, HasSubstr(">straight</text>"));
     EXPECT_THAT(svg, HasSubstr(">turned</text>"));
     EXPECT_THAT(svg, Not(HasSubstr("Without a pose")));
-    // The box is 0.25 m wide, so a tenth of a metre is the longest round length below two fifths.
+    // The box is 0.25 m wide, so 0.1 m is the longest round length below two fifths of its width.
     EXPECT_THAT(svg, HasSubstr(">100 mm</text>"));
     EXPECT_THAT(svg, HasSubstr(R"(class="axis")"));
 }
@@ -98,13 +99,13 @@ TEST(sheet_map, shows_sheets_without_a_pose_beside_the_world) {
     for (std::size_t i = 1; i < found.size(); ++i) {
         for (const Corner corner : world)
             EXPECT_GT(found[i][0][0], corner[0]) << i;
-        // The page is twice as wide as high.
+        // The page is twice as wide as it is high.
         expect_step(found[i][0], found[i][2], found[i][1][0] - found[i][0][0],
                     (found[i][1][0] - found[i][0][0]) / 2);
         for (std::size_t j = 1; j < i; ++j)
             EXPECT_NE(found[i][0], found[j][0]) << "one over the other";
     }
-    // Two metres from the origin a page of 0.1 m would be too small to be seen beside it.
+    // At two metres from the origin, a page of 0.1 m would be too small to be visible next to it.
     EXPECT_THAT(svg, Not(HasSubstr(R"(class="axis")")));
 }
 

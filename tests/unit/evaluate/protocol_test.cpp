@@ -67,7 +67,7 @@ TEST(PrintModelTest, ReachesItsAmplitudesAndIsSmooth) {
         const Vec2 at{20.0 * step.x, 20.0 * step.y};
         const Vec2 shift = print.shift_mm(at);
         largest = {std::max(largest.x, std::abs(shift.x)), std::max(largest.y, std::abs(shift.y))};
-        // What the camera sees at once, 8.6 mm, is stretched by 1.5 % at most.
+        // The 8.6 mm in the view of the camera are stretched by at most 1.5 %.
         const Vec2 beside = print.shift_mm({at.x + 1, at.y + 1});
         EXPECT_LT(std::hypot(beside.x - shift.x, beside.y - shift.y), 0.015);
     }
@@ -87,7 +87,7 @@ TEST(ProtocolTest, MeasuresTheModelledPrinter) {
         EXPECT_EQ(station.wrong, 0);
         if (station.located == 0) continue;
         ++located;
-        // Where the ink was shifted to the right, the device reads too little.
+        // Where the ink is shifted to the right, the device measures too small values.
         const Vec2 shift = print.shift_mm(station.place_mm);
         EXPECT_NEAR(station.x_mm.bias, -shift.x, 0.010);
         EXPECT_NEAR(station.y_mm.bias, -shift.y, 0.010);
@@ -137,7 +137,7 @@ TEST(SweepTest, KeepsTheValuesThatWereCompleteWhenItIsStopped) {
         EXPECT_EQ(part.points[i].value, whole.points[i].value);
         EXPECT_EQ(part.points[i].all.position_um.max, whole.points[i].all.position_um.max);
     }
-    EXPECT_THROW(stopped_after(2), Error);  // one value makes no curve
+    EXPECT_THROW(stopped_after(2), Error);  // a curve needs more than one value
 }
 
 TEST(PlotTest, TicksAreRoundNumbers) {

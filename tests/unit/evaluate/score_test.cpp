@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kBamPerDegree = 2147483648.0 / 180;
 
-/// A fix that is off by so much from a truth at (1000, 2000), 10 degrees, section (3, 4).
+/// Returns a fix with given errors relative to a truth at (1000, 2000), 10 degrees, section (3, 4).
 Outcome outcome(double dx_q16 = 0, double dy_q16 = 0, double dtheta_deg = 0) {
     Outcome outcome;
     outcome.truth = {true, 1000.25, 2000.5, 10 * std::numbers::pi / 180, Section{3, 4}, 0.5};
@@ -54,7 +54,8 @@ TEST(Quantiles, AreNearestRanks) {
 }
 
 TEST(Score, IsWhatAHandComputes) {
-    // Distances: 3-4-5 triangle of 0.015 and 0.020 grid units = 0.025 grid = 12.5 um; and none.
+    // Distances: a 3-4-5 triangle of 0.015 and 0.020 spacings, which is 0.025 spacings or 12.5 µm,
+    // and zero.
     const std::vector<Outcome> outcomes = {outcome(0.015 * 65536, 0.020 * 65536, 0.5), outcome(),
                                            failure(Status::no_grid), failure(Status::no_grid)};
     const Score score = score_of(outcomes);

@@ -51,7 +51,7 @@ class CameraFile : public testing::Test {
         }
         return "not refused";
     }
-    /// Returns the error for the whole file with one part replaced.
+    /// Returns the error message for the file with one part replaced.
     std::string refusal_with(const std::string& part, const std::string& other) const {
         std::string text = kWhole;
         text.replace(text.find(part), part.size(), other);
@@ -166,7 +166,7 @@ TEST(CameraGeometry, IsEquations1And2AndTheirInverse) {
 }
 
 TEST(CameraGeometry, TheScaleIsThatOfATiltedCamera) {
-    // Compares the simulator's pinhole with the view that its pixels have of the paper.
+    // Compares the simulator's pinhole camera with the paper scale of its pixels.
     CameraModel model;
     CameraPose pose;
     pose.tilt_x_rad = 0.3;
@@ -175,12 +175,12 @@ TEST(CameraGeometry, TheScaleIsThatOfATiltedCamera) {
     const double f = model.working_distance_mm / model.mm_per_px;
     Camera camera;
     camera.centre_px = {93.5, 59.5};
-    // The axes of the paper's plane are (cy, sx sy, -cx sy) and (0, cx, sx). The divisor is 0 where
-    // rays are at right angles to its normal.
+    // The axes of the paper's plane are (cy, sx sy, -cx sy) and (0, cx, sx). The divisor is 0 for
+    // rays perpendicular to the normal of the plane.
     const double nx = std::sin(-0.2);
     const double ny = -std::sin(0.3) * std::cos(-0.2);
     const double nz = std::cos(0.3) * std::cos(-0.2);
-    // First derivatives come from differences.
+    // First derivatives are computed by finite differences.
     const double h = 1e-4;
     const auto at = [&](double u, double v) { return projection.offset_from_pixel({u, v}); };
     const double x_u = (at(93.5 + h, 59.5).x - at(93.5 - h, 59.5).x) / (2 * h);
@@ -212,7 +212,7 @@ rectification_matrix:
   data: [1, 0, 0, 0, 1, 0, 0, 0, 1]
 )";
 
-/// Returns where the camera of kRos sees a direction, by OpenCV's lens.
+/// Returns the pixel of the camera of kRos for a direction, with OpenCV's lens model.
 PixelPoint seen_by_ros(double x, double y) {
     const double r2 = x * x + y * y;
     const double radial = 1 - 0.25 * r2 + 0.1 * r2 * r2;
@@ -225,8 +225,7 @@ TEST_F(CameraFile, ALensOfRosIsConvertedNotRelabelled) {
     EXPECT_NEAR(camera.focal_px.value(), 600, 1e-9);
     EXPECT_NEAR(camera.centre_px.u, 330, 2);
     EXPECT_NEAR(camera.centre_px.v, 236, 2);
-    // Straight lines are straight again all over the image, as far as one coefficient can make
-    // them.
+    // Straight lines are straight again all over the image, as far as a single coefficient allows.
     for (const double offset : {-0.3, -0.1, 0.2, 0.3}) {
         for (const bool is_row : {true, false}) {
             const auto point = [&](double along) {
@@ -274,7 +273,7 @@ TEST_F(CameraFile, AMissingFileIsToldWithTheReason) {
     EXPECT_EQ(error, "cannot read nothere.yaml: No such file or directory");
 }
 
-// Drivers state this model for every camera; without its further terms it is plumb_bob.
+// Drivers state this model for every camera. If its additional terms are zero, it equals plumb_bob.
 TEST_F(CameraFile, ARationalPolynomialWithoutItsOwnTermsIsPlumbBob) {
     const auto rational = [](const std::string& coefficients) {
         std::string text = kRos;
@@ -340,10 +339,10 @@ TEST(PartOf, SeesTheSamePaper) {
     const CameraPoint part_at = on_paper(part, undistorted(part, {30, 40}));
     EXPECT_NEAR(part_at.x_mm, whole_at.x_mm, 1e-12);
     EXPECT_NEAR(part_at.y_mm, whole_at.y_mm, 1e-12);
-    // Without a reference point it is the centre of the whole image.
+    // By default, the reference point is the centre of the whole image.
     EXPECT_NEAR(part.reference_px.value().u, 319.5 - 100, 1e-12);
     EXPECT_NEAR(part.reference_px.value().v, 239.5 - 50, 1e-12);
-    // The heading is counted from the image x axis at the image centre, in the camera frame.
+    // The heading is relative to the image x axis at the image centre, in the camera frame.
     const double heading_rad = image_axis_rad(camera, {319.5, 239.5}) + camera.theta_offset_rad;
     EXPECT_NEAR(image_axis_rad(part, {199.5, 149.5}) + part.theta_offset_rad, heading_rad, 1e-12);
     EXPECT_THROW(part_of(camera, 300, 50, 400, 300), BadArgument);

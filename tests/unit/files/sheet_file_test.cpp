@@ -67,8 +67,7 @@ TEST(overlap, means_a_common_cell_in_the_same_section_of_the_same_code) {
     EXPECT_FALSE(overlap(a, b));
 }
 
-/// Returns the number of free cells between two regions, along the axis on which they are farther
-/// apart.
+/// Returns the number of free cells between two regions, along the axis with the larger gap.
 std::int64_t gap_between(const Sheet& a, const Sheet& b) {
     const auto along = [](std::int64_t a0, std::int64_t an, std::int64_t b0, std::int64_t bn) {
         return std::max(b0 - (a0 + an), a0 - (b0 + bn));
@@ -82,7 +81,7 @@ TEST(SheetFile, allocates_regions_that_keep_their_distance) {
     std::mt19937 random(4);
     std::printf("seed 4\n");
     SheetFile file(directory / "s.json");
-    // Some regions were chosen by others, in other sections and code variants too.
+    // Some regions were chosen by other programs, also in other sections and code variants.
     for (int i = 0; i < 10; ++i) {
         SheetEntry other = entry("old " + std::to_string(i), {});
         other.sheet.origin = {static_cast<std::uint32_t>(random() % 6000),
@@ -107,7 +106,7 @@ TEST(SheetFile, allocates_regions_that_keep_their_distance) {
 }
 
 TEST(SheetFile, the_gap_is_wider_than_the_largest_frame) {
-    // The largest frame is 4096 x 4096 px, the least spacing 6 px.
+    // The largest frame is 4096 x 4096 px, and the minimum spacing 6 px.
     EXPECT_GT(kSheetGap_cells, std::sqrt(2.0) * 4096 / 6);
 }
 
@@ -144,7 +143,7 @@ TEST(SheetFile, allocates_from_the_top_left_and_fills_holes) {
         EXPECT_EQ(pages[i].page, static_cast<int>(i) + 1);
         EXPECT_EQ(pages[i].sheet.origin, (Cell{1024 + i * (columns + 1024), 1024}));
     }
-    // Exactly one page's place is left in the first row of pages.
+    // There is room for exactly one page in the first row of pages.
     file.add(entry("later", {1024 + 4 * (columns + 1024), 1024}));
     EXPECT_EQ(file.allocate("hole", sheet)[0].sheet.origin,
               (Cell{1024 + 3 * (columns + 1024), 1024}));
@@ -166,7 +165,7 @@ TEST(SheetFile, starts_another_row_and_ends_with_the_plane) {
     EXPECT_EQ(file.allocate("a", wide)[0].sheet.origin, (Cell{1024, 1024}));
     EXPECT_EQ(file.allocate("b", wide)[0].sheet.origin, (Cell{1024, 100'002'048}));
     EXPECT_EQ(file.allocate("c", wide)[0].sheet.origin, (Cell{1024, 200'003'072}));
-    // If two sheets do not both fit, none is added.
+    // If only one of two sheets fits, neither is added.
     wide.rows = 60'000'000;
     EXPECT_THAT([&] { file.allocate("d", wide, 2); },
                 ThrowsMessage<BadArgument>(

@@ -1,4 +1,4 @@
-/// Sheets and sheet files that several tests start from.
+/// Sheets and sheet files used by several tests.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@ inline Sheet page(double width_mm = 30, double height_mm = 20) {
     return make_sheet(options);
 }
 
-/// Returns a file as a user may have written it.
+/// Returns a file as a user might write it.
 inline nlohmann::json hand_written() {
     return nlohmann::json::parse(R"({
         "format": "dotpose-sheets", "version": 1,

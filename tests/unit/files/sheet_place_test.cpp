@@ -15,8 +15,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Returns a sheet of 20 x 10 cells, 0.5 mm apart; the first is 4 mm right of and 3 mm below the
-/// page's corner, so the last lies at (13.5, 7.5) mm. Margins of 6.5 and 2.5 mm follow.
+/// Returns a sheet of 20 x 10 cells with a spacing of 0.5 mm. The first cell is 4 mm to the right
+/// of and 3 mm below the corner of the page, so the last is at (13.5, 7.5) mm, followed by margins
+/// of 6.5 and 2.5 mm.
 SheetEntry small_entry(Cell origin) {
     SheetEntry entry;
     entry.name = "small";
@@ -61,7 +62,8 @@ TEST(find_sheet, tells_the_place_on_the_page) {
 
 TEST(find_sheet, margins_belong_to_the_page_and_nothing_beyond_its_edges) {
     const std::vector<SheetEntry> sheets = {small_entry({1000, 2000})};
-    // The page reaches 8 cells left of, 6 above, 32 right of and 14 below the first intersection.
+    // The page extends 8 cells to the left, 6 above, 32 to the right and 14 below the first
+    // intersection.
     const auto is_found = [&](Cell cell, double fraction_x = 0, double fraction_y = 0) {
         return find_sheet(sheets, CodeVariant::anoto, fix_at(cell, fraction_x, fraction_y))
             .has_value();
@@ -79,7 +81,7 @@ TEST(find_sheet, margins_belong_to_the_page_and_nothing_beyond_its_edges) {
 }
 
 TEST(find_sheet, a_margin_gives_way_to_the_neighbours_own_region) {
-    // The second region begins where the first ends, as on a poster of several pages.
+    // The second region begins at the end of the first, as on a poster of several pages.
     const std::vector<SheetEntry> sheets = {small_entry({1000, 2000}), small_entry({1020, 2000})};
     const auto entry_at = [&](Cell cell, double fraction_x) {
         const auto place = find_sheet(sheets, CodeVariant::anoto, fix_at(cell, fraction_x));
@@ -128,7 +130,7 @@ TEST(find_sheet, applies_the_print_scale_about_the_first_intersection) {
     ASSERT_TRUE(place);
     EXPECT_NEAR(place->x_mm, 4 + 5.1, 1e-12);
     EXPECT_NEAR(place->y_mm, 3 + 3.96, 1e-12);
-    // The diagonal of a square is that of a 1.02 x 0.99 rectangle on the paper.
+    // The diagonal of a square is the diagonal of a 1.02 x 0.99 rectangle on the paper.
     EXPECT_NEAR(std::tan(place->theta_rad), 0.99 / 1.02, 1e-8);
 }
 
@@ -137,7 +139,7 @@ TEST(world_place, flips_y_and_turns_counter_clockwise) {
     SheetPlace place{&entry, 100, 200, 0};
     EXPECT_FALSE(world_place(place));
 
-    // The page is not turned: the place is 100 mm right of and 200 mm below the corner.
+    // The page is not rotated. The place is 100 mm to the right of and 200 mm below the corner.
     entry.world = {5, 7, 0};
     auto pose = world_place(place);
     ASSERT_TRUE(pose);
@@ -145,14 +147,15 @@ TEST(world_place, flips_y_and_turns_counter_clockwise) {
     EXPECT_NEAR(pose->y_m, 6.8, 1e-12);
     EXPECT_NEAR(pose->yaw_rad, 0, 1e-12);
 
-    // The upper edge runs along the world's y: right on the page is up, down on it is right.
+    // The upper edge is along the world's y axis, so right on the page is +y in the world, and down
+    // on the page is +x.
     entry.world->yaw_rad = kPi / 2;
     pose = world_place(place);
     EXPECT_NEAR(pose->x_m, 5.2, 1e-12);
     EXPECT_NEAR(pose->y_m, 7.1, 1e-12);
     EXPECT_NEAR(pose->yaw_rad, kPi / 2, 1e-12);
 
-    // The image is turned clockwise on the page by 30 degrees.
+    // The image is rotated clockwise by 30 degrees on the page.
     place.theta_rad = kPi / 6;
     EXPECT_NEAR(world_place(place)->yaw_rad, kPi / 3, 1e-12);
 }
@@ -180,7 +183,7 @@ TEST(world_place, half_a_turn_is_positive) {
     EXPECT_EQ(world_place({&entry, 0, 0, 0})->yaw_rad, kPi);
 }
 
-/// Returns a fix with a covariance whose every element matters.
+/// Returns a fix with a covariance in which every element has an effect.
 Fix uncertain_fix() {
     Fix fix = fix_at({1010, 2003}, 0.5, 0.25, 0.7);
     constexpr float kCovariance[3][3] = {
@@ -191,8 +194,9 @@ Fix uncertain_fix() {
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-/// Returns J C J^T, where column k of J is the change of the pose when the fix moves by coordinate
-/// k, in spacings and radians: by central differences, without any formula for the derivatives.
+/// Returns J C J^T. Column k of J is the change of the pose for a movement of the fix along
+/// coordinate k, in spacings and radians. It is computed from central differences, without formulas
+/// for the derivatives.
 template <typename PoseOf>
 Matrix expected_covariance(const Fix& fix, const PoseOf& pose_of) {
     const auto moved_by = [&fix](std::size_t coordinate, double sign) {
@@ -263,7 +267,7 @@ TEST(covariance_in_the_world, is_what_small_movements_say) {
         };
         const auto expected = expected_covariance(fix, [&](const Fix& moved) {
             const WorldPlace place = place_of(moved);
-            // Angles are taken from the true one, so that none of them is half a turn.
+            // Angles are relative to the true angle, to avoid values of half a turn.
             const double yaw =
                 std::remainder(place.yaw_rad - place_of(fix).yaw_rad, 2 * std::numbers::pi);
             return std::array{place.x_m, place.y_m, yaw};
@@ -273,7 +277,7 @@ TEST(covariance_in_the_world, is_what_small_movements_say) {
 }
 
 TEST(covariance_in_the_world, of_a_page_turned_by_a_quarter) {
-    // Right on the page is the world's y, down on it is the world's x, and angles change their
+    // Right on the page is the world's y axis, down is the world's x axis, and angles change their
     // sign.
     const PoseCovariance on_sheet = {{{1, 2, 3}, {2, 5, 6}, {3, 6, 9}}};
     const PoseCovariance in_world = world_covariance(on_sheet, kPi / 2);

@@ -1,4 +1,4 @@
-// How a page was printed, and names that change, in sheet files.
+// Print parameters of pages, and changes of names, in sheet files.
 #include <string>
 
 #include <gmock/gmock.h>

@@ -75,7 +75,7 @@ TEST(read_sheets, reads_the_example_of_the_documentation) {
     write_file(directory / "s.json", page.substr(first, page.find("```", first) - first));
     const auto sheets = read_sheets(directory / "s.json");
     ASSERT_EQ(sheets.size(), 1U);
-    // The page is the one that the text above the example prints.
+    // The page in the example is the one printed by the command above it.
     SheetFile file(directory / "other.json");
     const SheetEntry table = file.allocate("table", make_sheet({}))[0];
     EXPECT_EQ(sheets[0].sheet.origin, table.sheet.origin);
@@ -83,7 +83,7 @@ TEST(read_sheets, reads_the_example_of_the_documentation) {
     EXPECT_EQ(sheets[0].sheet.rows, table.sheet.rows);
     EXPECT_NEAR(sheets[0].sheet.origin_x_mm, table.sheet.origin_x_mm, 1e-9);
     EXPECT_TRUE(sheets[0].world);
-    // Saved again, the file has the same text.
+    // Saving the file again leaves its text unchanged.
     const std::string text = read_file(directory / "s.json");
     SheetFile same(directory / "s.json");
     same.save();
@@ -96,7 +96,8 @@ void expect_refused(const std::string& text, const std::string& problem) {
     EXPECT_THAT([&] { (void)read_sheets(directory / "s.json"); },
                 ThrowsMessage<Error>(AllOf(HasSubstr("s.json"), HasSubstr(problem))))
         << text;
-    // A program that wants to change the file gets the same error, and the file stays as it is.
+    // A program that attempts to change the file gets the same error, and the file remains
+    // unchanged.
     EXPECT_THAT([&] { const SheetFile file(directory / "s.json"); },
                 ThrowsMessage<Error>(HasSubstr(problem)));
     EXPECT_EQ(read_file(directory / "s.json"), text);
@@ -201,7 +202,7 @@ TEST(read_sheets, refuses_equal_names_and_shared_cells) {
     expect_refused(document.dump(),
                    "sheets[1] (desk): sheet 'desk' would share cells with sheet 'table', which has "
                    "1000,410000000 to 1019,410000009");
-    document["sheets"][1]["origin_x"] = 1020;  // beside it
+    document["sheets"][1]["origin_x"] = 1020;  // beside the region
     const TemporaryDirectory directory;
     write_file(directory / "s.json", document.dump());
     EXPECT_EQ(read_sheets(directory / "s.json").size(), 2U);

@@ -1,4 +1,4 @@
-// Regions that are reserved while their pages are written: whatever happens, none is given twice.
+// Regions that are reserved while their pages are written. No region is ever assigned twice.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -39,7 +39,7 @@ TEST_F(SheetReservations, are_in_the_file_before_the_page_and_marked_until_it_is
     EXPECT_EQ(saved()["sheets"][0]["reserved"], true);
     ASSERT_EQ(read_sheets(path_).size(), 1U);
     EXPECT_TRUE(read_sheets(path_)[0].is_reserved);
-    // Another program takes other regions meanwhile.
+    // Another program reserves other regions meanwhile.
     SheetReservation other(path_, [](SheetFile& file) { file.allocate("b", page()); });
     reservation.confirm();
     other.confirm();
@@ -58,7 +58,7 @@ TEST_F(SheetReservations, that_are_given_up_leave_the_file_as_it_was) {
     write_file(path_, by_hand);
     { const SheetReservation reservation(path_, enter_a); }
     EXPECT_EQ(read_file(path_), by_hand);
-    // Changes that others made meanwhile stay.
+    // Concurrent changes by other programs are kept.
     {
         const SheetReservation reservation(path_, enter_a);
         SheetFile file(path_);
@@ -144,7 +144,7 @@ TEST_F(SheetReservations, wait_for_a_lock_say_so_and_end) {
     EXPECT_THAT([&] { SheetFile(path_, wait); }, ThrowsMessage<Error>(HasSubstr("stopped")));
 }
 
-/// Prints "n" and dies at an instant of its own, as by kill -9: the signal has no handler.
+/// Prints "n" and dies at a given time, as by kill -9, because the signal has no handler.
 void print_and_die(const fs::path& folder, int n, int after_us) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
@@ -172,7 +172,7 @@ TEST_F(SheetReservations, no_page_is_without_its_entry_whenever_its_printer_is_k
     constexpr int kStep_us = 100;
     for (int n = 0; n < kPrints; ++n)
         print_and_die(path_.parent_path(), n, (n + 1) * kStep_us);
-    // Reading would fail if two sheets shared cells.
+    // Reading would fail if two sheets had common cells.
     const auto sheets = fs::exists(path_) ? read_sheets(path_) : std::vector<SheetEntry>();
     for (int n = 0; n < kPrints; ++n) {
         const std::string name = "n" + std::to_string(n);

@@ -1,4 +1,4 @@
-// The program of all devices, on a device made of strings.
+// The program of all devices, with a host that reads and prints strings.
 #include "locate_frames.hpp"
 
 #include <cstring>
@@ -14,7 +14,7 @@
 
 namespace {
 
-/// What the device can read, and what it has printed.
+/// The input of the host, and its output.
 std::string input;
 std::string output;
 std::size_t taken = 0;
@@ -59,7 +59,7 @@ GreyImage frame(Preset preset, std::uint64_t index, int width_px = 188, int heig
     return render(draw_shot(setup, index));
 }
 
-/// The line of a frame, from `locate` with the whole image at hand.
+/// Returns the line of a frame, computed by `locate` from the whole image.
 std::string expected_line(const GreyImage& image) {
     const auto memory = std::make_unique<DeviceMemory>();
     const Fix fix = DeviceLocator(*memory).locate(image.view());

@@ -1,5 +1,5 @@
-// A Follower on simulated robots: the camera sits off the robot's centre and looks at the bare
-// pattern or at a sheet.
+// A Follower on simulated robots. The camera is mounted beside the robot's centre and sees the bare
+// pattern or a sheet.
 #include "dotpose/tools/follower.hpp"
 
 #include <cmath>
@@ -20,8 +20,8 @@ constexpr std::uint64_t kSeed = 2411;
 constexpr double kPivotCells_x = kPivot_x_mm / kDefaultSpacing_mm;
 constexpr double kPivotCells_y = kPivot_y_mm / kDefaultSpacing_mm;
 
-/// The camera file of a robot whose camera sits at `kCameraOnRobot_mm` and is turned against it:
-/// its centre is the reference point.
+/// Returns the camera file of a robot whose camera is at `kCameraOnRobot_mm` and rotated relative
+/// to the robot. The reference point is the robot's centre.
 Camera mounted_camera(const CameraModel& model, double theta_offset_rad) {
     Camera camera = true_camera(model);
     camera.reference_px = PixelPoint{camera.centre_px.u - kCameraOnRobot_mm.x / model.mm_per_px,
@@ -30,7 +30,7 @@ Camera mounted_camera(const CameraModel& model, double theta_offset_rad) {
     return camera;
 }
 
-/// A sheet whose region holds the place where the robot turns.
+/// Returns a sheet whose region contains the place where the robot turns.
 SheetEntry sheet_around_pivot() {
     SheetEntry entry;
     entry.name = "floor";
@@ -51,7 +51,7 @@ TEST(Follower, TellsWhereTheRobotIsByItsCameraFile) {
     options.code = CodeVariant::anoto;
     options.camera = mounted_camera(model, 30 * kDegree_rad);
     Follower follower(options);
-    // The robot turns on the spot: its centre stays where it is.
+    // The robot turns on the spot, so its centre does not move.
     int tracked = 0;
     constexpr int kFrames = 30;
     for (int i = 0; i < kFrames; ++i) {
@@ -68,7 +68,7 @@ TEST(Follower, TellsWhereTheRobotIsByItsCameraFile) {
         EXPECT_LT(turn_between(now.track.pose.theta_rad(), theta_rad + 30 * kDegree_rad), 0.01);
         tracked += fix.attempt == Attempt::tracked ? 1 : 0;
     }
-    // The mount turns predictions as well: the pattern is found where it is expected.
+    // The mount also applies to predictions, so the pattern is found at the predicted positions.
     EXPECT_GE(tracked, kFrames - 3);
     EXPECT_FALSE(follower.is_in_world());
 }
@@ -89,7 +89,7 @@ TEST(Follower, SinglyAndInASequenceImagesGiveThePlaceOnTheSheet) {
         EXPECT_EQ(alone.place->entry->name, "floor");
         EXPECT_TRUE(alone.code_is_given);
         EXPECT_DOUBLE_EQ(alone.spacing_mm, kDefaultSpacing_mm);
-        // The camera's centre, from the first intersection of the sheet.
+        // The position of the camera, relative to the first intersection of the sheet.
         const double x_mm = kPivot_x_mm + std::cos(1.0) * kCameraOnRobot_mm.x -
                             std::sin(1.0) * kCameraOnRobot_mm.y -
                             options.sheets[0].sheet.origin.x * kDefaultSpacing_mm;
@@ -108,7 +108,7 @@ TEST(Follower, AReferencePointReplacesThatOfTheCameraFile) {
     options.reference_px = PixelPoint{(model.width_px - 1) / 2.0, (model.height_px - 1) / 2.0};
     const Fix fix = Follower(options).locate(image).fix;
     ASSERT_EQ(fix.status, Status::ok);
-    // The image centre lies off the robot's by the place of the camera on it.
+    // The distance from the image centre to the robot's centre is that of the camera on the robot.
     EXPECT_NEAR(std::hypot(fix.x_mm() - kPivot_x_mm, fix.y_mm() - kPivot_y_mm),
                 std::hypot(kCameraOnRobot_mm.x, kCameraOnRobot_mm.y), 0.01);
 }
@@ -140,7 +140,7 @@ TEST(Follower, LargeImagesAreReduced) {
     EXPECT_NEAR(located.fix.x_grid() - shot.pose.cell.x, shot.pose.fraction_x, 0.05);
 }
 
-/// Returns the fixes of a frame by itself and in a sequence.
+/// Returns the fixes of a frame located alone and in a sequence.
 std::vector<Fix> both_fixes(const FollowerOptions& options, const GreyImage& image) {
     return {Follower(options).locate(image).fix,
             Follower(options).follow(image.view(), 0).located.fix};

@@ -69,8 +69,8 @@ std::vector<PosePacket> received(const Bytes& stream) {
     return packets;
 }
 
-/// COBS as its inventors describe it: cut behind every zero, of an imagined last one as well, and
-/// write each piece as its length and its bytes without the zero.
+/// Encodes with COBS as defined by its authors: appends a zero, cuts after every zero, and writes
+/// each piece as its length and its bytes without the zero.
 Bytes cobs(Bytes plain) {
     plain.push_back(0);
     Bytes coded;
@@ -101,14 +101,14 @@ TEST(PosePacket, HasTheDocumentedLayout) {
 }
 
 TEST(PosePacket, CrcIsThatOfTheCatalogue) {
-    // CRC-16/M17 of the RevEng catalogue: poly 0x5935, init 0xFFFF, check 0x772B.
+    // CRC-16/M17 in the RevEng catalogue: poly 0x5935, init 0xFFFF, check 0x772B.
     constexpr std::string_view kText = "123456789";
     EXPECT_EQ(link::crc16(Bytes(kText.begin(), kText.end())), 0x772B);
 }
 
 TEST(PosePacket, NoFourBitsCancelInTheCrc) {
-    // The CRC is linear, so what matters are the changes that single bits make: if no two pairs of
-    // them agree, no four bits cancel, and no fewer.
+    // The CRC is linear, so only the changes by single bits matter. If no two pairs of them are
+    // equal, no four bits or fewer cancel.
     Bytes coded(link::kCodedBytes, 0);
     const unsigned none = link::crc16(coded);
     std::vector<unsigned> changes;
@@ -143,7 +143,7 @@ TEST(PosePacket, ComesBackAsItWasSent) {
     EXPECT_EQ(received(stream), sent);
 }
 
-/// What a receiver makes of three packets of which some bits of the first two were changed.
+/// Packets received if some bits of the first two of three packets were changed.
 class DamagedStream : public testing::TestWithParam<int> {
   protected:
     void SetUp() override {
@@ -154,7 +154,7 @@ class DamagedStream : public testing::TestWithParam<int> {
     }
     void flip(std::size_t bit) { stream_[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8); }
 
-    /// Nothing arrives that is not one of the undamaged packets.
+    /// Expects that only undamaged packets are received.
     void expect_only_undamaged(std::size_t a, std::size_t b) {
         flip(a);
         if (b != a) flip(b);
@@ -162,7 +162,7 @@ class DamagedStream : public testing::TestWithParam<int> {
         std::vector<PosePacket> undamaged;
         for (const std::size_t i : {0U, 1U, 2U}) {
             const bool is_hit = a / 256 == i || b / 256 == i;
-            // A packet whose predecessor lost its end mark cannot be told from it.
+            // A packet whose predecessor lost its end mark cannot be separated from it.
             const bool is_joined = i > 0 && (is_mark(a, i - 1) || is_mark(b, i - 1));
             if (!is_hit && !is_joined) undamaged.push_back(sent_[i]);
         }
@@ -193,7 +193,7 @@ TEST(PosePacket, GoesOnWithTheNextPacketAfterAnything) {
         const std::vector<PosePacket> sent = {random_packet(rng), random_packet(rng),
                                               random_packet(rng)};
         Bytes stream = stream_of(sent);
-        // Lost, added or changed bytes anywhere in the first packet, its end mark included.
+        // Lost, added or changed bytes anywhere in the first packet, including its end mark.
         const std::size_t at = rng.below(32);
         const auto lost =
             static_cast<std::ptrdiff_t>(rng.below(static_cast<std::uint32_t>(33 - at)));
@@ -220,7 +220,7 @@ TEST(PosePacket, CountsWhatItRefuses) {
             is_packet = reader.push(byte);
         return is_packet;
     };
-    EXPECT_FALSE(reader.push(0));  // nothing before the first end mark is no damage
+    EXPECT_FALSE(reader.push(0));  // bytes before the first end mark do not count as damage
     EXPECT_EQ(reader.damaged(), 0U);
     EXPECT_FALSE(push_all(Bytes{1, 2, 3, 0}));
     EXPECT_EQ(reader.damaged(), 1U);
@@ -245,7 +245,7 @@ TEST(PosePacket, RefusesValuesThatNoPoseHas) {
     EXPECT_TRUE(is_refused([](PosePacket& p) { p.code = static_cast<CodeVariant>(3); }));
 }
 
-// A receiver need not be newer than its senders.
+// A receiver may be older than its senders.
 TEST(PosePacket, StatusesOfNewerVersionsAreOther) {
     for (const int number : {kStatusCount, 100, 254, 255}) {
         PosePacket packet = typical();
@@ -262,7 +262,7 @@ TEST(PosePacket, CarriesAFix) {
     fix.status = Status::ok;
     fix.cell = {5, 6};
     fix.fraction_x_q16 = 0x8000;
-    fix.theta_bam = -(1 << 30);  // a quarter turn back
+    fix.theta_bam = -(1 << 30);  // a quarter turn counter-clockwise
     fix.section = {1, 2};
     fix.p_wrong_log2 = -90;
     fix.covariance[0][0] = 4e-6F;  // 0.002 spacings, 8.19 steps

@@ -77,8 +77,8 @@ TEST(CodeEvidence, FramesAgainstEachOtherCancelOut) {
     EXPECT_EQ(evidence.log2_q8(CodeVariant::anoto), evidence.log2_q8(CodeVariant::libdots));
 }
 
-// Views of the same bits, which are fair coins at the true code variant and three quarters ones at
-// the others: log2 of 1.5 for the others, or of 2 against them. The views overlap.
+// Views of the same bits, whose probability is one half in the true code variant and three quarters
+// in the others: log2 of 1.5 for the others, or of 2 against them. The views overlap.
 TEST(CodeEvidence, IsSeldomMuchAgainstTheTruth) {
     constexpr std::size_t kBits = 40;
     constexpr std::size_t kSeen = 25;

@@ -115,7 +115,7 @@ TEST(LocateFirst, RefusesWhatShowsNoPosition) {
             if (!is_seam) {
                 EXPECT_NE(fix.status, Status::ok);
             } else if (fix.status == Status::ok) {
-                // The fix may be on either side.
+                // The fix may be that of either side.
                 EXPECT_NEAR(fix.x_grid(), x_grid(shot.pose), 1);
                 EXPECT_NEAR(fix.y_grid(), y_grid(shot.pose), 1);
             }
@@ -164,7 +164,7 @@ TEST(LocateFirst, ShowsItsDotsAndCellsWhenAsked) {
                 if (!cell.has_dot()) continue;
                 ++read;
                 const Vec2 at = real(w.found_dots()[cell.dot].centre_q8, 8);
-                // Blobs at the border are cut off by it.
+                // The border cuts off blobs.
                 const bool is_inside = at.x > 6 && at.y > 6 && at.x < 181 && at.y < 113;
                 const double off_px = nearest_px(others, at);
                 // Two dots that touch are one blob or none.
@@ -178,7 +178,7 @@ TEST(LocateFirst, ShowsItsDotsAndCellsWhenAsked) {
         }
         EXPECT_EQ(read, w.dot_count);
         EXPECT_LE(alone, 2);
-        // Without `show_stages` it leaves no dots.
+        // Without `show_stages`, the attempt stores no dots.
         options.show_stages = false;
         static_cast<void>(outwards(image, options));
         EXPECT_EQ(w.dot_count, 0);

@@ -1,4 +1,4 @@
-// Frames without a fix, and what each of them is refused for.
+// Frames without a fix, and the reasons for their refusal.
 #include <map>
 #include <memory>
 #include <set>
@@ -39,7 +39,7 @@ TEST(LocateRefuses, SizesOutOfRangeAreRefused) {
 }
 
 TEST(LocateRefuses, AFrameWithoutAPositionTellsWhy) {
-    // The content of the picture decides which stages may refuse it.
+    // The content of the picture determines which stages may refuse it.
     const std::map<Scene, std::set<Status>> allowed{
         {Scene::black, {Status::no_contrast, Status::too_few_dots}},
         {Scene::white, {Status::no_contrast, Status::too_few_dots}},
@@ -75,7 +75,7 @@ TEST(LocateRefuses, AFrameWithoutDotsIsNotNamedByTheDotsOfTheFrameBefore) {
     EXPECT_EQ(Locator(*memory, Options{}).locate(black.view()).status, Status::no_contrast);
 }
 
-// With such displacements, the grid of a mirror image is beyond the steps that come last.
+// With these displacements, the grid of a mirror image is outside of the range of the final steps.
 TEST(LocateRefuses, AMirrorImageIsNamedWhateverTheDisplacement) {
     const auto memory = std::make_unique<LargeMemory>();
     for (const double displacement : {0.12, 1.0 / 6, 0.25, 0.30}) {
@@ -98,7 +98,7 @@ TEST(LocateRefuses, AMirrorImageIsNamedWhateverTheDisplacement) {
 }
 
 TEST(LocateRefuses, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
-    // One dark corner gives contrast, and a blob that is too large for a dot.
+    // One dark corner results in contrast, and in a blob that is too large for a dot.
     GreyImage image{std::vector<std::uint8_t>(64 * 64, 255), 64, 64};
     for (std::size_t v = 0; v < 32; ++v)
         std::fill_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(64 * v), 32,
@@ -111,13 +111,13 @@ TEST(LocateRefuses, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
         options.effort = effort;
         EXPECT_EQ(Locator(memory, options).locate(image.view()).status, Status::too_few_dots);
     }
-    // The first attempt takes any dark minimum for a dot.
+    // The first attempt accepts any dark minimum as a dot.
     options.effort = Effort::once;
     EXPECT_EQ(Locator(memory, options).locate(image.view()).status, Status::no_grid);
 }
 
 TEST(LocateRefuses, EveryStageCanRefuse) {
-    // A frame of the pattern is made worse step by step until each stage has refused it.
+    // A frame of the pattern is degraded step by step until each stage has refused it.
     SmallMemory memory;
     Shot shot = shot_of({.preset = Preset::clean}, kSeed, 0);
     const GreyImage frame = render(shot);
@@ -127,7 +127,7 @@ TEST(LocateRefuses, EveryStageCanRefuse) {
     options = {};
     options.lattice.min_dots = 10000;
     EXPECT_EQ(Locator(memory, options).locate(frame.view()).status, Status::too_few_dots);
-    // Another code variant differs in a4, and so in nearly every difference.
+    // Another code variant differs in a4, and therefore in almost every difference.
     options = {};
     options.code = CodeVariant::microdots;
     const Status other = Locator(memory, options).locate(frame.view()).status;

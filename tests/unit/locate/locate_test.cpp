@@ -1,4 +1,4 @@
-// The whole pipeline as a function of rows or an image, in any memory, with frames in any order.
+// The whole pipeline, applied to rows or an image, with any memory and with frames in any order.
 #include "dotpose/locate.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 34;
 
-/// Returns frames that are read and frames that are not, in one size.
+/// Returns frames of one size, some of which can be located.
 std::vector<GreyImage> mixed_frames() {
     std::vector<GreyImage> frames;
     for (std::uint64_t i = 0; i < 8; ++i) {
@@ -29,7 +29,7 @@ std::vector<GreyImage> mixed_frames() {
     return frames;
 }
 
-/// Expects all members of two fixes to be equal, bit by bit; the bytes between them do not count.
+/// Expects all members of two fixes to be equal, bit by bit. Padding is ignored.
 void expect_same(const Fix& a, const Fix& b) {
     EXPECT_EQ(a.status, b.status);
     EXPECT_EQ(a.dots_seen, b.dots_seen);
@@ -47,7 +47,7 @@ void expect_same(const Fix& a, const Fix& b) {
     EXPECT_EQ(std::memcmp(a.covariance, b.covariance, sizeof a.covariance), 0);
 }
 
-/// Locates by rows, with a Locator or a DeviceLocator.
+/// Locates row by row, with a Locator or a DeviceLocator.
 template <typename AnyLocator>
 Fix pushed(const GreyImage& image, AnyLocator&& locator) {
     static_cast<void>(locator.begin(image.width_px, image.height_px));
@@ -55,7 +55,8 @@ Fix pushed(const GreyImage& image, AnyLocator&& locator) {
     for (int v = 0; v < image.height_px; ++v) {
         std::copy_n(image.view().row(v), image.width_px, row.begin());
         locator.push_row(row.data());
-        std::fill(row.begin(), row.end(), std::uint8_t{0});  // the pixels are not needed afterwards
+        std::fill(row.begin(), row.end(),
+                  std::uint8_t{0});  // the locator must not need the pixels afterwards
     }
     return locator.finish();
 }
@@ -118,7 +119,7 @@ TEST(Locate, ADeviceGetsTheSameFromRowsAndImage) {
     for (const GreyImage& frame : mixed_frames()) {
         const Fix fix = Locator(at_once, device).locate(frame.view());
         expect_same(pushed(frame, Locator(by_rows, device)), fix);
-        // A DeviceLocator gives the same from the image as from rows, whatever the effort says.
+        // A DeviceLocator gives the same fix from the image as from rows, for any effort.
         expect_same(pushed(frame, DeviceLocator(little)),
                     DeviceLocator(little).locate(frame.view()));
         found += fix.status == Status::ok ? 1 : 0;
@@ -141,7 +142,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
         errors_um.push_back(
             std::hypot(fix.x_grid() - x_grid(shot.pose), fix.y_grid() - y_grid(shot.pose)) *
             spacing_um);
-        // An error of a tenth of a spacing would mean that the place was read wrong.
+        // An error of a tenth of a spacing would indicate a wrong place.
         EXPECT_LT(errors_um.back(), 0.1 * spacing_um);
         EXPECT_EQ(fix.section, shot.page.pattern.section);
         EXPECT_LT(
@@ -149,7 +150,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
             0.01);
         EXPECT_LE(fix.p_wrong_log2, device.integrity.max_p_wrong_log2);
         EXPECT_GE(fix.dots_used, 36);
-        // A device computes no floating point.
+        // A device does not compute this floating-point value.
         EXPECT_EQ(fix.residual_px, 0);
         for (const auto& row : fix.covariance)
             EXPECT_THAT(row, testing::Each(0.0F));
@@ -171,7 +172,7 @@ TEST(Locate, LittleMemoryIsEnoughForADevice) {
         const Fix fix = pushed(frame, Locator(small, device));
         expect_same(pushed(frame, DeviceLocator(little)), fix);
         found += fix.status == Status::ok;
-        // Noise and graphics fill the memory; afterwards it must work as before.
+        // Noise and graphics fill the memory. Afterwards, it must work as before.
         const Shot hard = shot_of({.preset = Preset::hard}, kSeed, i);
         const Fix full = pushed(render(hard), DeviceLocator(little));
         if (full.status == Status::ok) {
@@ -210,7 +211,7 @@ TEST(Locate, SmallAndLargeMemoryGiveTheSameFix) {
 }
 
 TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
-    // Frames of other sizes and failures in between leave no trace.
+    // Frames of other sizes and failures in between have no effect.
     const auto used_memory = std::make_unique<LargeMemory>();
     Locator used(*used_memory, Options{});
     const GreyImage big = render(shot_of({.width_px = 640, .height_px = 480}, kSeed, 3));
@@ -222,7 +223,7 @@ TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
         EXPECT_EQ(used.locate(big.view()).status, Status::ok);
         expect_same(used.locate(frame.view()), fresh);
         EXPECT_EQ(used.locate(tiny.view()).status, Status::image_too_small);
-        // The frame is begun and dropped half way.
+        // The frame is begun, and dropped half-way.
         EXPECT_EQ(used.begin(frame.width_px, frame.height_px), Status::ok);
         for (int v = 0; v < 50; ++v)
             used.push_row(frame.view().row(v));
@@ -238,7 +239,7 @@ TEST(Locate, TheTraceKeepsTheFix) {
     const Fix fix = locator.locate(frame.view());
     ASSERT_EQ(fix.status, Status::ok);
     expect_same(fix, locator.trace().fix);
-    // Dots whose bits were not clear are seen, but not kept.
+    // Dots without clear bits are counted as seen, but not kept.
     const int kept = static_cast<int>(locator.trace().dots.size());
     EXPECT_GE(fix.dots_seen, kept);
     EXPECT_GE(kept, fix.dots_used);
@@ -310,19 +311,19 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             options.reference_dy_q8 = static_cast<std::int32_t>(offset.y * 256);
             const Fix fix = Locator(memory, options).locate(frame.view());
             ASSERT_EQ(fix.status, Status::ok);
-            // Expected is the place of that pixel by the camera's geometry, in spacings from the
-            // pose's cell.
+            // The expected place of the pixel follows from the camera's geometry, in spacings from
+            // the cell of the pose.
             const Vec2 pixel = Vec2{93.5, 59.5} + offset;
             const Vec2 from_pose = 1 / kDefaultSpacing_mm *
                                    Projection(shot.camera, shot.pose).offset_from_pixel(pixel);
             const double x = fix.x_grid() - shot.pose.cell.x - shot.pose.fraction_x;
             const double y = fix.y_grid() - shot.pose.cell.y - shot.pose.fraction_y;
-            // The tolerance is 1/100 spacing at the image's border, more outside of it.
+            // The tolerance is 1/100 spacing at the image border, and more outside of the image.
             const double tolerance = 0.01 + length(offset) * 1e-4;
             EXPECT_NEAR(x, from_pose.x, tolerance);
             EXPECT_NEAR(y, from_pose.y, tolerance);
-            // Noise may look like a slight tilt, which turns the axes across the image: by the
-            // error of positions over half the image, and more outside of it.
+            // Noise may be fitted as a slight tilt, which rotates the axes across the image: by the
+            // position error over half of the image, and more outside of the image.
             const double apart_rad =
                 std::remainder(fix.theta_rad() - at_centre.theta_rad(), 2 * std::numbers::pi);
             EXPECT_NEAR(apart_rad, 0, 1e-4 * std::max(1.0, length(offset) / 100));
@@ -347,7 +348,8 @@ TEST(Locate, ALensIsUndone) {
     }
 }
 
-// The second attempt measures dots where the code has them, also those that are not blobs.
+// The second attempt measures dots at the places given by the code, including dots that are not
+// blobs.
 TEST(Locate, UsesNoMoreDotsThanItSaw) {
     SmallMemory memory;
     int by_second = 0;

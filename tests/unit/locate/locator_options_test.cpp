@@ -1,4 +1,4 @@
-// Options in millimetres, pixels and ratios: their units, their ranges, and what they do in each
+// Options in millimetres, pixels and ratios: their units, their ranges, and their effects in each
 // attempt.
 #include "dotpose/locator_options.hpp"
 
@@ -152,7 +152,7 @@ TEST(LocatorOptions, TheCodeIsDetectedUnlessItIsGiven) {
         const Fix tracked = locator.locate(render(last).view(), Prediction::like(fix));
         EXPECT_EQ(tracked.attempt, Attempt::tracked);
         EXPECT_EQ(tracked.cell, fix.cell);
-        // Options without a code forget what was detected.
+        // Options without a code discard the detected code.
         locator.set_options(LocatorOptions{});
         EXPECT_EQ(locator.options().code, CodeVariant::anoto);
         EXPECT_EQ(locator.locate(render(last).view()).status, Status::ok);
@@ -162,14 +162,14 @@ TEST(LocatorOptions, TheCodeIsDetectedUnlessItIsGiven) {
               Status::ok);
 }
 
-/// A frame with less contrast: greys are drawn towards the middle.
+/// Returns a frame with less contrast: grey levels are moved towards the middle.
 GreyImage paled(GreyImage image, double by) {
     for (std::uint8_t& grey : image.pixels)
         grey = static_cast<std::uint8_t>(std::lround(128 + by * (grey - 128)));
     return image;
 }
 
-/// Contrast between the paper and the darkest parts of dots, in grey levels.
+/// Returns the contrast between the paper and the darkest parts of dots, in grey levels.
 int contrast_of(const GreyImage& image) {
     std::vector<std::uint8_t> greys = image.pixels;
     std::sort(greys.begin(), greys.end());
@@ -187,8 +187,8 @@ Fix pushed(const GreyImage& image, const LocatorOptions& options) {
 /// A way to locate a frame with options.
 using Way = std::function<Fix(const GreyImage&, const LocatorOptions&)>;
 
-/// Expects a frame to be located by an attempt, also if the contrast demanded is a third of what it
-/// has, but not if that is twice as much.
+/// Expects that an attempt locates a frame if the minimum contrast is a third of its contrast, and
+/// not if the minimum is twice its contrast.
 void expect_contrast_counts(const Way& locate, const GreyImage& image, Attempt attempt) {
     const int contrast = contrast_of(image);
     ASSERT_GT(contrast, 15);
@@ -259,7 +259,7 @@ TEST(MinContrast, RefusesPaleFramesOnDevices) {
     const auto device = std::make_unique<DeviceMemory>();
     int frames = 0;
     for (std::uint64_t i = 0; i < 20 && frames < 5; ++i) {
-        // Devices track dots that are darker than three quarters of the paper's level.
+        // Devices track dots that are darker than three quarters of the paper level.
         const GreyImage image = paled(frame(i), 0.7);
         Options options;
         const Fix fix = DeviceLocator(*device, options).locate(image.view());

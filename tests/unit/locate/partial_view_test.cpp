@@ -1,4 +1,4 @@
-// Views that the pattern covers only in part, with `locate` at its first attempt.
+// Views that are only partly covered by the pattern, with the first attempt of `locate`.
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ void expect_located_at_once(const PartialView& view) {
         outcome.fix = Locator(*memory, options).locate(image.view());
         EXPECT_EQ(outcome.fix.status, Status::ok) << "frame " << i;
         EXPECT_FALSE(outcome.is_wrong()) << "frame " << i;
-        // The next prediction counts from the image centre.
+        // The next prediction is relative to the image centre.
         EXPECT_EQ(outcome.fix.pattern_from_image.centre_q8, (FixedVec{639 * 128, 479 * 128}));
         const Fix next =
             Locator(*memory, options).locate(image.view(), Prediction::like(outcome.fix));
@@ -57,8 +57,8 @@ TEST(PartialViews, IslandsAreLocatedAtOnce) {
     expect_located_at_once(view);
 }
 
-/// The devices' attempt starts at the centroid of the dots, from which noise on blank paper must
-/// not draw it away.
+/// The attempt of devices starts at the centroid of the dots. Noise on blank paper must not shift
+/// it.
 TEST(PartialViews, BordersAndCornersAreLocatedByDevices) {
     const auto memory = std::make_unique<LargeMemory>();
     Options options;
@@ -83,8 +83,8 @@ TEST(PartialViews, BordersAndCornersAreLocatedByDevices) {
 }
 
 TEST(PartialViews, CoverWhatTheyShould) {
-    // Ink covers a 36th of pi of each cell's area; pixels darker than any paper show where dots
-    // are.
+    // Ink covers pi / 36 of the area of each cell. Pixels darker than any paper show the places of
+    // the dots.
     PartialView view;
     view.min_share = view.max_share = 0.3;
     for (std::uint64_t i = 0; i < 4; ++i) {

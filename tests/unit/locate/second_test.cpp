@@ -1,4 +1,4 @@
-// The second attempt: what is left to it, and what only it sees.
+// The second attempt: the frames that reach it, and the frames that only it locates.
 #include "locate/second.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 93;
 
-/// Returns a frame of clean dots that are 6 grey levels darker than paper.
+/// Returns a frame of clean dots that are 6 grey levels darker than the paper.
 Shot pale_shot(std::uint64_t index) {
     Shot shot = shot_of({.spacing_px = 8}, kSeed, index);
     shot.imperfections = {};
@@ -59,7 +59,7 @@ TEST(SecondAttempt, DotsThatFallOnThePixelsAlikeAreNotBiased) {
                         .read({}, core::SecondAttempt::Resampling::if_doubtful));
         const Fix fix = w.fix;
         EXPECT_EQ(fix.attempt, Attempt::second);
-        // Up to 0.01 with the bias, which is 50 deviations.
+        // With the bias, the error would be up to 0.01, which is 50 standard deviations.
         EXPECT_LT(std::abs(fix.x_grid() - x_grid(shot.pose)), 5 * std::sqrt(fix.covariance[0][0]));
         EXPECT_LT(std::abs(fix.y_grid() - y_grid(shot.pose)), 5 * std::sqrt(fix.covariance[1][1]));
     }

@@ -15,7 +15,7 @@
 
 namespace dotpose::core_test {
 
-/// Changes to a frame of preset nominal.
+/// Changes to a frame of the preset nominal.
 struct ShotSize {
     double spacing_px = 11;
     int width_px = 188;
@@ -32,7 +32,7 @@ inline Shot shot_of(const ShotSize& size, std::uint64_t seed, std::uint64_t inde
     setup.camera.width_px = size.width_px;
     setup.camera.height_px = size.height_px;
     setup.camera.mm_per_px = setup.pattern.spacing_mm / size.spacing_px;
-    // The field of view is the same for all spacings.
+    // The angle of view is the same for all spacings.
     setup.camera.working_distance_mm = 350 * setup.camera.mm_per_px * size.width_px / 188;
     return draw_shot(setup, index);
 }
@@ -41,7 +41,8 @@ inline double turn_between(double a_rad, double b_rad) {
     return std::abs(std::remainder(a_rad - b_rad, 2 * std::numbers::pi));
 }
 
-/// Whether a fix has the right cell and section, within a fifth of a spacing and two degrees.
+/// Returns true if the cell and section of a fix are correct, within a fifth of a spacing and two
+/// degrees.
 inline bool is_right(const Fix& fix, const Shot& shot) {
     return std::abs(fix.x_grid() - x_grid(shot.pose)) < 0.2 &&
            std::abs(fix.y_grid() - y_grid(shot.pose)) < 0.2 &&
@@ -68,7 +69,7 @@ inline void expect_same_bits(const Fix& a, const Fix& b) {
     EXPECT_EQ(std::memcmp(a.covariance, b.covariance, sizeof a.covariance), 0);
 }
 
-/// Returns the forms of the kernels that this machine has.
+/// Returns the forms of the kernels that this machine supports.
 inline std::vector<const core::Kernels*> kernel_forms() {
     std::vector<const core::Kernels*> forms{&core::portable_kernels(), &core::wide_kernels()};
     if (core::avx2_kernels() != nullptr) forms.push_back(core::avx2_kernels());

@@ -1,4 +1,4 @@
-// The tracked attempt: predictions that are right, somewhat off, wrong, and nonsense.
+// The tracked attempt: correct, inaccurate, wrong and invalid predictions.
 #include "locate/tracked.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ std::int32_t bam(double rad) {
 }
 
 /// Returns the prediction that matches the geometry of the shot: the plane of a camera that looks
-/// straight down, or of a tilted one.
+/// straight down, or of a tilted camera.
 Prediction true_prediction(const Shot& shot) {
     Prediction prediction;
     const Pattern& pattern = shot.page.pattern;
@@ -70,7 +70,7 @@ Options options_for(const Shot& shot) {
     return options;
 }
 
-/// Returns predictions that are far off in the same section, near, and in another section.
+/// Returns predictions that are far away in the same section, near, and in another section.
 std::vector<Prediction> wrong_predictions(const Shot& shot, Rng& rng) {
     const Prediction truth = true_prediction(shot);
     std::vector<Prediction> wrong;
@@ -136,7 +136,7 @@ TEST(LocateTracked, FollowsTheFixOfTheFrameBefore) {
         Shot shot = shot_of({}, kSeed, i);
         Fix fix = Locator(large_memory(), Options{}).locate(render(shot).view());
         ASSERT_EQ(fix.status, Status::ok);
-        // The light is halved, and the camera moves on a little.
+        // The light is halved, and the camera moves a little.
         shot.imperfections.paper_level *= 0.5;
         shot.pose.fraction_x += 0.2;
         shot.pose.theta_rad += radians(1);
@@ -159,7 +159,7 @@ TEST(LocateTracked, FollowsATiltedCamera) {
         if (fix.status != Status::ok) continue;
         ++found;
         EXPECT_TRUE(is_right(fix, shot));
-        // The same image is tracked from its own fix.
+        // The same image is tracked with the prediction from its own fix.
         const Fix again = tracked(image, Prediction::like(fix));
         EXPECT_EQ(again.status, Status::ok);
         EXPECT_NEAR(again.x_grid(), fix.x_grid(), 0.003);
@@ -240,7 +240,7 @@ std::int32_t any_number(Rng& rng) {
     }
 }
 
-/// Returns a prediction in which some fields are nonsense.
+/// Returns a prediction in which some fields are random.
 Prediction garbled(Prediction p, Rng& rng) {
     PlaneFromImage& plane = p.pattern_from_image;
     const std::array numbers{&plane.centre_q8.x,
@@ -257,7 +257,7 @@ Prediction garbled(Prediction p, Rng& rng) {
                              &p.displacement_q16,
                              &p.sigma_q16,
                              &p.sigma_theta_bam};
-    // One of the fields is changed, or many.
+    // One field is changed, or many.
     const std::uint32_t share = rng.below(2) == 0 ? 1 : 8;
     const std::size_t one = rng.below(static_cast<std::uint32_t>(numbers.size() + 4));
     const auto is_hit = [&](std::size_t i) { return i == one || rng.below(16) < share - 1; };

@@ -61,7 +61,7 @@ Bitmap read_png(const fs::path& path) {
     bitmap.bits_per_pixel = png_get_bit_depth(png, info);
     bitmap.x_dpi = png_get_x_pixels_per_meter(png, info) * 0.0254;
     bitmap.y_dpi = png_get_y_pixels_per_meter(png, info) * 0.0254;
-    png_set_expand(png);  // one byte per pixel, 0 or 255
+    png_set_expand(png);  // expands to one byte per pixel, 0 or 255
     std::vector<png_byte> row(static_cast<std::size_t>(bitmap.width_px));
     for (int v = 0; v < bitmap.height_px; ++v) {
         png_read_row(png, row.data(), nullptr);
@@ -88,7 +88,8 @@ Bitmap read_tiff(const fs::path& path) {
     TIFFGetField(tiff, TIFFTAG_RESOLUTIONUNIT, &unit);
     TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &x_dpi);
     TIFFGetField(tiff, TIFFTAG_YRESOLUTION, &y_dpi);
-    // RGBA, so that libtiff itself says what is black. Its rows run upwards.
+    // The samples are read as RGBA, because libtiff then determines which pixels are black. libtiff
+    // returns the rows from the bottom to the top.
     std::vector<std::uint32_t> pixels(std::size_t{width} * height);
     const bool read = TIFFReadRGBAImage(tiff, width, height, pixels.data(), 1) == 1;
     TIFFClose(tiff);

@@ -17,7 +17,7 @@ class TemporaryDirectory {
     TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
 
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    /// Returns the names of all files inside, hidden ones too, sorted.
+    /// Returns the names of all files in the directory, including hidden ones, sorted.
     std::vector<std::string> names() const;
     const std::filesystem::path& path() const { return path_; }
 
@@ -28,7 +28,7 @@ class TemporaryDirectory {
 std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, const std::string& content);
 
-/// A page of 1 bit per pixel, as a reader of the format sees it.
+/// A page with 1 bit per pixel, as read by a reader of its format.
 struct Bitmap {
     int width_px = 0;
     int height_px = 0;

@@ -1,4 +1,4 @@
-// Pages of several regions, and the test page.
+// Pages with several regions, and the test page.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -19,7 +19,7 @@ using print_test::TemporaryDirectory;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Returns a page with two regions of 10 x 8 cells and a bar between them, on 40 x 20 mm.
+/// Returns a page of 40 x 20 mm with two regions of 10 x 8 cells and a bar between them.
 PrintPage two_regions() {
     PrintPage page;
     page.width_mm = 40;
@@ -44,7 +44,7 @@ void expect_sum_of_sheets(const Bitmap& together, const Bitmap& first, const Bit
     ASSERT_EQ(together.height_px, first.height_px);
     for (int v = 0; v < together.height_px; ++v) {
         for (int u = 0; u < together.width_px; ++u) {
-            // At 600 dpi 15.24 mm are 360 px, 1.27 mm 30 px and 2.54 mm 60 px.
+            // At 600 dpi, 15.24 mm are 360 px, 1.27 mm 30 px, and 2.54 mm 60 px.
             const bool in_bar = u >= 360 && u < 390 && v >= 60 && v < 120;
             ASSERT_EQ(together.at(u, v), first.at(u, v) || second.at(u, v) || in_bar)
                 << "at " << u << ", " << v;
@@ -102,7 +102,7 @@ TEST(PrintPage, what_cannot_be_printed_leaves_no_file) {
 }
 
 TEST(PrintPage, text_is_drawn_with_rectangles) {
-    // A dash is one row of five pixels, the fourth of seven.
+    // A dash is a single row of five pixels, the fourth of seven rows.
     const auto marks = ink_text(" -", 10, 20, 7);
     ASSERT_EQ(marks.size(), 5U);
     for (std::size_t i = 0; i < marks.size(); ++i) {
@@ -148,7 +148,7 @@ TEST(TestPage, patches_lie_apart_on_the_page_and_name_themselves) {
 TEST(TestPage, other_cells_are_no_patches) {
     for (const Cell cell : {Cell{0, 0}, Cell{410'180'000, 1000}, Cell{1000, 410'040'000},
                             Cell{409'999'000, 410'040'000}, Cell{410'810'000, 410'040'000},
-                            Cell{410'180'000, 410'170'000}}) {  // dots that would touch
+                            Cell{410'180'000, 410'170'000}}) {  // dots would touch
         EXPECT_FALSE(test_patch_at(CodeVariant::anoto, cell)) << cell.x << ", " << cell.y;
     }
 }
@@ -156,7 +156,7 @@ TEST(TestPage, other_cells_are_no_patches) {
 TEST(TestPage, leaves_out_dots_that_would_touch_and_refuses_nonsense) {
     TestPageOptions options;
     options.spacings = {12, 24};
-    options.dots = {4, 8};  // 8 does not fit between dots 8 apart
+    options.dots = {4, 8};  // 8 is too large for a spacing of 8
     EXPECT_EQ(make_test_page(options).sheets.size(), 3U);
     options.dots = {0};
     EXPECT_THROW(make_test_page(options), BadArgument);

@@ -58,15 +58,15 @@ TEST(labels, say_what_is_on_the_page) {
     EXPECT_THAT(content, HasSubstr("dotpose print -o door.pdf"));
     EXPECT_THAT(content, HasSubstr("0 0 0 1 k 0 0 0 1 K"));
     EXPECT_THAT(content, HasSubstr("(0 mm) Tj"));
-    // The ruler counts from the edge of the page; the dots begin at 10.2 mm and span 79.8 mm.
+    // The ruler starts at the edge of the page. The dots begin at 10.2 mm and span 79.8 mm.
     EXPECT_THAT(content, HasSubstr("(80) Tj"));
     EXPECT_THAT(content, Not(HasSubstr("(90) Tj")));
 }
 
 /// The places of all ticks and numbers of a ruler, in mm from the corner of the page.
 struct Marks {
-    std::vector<double> ticks_x_mm;  ///< of the ruler above the dots
-    std::vector<double> ticks_y_mm;  ///< of the one beside them
+    std::vector<double> ticks_x_mm;  ///< ticks of the ruler above the dots
+    std::vector<double> ticks_y_mm;  ///< ticks of the ruler beside the dots
     std::map<std::string, std::array<double, 2>> texts_mm;
 };
 
@@ -96,8 +96,8 @@ Marks marks_of(const std::string& content, double height_mm) {
 TEST(labels, rulers_count_from_the_corner_of_the_page) {
     const Sheet sheet = make_sheet(small_page(10));
     const Marks marks = marks_of(content_of_labels(sheet, {1, 1}, named()), sheet.height_mm);
-    // Above the dots to 89, beside them to 49: the last whole millimetres before they end. Between
-    // 4 and 10 the rulers and arrows would cross.
+    // The rulers end at 89 mm above the dots and at 49 mm beside them, the last whole millimetres
+    // before the end of the dots. Between 4 and 10 mm, rulers and arrows would intersect.
     std::vector<double> expected_x = {1, 2, 3, 4};
     std::vector<double> expected_y = expected_x;
     for (int mm = 10; mm <= 89; ++mm) {
@@ -107,7 +107,7 @@ TEST(labels, rulers_count_from_the_corner_of_the_page) {
     const auto near = [](double distance_mm) { return testing::DoubleNear(distance_mm, 0.001); };
     EXPECT_THAT(marks.ticks_x_mm, testing::Pointwise(testing::DoubleNear(0.001), expected_x));
     EXPECT_THAT(marks.ticks_y_mm, testing::Pointwise(testing::DoubleNear(0.001), expected_y));
-    // A number is centred at its tick: two digits of 0.556 x 4.5 points are 1.765 mm wide.
+    // A number is centred at its tick. Two digits of 0.556 x 4.5 points are 1.765 mm wide.
     ASSERT_TRUE(marks.texts_mm.contains("80"));
     EXPECT_THAT(marks.texts_mm.at("80")[0] + 1.765 / 2, near(80));
 }
@@ -119,16 +119,17 @@ TEST(labels, show_the_origin_and_its_pattern_coordinates) {
     options.origin = {1000, 3};
     const Sheet sheet = make_sheet(options);
     const std::string content = content_of_labels(sheet, {1, 1}, named());
-    // The first intersection is at (1000, 3) spacings, and on the page as much right of the corner.
+    // The first intersection is at (508, 1.524) mm in the pattern, and at the origin of the sheet,
+    // relative to the corner, on the page.
     const std::string corner =
         fmt::format("x_mm {:.3f}, y_mm {:.3f}", 508 - sheet.origin_x_mm, 1.524 - sheet.origin_y_mm);
     EXPECT_THAT(content, HasSubstr("count from this corner, in the pattern " + corner));
     const Marks marks = marks_of(content, sheet.height_mm);
     ASSERT_TRUE(marks.texts_mm.contains("x") && marks.texts_mm.contains("y"));
-    // Each letter stands at the head of its arrow: x to the right, y below.
+    // Each letter is at the head of its arrow: x to the right, y below.
     EXPECT_GT(marks.texts_mm.at("x")[0], marks.texts_mm.at("y")[0] + 3);
     EXPECT_GT(marks.texts_mm.at("y")[1], marks.texts_mm.at("x")[1] + 3);
-    // On a narrow page the text below the dots says it.
+    // On a narrow page, the text is below the dots.
     options.paper = {80, 60};
     const std::string narrow = content_of_labels(make_sheet(options), {1, 1}, named());
     EXPECT_THAT(narrow, Not(HasSubstr("count from this")));
@@ -136,7 +137,7 @@ TEST(labels, show_the_origin_and_its_pattern_coordinates) {
     EXPECT_THAT(narrow, HasSubstr(fmt::format("{:.3f}", 508 - sheet.origin_x_mm)));
 }
 
-/// Bottom edge and top edge of the page, without margins: every position that text or a tick has.
+/// Positions of all texts and ticks on a page without margins.
 TEST(labels, stay_clear_of_the_dots) {
     for (const double margin_mm : {3.0, 5.0, 7.0, 10.0, 20.0}) {
         const Sheet sheet = make_sheet(small_page(margin_mm));
@@ -157,7 +158,7 @@ TEST(labels, stay_clear_of_the_dots) {
             x *= mm_per_pt;
             y = sheet.height_mm - y * mm_per_pt;
             EXPECT_TRUE(x > 0 && y > 0 && y < sheet.height_mm) << line;
-            // Text below begins under its capitals, 0.718 * 6 pt = 1.52 mm high.
+            // Text below the dots begins below its capitals, 0.718 * 6 pt = 1.52 mm high.
             EXPECT_TRUE(x < left || y < top || y > bottom + (is_text ? 1.52 : 0))
                 << margin_mm << ": " << line;
         }
@@ -167,7 +168,7 @@ TEST(labels, stay_clear_of_the_dots) {
 TEST(labels, are_left_out_where_there_is_no_room) {
     const Sheet sheet = make_sheet(small_page(2));
     EXPECT_THAT(content_of_labels(sheet, {1, 1}, named()), Not(HasSubstr("Tj")));
-    const Sheet wider = make_sheet(small_page(5));  // one line, so no command
+    const Sheet wider = make_sheet(small_page(5));  // a single line, so there is no command
     const std::string content = content_of_labels(wider, {1, 1}, named());
     EXPECT_THAT(content, HasSubstr("page 1 of 1"));
     EXPECT_THAT(content, Not(HasSubstr("dotpose print")));
@@ -192,7 +193,7 @@ TEST(pdf, glyphs_need_whole_pixels) {
                 ThrowsMessage<BadArgument>(HasSubstr("whole pixels")));
     print.drawing = DotDrawing::automatic;
     write_sheet(make_sheet(options), directory / "b.pdf", print);
-    print.dpi = 1000;  // 20 pixels, but a third of a pixel in the displacement
+    print.dpi = 1000;  // 20 pixels per spacing, but a fraction of a pixel in the displacement
     write_sheet(make_sheet(options), directory / "c.pdf", print);
     EXPECT_EQ(directory.names(), (std::vector<std::string>{"a.pdf", "b.pdf", "c.pdf"}));
 }

@@ -39,12 +39,14 @@ Sheet small_sheet() {
     return make_sheet(options);
 }
 
-// With 0.508 mm the geometry is whole numbers. 2 mm of margin and 0.127 mm of reach are 25.12
-// pixels of 1/300 inch, so the first intersection is the centre of pixel 25; then every 6th.
+// At 0.508 mm, all lengths are whole numbers. A margin of 2 mm and a reach of 0.127 mm are 25.12
+// pixels of 1/300 inch, so the first intersection is the centre of pixel 25, followed by one every
+// 6 pixels.
 constexpr int kFirst_px = 25;
 constexpr int kSpacing_px = 6;
 
-/// Shape of a dot in pixels of 300, 600 or 1200 dpi, from the left top corner of its 300 dpi pixel.
+/// Returns the shape of a dot in pixels of 300, 600 or 1200 dpi, from the top left corner of its
+/// 300 dpi pixel.
 Pixels dot_shape(int scale) {
     if (scale == 1) return {{0, 0}};
     if (scale == 2) return {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
@@ -64,7 +66,7 @@ void expect_exact_dots(const Bitmap& page, const Sheet& sheet, int scale) {
             }
         }
     }
-    // All expected pixels are different, so an equal number means that there are no others.
+    // All expected pixels are different, so equal numbers mean that there are no other pixels.
     EXPECT_EQ(page.count_ink(), sheet.columns * sheet.rows * static_cast<int>(shape.size()));
 }
 
@@ -84,7 +86,7 @@ TEST(write_raster, fills_whole_printer_pixels_with_the_default_spacing) {
 }
 
 TEST(write_raster, first_letters_are_those_of_the_code) {
-    // From the text vector at (217, 1134): "dddurddl". Independent of symbol_at.
+    // From the text vector at (217, 1134): "dddurddl". Independent of `symbol_at`.
     const Bitmap page = print_and_read(small_sheet(), "page.png", 300);
     const Pixels expected = {{0, 1}, {0, 1}, {0, 1}, {0, -1}, {1, 0}, {0, 1}, {0, 1}, {-1, 0}};
     for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -96,7 +98,7 @@ TEST(write_raster, first_letters_are_those_of_the_code) {
     }
 }
 
-/// Errors of the ink's centroids against the dots that should be at each intersection, in pixels.
+/// Errors of the centroids of the ink relative to the expected dot at each intersection, in pixels.
 struct Errors {
     double largest_px = 0;
     double mean_px = 0;
@@ -171,8 +173,8 @@ TEST(write_raster, has_all_dots_without_a_margin) {
 }
 
 TEST(write_raster, keeps_dots_that_rounding_would_push_off_the_page) {
-    // The page is 100.4 pixels wide, printed as 100. Dots of the last column that are displaced to
-    // the right have their centre at 100.1, so the nearest pixel would be the one past the end.
+    // The page is 100.4 pixels wide, and printed with 100. The centres of dots of the last column
+    // that are displaced to the right are at 100.1, so the nearest pixel would be past the end.
     constexpr double kPixel_mm = 25.4 / 300;
     Sheet sheet;
     sheet.pattern.dot_mm = 0.6 * kPixel_mm;

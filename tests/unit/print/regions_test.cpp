@@ -18,14 +18,15 @@ TEST(regions, begin_a_new_line_below_the_highest_of_the_last) {
     const std::uint32_t start = kPositionsPerAxis - 50;
     Regions regions({start, 7});
     EXPECT_EQ(regions.take(20, 8), (Cell{start, 7}));
-    EXPECT_EQ(regions.take(30, 12), (Cell{start + 20, 7}));  // fills the line to the last cell
+    EXPECT_EQ(regions.take(30, 12), (Cell{start + 20, 7}));  // fills the line up to the last cell
     EXPECT_EQ(regions.take(20, 8), (Cell{start, 19}));
     EXPECT_EQ(regions.take(31, 8), (Cell{start, 27}));
 }
 
 TEST(make_sheets, gives_every_page_cells_of_its_own) {
     SheetOptions options;
-    options.origin = {kPositionsPerAxis - 1000, 5};  // two regions of 394 columns fit beside it
+    options.origin = {kPositionsPerAxis - 1000,
+                      5};  // room for two regions of 394 columns beside it
     const std::vector<Sheet> sheets = make_sheets(options, 5);
     ASSERT_EQ(sheets.size(), 5U);
     for (std::size_t a = 0; a < sheets.size(); ++a) {
@@ -49,7 +50,8 @@ TEST(make_sheets, refuses_counts_and_regions_that_do_not_exist) {
     SheetOptions options;
     EXPECT_THROW(make_sheets(options, 0), BadArgument);
     EXPECT_THROW(make_sheets(options, kMaxPages + 1), BadArgument);
-    options.origin = {kPositionsPerAxis - 394, kPositionsPerAxis - 2 * 565};  // room for two
+    options.origin = {kPositionsPerAxis - 394,
+                      kPositionsPerAxis - 2 * 565};  // room for two regions
     EXPECT_EQ(make_sheets(options, 2).size(), 2U);
     EXPECT_THROW(make_sheets(options, 3), BadArgument);
 }

@@ -20,8 +20,8 @@ void expect_refused(const SheetOptions& options, const char* part_of_message) {
                 ThrowsMessage<BadArgument>(HasSubstr(part_of_message)));
 }
 
-/// Returns the distances of the outermost possible ink from two opposite edges of the page: left,
-/// right.
+/// Returns the distances of the outermost possible ink from two opposite edges of the page: left
+/// and right, or top and bottom.
 std::pair<double, double> free_mm(double first_mm, int count, double size_mm,
                                   const Pattern& pattern) {
     const double ink_mm = pattern.displacement_mm + pattern.dot_mm / 2;
@@ -35,7 +35,8 @@ TEST(make_sheet, fills_a4_inside_the_default_margin) {
     options.pattern.section = {.u = 3, .v = 62};
     options.pattern.code = CodeVariant::microdots;
     const Sheet sheet = make_sheet(options);
-    // By hand: 200 mm hold 1 + floor((200 - 0.254) / 0.508) = 394 columns, 287 mm hold 565 rows.
+    // By hand: 200 mm have room for 1 + floor((200 - 0.254) / 0.508) = 394 columns, and 287 mm for
+    // 565 rows.
     EXPECT_EQ(sheet.columns, 394);
     EXPECT_EQ(sheet.rows, 565);
     EXPECT_EQ(sheet.width_mm, 210);
@@ -60,7 +61,7 @@ TEST(make_sheet, keeps_the_margin_and_wastes_less_than_a_cell) {
             for (const double free : {left, right, top, bottom}) {
                 EXPECT_GE(free, margin_mm - 1e-6) << margin_mm << " " << spacing_mm;
             }
-            // Snapping to the printer's pixels may move the first dot by up to one of them.
+            // Snapping to the pixels of the printer may move the first dot by up to one pixel.
             EXPECT_LE(left, margin_mm + 25.4 / 300) << margin_mm << " " << spacing_mm;
             EXPECT_LE(top, margin_mm + 25.4 / 300) << margin_mm << " " << spacing_mm;
             EXPECT_LT(right, margin_mm + spacing_mm) << margin_mm << " " << spacing_mm;
@@ -151,7 +152,7 @@ TEST(validate, refuses_ink_off_the_page) {
     const Sheet good = make_sheet({});
     EXPECT_NO_THROW(validate(good));
     Sheet left = good;
-    left.origin_x_mm = 0.1;  // ink reaches 0.127 mm from an intersection
+    left.origin_x_mm = 0.1;  // ink extends 0.127 mm from an intersection
     Sheet right = good;
     right.columns += 12;
     Sheet top = good;

@@ -19,7 +19,7 @@ struct Vector {
     std::vector<std::string> rows;
 };
 
-// Vectors made by an implementation that shares nothing with this one.
+// Test vectors from an independent implementation.
 const std::vector<Vector> kVectors = {
     {CodeVariant::anoto,
      {0, 0},

@@ -31,7 +31,7 @@ Sheet page() {
     return make_sheet(options);
 }
 
-/// While it lives, no file can grow over `limit_bytes`, as on a full disk.
+/// Limits the size of files to `limit_bytes` during its lifetime, as on a full disk.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t limit_bytes) {
@@ -86,7 +86,7 @@ TEST(write_sheet, leaves_the_old_file_and_no_litter_when_stopped) {
         options.progress = [&](int rows_done, int rows) {
             EXPECT_EQ(rows, page().rows);
             EXPECT_EQ(rows_done, ++calls);
-            // The old file is there all the time, the new one under another name.
+            // The old file exists all the time, and the new one has another name.
             EXPECT_EQ(read_file(directory / name), "old");
             EXPECT_EQ(directory.names().size(), 2U);
             return rows_done < 50;
@@ -126,7 +126,8 @@ TEST(write_sheet, says_why_a_file_cannot_be_created) {
     EXPECT_THAT(directory.names(), ElementsAre("folder.png", "pipe.png"));
 }
 
-/// Writes a file in a child process: root may write everywhere, so it becomes another user first.
+/// Writes a file in a child process. The process first changes to another user, because root may
+/// write everywhere.
 [[noreturn]] void write_without_rights(const fs::path& path) {
     constexpr uid_t kNobody = 65534;
     if (geteuid() == 0 && setuid(kNobody) != 0) _exit(3);

@@ -1,4 +1,4 @@
-// One dot in the image: place, area, spread, and the printing errors that belong to the page.
+// One dot in the image: place, area and spread, and the printing errors that belong to the page.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace dotpose::simulate_test {
 namespace {
 
-// Near the dot, at a place and angle that differ from trial to trial.
+// Returns a pose near the dot, at a place and angle that differ between trials.
 CameraPose pose_near_dot(Rng& rng) {
     CameraPose pose;
     pose.cell = kDotCell;
@@ -26,8 +26,8 @@ CameraModel camera_with_spacing(double spacing_px) {
     return camera;
 }
 
-// Light that reaches each pixel if the disc is sampled on 64 x 64 points per pixel: slow, and
-// independent of the renderer.
+// Returns the light that reaches each pixel if the disc is sampled at 64 x 64 points per pixel.
+// Slow, and independent of the renderer.
 std::vector<double> sampled(const CameraModel& camera, Vec2 centre, double radius_px,
                             const Imperfections& seen) {
     constexpr int kPoints = 64;
@@ -128,8 +128,8 @@ TEST(Dot, InkMassIsTheDotsAreaWhateverBlursIt) {
     }
 }
 
-// Light is additive: many dots, apart, touching and cut off by the frame, take away what each takes
-// alone.
+// Light is additive: many dots (apart, touching, or cut off by the frame) remove the sum of the
+// light that each removes alone.
 TEST(Dot, ManyTakeAwayTheSumOfEach) {
     Rng rng(6);
     CameraModel camera;
@@ -144,7 +144,7 @@ TEST(Dot, ManyTakeAwayTheSumOfEach) {
     std::vector<double> sum(paper.begin(), paper.end());
     simulate::Ink all;
     for (int i = 0; i < 40; ++i) {
-        // In columns 3 px apart, so that none covers another; rows as they come.
+        // Columns 3 px apart, so that dots do not cover each other, and any rows.
         const double u = 3 * (i % 23) - 2.5;
         const double v = i < 23 ? rng.uniform(-2, 20) : rng.uniform(23, 45);
         simulate::Ink one;
@@ -168,13 +168,13 @@ TEST(Dot, BlurAndMotionWidenItAsTheyShould) {
     seen.blur_sigma_px = 0.8;
     seen.motion_px = {1.8, 0};
     const Darkness dot = measure(exact_levels(one_dot_page(), camera, pose, seen), 188, 200);
-    // Variances add: disc r^2 / 4, lens sigma^2, pixel 1/12, motion length^2 / 12.
+    // Variances add up: disc r^2 / 4, lens sigma^2, pixel 1/12, motion length^2 / 12.
     const double still = radius_px * radius_px / 4 + 0.64 + 1.0 / 12;
     EXPECT_NEAR(dot.variance_v, still, 0.005);
     EXPECT_NEAR(dot.variance_u, still + 1.8 * 1.8 / 12, 0.01);
 }
 
-// The same cell from two poses: the dot is off its place by the same error on paper.
+// The same cell from two poses: the error of the dot's place on the paper is the same.
 TEST(Dot, PrintingErrorsBelongToThePage) {
     Imperfections seen;
     seen.blur_sigma_px = 0.5;
@@ -264,7 +264,7 @@ TEST(Dot, MissingAndJitterHaveTheirStatistics) {
     double square = 0;
     int counted = 0;
     for (const auto& dot : jittered) {
-        // Without displacement all dots lie on intersections, 11.04 px apart.
+        // Without displacement, all dots are on the intersections, 11.04 px apart.
         const double step_px = kDefaultSpacing_mm / camera.mm_per_px;
         const double error = std::remainder(dot.centre_px.x - 499.5, step_px);
         square += error * error;

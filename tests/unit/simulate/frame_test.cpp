@@ -1,4 +1,4 @@
-// Whole frames: statistics, determinism, presets, pages with an end, refusals.
+// Whole frames: statistics, determinism, presets, pages with edges, refusals.
 #include <algorithm>
 #include <string>
 #include <thread>
@@ -10,7 +10,7 @@
 namespace dotpose::simulate_test {
 namespace {
 
-// FNV-1a.
+// Returns the FNV-1a checksum of an image.
 std::uint64_t checksum(const GreyImage& image) {
     std::uint64_t hash = 0xCBF29CE484222325u;
     for (const std::uint8_t pixel : image.pixels)
@@ -116,7 +116,7 @@ TEST(Frame, PaperTextureHasItsDeviation) {
     EXPECT_NEAR(std::sqrt(square / count - mean * mean) / mean, 0.05, 0.002);
 }
 
-// A grain of the paper looks the same in a whole frame and in a frame of one pixel.
+// A grain of the paper has the same level in a whole frame and in a frame of one pixel.
 TEST(Frame, PaperTextureBelongsToThePage) {
     Imperfections seen;
     seen.texture = 0.05;
@@ -148,7 +148,7 @@ TEST(Frame, PaperTextureBelongsToThePage) {
             most = std::max(most, alone);
         }
     }
-    EXPECT_GT(most - least, 20);  // 4 deviations of 10
+    EXPECT_GT(most - least, 20);  // 4 standard deviations of 10
 }
 
 TEST(Frame, HasAsManyDotsAsCellsInView) {

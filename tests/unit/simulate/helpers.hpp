@@ -1,4 +1,4 @@
-/// Frames of one dot, and how to measure it.
+/// Frames of a single dot, and measurements of the dot.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ inline double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
 
-/// A page with nothing but the dot of cell (1000, 2000).
+/// A page with only the dot of cell (1000, 2000).
 inline constexpr Cell kDotCell{1000, 2000};
 inline Page one_dot_page() {
     Page page;
@@ -25,7 +25,8 @@ inline Page one_dot_page() {
     return page;
 }
 
-/// Offset of that dot's centre from the pose point, from the definitions of code.hpp alone.
+/// Returns the offset of the dot's centre from the pose point, from the definitions of code.hpp
+/// alone.
 inline Vec2 dot_offset_mm(const Page& page, const CameraPose& pose) {
     const Symbol symbol = symbol_at(page.pattern.code, kDotCell, page.pattern.section);
     const double cells_x = static_cast<double>(kDotCell.x) - pose.cell.x - pose.fraction_x;
@@ -34,7 +35,7 @@ inline Vec2 dot_offset_mm(const Page& page, const CameraPose& pose) {
             cells_y * page.pattern.spacing_mm + dy(symbol) * page.pattern.displacement_mm};
 }
 
-/// Grey levels before noise and rounding.
+/// Returns the grey levels before noise and rounding.
 inline std::vector<float> exact_levels(const Page& page, const CameraModel& camera,
                                        const CameraPose& pose, const Imperfections& seen) {
     const simulate::View view(camera, pose, seen);
@@ -43,7 +44,7 @@ inline std::vector<float> exact_levels(const Page& page, const CameraModel& came
     return expose(ink, view, page, seen);
 }
 
-/// What is missing from bare paper, and where.
+/// The light missing relative to bare paper, and its position.
 struct Darkness {
     double mass = 0;  ///< sum over pixels of (paper - level) / paper
     Vec2 centroid_px;
@@ -60,7 +61,7 @@ Darkness measure(const Levels& levels, int width_px, double paper) {
     double square_v = 0;
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const double dark = 1 - static_cast<double>(levels[i]) / paper;
-        // Single precision leaves 1e-6 everywhere, which a whole frame would add up.
+        // Single precision causes errors of 1e-6 everywhere, which would add up over a whole frame.
         if (std::abs(dark) < 1e-5) continue;
         const double u = static_cast<double>(i % static_cast<std::size_t>(width_px));
         const double v = static_cast<double>(i / static_cast<std::size_t>(width_px));

@@ -1,4 +1,4 @@
-// A page given as an image must look as the same page given as a pattern.
+// A page given as an image must give the same frame as the page given as a pattern.
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +11,11 @@ namespace {
 
 constexpr double kPageWidth_mm = 14;
 constexpr double kPageHeight_mm = 12;
-constexpr double kFirst_mm = 1.3;  // of the first intersection, from the left and from the top
+constexpr double kFirst_mm =
+    1.3;  // position of the first intersection, from the left and from the top
 
-/// Discs of solid ink by 4 x 4 samples per pixel, painted without src/simulate.
+/// Returns a page with discs of solid ink, painted with 4 x 4 samples per pixel, without
+/// src/simulate.
 GreyImage painted(const Page& page, double mm_per_px) {
     GreyImage image;
     image.width_px = static_cast<int>(kPageWidth_mm / mm_per_px);
@@ -61,7 +63,7 @@ TEST(PageImage, ShowsWhatThePatternShows) {
     seen.vignetting = 0.3;
     seen.fall = 0.2;
     const CameraModel camera;
-    // The second looks past a corner of the dots.
+    // The second view extends past a corner of the dots.
     for (const Vec2 at_mm : {Vec2{7.1, 5.63}, Vec2{12, 9.5}}) {
         CameraPose pose;
         pose.cell = page.origin;
@@ -77,7 +79,7 @@ TEST(PageImage, ShowsWhatThePatternShows) {
         int largest = 0;
         for (std::size_t i = 0; i < image.pixels.size(); ++i)
             largest = std::max(largest, std::abs(image.pixels[i] - expected.pixels[i]));
-        // Dots are some 60 grey levels deep and change by about 30 per pixel.
+        // Dots have a depth of about 60 grey levels, and change by about 30 per pixel.
         EXPECT_LE(largest, 2);
         EXPECT_LT(*std::ranges::min_element(expected.pixels), 130);
     }

@@ -35,7 +35,8 @@ TEST(Projection, AtZeroDegreesImageAndPatternAxesAgree) {
 TEST(Projection, AtNinetyDegreesTheImageXAxisPointsDownThePage) {
     CameraPose pose;
     pose.theta_rad = radians(90);
-    // A step of 20 px along image x is 20 px down the page; along image y, to the left of the page.
+    // A step of 20 px along image x is 20 px down the page. A step along image y is to the left on
+    // the page.
     expect_near(pixel({}, pose, {0, 20 * kMm}), {kCentreU + 20, kCentreV}, 1e-9);
     expect_near(pixel({}, pose, {-7 * kMm, 0}), {kCentreU, kCentreV + 7}, 1e-9);
 }
@@ -69,8 +70,8 @@ TEST(Projection, ARollingShutterReadsEachRowAtItsOwnTime) {
 TEST(Projection, TiltAboutXMovesTheLowerPaperAway) {
     CameraPose pose;
     pose.tilt_x_rad = radians(3);
-    // By similar triangles: a point t mm down the paper lies t cos 3 below the axis and t sin 3
-    // farther than 16 mm.
+    // By similar triangles, a point t mm down the paper is t cos 3 below the axis, at a distance of
+    // 16 mm plus t sin 3.
     const double t = 2;
     const double below = t * std::cos(radians(3));
     const double depth = 16 + t * std::sin(radians(3));

@@ -45,7 +45,7 @@ TEST(Random, BelowTakesEachValueEquallyOften) {
     EXPECT_EQ(rng.below(1), 0u);
 }
 
-// As random.hpp defines it: the ones among 128 bits, and a uniform step.
+// The definition of random.hpp: the number of ones in 128 bits, and a uniform step.
 TEST(Random, NormalCountsOnes) {
     Rng rng(4);
     Rng same(4);

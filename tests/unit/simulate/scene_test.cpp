@@ -7,7 +7,8 @@
 namespace dotpose::simulate_test {
 namespace {
 
-// Straight above the grid, without imperfections: columns and rows of cells are those of the image.
+// Returns a shot straight above the grid, without imperfections. Columns and rows of cells are
+// parallel to those of the image.
 Shot straight_shot() {
     Setup setup;
     setup.preset = Preset::clean;
@@ -101,7 +102,7 @@ TEST(Scene, ASeamJoinsTwoSectionsAtTheCentre) {
     for (int v = 0; v < 120; ++v) {
         for (int u = 0; u < 188; ++u) {
             const std::uint8_t here = at(one_section, u, v);
-            // Dots reach 1/4 of a spacing beyond their intersection, plus blur.
+            // Dots extend 1/4 of a spacing beyond their intersection, plus blur.
             if (u < 93) {
                 ASSERT_EQ(at(vertical, u, v), here);
             }

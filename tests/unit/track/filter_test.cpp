@@ -1,4 +1,4 @@
-// How exact the filter is, and whether it knows.
+// The accuracy of the filter, and of its covariance.
 #include "track/filter.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr std::int64_t kFrame_us = 5000;
 constexpr double kFrame_s = 0.005;
 constexpr double kPi = std::numbers::pi;
 
-using Pose = std::array<double, 3>;  ///< mm, mm, rad
+using Pose = std::array<double, 3>;  ///< position in mm, mm, and angle in rad
 
 std::int32_t bam(double angle_rad) {
     return static_cast<std::int32_t>(
@@ -40,7 +40,8 @@ Sighting at(int frame, const Pose& pose, const Matrix3& covariance) {
     return sighting;
 }
 
-/// The same in all directions, and of the angle in proportion: that of a view 8 mm wide.
+/// Returns the covariance of a view of 8 mm: the same standard deviation along x and y, and that of
+/// the angle in proportion.
 Matrix3 round_covariance(double sigma_mm) {
     const auto variance = static_cast<float>(sigma_mm * sigma_mm);
     return {{{variance, 0, 0}, {0, variance, 0}, {0, 0, variance / 16}}};
@@ -57,7 +58,7 @@ Pose error_of(const TrackedPose& found, const Pose& pose) {
             std::remainder(found.theta_rad() - pose[2], 2 * kPi)};
 }
 
-/// Solves m x = b by elimination with pivots, for the sake of a second opinion in double precision.
+/// Solves m x = b by elimination with pivots, as an independent solution in double precision.
 std::array<double, 6> solved(const Covariance9& covariance, std::array<double, 6> b) {
     std::array<std::array<double, 6>, 6> m{};
     for (std::size_t i = 0; i < 6; ++i) {
@@ -86,8 +87,8 @@ std::array<double, 6> solved(const Covariance9& covariance, std::array<double, 6
     return b;
 }
 
-/// A robot that moves as the filter assumes at full agility: accelerations of the deviations in
-/// TrackOptions that lose 1 % (0.5 / 0.505) per frame, and stay the same within one.
+/// A robot that moves as the filter assumes at full agility: its accelerations have the deviations
+/// in TrackOptions, lose 1 % (0.5 / 0.505) per frame, and are constant within a frame.
 struct ModelRobot {
     explicit ModelRobot(Rng& rng) {
         pose[2] = rng.uniform(-kPi, kPi);
@@ -112,8 +113,8 @@ struct ModelRobot {
 };
 
 TEST(Filter, ItsCovarianceIsThatOfItsErrors) {
-    // With a correlated measurement error. The squared error, in units of the covariance, has the
-    // mean 6 and the variance 12.
+    // Errors of the measurement are correlated. The squared error, in units of the covariance, has
+    // the mean 6 and the variance 12.
     TrackOptions options;
     options.min_sigma_mm = options.min_sigma_rad = 0;
     constexpr std::array<float, 3> kOwn = {0.004F, 0.004F, 0.0004F};
@@ -162,13 +163,13 @@ TEST(Filter, ItsCovarianceIsThatOfItsErrors) {
 struct Errors {
     double raw_mm = 0;
     double filtered_mm = 0;
-    double normalised = 0;  ///< mean square, in units of the variance
+    double normalised = 0;  ///< mean square in units of the variance
 
     double gain() const { return filtered_mm / raw_mm; }
 };
 
-/// Tracks a robot on a figure of eight at up to `speed_mm_s`, never lifted, that is seen with
-/// independent errors, and one that is always the same; counts from 1 s on.
+/// Tracks a robot on a figure eight at up to `speed_mm_s` that is never lifted. The sightings have
+/// independent errors and a constant error. Errors count from 1 s on.
 Errors track_eight(double speed_mm_s, double sigma_mm, double constant_mm = 0) {
     Drive drive(
         {.put_down = 1e9, .second_put_down = 1e9, .stop = 9, .end = 10, .speed_mm_s = speed_mm_s});
@@ -220,13 +221,13 @@ TEST(Filter, IsNeverWorseThanWhatItSees) {
 }
 
 TEST(Filter, DoesNotTrustErrorsThatAllSightingsShare) {
-    // Printing errors: whatever is averaged, they stay.
+    // Printing errors remain, because averaging does not reduce them.
     const Errors errors = track_eight(0, 0.00005, 0.0005);
     EXPECT_LT(errors.normalised, 1.2);
     EXPECT_GT(errors.normalised, 0.3);
 }
 
-/// Stands at x = 0 for a second, seen with errors of 1 um.
+/// Returns a tracker of a robot that was at rest at x = 0 for a second, with errors of 1 µm.
 Tracker standing(Rng& rng) {
     Tracker tracker;
     for (int frame = 0; frame < 200; ++frame) {
@@ -259,7 +260,7 @@ TEST(Filter, IsNotThrownByASightingThatIsOff) {
         const double x_mm = frame == 200 ? 0.1 : 0;
         const Sighting sighting =
             at(frame, disturbed({x_mm, 0, 0}, 0.001, rng), round_covariance(0.001));
-        // 0.1 mm in a frame would be 20 mm/s.
+        // 0.1 mm per frame would be 20 mm/s.
         EXPECT_NEAR(tracker.update(sighting.time_us, &sighting).pose.vx_mm_s, 0, 3) << frame;
     }
 }

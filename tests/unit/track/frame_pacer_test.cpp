@@ -9,7 +9,7 @@ namespace dotpose {
 namespace {
 
 constexpr std::int64_t kSecond_us = 1'000'000;
-constexpr std::int64_t kFrame_us = 20'000;  // of a camera with 50 frames a second
+constexpr std::int64_t kFrame_us = 20'000;  // period of a camera with 50 frames per second
 
 Fix at(double x_grid, double y_grid = 50, double theta_deg = 0) {
     const auto q16 = [](double grid) { return static_cast<std::int64_t>(grid * 65536); };
@@ -27,12 +27,12 @@ Fix lost() {
     return {};
 }
 
-/// A device that does what the pacer asks, in simulated time.
+/// A device in simulated time that takes frames as the pacer requires.
 class Device {
   public:
     explicit Device(const PacerOptions& options = {}) : pacer_(options) {}
 
-    /// Frames are taken until `time_us`, of a place that depends on the time.
+    /// Takes frames until `time_us`, at a place that depends on the time.
     template <typename FixAt>
     void run_until(std::int64_t time_us, FixAt fix_at) {
         while (next_us_ < time_us) {
@@ -54,7 +54,7 @@ class Device {
 
 TEST(FramePacer, TakesEveryFrameOfAMovingDevice) {
     Device device;
-    // 0.2 mm a second: slow, but further than the threshold within 5 s.
+    // 0.2 mm per second: slow, but more than the threshold within 5 s.
     device.run_until(60 * kSecond_us,
                      [](std::int64_t t) { return at(100 + 0.4e-6 * static_cast<double>(t)); });
     EXPECT_EQ(device.frames_us.size(), 60U * 50);
@@ -67,7 +67,7 @@ TEST(FramePacer, TakesAFrameASecondAfterFiveSecondsOfRest) {
     device.run_until(65 * kSecond_us, [](std::int64_t t) {
         return at(100 + (t / kFrame_us % 2 == 0 ? 0.01 : -0.01));
     });
-    // 0 s to 5 s, then 6 s, 7 s ... 64 s.
+    // 0 s to 5 s, then 6 s, 7 s, ... 64 s.
     ASSERT_EQ(device.frames_us.size(), 251U + 59);
     EXPECT_EQ(device.frames_us[250], 5 * kSecond_us);
     EXPECT_EQ(device.motions[249], Motion::moving);
@@ -76,7 +76,7 @@ TEST(FramePacer, TakesAFrameASecondAfterFiveSecondsOfRest) {
     EXPECT_EQ(device.frames_us.back(), 64 * kSecond_us);
 }
 
-/// Rests for 10.5 s, then is elsewhere: the frame at 11 s shows it.
+/// Rests for 10.5 s, then changes the place: the frame at 11 s shows the new place.
 void expect_wakes(const Fix& rest, const Fix& after, bool wakes, const PacerOptions& options = {}) {
     Device device(options);
     device.run_until(12 * kSecond_us,
@@ -121,11 +121,12 @@ TEST(FramePacer, AMissedFrameIsNoMovement) {
 
 TEST(FramePacer, AddsUpWhatASlowDeviceCreeps) {
     Device device;
-    // A spacing per minute: each frame alone looks like rest, after 6 s it is a tenth.
+    // A spacing per minute. Single frames are like those of a device at rest, but in 6 s the device
+    // moves by a tenth of a spacing.
     device.run_until(600 * kSecond_us,
                      [](std::int64_t t) { return at(100 + static_cast<double>(t) / 60e6); });
     const auto moving = std::ranges::count(device.motions, Motion::moving);
-    // Of each 7 s, 5 s are spent at 50 frames a second.
+    // 5 s of every 7 s have 50 frames per second.
     EXPECT_GT(moving, 60 * 240);
     EXPECT_GT(std::ranges::count(device.motions, Motion::stationary), 60);
 }
@@ -139,7 +140,7 @@ TEST(FramePacer, TakesItsThresholdsFromTheOptions) {
     device.run_until(20 * kSecond_us, [](std::int64_t t) {
         return t < 10 * kSecond_us ? at(100, 50, 0) : at(101.5, 50, 80);
     });
-    // 0, 0.1 ... 1 s, then 5, 9, 13, 17 s.
+    // 0, 0.1, ... 1 s, then 5, 9, 13, 17 s.
     ASSERT_EQ(device.frames_us.size(), 15U);
     EXPECT_EQ(device.frames_us[10], kSecond_us);
     EXPECT_EQ(device.frames_us[11], 5 * kSecond_us);

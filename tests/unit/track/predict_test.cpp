@@ -1,4 +1,4 @@
-// Where the tracker expects the pattern in the next frame.
+// The tracker's predictions of the pattern in the next frame.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -21,14 +21,15 @@ std::int32_t bam(double angle_rad) {
         static_cast<std::int64_t>(std::llround(angle_rad / kPi * 2147483648.0)) & 0xFFFFFFFF);
 }
 
-/// Of the pattern, in spacings and rad: image angle from +x towards +y, y down.
+/// Pose in the pattern frame, in spacings and rad. The angle of the image is from +x towards +y,
+/// with y down.
 struct Pose {
     double x = 0;
     double y = 0;
     double theta_rad = 0;
 };
 
-/// As `locate` gives it for an image of 188 x 120 px with 11 px per spacing.
+/// Returns the fix that `locate` gives for an image of 188 x 120 px with 11 px per spacing.
 Fix fix_at(const Pose& pose) {
     constexpr double kSpacing_px = 11;
     Fix fix;
@@ -53,7 +54,7 @@ Fix fix_at(const Pose& pose) {
     return fix;
 }
 
-/// The pose of the image centre, and of the point (dx, dy) px beside it.
+/// Returns the pose of the image centre, or of the point (dx, dy) px beside it.
 Pose pose_of(const Prediction& prediction, double dx_px = 0, double dy_px = 0) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
     const auto at = [&](std::uint32_t cell, std::int32_t centre_q16, std::int32_t du,
@@ -65,14 +66,14 @@ Pose pose_of(const Prediction& prediction, double dx_px = 0, double dy_px = 0) {
             std::atan2(plane.du_q24.y, plane.du_q24.x)};
 }
 
-/// At 300 mm/s along a straight line at 30 degrees, turning at 3 rad/s.
+/// Returns the pose of a drive at 300 mm/s along a straight line at 30 degrees, turning at 3 rad/s.
 Pose driving(std::int64_t time_us) {
     const double t = static_cast<double>(time_us) * 1e-6;
     const double driven = 300 / 0.508 * t;
     return {5000 + driven * std::cos(kPi / 6), 7000 + driven * std::sin(kPi / 6), 0.4 + 3 * t};
 }
 
-/// A world whose x axis is that of the pattern turned by 2 rad, y up.
+/// Returns the sighting in a world whose x axis is that of the pattern rotated by 2 rad, with y up.
 Sighting in_world(const Pose& pose, std::int64_t time_us) {
     constexpr double kYaw_rad = 2;
     Sighting sighting = sighting_of(fix_at(pose), time_us);
@@ -87,7 +88,7 @@ Sighting in_world(const Pose& pose, std::int64_t time_us) {
     return sighting;
 }
 
-/// A tracker and the newest frame that it was told.
+/// A tracker and its newest frame.
 struct Followed {
     Tracker tracker;
     Fix fix;
@@ -103,7 +104,7 @@ struct Followed {
     }
 };
 
-/// Up to and with `end_us`.
+/// Tracks a path up to and including `end_us`.
 Followed drive(std::int64_t end_us, Pose (*path)(std::int64_t), bool is_world = false) {
     Followed robot;
     for (std::int64_t t = 0; t <= end_us; t += kFrame_us)
@@ -132,7 +133,8 @@ TEST(TrackerPredict, GoesOnStraightAndTurning) {
     for (const std::int64_t ahead_us : {2'500, 5'000, 20'000})
         expect_near(pose_of(robot.predict(200'000 + ahead_us)), driving(200'000 + ahead_us), 0.02,
                     1e-3);
-    // The robot came three spacings on between frames: without the tracker it would be too far.
+    // The robot moved by more than two spacings between frames, which is too far for a prediction
+    // without the tracker.
     EXPECT_GT(driving(205'000).x - driving(200'000).x, 2);
 }
 
@@ -147,7 +149,7 @@ TEST(TrackerPredict, TheReferencePointMovesAsTheFilterSays) {
     options.reference_dy_q8 = -20 * 256;
     Followed robot;
     for (std::int64_t t = 0; t <= 200'000; t += kFrame_us) {
-        // The reference point stays, and the camera turns about it.
+        // The reference point does not move, and the camera turns about it.
         const Pose centre{5000.25, 7000.5, 0.4 + 3e-6 * static_cast<double>(t)};
         robot.fix = fix_at(centre);
         const Pose there = pose_of(Prediction::like(robot.fix), 60, -20);
@@ -165,7 +167,7 @@ TEST(TrackerPredict, ARestingRobotIsExpectedWhereItWasAndAlmostSurely) {
     expect_near(pose_of(prediction), {10.75, 20.25, -3.1}, 0.001, 1e-4);
     EXPECT_LT(prediction.sigma_q16, Prediction{}.sigma_q16);
     EXPECT_LT(prediction.sigma_theta_bam, Prediction{}.sigma_theta_bam);
-    // Someone may push it: half of 10 m/s^2 for 5 ms is 0.125 mm.
+    // A push is possible: half of 10 m/s^2 for 5 ms is 0.125 mm.
     EXPECT_GT(3 * prediction.sigma_q16, static_cast<std::int32_t>(0.125 / 0.508 * 65536));
     EXPECT_EQ(prediction.displacement_q16, robot.fix.displacement_q16);
 }
@@ -184,17 +186,17 @@ TEST(TrackerPredict, ExpectsNothingWhereTheFilterDoesNot) {
     Followed robot;
     robot.fix = fix_at(driving(0));
     robot.sighting = sighting_of(robot.fix, 0);
-    expect_as_seen(robot.predict(kFrame_us), robot.fix);  // it has seen nothing yet
+    expect_as_seen(robot.predict(kFrame_us), robot.fix);  // the tracker has no sighting yet
     robot = drive(200'000, driving);
-    expect_as_seen(robot.predict(200'000), robot.fix);  // that is now
+    expect_as_seen(robot.predict(200'000), robot.fix);  // the time of the newest frame
     expect_as_seen(robot.predict(100'000), robot.fix);
-    expect_as_seen(robot.predict(270'000), robot.fix);  // it will be lost
+    expect_as_seen(robot.predict(270'000), robot.fix);  // the robot will be lost
     robot.tracker.update(300'000, nullptr);
     EXPECT_FALSE(robot.tracker.has_prior());
     expect_as_seen(robot.predict(305'000), robot.fix);
 }
 
-/// As `driving`, but elsewhere.
+/// The same movement as `driving`, at another place.
 Pose driving_elsewhere(std::int64_t time_us) {
     const Pose pose = driving(time_us);
     return {pose.x + 9000, pose.y - 3000, pose.theta_rad};
@@ -240,7 +242,7 @@ TEST(TrackerPredict, BridgesFramesWithoutAFix) {
 }
 
 TEST(TrackerPredict, PassesTheEndOfThePattern) {
-    // Past the last column the pattern begins anew, in other sections.
+    // Past the last column, the pattern restarts in other sections.
     const Followed robot = drive(200'000, [](std::int64_t t) {
         return Pose{kPositionsPerAxis - 1.0 - static_cast<double>(200'000 - t) / 5000, 5, 0};
     });
@@ -257,7 +259,7 @@ TEST(TrackerPredict, SurvivesAnyInput) {
     Followed other = driven;
     other.sighting.spacing_nm = 0;
     expect_as_seen(other.predict(205'000), other.fix);
-    other.sighting.spacing_nm = 1;  // then the robot leaps
+    other.sighting.spacing_nm = 1;  // the robot then jumps
     expect_as_seen(other.predict(205'000), other.fix);
     other.sighting = driven.sighting;
     other.sighting.x_nm += 1'000'000'000'000;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kFrame_us = 5000;
 constexpr double kPi = std::numbers::pi;
-/// In the far corner of the pattern plane.
+/// A place in the far corner of the pattern plane.
 constexpr std::int64_t kFar_nm = 208'694'000'000'000;
 
 std::int32_t bam(double angle_rad) {
@@ -48,7 +48,7 @@ std::string events_of(const Track& track) {
            (e.moving ? "moving " : "");
 }
 
-/// Drives at 100 mm/s along x and turns at 2 rad/s, up to and without `end_us`.
+/// Drives at 100 mm/s along x and turns at 2 rad/s, up to but excluding `end_us`.
 void drive(Tracker& tracker, std::int64_t begin_us, std::int64_t end_us) {
     for (std::int64_t t = begin_us; t < end_us; t += kFrame_us) {
         const double s = static_cast<double>(t) * 1e-6;
@@ -74,7 +74,7 @@ TEST(Tracker, StartsLostAndBelievesTheFirstFix) {
 
 TEST(Tracker, FollowsConstantVelocityAndTurnsPastHalfATurn) {
     Tracker tracker;
-    drive(tracker, 0, 4'000'000);  // 8 rad: past half a turn, past a whole one
+    drive(tracker, 0, 4'000'000);  // 8 rad, more than a full turn
     const TrackedPose& pose = tracker.track().pose;
     const double s = 3.995;
     EXPECT_NEAR(pose.vx_mm_s, 100, 0.01);
@@ -98,14 +98,14 @@ TEST(Tracker, PredictsBetweenSightings) {
 
 TEST(Tracker, IsLostAfterTheDebounce) {
     Tracker tracker;
-    drive(tracker, 0, 100'000);  // the last sighting is that of 95 ms
+    drive(tracker, 0, 100'000);  // the last sighting is at 95 ms
     for (std::int64_t t = 100'000; t < 165'000; t += kFrame_us)
         EXPECT_EQ(events_of(tracker.update(t, nullptr)), "") << t;
     EXPECT_EQ(events_of(tracker.update(165'000, nullptr)), "lost ");
     EXPECT_TRUE(tracker.track().is_lost);
     EXPECT_FALSE(tracker.has_prior());
     EXPECT_EQ(events_of(tracker.update(170'000, nullptr)), "");
-    // Found again where it may have driven to.
+    // The robot is found again at a place to which it may have driven.
     EXPECT_EQ(events_of(see(tracker, at(175'000, 40, 30))), "fix ");
 }
 
@@ -159,7 +159,7 @@ TEST(Tracker, IsKidnappedIfFoundBeyondReach) {
     Tracker tracker({.max_speed_mm_s = 300});
     drive(tracker, 0, 100'000);
     tracker.update(200'000, nullptr);  // lost
-    // 300 mm/s for 0.3 s: 90 mm at the most.
+    // 300 mm/s for 0.3 s are at most 90 mm.
     EXPECT_EQ(events_of(see(tracker, at(395'000, 130))), "");
     EXPECT_TRUE(tracker.track().is_lost);
     EXPECT_EQ(events_of(see(tracker, at(400'000, 130))), "");
@@ -187,8 +187,8 @@ TEST(Tracker, BelievesWeakSightingsThatThePriorSupports) {
     drive(tracker, 0, 100'000);
     const Track& track = see(tracker, weak(at(100'000, 10, 0, 0.2), -12));
     EXPECT_EQ(track.verdict, Verdict::with_prior);
-    // The gate is at least +-0.125 mm wide, half the acceleration that is allowed times the squared
-    // time, and narrower than a cell: 2 to 4 cells of 2^36 hypotheses.
+    // The gate is at least +-0.125 mm wide (half of the permitted acceleration times the squared
+    // time) and narrower than a cell. It contains 2 to 4 cells of 2^36 hypotheses.
     EXPECT_GE(track.p_wrong_log2, -12 + 1 - 36);
     EXPECT_LE(track.p_wrong_log2, -12 + 2 - 36);
 }
@@ -200,11 +200,11 @@ TEST(Tracker, RefusesOtherWeakSightings) {
         tracker.update(time_us - 1, nullptr);
         return see(tracker, sighting).verdict;
     };
-    // Not where it should be; hardly better than chance; lost before.
+    // Sightings outside of the gate, with a certainty close to chance, or of a lost robot.
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 12, 0, 0.2), -12)), Verdict::too_weak);
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 10, 0, 0.2), -9)), Verdict::too_weak);
     EXPECT_EQ(verdict(165'000, weak(at(165'000, 16.5, 0, 0.33), -12)), Verdict::too_weak);
-    // After 60 ms the gate is 18 mm wide to either side: alternatives may hide in it.
+    // After 60 ms the gate is 18 mm wide on either side, and may contain alternatives.
     EXPECT_EQ(verdict(155'000, weak(at(155'000, 15.5, 0, 0.31), -12)), Verdict::too_weak);
     EXPECT_EQ(verdict(120'000, weak(at(120'000, 12, 0, 0.24), -12)), Verdict::with_prior);
 }
@@ -221,7 +221,7 @@ TEST(Tracker, TellsRestFromMovement) {
     std::vector<std::pair<std::int64_t, std::string>> events;
     Rng rng(5);
     for (std::int64_t t = 0; t < 3'000'000; t += kFrame_us) {
-        // Drives for 1 s, rests for 1 s, drives on.
+        // Drives for 1 s, rests for 1 s, and continues.
         const double s = static_cast<double>(t) * 1e-6;
         const double driven_s = s < 1 ? s : s < 2 ? 1 : s - 1;
         const Track& track =
@@ -231,11 +231,11 @@ TEST(Tracker, TellsRestFromMovement) {
     ASSERT_EQ(events.size(), 3U);
     EXPECT_EQ(events[0].second, "fix ");
     EXPECT_EQ(events[1].second, "stationary ");
-    // It counts from when it came within 0.1 mm of where it rests; after a stop as sudden as this
-    // one the filter takes some frames for that.
+    // The time starts when the robot is within 0.1 mm of its resting place. After such a sudden
+    // stop, the filter needs some frames to settle.
     EXPECT_NEAR(static_cast<double>(events[1].first), 1.5e6, 30e3);
     EXPECT_EQ(events[2].second, "moving ");
-    EXPECT_NEAR(static_cast<double>(events[2].first), 2.0e6, 10e3);  // 0.1 mm takes 2 ms
+    EXPECT_NEAR(static_cast<double>(events[2].first), 2.0e6, 10e3);  // moving by 0.1 mm takes 2 ms
 }
 
 TEST(Tracker, ATurnIsMovementToo) {

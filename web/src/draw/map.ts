@@ -9,7 +9,7 @@ export interface MapContent {
     sheet: SheetLayout | null;
     path: readonly Point_mm[];
     now: Point_mm | null;
-    /** Corners of the field of view. */
+    /** Corners of the field of view of the camera. */
     view: readonly Point_mm[];
 }
 
@@ -29,7 +29,7 @@ export function cornersOf(fix: Fix, width_px: number, height_px: number): Point_
     ].map(([u, v]) => patternFromImage(fix, u!, v!));
 }
 
-/** Converts points of the pattern to points of the page, if there is one. */
+/** Converts points of the pattern to points of the page, if the sheet is known. */
 export function onPage(sheet: SheetLayout | null, points: readonly Point_mm[]): Point_mm[] {
     return points.map((point) => (sheet ? pageFromPattern(sheet, point) : point));
 }
@@ -70,7 +70,7 @@ function drawPaper(context: CanvasRenderingContext2D, sheet: SheetLayout, at: (p
         }
 }
 
-/** Draws the map; returns its layout, or null if there is nothing to show. */
+/** Draws the map. Returns its layout, or null if there is nothing to show. */
 export function drawMap(canvas: HTMLCanvasElement, content: MapContent): MapFrame | null {
     const { context, width, height } = surfaceOf(canvas);
     if (content.sheet === null && content.path.length === 0) return null;

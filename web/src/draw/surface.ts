@@ -1,6 +1,6 @@
 // A canvas with coordinates in CSS pixels and the resolution of the screen.
 
-/** Colours over camera frames; distinguishable with all kinds of colour vision. */
+/** Colours over camera frames. They are distinguishable with all kinds of colour vision. */
 export const kInk = {
     up: "#0072b2",
     left: "#d55e00",
@@ -13,7 +13,7 @@ export const kInk = {
     halo: "rgba(0, 0, 0, 0.65)",
 };
 
-/** By symbol: 0 up, 1 left, 2 right, 3 down. */
+/** Colours by symbol: 0 up, 1 left, 2 right, 3 down. */
 export const kSymbolInk = [kInk.up, kInk.left, kInk.right, kInk.down] as const;
 export const kSymbolStep = [
     [0, -1],
@@ -28,7 +28,10 @@ export interface Surface {
     height: number;
 }
 
-/** Sets the resolution of the canvas to that of the screen; `aspect` also sets its height. */
+/**
+ * Sets the resolution of the canvas to that of the screen. `aspect`, if given, also sets its
+ * height.
+ */
 export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
     if (aspect !== undefined) canvas.style.aspectRatio = String(aspect);
     const scale = window.devicePixelRatio || 1;

@@ -1,4 +1,4 @@
-// The page's interface to the worker: a function for each request.
+// The interface between the page and the worker, with one function per request.
 import type { Code } from "dotpose";
 import type {
     Answer,
@@ -28,7 +28,7 @@ export class Engine {
     readonly #waiting = new Map<number, Waiting>();
     #last_id = 0;
     #events: StreamEvents | undefined;
-    /** Whether the worker can read a camera's track. */
+    /** True if the worker can read the track of a camera. */
     takesTracks = false;
 
     constructor() {
@@ -62,7 +62,7 @@ export class Engine {
             this.#tell({ kind: "track", track: source, code }, [source as unknown as Transferable]);
         }
     }
-    /** Asks for the next frame of the stream. */
+    /** Requests the next frame of the stream. */
     next(): void {
         this.#tell({ kind: "next" });
     }

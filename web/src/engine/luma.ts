@@ -1,5 +1,5 @@
-// The grey levels of a frame: copied from a camera's frame if the browser supports it, otherwise drawn on a
-// canvas and read back.
+// The grey levels of a frame. They are copied from the camera's frame if the browser supports it,
+// otherwise drawn on a canvas and read back.
 import type { Image } from "dotpose";
 import type { LumaPath } from "./messages.js";
 
@@ -9,7 +9,7 @@ const kLumaFirst = new Set(["I420", "I420A", "I422", "I444", "NV12"]);
 let canvas: OffscreenCanvas | undefined;
 let plane = new Uint8Array(0);
 
-/** Draws a picture and returns its luma, by the weights of BT.601 that cameras use. */
+/** Draws a picture and returns its luma, with the weights of BT.601 that cameras use. */
 export function lumaByCanvas(picture: CanvasImageSource, width: number, height: number): Image {
     canvas ??= new OffscreenCanvas(width, height);
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
@@ -22,13 +22,16 @@ export function lumaByCanvas(picture: CanvasImageSource, width: number, height: 
     return { data: luma, width, height };
 }
 
-/** Whether the frame's luma can be used directly: it is not rotated or mirrored. */
+/**
+ * Returns true if the luma of the frame can be used directly, because it is not rotated or
+ * mirrored.
+ */
 function isPlain(frame: VideoFrame): boolean {
     const { rotation = 0, flip = false } = frame as { rotation?: number; flip?: boolean };
     return frame.format !== null && kLumaFirst.has(frame.format) && rotation === 0 && !flip;
 }
 
-/** Returns the luma of a camera's frame, and the method used. */
+/** Returns the luma of a camera frame, and the method used. */
 export async function lumaOfFrame(frame: VideoFrame): Promise<{ image: Image; path: LumaPath }> {
     if (!isPlain(frame)) {
         const image = lumaByCanvas(frame, frame.displayWidth, frame.displayHeight);

@@ -1,4 +1,4 @@
-// The messages between the page and its worker: plain data, which can be posted.
+// The messages between the page and its worker. They are plain data, which can be posted.
 import type { Cell, Code, Fix, Section } from "dotpose";
 
 /** The part of the code on a page, and the size of the page. */
@@ -16,7 +16,7 @@ export interface SheetChoice {
 export interface SheetLayout extends SheetChoice {
     columns: number;
     rows: number;
-    /** Place of the first dot's intersection, from the upper left corner of the page. */
+    /** Place of the intersection of the first dot, from the upper left corner of the page. */
     first_x_mm: number;
     first_y_mm: number;
 }
@@ -26,7 +26,7 @@ export interface SimulatedView {
     width_px: number;
     height_px: number;
     mm_per_px: number;
-    /** Point of the page under the image centre, from its upper left corner. */
+    /** Point of the page at the image centre, from the upper left corner of the page. */
     x_mm: number;
     y_mm: number;
     theta_rad: number;
@@ -51,9 +51,9 @@ export interface CellsInView {
 export interface ImageQuality {
     /** Mean grey level. */
     brightness: number;
-    /** Grey levels from the darkest to the brightest twentieth. */
+    /** Difference of the 95 % and 5 % quantiles of the grey levels. */
     contrast: number;
-    /** Largest step between neighbouring pixels, as a fraction of the contrast. */
+    /** 98 % quantile of the steps between neighbouring pixels, as a fraction of the contrast. */
     sharpness: number;
 }
 

@@ -4,7 +4,7 @@ import type { ImageQuality } from "./messages.js";
 
 const kRows = 24;
 
-/** Returns the grey level below which a given fraction of the counted pixels is. */
+/** Returns the grey level below which the given fraction of the counted pixels is. */
 function quantile(histogram: Uint32Array, count: number, share: number): number {
     let below = 0;
     for (let level = 0; level < 256; ++level) {
@@ -14,7 +14,7 @@ function quantile(histogram: Uint32Array, count: number, share: number): number 
     return 255;
 }
 
-/** Measures an image; takes well under a millisecond at any size. */
+/** Measures an image. Takes well under a millisecond at any size. */
 export function measureQuality({ data, width, height, stride = width }: Image): ImageQuality {
     const levels = new Uint32Array(256);
     const steps = new Uint32Array(256);

@@ -19,12 +19,15 @@ export async function layoutOf(sheet: SheetChoice): Promise<SheetLayout> {
     return layout;
 }
 
-/** Standard deviations of an ordinary print, and of its paper (preset `nominal` of the tool). */
+/**
+ * Standard deviations of an ordinary print and its paper, as in the preset `nominal` of the
+ * tool.
+ */
 const kPrint = { jitter_mm: 0.01, ink_variation: 0.03, missing: 0.002, texture: 0.005 };
 /** Distance of the projection centre from the paper, divided by the width of the view. */
 const kDistancePerWidth = 2;
 
-/** Returns the camera's frame. */
+/** Returns a frame of the simulated camera. */
 export async function render(sheet: SheetChoice, view: SimulatedView): Promise<Image> {
     const layout = await layoutOf(sheet);
     const { width_px, height_px, mm_per_px, theta_rad, tilt_x_rad, tilt_y_rad } = view;

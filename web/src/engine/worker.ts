@@ -1,5 +1,5 @@
-// The worker: the locator, the simulated camera and the loop over a camera's frames. It keeps the page
-// responsive.
+// The worker, which keeps the page responsive. It runs the locator, the simulated camera and the
+// loop over camera frames.
 import { Locator, patternBits, type Code, type Fix, type Image } from "dotpose";
 import { cellsInView } from "./cells.js";
 import { lumaByCanvas, lumaOfFrame } from "./luma.js";
@@ -12,7 +12,7 @@ const port = self as unknown as {
     onmessage: ((event: MessageEvent<Request>) => void) | null;
 };
 
-/** Locators by code. */
+/** Locators, by code. */
 const locators = new Map<string, Promise<Locator>>();
 let previous: Fix | null = null;
 
@@ -47,7 +47,10 @@ function greyPicture({ data, width, height }: Image): Promise<ImageBitmap> {
     return createImageBitmap(new ImageData(rgba, width, height));
 }
 
-/** The camera's frames, one at a time: the next is read after the page has drawn the last. */
+/**
+ * Camera frames, read one at a time. The next frame is read after the page has drawn the
+ * previous one.
+ */
 class Stream {
     #reader: ReadableStreamDefaultReader<VideoFrame>;
     #wanted: () => void = () => {};

@@ -4,17 +4,23 @@ import type { Engine, StreamEvents } from "../engine/engine.js";
 
 type Processor = new (init: { track: MediaStreamTrack }) => { readable: ReadableStream<VideoFrame> };
 
-/** Method of reading frames; `?luma=canvas` in the address forces the canvas, which every browser has. */
+/**
+ * Method of reading frames. `?luma=canvas` in the address forces the canvas, which every browser
+ * has.
+ */
 const kForced = new URLSearchParams(location.search).get("luma");
 
-/** Starts a camera: the device given, or by default the one on the back of a phone. */
+/** Starts the camera `device`, or by default the back camera of a phone. */
 export async function openCamera(device: string): Promise<MediaStream> {
     const which = device === "" ? { facingMode: { ideal: "environment" } } : { deviceId: { exact: device } };
     const video = { ...which, width: { ideal: 1280 }, height: { ideal: 720 } };
     return navigator.mediaDevices.getUserMedia({ video, audio: false });
 }
 
-/** Returns the cameras with their names, which browsers reveal after a camera was permitted. */
+/**
+ * Returns the cameras with their names, which browsers reveal only after the user has permitted
+ * a camera.
+ */
 export async function listCameras(): Promise<{ id: string; name: string }[]> {
     const devices = await navigator.mediaDevices.enumerateDevices();
     return devices
@@ -89,7 +95,7 @@ export class CameraFrames {
         }
     }
 
-    /** Requests the next frame after the last one was drawn. */
+    /** Requests the next frame after the previous one was drawn. */
     next(): void {
         if (this.#loop) this.#loop.next();
         else this.engine.next();

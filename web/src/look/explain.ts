@@ -9,7 +9,7 @@ interface Step {
     title: string;
     text: (reading: Reading) => (Node | string)[];
     layers: Layers;
-    /** Whether the reading reached this step. */
+    /** True if the reading reached this step. */
     reached: (reading: Reading) => boolean;
 }
 
@@ -41,13 +41,13 @@ const kSteps: readonly Step[] = [
     },
     {
         title: "The grid",
-        text: ({ fix }) => [`The dots are near the crossings of a square grid with a spacing of ${fix.spacing_px.toFixed(1)} pixels, which shows turn, tilt and lens distortion.`],
+        text: ({ fix }) => [`The dots are near the intersections of a square grid with a spacing of ${fix.spacing_px.toFixed(1)} pixels, which shows turn, tilt and lens distortion.`],
         layers: { frame: 0.45, found: true, grid: true },
         reached: isRead,
     },
     {
         title: "The symbols",
-        text: () => ["Each dot is displaced from its crossing in one of four directions, which encode two bits:", ...legend(), "."],
+        text: () => ["Each dot is displaced from its intersection in one of four directions, which encode two bits:", ...legend(), "."],
         layers: { frame: 0.12, grid: true, symbols: true },
         reached: isRead,
     },
@@ -93,7 +93,7 @@ export function explain(reading: Reading): void {
     dialog.addEventListener("close", done, { once: true });
 }
 
-/** Connects the close button of the dialog; calls `closed` whenever the dialog closes. */
+/** Connects the close button of the dialog, and calls `closed` whenever the dialog closes. */
 export function listenToExplain(closed: () => void): void {
     const dialog = element("explain", HTMLDialogElement);
     element("explain-close", HTMLButtonElement).addEventListener("click", () => dialog.close());

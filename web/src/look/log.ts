@@ -8,7 +8,7 @@ const kDegrees = 180 / Math.PI;
 interface Frame {
     reading: Reading;
     number: number;
-    /** The previous frame; undefined for the first. */
+    /** The previous frame, or undefined for the first. */
     before: Reading | undefined;
 }
 
@@ -24,7 +24,10 @@ function eventOf(frame: Frame): string {
     return isFound(frame) ? "lost" : "";
 }
 
-/** Returns the rate of change of a quantity since the previous frame; 0 after frames without a fix. */
+/**
+ * Returns the rate of change of a quantity since the previous frame, or 0 after a frame without
+ * a fix.
+ */
 function speed(frame: Frame, of: (reading: Reading) => number, turns = false): string {
     const { reading, before } = frame;
     const took_s = before ? reading.time_s - before.time_s : 0;
@@ -87,7 +90,7 @@ export class Log {
         return this.#lines.length;
     }
 
-    /** Adds a line; its time is relative to the first. */
+    /** Adds a line. Its time is relative to the first line. */
     add(reading: Reading): void {
         this.#first_s ??= reading.time_s;
         const timed = { ...reading, time_s: reading.time_s - this.#first_s };

@@ -6,7 +6,7 @@ export class Rate {
         this.#times_ms = [];
     }
 
-    /** Counts a frame; returns the number of frames per second. */
+    /** Counts a frame, and returns the number of frames per second. */
     count(): number {
         const now_ms = performance.now();
         this.#times_ms.push(now_ms);

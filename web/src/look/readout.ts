@@ -7,7 +7,7 @@ import type { KnownSheet } from "../print/known_sheets.js";
 
 const kNames = ["x", "y", "angle", "sigma", "wrong", "spacing"];
 
-/** Shows a reading; places on a known sheet count from the corner of its page. */
+/** Shows a reading. Positions on a known sheet are relative to the corner of its page. */
 export function showReading({ fix, locate_ms }: Reading, sheet: KnownSheet | null): void {
     element("look-readout", HTMLElement).classList.toggle("lost", !fix.ok);
     show({ "look-time": milliseconds(locate_ms), "look-dots": String(fix.ok ? fix.dots_used : fix.dots_seen) });

@@ -1,13 +1,13 @@
 // Small helpers for the elements of index.html.
 
-/** Returns the element with this id; it must be of this type. */
+/** Returns the element with the given id. Throws an error if it is missing or of another type. */
 export function element<T extends HTMLElement>(id: string, type: new () => T): T {
     const found = document.getElementById(id);
     if (!(found instanceof type)) throw new Error(`index.html has no ${type.name} #${id}`);
     return found;
 }
 
-/** Writes texts into elements by id. */
+/** Sets the texts of elements, by id. */
 export function show(texts: Record<string, string>): void {
     for (const [id, text] of Object.entries(texts)) {
         const target = document.getElementById(id)!;
@@ -26,7 +26,10 @@ export function make<K extends keyof HTMLElementTagNameMap>(
     return made;
 }
 
-/** Returns a function that writes changed texts into a live region, at most every three seconds. */
+/**
+ * Returns a function that writes changed texts into a live region, at most once every three
+ * seconds.
+ */
 export function announcer(id: string): (text: string) => void {
     const kPause_ms = 3000;
     let last_ms = -kPause_ms;
@@ -38,7 +41,7 @@ export function announcer(id: string): (text: string) => void {
     };
 }
 
-/** Lets the browser save a file. */
+/** Offers a file as a download. */
 export function download(name: string, type: string, content: BlobPart): void {
     const url = URL.createObjectURL(new Blob([content], { type }));
     const link = make("a", { href: url, download: name });

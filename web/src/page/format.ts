@@ -1,10 +1,13 @@
-// Formats numbers for people.
+// Formats numbers for display.
 
 export function mm(value: number, digits = 3): string {
     return `${value.toFixed(digits)} mm`;
 }
 
-/** Millimetres with thin spaces between groups of three digits: places in the pattern have up to nine. */
+/**
+ * Formats millimetres with thin spaces between groups of three digits, because positions in the
+ * pattern have up to nine.
+ */
 export function grouped(value_mm: number): string {
     return value_mm.toLocaleString("en", { minimumFractionDigits: 3, maximumFractionDigits: 3 }).replaceAll(",", "\u202f");
 }
@@ -20,7 +23,7 @@ export function degrees(rad: number, digits = 2): string {
     return `${((rad * 180) / Math.PI).toFixed(digits)}°`;
 }
 
-/** Formats a bound of a probability as "1 in" a power of ten. */
+/** Formats an upper bound of a probability as "1 in" a power of ten. */
 export function oneIn(probability: number): string {
     const power = Math.floor(-Math.log10(probability));
     const names = ["", "thousand", "million", "billion"];

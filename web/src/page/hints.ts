@@ -1,13 +1,13 @@
-// Advice for frames that cannot be located, or not well.
+// Advice for frames that cannot be located, or only with low accuracy.
 import type { Reading } from "../engine/messages.js";
 
 export interface Hint {
     text: string;
-    /** Whether the frame was located nevertheless. */
+    /** True if the frame was located. */
     good: boolean;
 }
 
-/** Good spacings of the grid in the image; 6 to 60 px can be located. */
+/** Recommended range of spacings in the image. Spacings of 6 to 60 px can be located. */
 const kMinSpacing_px = 7;
 const kMaxSpacing_px = 50;
 const kDark = 45;
@@ -15,7 +15,10 @@ const kBright = 245;
 const kPale = 25;
 /** Minimum sharpness of a picture in focus, as a fraction of its contrast. */
 const kBlurred = 0.12;
-/** If a frame cannot be located, more dots than this are too small, and fewer than `kFewDots` too few. */
+/**
+ * Limits for frames that cannot be located: with more than `kManyDots` dots, the dots are too
+ * small; with fewer than `kFewDots`, too few are in view.
+ */
 const kManyDots = 1500;
 const kFewDots = 60;
 
@@ -35,17 +38,17 @@ function hintOfFailure(reading: Reading): string {
     if (fix.status === "not_in_code") return "These dots belong to another code: choose the sheet's code.";
     if (quality.sharpness < kBlurred) return "Sharper: hold still, let the camera focus, or move a little away.";
     if (fix.dots_seen > kManyDots) return "Closer: the dots are too small.";
-    if (fix.dots_seen < kFewDots) return "Further away: more dots must be in view. Or no sheet is in view.";
+    if (fix.dots_seen < kFewDots) return "Further away: too few dots are in view. Or no sheet is in view.";
     return "Closer and straighter: fill the picture with dots, seen from above.";
 }
 
-/** Returns the advice for a frame; null if there is nothing to improve. */
+/** Returns the advice for a frame, or null if there is nothing to improve. */
 export function hintOf(reading: Reading): Hint | null {
     const { fix } = reading;
     if (!fix.ok) return { text: `${hintOfFailure(reading)} (${fix.message})`, good: false };
     if (fix.surface !== "even") return { text: "Located, but the paper is not flat here.", good: true };
-    if (fix.spacing_px < kMinSpacing_px) return { text: "Located. Closer would be more exact.", good: true };
-    if (fix.spacing_px > kMaxSpacing_px) return { text: "Located. Further away shows more dots.", good: true };
-    if (fix.attempt === "second") return { text: "Located at the second attempt. Sharper or brighter helps.", good: true };
+    if (fix.spacing_px < kMinSpacing_px) return { text: "Located. Moving closer increases the accuracy.", good: true };
+    if (fix.spacing_px > kMaxSpacing_px) return { text: "Located. Moving away shows more dots.", good: true };
+    if (fix.attempt === "second") return { text: "Located by the second attempt. A sharper or brighter picture helps.", good: true };
     return null;
 }

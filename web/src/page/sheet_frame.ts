@@ -25,7 +25,7 @@ export function pageFromPattern(sheet: SheetLayout, { x_mm, y_mm }: Point_mm): P
     };
 }
 
-/** Whether a point of the pattern, in this code and section, is on the sheet. */
+/** Returns true if a point of the pattern, in this code and section, is on the sheet. */
 export function isOnSheet(
     sheet: SheetLayout,
     at: Point_mm & { code: string; section: { u: number; v: number } },

@@ -14,7 +14,7 @@ function isSheet(value: unknown): value is KnownSheet {
     return typeof name === "string" && numbers.every((number) => Number.isFinite(number));
 }
 
-/** Returns the stored sheets; skips invalid entries. */
+/** Returns the stored sheets. Skips invalid entries. */
 export function knownSheets(): KnownSheet[] {
     try {
         const kept: unknown = JSON.parse(localStorage.getItem(kKey) ?? "[]");
@@ -28,11 +28,11 @@ function keep(sheets: KnownSheet[]): void {
     try {
         localStorage.setItem(kKey, JSON.stringify(sheets));
     } catch {
-        // Storage is not permitted. The sheet is still printed.
+        // Storage is not permitted. The sheet can still be printed.
     }
 }
 
-/** Stores a sheet; replaces a sheet of the same name. */
+/** Stores a sheet. Replaces a sheet with the same name. */
 export function remember(sheet: KnownSheet): void {
     keep([...knownSheets().filter(({ name }) => name !== sheet.name), sheet]);
 }

@@ -1,8 +1,9 @@
-// The PDF of a sheet: the same dots as those of `dotpose print` for 600 dpi, in black ink only.
+// The PDF of a sheet. Its dots are the same as those of `dotpose print` for 600 dpi, in black ink
+// only.
 //
-// Dots are letters of a font of four glyphs: at the default spacing they are whole printer pixels
-// at 300, 600 and 1200 dpi, and renderers keep letters on whole pixels. src/print/pdf_dots.cpp
-// has the reason for each number.
+// Dots are glyphs of a font with four glyphs. At the default spacing, dots consist of whole printer
+// pixels at 300, 600 and 1200 dpi, and renderers place glyphs on whole pixels.
+// src/print/pdf_dots.cpp gives the reason for each number.
 import { PDFDocument, PDFName, type PDFContext, type PDFRef } from "@cantoo/pdf-lib";
 import { kSymbolStep } from "../draw/surface.js";
 import type { SheetLayout } from "../engine/messages.js";
@@ -30,7 +31,7 @@ function circle(x: number, y: number, r: number): string {
     return `${(x + r).toFixed(3)} ${y.toFixed(3)} m ${curves.join(" ")} f\n`;
 }
 
-/** Returns the glyph of a symbol: an undisplaced dot has its lower left corner at the origin. */
+/** Returns the glyph of a symbol. The lower left corner of an undisplaced dot is at the origin. */
 function glyph(symbol: number): string {
     const per_mm = kUnitsPerEm / kSpacing_mm;
     const [dx, dy] = kSymbolStep[symbol]!;
@@ -49,7 +50,7 @@ function dotFont(context: PDFContext): PDFRef {
     return context.register(
         context.obj({
             ...{ Type: "Font", Subtype: "Type3", FontMatrix: [0.001, 0, 0, 0.001, 0, 0] },
-            // Renderers cache glyphs with small boxes as pixels.
+            // Renderers cache glyphs with small bounding boxes as bitmaps.
             FontBBox: [-kUnitsPerEm / 2, -kUnitsPerEm / 2, kUnitsPerEm / 2, kUnitsPerEm / 2],
             ...{ FirstChar: first, LastChar: last, Widths: Array(last - first + 1).fill(kUnitsPerEm) },
             Encoding: {
@@ -85,7 +86,7 @@ function clearShift_px(near_px: number, far_px: number): number {
     return clear ?? shifts.reduce((best, shift) => (clearance(shift) > clearance(best) ? shift : best));
 }
 
-/** Returns the text that draws all dots, row by row. */
+/** Returns the PDF text that draws all dots, row by row. */
 function dotContent(sheet: SheetLayout, symbols: Uint8Array): string {
     const px_per_mm = kDpi / 25.4;
     const shifted = (from_mm: number, size_mm: number) =>
@@ -103,7 +104,10 @@ function dotContent(sheet: SheetLayout, symbols: Uint8Array): string {
     return `/Span <</ActualText ()>> BDC BT 0 0 0 1 k /Dots ${size_pt} Tf\n${rows.join("")}ET EMC\n`;
 }
 
-/** Rounds a length of the page like the tool, so renderers draw the same pixels for both. */
+/**
+ * Rounds a length of the page like the tool does, to make renderers draw the same pixels for
+ * both.
+ */
 function points(length_mm: number): number {
     return Math.round(length_mm * kPointsPerMm * 1e4) / 1e4;
 }
@@ -117,7 +121,7 @@ export async function sheetPdf(
     const pdf = await PDFDocument.create();
     pdf.setTitle(name);
     pdf.setCreator("dotpose");
-    // A viewer must not offer to fit the page to the paper.
+    // Keeps viewers from offering to fit the page to the paper.
     pdf.catalog.set(PDFName.of("ViewerPreferences"), pdf.context.obj({ PrintScaling: PDFName.of("None") }));
     const { context } = pdf;
     const label = context.obj({ Type: "Font", Subtype: "Type1", BaseFont: "Helvetica", Encoding: "WinAnsiEncoding" });

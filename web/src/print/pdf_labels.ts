@@ -1,5 +1,5 @@
-// The labels in the margins of a printed sheet: a description, and rulers in millimetres from the corner of
-// the page, like those of the tool.
+// The labels in the margins of a printed sheet: a description, and rulers in millimetres from the
+// corner of the page, as printed by the tool.
 import type { SheetLayout } from "../engine/messages.js";
 import { kSpacing_mm } from "../page/sheet_frame.js";
 import { kPointsPerMm, shown } from "./pdf_text.js";
@@ -8,7 +8,7 @@ const kGap_mm = 0.8;
 const kTick_mm = { 10: 1.8, 5: 1.2, 1: 0.8 };
 const kNumber_pt = 4.5;
 const kText_pt = 6;
-/** Room for a ruler between the dots and the edge of the page. */
+/** Space required for a ruler between the dots and the edge of the page. */
 const kRulerRoom_mm = 4.4;
 const kTextRoom_mm = 3.6;
 /** Distance from an intersection to the farthest ink of its dot. */

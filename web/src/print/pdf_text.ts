@@ -2,7 +2,7 @@
 
 export const kPointsPerMm = 72 / 25.4;
 
-/** Returns a text as a PDF string; characters that are not ASCII become question marks. */
+/** Returns a text as a PDF string. Non-ASCII characters become question marks. */
 export function shown(text: string): string {
     return `(${text.replace(/[^\x20-\x7e]/g, "?").replace(/[\\()]/g, "\\$&")})`;
 }

@@ -1,4 +1,4 @@
-// Print: selects a sheet, shows it and makes its PDF.
+// Print: selects a sheet, previews the sheet and makes its PDF.
 import type { Code } from "dotpose";
 import { drawCorner, drawPage } from "../draw/sheet.js";
 import type { Engine } from "../engine/engine.js";

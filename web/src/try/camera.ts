@@ -14,7 +14,7 @@ export interface Slider {
 const percent = (value: number) => `${Math.round(100 * value)} %`;
 
 export const kSliders: readonly Slider[] = [
-    { name: "mm_per_px", label: "Height", min: 0.012, max: 0.085, step: 0.001, shown: (v) => `${(0.508 / v).toFixed(1)} px per dot` },
+    { name: "mm_per_px", label: "Height", min: 0.012, max: 0.085, step: 0.001, shown: (v) => `${(0.508 / v).toFixed(1)} px per spacing` },
     { name: "turn_deg", label: "Turn", min: -180, max: 180, step: 1, shown: (v) => `${Math.round(v)}°` },
     { name: "tilt_deg", label: "Tilt", min: 0, max: 35, step: 0.5, shown: (v) => `${v}°` },
     { name: "blur_px", label: "Blur", min: 0, max: 3.5, step: 0.1, shown: (v) => `${v.toFixed(1)} px` },
@@ -31,7 +31,7 @@ export const kPresets: Record<string, Partial<Conditions>> = {
     hard: { tilt_deg: 4, blur_px: 1, noise: 9, paper_level: 90, vignetting: 0.5 },
 };
 
-/** Width of the reference camera; wider cameras see the same field with more pixels. */
+/** Width of the reference camera. Wider cameras see the same field with more pixels. */
 const kReferenceWidth_px = 188;
 
 export class SimulatedCamera {
@@ -52,13 +52,13 @@ export class SimulatedCamera {
         return (this.conditions.turn_deg * Math.PI) / 180;
     }
 
-    /** Moves the camera; it stays over the page. */
+    /** Moves the camera. Its position is limited to the page. */
     moveTo(x_mm: number, y_mm: number, sheet: SheetLayout): void {
         this.x_mm = Math.min(Math.max(x_mm, 0), sheet.width_mm);
         this.y_mm = Math.min(Math.max(y_mm, 0), sheet.height_mm);
     }
 
-    /** Moves by pixels of the image: the image follows the finger. */
+    /** Moves the camera by pixels of the image, so that the image follows the finger. */
     dragBy(du_px: number, dv_px: number, sheet: SheetLayout): void {
         const [cos, sin] = [Math.cos(this.theta_rad), Math.sin(this.theta_rad)];
         const scale = this.mm_per_px;
@@ -79,7 +79,7 @@ export class SimulatedCamera {
         this.conditions.mm_per_px = Math.min(Math.max(this.conditions.mm_per_px * factor, min), max);
     }
 
-    /** Returns the next view to simulate; every frame has its own noise. */
+    /** Returns the next view to simulate. Every frame has different noise. */
     view(): SimulatedView {
         const { tilt_deg, blur_px, noise, paper_level, vignetting } = this.conditions;
         const { x_mm, y_mm, width_px, height_px, mm_per_px, theta_rad } = this;
@@ -87,7 +87,8 @@ export class SimulatedCamera {
             ...{ x_mm, y_mm, width_px, height_px, mm_per_px, theta_rad },
             tilt_x_rad: (tilt_deg * Math.PI) / 180,
             tilt_y_rad: 0,
-            // A camera with more pixels has the same lens.
+            // The lens is the same for all cameras, so the blur in px grows with the number of
+            // pixels.
             blur_px: (blur_px * width_px) / kReferenceWidth_px,
             ...{ noise, paper_level, vignetting },
             seed: ++this.#seed,

@@ -1,10 +1,10 @@
-// Mouse, fingers and keys on the simulated camera's picture.
+// Gestures on the picture of the simulated camera: mouse, fingers and keys.
 
 export interface Gestures {
-    /** Moves the picture by pixels of the screen. */
+    /** Moves the picture by a number of pixels of the screen. */
     drag(dx: number, dy: number): void;
     turn(degrees: number): void;
-    /** Above 1: the camera rises. */
+    /** Changes the height by a factor. Above 1, the camera rises. */
     rise(factor: number): void;
     /** Called at the start of any gesture. */
     begin(): void;
@@ -42,7 +42,7 @@ function listenToPointers(canvas: HTMLCanvasElement, gestures: Gestures): void {
         canvas.addEventListener(type, (event) => fingers.delete(event.pointerId));
 }
 
-/** Steps of the keys, in px on the screen and degrees. */
+/** Step sizes of the keys, in px on the screen and in degrees. */
 const kStep = 12;
 const kFarStep = 120;
 const kTurn = 5;
@@ -71,14 +71,15 @@ function listenToKeys(canvas: HTMLCanvasElement, gestures: Gestures): void {
     });
 }
 
-/** Moves the camera by gestures on its picture. */
+/** Calls `gestures` for all gestures on the camera's picture. */
 export function listen(canvas: HTMLCanvasElement, gestures: Gestures): void {
     listenToPointers(canvas, gestures);
     listenToKeys(canvas, gestures);
     canvas.addEventListener(
         "wheel",
         (event) => {
-            // Only with the focus; otherwise the wheel scrolls the page past the picture.
+            // The wheel changes the height only if the picture has the focus. Otherwise the wheel
+            // scrolls the page.
             if (document.activeElement !== canvas) return;
             event.preventDefault();
             gestures.begin();

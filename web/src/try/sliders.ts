@@ -2,7 +2,10 @@
 import { element, make } from "../page/dom.js";
 import { kPresets, kSliders, type SimulatedCamera } from "./camera.js";
 
-/** Builds the sliders; returns a function that shows the camera's values, which other controls also change. */
+/**
+ * Builds the sliders. Returns a function that shows the values of the camera, which other
+ * controls also change.
+ */
 export function buildSliders(camera: SimulatedCamera, changed: () => void): () => void {
     const rows = kSliders.map((slider) => {
         const { name, label, min, max, step } = slider;

@@ -33,7 +33,7 @@ export class TryView implements View {
     #is_shown = false;
     #is_busy = false;
     #is_stale = false;
-    /** The last frame, which is redrawn when the window changes. */
+    /** The last frame, which is redrawn if the window changes. */
     #last: { reading: Reading; view: SimulatedView } | undefined;
 
     constructor(engine: Engine) {
@@ -98,10 +98,10 @@ export class TryView implements View {
         this.#map.addEventListener("pointermove", move);
     }
 
-    /** Simulates the next frame; further changes wait until it is done. */
+    /** Simulates the next frame. Further changes wait until it is drawn. */
     #changed(): void {
         this.#is_stale = true;
-        // Tests wait for the last change to be drawn.
+        // The tests wait until the last change has been drawn.
         this.#picture.dataset["busy"] = "true";
         if (!this.#is_busy) void this.#run();
     }

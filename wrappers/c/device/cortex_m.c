@@ -1,5 +1,5 @@
-/* Start-up code of a Cortex-M, and the machine's functions by calls of the debugger or emulator
- * (Arm's "Semihosting for AArch32 and AArch64"). */
+/* Start-up code of a Cortex-M, and the host functions by semihosting calls (Arm's "Semihosting
+ * for AArch32 and AArch64"). */
 #include <stdint.h>
 #include <string.h>
 
@@ -14,7 +14,7 @@ enum {
 };
 enum { MODE_READ = 1, MODE_WRITE = 4 };
 
-/* Defined in firmware/cortex-m0plus/memory.ld. */
+/* Symbols defined in firmware/cortex-m0plus/memory.ld. */
 extern uint32_t data_begin[], data_end[], data_load[], bss_begin[], bss_end[];
 extern uint32_t stack_bottom[], stack_top[];
 
@@ -75,7 +75,7 @@ static void fault(void) {
     leave(99);
 }
 
-/* Returns the last word of the command line. */
+/* Returns the last word of the command line, which is the path of the frames. */
 static const char* path_of_frames(void) {
     static char line[160];
     uint32_t arguments[2];
@@ -87,7 +87,7 @@ static const char* path_of_frames(void) {
     return space == NULL ? line : space + 1;
 }
 
-/* Prints how many bytes of the stack were in use at any time. */
+/* Prints the maximum stack usage in bytes. */
 static void print_stack(void) {
     const volatile uint32_t* word = stack_bottom;
     uint32_t bytes = 0;

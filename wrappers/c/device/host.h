@@ -1,17 +1,18 @@
-/* What the program needs of the machine. */
+/* Host functions that the program needs. */
 #ifndef HOST_H
 #define HOST_H
 
 #include <stddef.h>
 
-/* Opens the file to read. Returns 0 if there is none. */
+/* Opens the file for reading. Returns 0 if the file does not exist. */
 int host_open(const char* path);
-/* Reads `size` bytes. Returns 0 if fewer are left. */
+/* Reads `size` bytes. Returns 0 if the file has fewer bytes left. */
 int host_read(void* bytes, size_t size);
 /* Prints to standard output. */
 void host_print(const char* text);
 
-/* The program: locates the frames in the file at `path`. Returns the exit status. */
+/* Main function of the program: locates the frames in the file at `path`. Returns the exit
+   status. */
 int locate_frames(const char* path);
 
 #endif

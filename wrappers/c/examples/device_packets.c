@@ -1,6 +1,6 @@
-/* Does what a microcontroller does: takes the rows of a frame as the camera delivers them, in
- * memory of fixed size, and sends a packet of 32 bytes. Here the rows come from a file, and the
- * packet goes to standard output, where `dotpose listen` reads it:
+/* Works like a microcontroller: processes the rows of a frame as the camera delivers them, in
+ * memory of fixed size, and sends a packet of 32 bytes. In this example, the rows come from a
+ * file, and the packet is written to standard output for `dotpose listen`:
  *
  *     ./device_packets frame.pgm | dotpose listen - */
 #include <dotpose.h>
@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
     dotpose_begin(locator, frame.width_px, frame.height_px, NULL);
     for (v = 0; v < frame.height_px; ++v)
         dotpose_push_row(locator, frame.pixels + v * frame.width_px);
-    dotpose_finish(locator, &fix); /* also tells why a frame could not be begun */
+    dotpose_finish(locator, &fix); /* also returns the reason if dotpose_begin failed */
     free(frame.pixels);
 
     if (dotpose_packet_of(&fix, DOTPOSE_CODE_ANOTO, 1, 0, &packet) != DOTPOSE_OK ||

@@ -1,4 +1,4 @@
-/* Draws a piece of a sheet as an image, which locate_one then finds:
+/* Draws a part of a sheet as an image, which locate_one then locates:
  *
  *     ./draw_sheet 1000 2000 >sheet.pgm
  *     ./locate_one sheet.pgm */
@@ -11,7 +11,7 @@ enum {
     COLUMNS = 40,
     ROWS = 30,
     SPACING_PX = 18,
-    SHIFT_PX = 3, /* a sixth of the spacing, as is the width of a dot */
+    SHIFT_PX = 3, /* a sixth of the spacing, like the width of a dot */
     WIDTH_PX = COLUMNS * SPACING_PX,
     HEIGHT_PX = ROWS * SPACING_PX
 };

@@ -1,5 +1,5 @@
-/* Follows a robot over the frames of its camera, which are 5 ms apart, and prints where it is and
- * how fast it moves:
+/* Tracks a robot over the frames of its camera, which are 5 ms apart, and prints its position
+ * and velocity:
  *
  *     ./follow_robot frame_*.pgm */
 #include <dotpose.h>
@@ -16,7 +16,7 @@ static dotpose_tracker tracker;
 static dotpose_prediction prediction;
 static int has_prediction = 0;
 
-/* Locates the frame of a time, and predicts the next one. */
+/* Locates the frame taken at a time, and predicts the next frame. */
 static dotpose_track follow(dotpose_locator* locator, const pgm_image* frame, int64_t time_us) {
     dotpose_fix fix;
     dotpose_sighting sighting;

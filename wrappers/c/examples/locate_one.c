@@ -1,4 +1,4 @@
-/* Locates the camera in one image:
+/* Locates the pattern in one image:
  *
  *     gcc locate_one.c -ldotpose_c -lm -o locate_one
  *     ./locate_one frame.pgm */

@@ -1,6 +1,5 @@
-/* Locates golden frames (wrappers/golden/README.md) through dotpose.h and prints the same lines as
- * C++: golden FRAMES.frames [ROWS]. With ROWS, rows are pushed where whole images are not needed.
- */
+/* Locates golden frames (wrappers/golden/README.md) through dotpose.h and prints the same lines
+ * as C++: golden FRAMES.frames [ROWS]. With ROWS, frames are pushed row by row where possible. */
 #include <dotpose.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -20,7 +19,7 @@ static void fail(const char* what) {
     exit(2);
 }
 
-/* Reads the next image; 0 at the end of the file. */
+/* Reads the next image. Returns 0 at the end of the file. */
 static int read_image(FILE* file, image* result) {
     size_t bytes = 0;
     if (fscanf(file, "P5 %4d %4d 255", &result->width_px, &result->height_px) != 2) return 0;
@@ -31,7 +30,7 @@ static int read_image(FILE* file, image* result) {
     return 1;
 }
 
-/* Prints a number at an address; a floating-point one as its bits. */
+/* Prints the number at an address. Floating-point numbers are printed as their bits. */
 static void print_number(char kind, const unsigned char* at) {
     int32_t integer = 0;
     uint32_t bits = 0;
@@ -71,7 +70,7 @@ static void push_rows(dotpose_locator* locator, const image* frame, dotpose_fix*
     dotpose_finish(locator, fix);
 }
 
-/* Prints the lines of a frame and of the frame after it. */
+/* Prints the lines of a frame and of its next frame. */
 static void locate(int index, const image* frame, const image* next, dotpose_locator* large,
                    dotpose_locator* device, int by_rows) {
     const int width_px = frame->width_px;

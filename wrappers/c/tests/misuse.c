@@ -1,4 +1,4 @@
-/* Misuse of every function gives a status that says what is wrong, and harms nothing. */
+/* Misuse of a function returns a status that names the error, and has no other effect. */
 #include <dotpose.h>
 #include <float.h>
 #include <math.h>
@@ -95,7 +95,7 @@ static void options(void) {
     CHECK(strcmp(dotpose_bad_option(&bad), "size") == 0 && dotpose_bad_option(NULL) == NULL);
     CHECK(dotpose_bad_option(&good) == NULL);
     bad = good;
-    bad.code = 256; /* would be anoto in 8 bits */
+    bad.code = 256; /* would be anoto if truncated to 8 bits */
     EXPECT(BAD_ARGUMENT, dotpose_set_options(locator, &bad));
     bad = good;
     bad.effort = -1;
@@ -111,7 +111,7 @@ static void options(void) {
     bad = good;
     bad.show_stages = 2;
     EXPECT(BAD_ARGUMENT, dotpose_set_options(locator, &bad));
-    /* Refused options leave those before. */
+    /* Refused options leave the previous options unchanged. */
     EXPECT(NO_CONTRAST, dotpose_locate(locator, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL, &fix));
     EXPECT(OK, dotpose_set_options(locator, NULL));
     EXPECT(NULL_POINTER, dotpose_set_options(NULL, &good));
@@ -157,7 +157,7 @@ static void making(void) {
     dotpose_locator_destroy(locator);
     EXPECT(NOT_INITIALIZED,
            dotpose_locate(locator, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL, &fix));
-    dotpose_locator_destroy(locator); /* does nothing */
+    dotpose_locator_destroy(locator); /* does nothing, because the pointer is null */
     dotpose_locator_destroy(NULL);
     locator = (dotpose_locator*)(void*)zeros;
     EXPECT(NOT_INITIALIZED,
@@ -192,7 +192,7 @@ static void locating(dotpose_locator* locator) {
     EXPECT(IMAGE_TOO_LARGE, dotpose_locate(locator, pixels, 189, 4097, 200, NULL, &fix));
     EXPECT(NO_CONTRAST, dotpose_locate(locator, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL, &fix));
     CHECK(fix.status == DOTPOSE_NO_CONTRAST && fix.theta_rad != fix.theta_rad);
-    /* From the last row upwards. */
+    /* A negative stride reads the rows from the last one upwards. */
     EXPECT(NO_CONTRAST, dotpose_locate(locator, pixels + (HEIGHT_PX - 1) * WIDTH_PX, WIDTH_PX,
                                        HEIGHT_PX, -WIDTH_PX, NULL, &fix));
     EXPECT(NO_CONTRAST,
@@ -222,14 +222,14 @@ static void pushing(dotpose_locator* locator) {
     EXPECT(NULL_POINTER, dotpose_finish(locator, NULL));
     EXPECT(NO_CONTRAST, dotpose_finish(locator, &fix));
     EXPECT(NO_FRAME, dotpose_finish(locator, &fix));
-    /* A frame that was begun is dropped by what comes between. */
+    /* Other calls drop a frame that was begun. */
     EXPECT(OK, dotpose_begin(locator, WIDTH_PX, HEIGHT_PX, NULL));
     EXPECT(OK, dotpose_set_options(locator, NULL));
     EXPECT(NO_FRAME, dotpose_push_row(locator, pixels));
     EXPECT(OK, dotpose_begin(locator, WIDTH_PX, HEIGHT_PX, NULL));
     EXPECT(NO_CONTRAST, dotpose_locate(locator, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL, &fix));
     EXPECT(NO_FRAME, dotpose_finish(locator, &fix));
-    /* A frame may end early. */
+    /* A frame may be finished early. */
     EXPECT(OK, dotpose_begin(locator, WIDTH_PX, HEIGHT_PX, NULL));
     EXPECT(NO_CONTRAST, dotpose_finish(locator, &fix));
     EXPECT(NULL_POINTER, dotpose_begin(NULL, WIDTH_PX, HEIGHT_PX, NULL));
@@ -237,7 +237,7 @@ static void pushing(dotpose_locator* locator) {
     EXPECT(NULL_POINTER, dotpose_finish(NULL, &fix));
 }
 
-/* A fix with this status that no frame has shown. */
+/* Returns a fix with a status that no frame has produced. */
 static dotpose_fix made_up(dotpose_status status) {
     dotpose_fix fix;
     dotpose_fix_init(&fix, sizeof fix);
@@ -246,7 +246,7 @@ static dotpose_fix made_up(dotpose_status status) {
     return fix;
 }
 
-/* A fix whose size is that of no version is neither written nor read. */
+/* A fix whose size matches no version is neither written nor read. */
 static void sizes(dotpose_locator* large, dotpose_locator* device) {
     static dotpose_pacer pacer;
     dotpose_fix fix = made_up(DOTPOSE_OK);
@@ -344,7 +344,7 @@ static void any_code(dotpose_locator* large, dotpose_locator* device) {
 }
 
 static void trackers(dotpose_locator* locator) {
-    static dotpose_tracker tracker; /* zeros */
+    static dotpose_tracker tracker; /* zeros, not set up */
     dotpose_track_options options;
     dotpose_sighting sighting;
     dotpose_prediction prediction;
@@ -405,7 +405,7 @@ static void trackers(dotpose_locator* locator) {
 }
 
 static void packets(void) {
-    static dotpose_packet_reader reader; /* zeros */
+    static dotpose_packet_reader reader; /* zeros, not set up */
     dotpose_packet packet;
     dotpose_fix fix = made_up(DOTPOSE_NO_GRID);
     uint8_t bytes[DOTPOSE_PACKET_BYTES];
@@ -414,7 +414,7 @@ static void packets(void) {
     EXPECT(NULL_POINTER, dotpose_packet_of(NULL, 0, 1, 2, &packet));
     EXPECT(NULL_POINTER, dotpose_packet_of(&fix, 0, 1, 2, NULL));
     EXPECT(BAD_VALUE, dotpose_packet_of(&fix, 3, 1, 2, &packet));
-    fix.status = DOTPOSE_NULL_POINTER; /* what a misused call gave */
+    fix.status = DOTPOSE_NULL_POINTER; /* status of a misused call */
     EXPECT(BAD_VALUE, dotpose_packet_of(&fix, 0, 1, 2, &packet));
     fix.status = DOTPOSE_NO_GRID;
     EXPECT(OK, dotpose_packet_of(&fix, 0, 65537, 2, &packet));
@@ -435,7 +435,7 @@ static void packets(void) {
     EXPECT(NULL_POINTER, dotpose_packet_reader_damaged(NULL, &damaged));
     EXPECT(OK, dotpose_packet_reader_damaged(&reader, &damaged));
     CHECK(damaged == 1);
-    packet.status = DOTPOSE_OTHER; /* as read from a newer sender */
+    packet.status = DOTPOSE_OTHER; /* status of a packet from a newer sender */
     EXPECT(OK, dotpose_packet_encode(&packet, bytes, sizeof bytes));
     packet.status = DOTPOSE_OTHER - 1;
     EXPECT(BAD_VALUE, dotpose_packet_encode(&packet, bytes, sizeof bytes));
@@ -448,7 +448,7 @@ static void packets(void) {
 }
 
 static void pacers(void) {
-    static dotpose_pacer pacer; /* zeros */
+    static dotpose_pacer pacer; /* zeros, not set up */
     dotpose_pacer_options options;
     dotpose_fix fix = made_up(DOTPOSE_NO_GRID);
     int64_t next_us = 0;

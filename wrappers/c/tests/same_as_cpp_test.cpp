@@ -1,4 +1,4 @@
-// The functions of dotpose.h do what those of the core do, whose results are expected here.
+// The functions of dotpose.h give the same results as those of the core.
 #include <array>
 #include <cstring>
 #include <memory>
@@ -51,13 +51,13 @@ dotpose_fix as_c(const Fix& fix) {
     return result;
 }
 
-/// Whether two structs without padding have the same bits.
+/// Returns true if two structs without padding have the same bits.
 template <typename T>
 bool same(const T& a, const T& b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// Frames of a robot that drives and turns, with a blank one in between.
+/// Returns frames of a robot that drives and turns. The middle frame is blank.
 std::vector<GreyImage> drive(int frames) {
     Shot shot = draw_shot(Setup{}, 7);
     std::vector<GreyImage> images;
@@ -73,7 +73,7 @@ std::vector<GreyImage> drive(int frames) {
     return images;
 }
 
-/// Frames of places far apart on a sheet of another code variant than the default.
+/// Returns frames of distant places on a sheet of a code other than the default.
 std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
     Setup setup;
     setup.pattern.code = CodeVariant::libdots;
@@ -83,7 +83,8 @@ std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
     return images;
 }
 
-/// Expects a locator in static memory to locate a frame of its size as the core's does.
+/// Expects that a locator in static memory gives the same fix as the locator of the core, for
+/// frames of a size.
 template <int Width, int Height>
 void expect_same_device(int kind, dotpose_status (*init)(void*, std::size_t, const dotpose_options*,
                                                          dotpose_locator**)) {

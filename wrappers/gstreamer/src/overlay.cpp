@@ -11,7 +11,7 @@ namespace {
 
 using draw::Point;
 
-// Within the limited range of video.
+// Black and white in the limited range of video.
 constexpr std::uint8_t kBlack = 16;
 constexpr std::uint8_t kWhite = 235;
 
@@ -44,7 +44,7 @@ class Canvas {
             }
         }
     }
-    /// Pixel (0, 0) covers the points from 0 to 1.
+    /// Pixel (0, 0) covers coordinates from 0 to 1.
     void put(Point point, std::uint8_t grey) const {
         if (!(point.x >= 0 && point.x < luma_.width_px)) return;
         if (!(point.y >= 0 && point.y < luma_.height_px)) return;
@@ -64,7 +64,7 @@ void draw_arrow(const Canvas& canvas, Point from, Point direction, double length
             canvas.line(to, to - 0.3 * length * direction + side * 0.2 * length * across, radius,
                         grey);
     };
-    // A light edge shows the arrow on dots and in shadows.
+    // A light outline makes the arrow visible on dots and in shadows.
     draw(2.5, kWhite);
     draw(1, kBlack);
 }

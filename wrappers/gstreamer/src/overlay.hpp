@@ -1,4 +1,4 @@
-/// Draws on the luma of a frame what was seen in it.
+/// Draws the dots and the pose on the luma of a frame.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace dotpose::gstreamer {
 
-/// Pixels that may be changed.
+/// A luma plane that may be modified.
 struct Luma {
     std::uint8_t* pixels = nullptr;
     int width_px = 0;
@@ -16,8 +16,8 @@ struct Luma {
     std::ptrdiff_t stride_bytes = 0;
 };
 
-/// Draws a ring around each dot and, if there is a fix, an arrow from the point whose pose it is
-/// along the pattern's x axis. The trace must be that of these pixels, with all stages.
+/// Draws a ring around each dot and, if there is a fix, an arrow from the reference point along the
+/// pattern's x axis. The trace must be that of this frame, with all stages.
 void draw_overlay(const Luma& luma, const Trace& trace);
 
 }  // namespace dotpose::gstreamer

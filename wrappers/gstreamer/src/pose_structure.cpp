@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// The fields of a structure, by their types.
+/// Sets the fields of a structure, by type.
 class Fields {
   public:
     explicit Fields(GstStructure* structure) : structure_(structure) {}
@@ -39,13 +39,13 @@ class Fields {
     void evidence(const char* key, Enum value) const {
         text(key, name(value));
     }
-    /// An angle in degrees, in (-180, 180].
+    /// Sets an angle in degrees, in (-180, 180].
     void angle(const char* name, double value_rad) const {
         const double value_deg = value_rad * kDegrees;
         number(name, value_deg <= -180 ? value_deg + 360 : value_deg);
     }
-    /// Nine numbers, row by row, after each row and column was multiplied by its factor; none if
-    /// the covariance is not known.
+    /// Sets nine numbers, row by row, with each row and column multiplied by its factor. Sets none
+    /// if the covariance is unknown.
     template <typename Matrix>
     void covariance(const char* name, const Matrix& matrix,
                     const std::array<double, 3>& factors) const {
@@ -105,13 +105,14 @@ void put_evidence(const Fields& fields, const Fix& fix) {
     if (is_known) fields.evidence(#name, fix.name);
 #include "dotpose/fix_fields.def"
     if (!fix) return;
-    // Smaller probabilities are left out: the model of paper, ink and camera does not justify them.
+    // Smaller probabilities are raised to this bound, because the model of paper, ink and camera
+    // does not justify them.
     constexpr double kMin_p_wrong = 1e-30;
     fields.number("p_wrong", std::max(fix.p_wrong(), kMin_p_wrong));
     fields.number("spacing_px", fix.spacing_px());
 }
 
-/// Whose code the sheet has, and which other one explains the frame too.
+/// Sets the code of the sheet, and the alternative code that also explains the frame.
 void put_code(const Fields& fields, const Located& located) {
     const CodeReading& reading = located.reading;
     const bool is_ok = located.fix.status == Status::ok;

@@ -1,4 +1,4 @@
-/// What is known of a frame, as a structure of GStreamer.
+/// Converts the reading of a frame to a GStreamer structure.
 #pragma once
 
 #include <gst/gst.h>
@@ -10,8 +10,9 @@ namespace dotpose::gstreamer {
 /// Name of the element's messages and of the custom meta of its buffers.
 inline constexpr const char* kPoseName = "dotpose";
 
-/// Sets the fields: names, units and frames are those of the lines of `dotpose watch` with
-/// `--units mm` (docs/output.md), numbers are not rounded. What has no value is left out.
+/// Sets the fields of a reading. Names, units and frames are the same as in the lines of `dotpose
+/// watch` with `--units mm` (docs/output.md), but numbers are not rounded. Fields without a value
+/// are omitted.
 void put_reading(GstStructure* structure, const Reading& reading);
 
 }  // namespace dotpose::gstreamer

@@ -30,7 +30,7 @@ enum Property : guint {
 
 constexpr GParamFlags kAlways = static_cast<GParamFlags>(
     G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_MUTABLE_PLAYING);
-/// Takes effect when the element starts.
+/// Flags of a property that takes effect when the element starts.
 constexpr GParamFlags kAtStart =
     static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_MUTABLE_READY);
 
@@ -45,7 +45,7 @@ std::optional<CodeVariant> code_of(gint number) {
     return static_cast<CodeVariant>(number - 1);
 }
 
-/// The values of `code`, registered once as a type of GObject.
+/// Returns the enumeration type of the property `code`, which is registered once as a GObject type.
 GType code_type() {
     static const std::array<GEnumValue, kCodeVariantCount + 2> values = [] {
         std::array<GEnumValue, kCodeVariantCount + 2> all{};
@@ -86,8 +86,9 @@ void add_track_numbers(GObjectClass* element_class) {
     const TrackOptions track;
     constexpr double kMin = 1e-3;
     constexpr double kMax = 1e7;
-    add_number(element_class, kMaxSpeed, "max-speed-mm-s", "Of the robot, while it is not seen",
-               kMin, kMax, static_cast<double>(track.max_speed_mm_s));
+    add_number(element_class, kMaxSpeed, "max-speed-mm-s",
+               "Maximum speed of the robot while it is not located", kMin, kMax,
+               static_cast<double>(track.max_speed_mm_s));
     add_number(element_class, kAcceleration, "acceleration-mm-s2",
                "Usual acceleration of the robot: a larger value follows faster and smooths less",
                kMin, kMax, static_cast<double>(track.acceleration_mm_s2));
@@ -104,12 +105,12 @@ void add_track_numbers(GObjectClass* element_class) {
 
 void install_properties(GObjectClass* element_class) {
     add_file(element_class, kSheets, "sheets",
-             "Sheet file: also report the sheet, and track the robot in the world");
+             "Sheet file; adds the place on the sheet, and tracks the robot in the world");
     add_file(element_class, kCamera, "camera",
-             "Camera file, of 'dotpose calibrate' or ROS: lens, reference point, heading");
+             "Camera file of 'dotpose calibrate' or ROS, with lens, reference point and heading");
     g_object_class_install_property(
         element_class, kCode,
-        g_param_spec_enum("code", "code", "Code that was printed, if there is no sheet file",
+        g_param_spec_enum("code", "code", "Code of the sheet, if there is no sheet file",
                           code_type(), kAnyCode, kAtStart));
     add_number(element_class, kSpacing, "spacing-mm",
                "Distance between adjacent grid intersections, if there is no sheet file", 0.01, 100,
@@ -117,7 +118,7 @@ void install_properties(GObjectClass* element_class) {
     add_switch(element_class, kInverted, "inverted",
                "The dots are white on black (copies the luma)", false, kAlways);
     add_switch(element_class, kTrack, "track",
-               "Follow the robot from frame to frame; without, each frame is located by itself",
+               "Track the robot from frame to frame; otherwise each frame is located independently",
                true, kAtStart);
     add_track_numbers(element_class);
     add_switch(element_class, kPostMessages, "post-messages",

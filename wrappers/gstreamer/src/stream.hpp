@@ -1,4 +1,4 @@
-/// A stream of frames, located one after the other.
+/// Locates a stream of frames one after the other.
 #pragma once
 
 #include <cstdint>
@@ -10,30 +10,30 @@
 
 namespace dotpose::gstreamer {
 
-/// What is known of a frame.
+/// The result of a frame.
 struct Reading {
-    std::uint64_t frame = 0;  ///< number, from 0
+    std::uint64_t frame = 0;  ///< number of the frame, from 0
     Located located;
-    std::optional<Track> track;  ///< none if each frame is located by itself
-    bool is_in_world = false;    ///< whether the track is in the world of the sheet file
+    std::optional<Track> track;  ///< none if each frame is located independently
+    bool is_in_world = false;    ///< true if the track is in the world of the sheet file
 };
 
 class Stream {
   public:
-    /// Reads the files. Throws Error if one cannot be read.
+    /// Reads the sheet and camera files. Throws Error if a file cannot be read.
     explicit Stream(const Settings& settings);
 
     /// Throws BadArgument if the camera file is for frames of another size.
     void require_size(int width_px, int height_px) const;
 
-    /// Locates the next frame. After a jump back in time the robot is followed anew. The image must
-    /// stay valid as long as `follower` is asked for it.
+    /// Locates the next frame. A jump back in time restarts tracking. The image must stay valid
+    /// while `follower` is used to access it.
     Reading read(ImageView image, bool is_inverted, std::int64_t time_us);
 
     bool has_overlay() const { return options_.locate.show_stages; }
-    /// Number of frames that were read.
+    /// Returns the number of frames read.
     std::uint64_t frames() const { return frames_; }
-    /// Has the trace of the newest frame.
+    /// Returns the follower, which has the trace of the newest frame.
     const Follower& follower() const { return *follower_; }
 
   private:

@@ -1,5 +1,5 @@
-// The simulated drive over two sheets through the element, in all its formats: the same poses as
-// those of `dotpose watch`, nothing lost, times and pixels kept.
+// The simulated drive over two sheets through the element, in all its formats. The poses equal
+// those of `dotpose watch`, no frame is lost, and times and pixels are unchanged.
 #include <string>
 #include <vector>
 
@@ -13,7 +13,7 @@
 namespace dotpose::test {
 namespace {
 
-/// Skips a test where something is missing that it needs.
+/// Skips a test if the parser of raw video is missing.
 #define DOTPOSE_NEEDS_PARSER() \
     if (!has_element("rawvideoparse")) GTEST_SKIP() << "without GStreamer's plugins-base"
 
@@ -21,7 +21,7 @@ class GstreamerDrive : public WatchCommand {
   protected:
     static void SetUpTestSuite() { start_gstreamer(); }
 
-    /// The frames of drive.raw in another file, with neutral colours behind each.
+    /// Writes the frames of drive.raw to another file, each followed by neutral chroma planes.
     void put_colours() {
         const std::string grey = file("drive.raw");
         const std::size_t size = std::size_t{kWidth} * kHeight;
@@ -30,7 +30,7 @@ class GstreamerDrive : public WatchCommand {
             stream << grey.substr(at, size) << std::string(size / 2, '\x80');
     }
 
-    /// Reads frames as `format` says, as files at 200 frames/s, and gives them to the element.
+    /// Reads the frames as files in `format` at 200 frames/s, and passes them through the element.
     Outcome run_element(const std::string& frames, const std::string& format,
                         const std::string& properties) {
         return run_pipeline("filesrc location=" + (directory_ / frames).string() +
@@ -46,7 +46,7 @@ class GstreamerDrive : public WatchCommand {
     }
 };
 
-/// Messages, metas and times must be those of the lines, one for one.
+/// Expects messages, metas and times that agree with the lines one by one.
 void expect_lines(const std::vector<json>& lines, const Outcome& outcome) {
     ASSERT_EQ(outcome.error, "");
     ASSERT_EQ(outcome.messages.size(), lines.size());
@@ -110,7 +110,7 @@ TEST_F(GstreamerDrive, WithoutSheetsTheCodeIsFoundOut) {
     expect_lines(watch(""), run_element("drive.raw", format, ""));
     expect_lines(watch("--code anoto --spacing 0.5"),
                  run_element("drive.raw", format, "code=anoto spacing-mm=0.5"));
-    // There is no fix with another code, and the messages say so.
+    // No frame can be located in another code, and the messages report that.
     expect_lines(watch("--code microdots"), run_element("drive.raw", format, "code=microdots"));
 }
 
@@ -172,7 +172,7 @@ TEST_F(GstreamerDrive, OverlayIsDrawnOnTheLumaAlone) {
         const std::string& drawn = outcome.frames[i].bytes;
         const std::string before = frames.substr(i * kLuma * 3 / 2, kLuma * 3 / 2);
         EXPECT_TRUE(drawn.substr(kLuma) == before.substr(kLuma));
-        // Rings around 600 dots have some 12,000 pixels, of which many are dark as before.
+        // Rings around 600 dots cover about 12,000 pixels, many of which were already dark.
         std::size_t changed = 0;
         for (std::size_t at = 0; at < kLuma; ++at)
             changed += drawn[at] != before[at] ? 1 : 0;

@@ -1,4 +1,4 @@
-// The element by itself, buffer by buffer: memory, times, states.
+// The element alone, buffer by buffer: memory, times, states.
 #include <cstring>
 #include <string>
 #include <vector>
@@ -22,7 +22,7 @@ class GstreamerElement : public testing::Test {
   protected:
     static void SetUpTestSuite() { start_gstreamer(); }
 
-    /// Returns a new element, to be unreferenced.
+    /// Returns a new element, which the caller must unreference.
     static GstElement* element(const std::string& properties) {
         GstElement* made = gst_parse_launch(("dotposelocate " + properties).c_str(), nullptr);
         return GST_ELEMENT(gst_object_ref_sink(made));
@@ -40,14 +40,14 @@ class GstreamerElement : public testing::Test {
     }
     void TearDown() override { stop(); }
 
-    /// A frame of the drive, as a buffer.
+    /// Returns a frame of the drive as a buffer.
     GstBuffer* frame(int index, GstClockTime pts) const {
         const GreyImage image = camera_.frame(drive_, index);
         GstBuffer* buffer = gst_buffer_new_memdup(image.pixels.data(), image.pixels.size());
         GST_BUFFER_PTS(buffer) = pts;
         return buffer;
     }
-    /// Gives the buffer to the element, and returns the meta of what comes out.
+    /// Passes the buffer through the element, and returns the meta of the output.
     nlohmann::json locate(GstBuffer* buffer) {
         GstBuffer* out = gst_harness_push_and_pull(harness_, buffer);
         if (out == nullptr) return "no buffer";
@@ -63,7 +63,7 @@ class GstreamerElement : public testing::Test {
 
 TEST_F(GstreamerElement, DoesNotCopyMemory) {
     start("");
-    // Somebody else has the memory too, as behind a tee.
+    // The memory is shared, as after a tee.
     GstBuffer* buffer = frame(0, 0);
     GstMemory* memory = gst_buffer_get_memory(buffer, 0);
     GstBuffer* other = gst_buffer_copy(buffer);
@@ -94,7 +94,8 @@ TEST_F(GstreamerElement, FollowsAnewAfterAJumpBack) {
     start("");
     EXPECT_EQ(locate(frame(170, 10 * GST_SECOND))["events"], "fix");
     EXPECT_EQ(locate(frame(171, 10 * GST_SECOND + 5 * GST_MSECOND))["attempt"], "tracked");
-    // As after a seek. Without a new beginning, nothing would be followed for ten seconds.
+    // A jump back, as after a seek. Without a restart, the robot would not be tracked for ten
+    // seconds.
     EXPECT_EQ(locate(frame(170, 0))["events"], "fix");
     EXPECT_EQ(locate(frame(171, 5 * GST_MSECOND))["verdict"], "accepted");
     EXPECT_EQ(locate(frame(172, 10 * GST_MSECOND))["frame"], 4);
@@ -102,7 +103,7 @@ TEST_F(GstreamerElement, FollowsAnewAfterAJumpBack) {
 
 TEST_F(GstreamerElement, WithoutTimesTheRateTellsThem) {
     constexpr int kFrames = 30;
-    constexpr int kFirst = 300;  // at full speed
+    constexpr int kFirst = 300;  // at this frame, the robot has its full speed
     std::vector<nlohmann::json> stamped;
     start("");
     for (int i = 0; i < kFrames; ++i)
@@ -118,7 +119,7 @@ TEST_F(GstreamerElement, WithoutTimesTheRateTellsThem) {
         EXPECT_EQ(meta["vx_mm_s"], stamped[static_cast<std::size_t>(i)]["vx_mm_s"]);
         EXPECT_EQ(meta["turn_deg_s"], stamped[static_cast<std::size_t>(i)]["turn_deg_s"]);
     }
-    // Without a rate either, it is the clock.
+    // Without a frame rate, the time is the clock at arrival.
     start("", "0/1");
     EXPECT_EQ(locate(frame(0, GST_CLOCK_TIME_NONE))["events"], "fix");
     EXPECT_EQ(locate(frame(1, GST_CLOCK_TIME_NONE))["verdict"], "accepted");
@@ -136,7 +137,7 @@ TEST_F(GstreamerElement, StartsAnewAfterAStop) {
     const nlohmann::json meta = locate(frame(2, 10 * GST_MSECOND));
     EXPECT_EQ(meta["frame"], 0);
     EXPECT_EQ(meta["status"], "ok");
-    EXPECT_FALSE(meta.contains("code_p_wrong"));  // the code is given now
+    EXPECT_FALSE(meta.contains("code_p_wrong"));  // absent because the code is given
 }
 
 TEST_F(GstreamerElement, TakesFramesOfOtherSizesOnTheWay) {

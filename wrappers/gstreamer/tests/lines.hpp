@@ -1,4 +1,5 @@
-/// Compares what the element tells of a frame with the line of the same frame.
+/// Compares the fields of the element's messages with the line of `dotpose watch` for the same
+/// frame.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 
 namespace dotpose::test {
 
-/// How far a number may be from its line, which is rounded.
+/// Returns the maximum rounding error of a number in a line.
 inline double rounding_of(std::string_view key, double value) {
     constexpr double kHalf = 0.501;
     if (key.starts_with("covariance") || key.starts_with("track_covariance")) {
@@ -26,7 +27,8 @@ inline double rounding_of(std::string_view key, double value) {
     return kHalf * 1e-6;
 }
 
-/// Lines have these besides: told otherwise here, or in other fields.
+/// Returns true for fields that only lines have. The element reports them in other units or in
+/// other fields.
 inline bool is_only_in_lines(std::string_view key) {
     constexpr std::array<std::string_view, 7> kKeys = {"schema", "t_s",        "x_grid", "y_grid",
                                                        "file",   "elapsed_us", "warning"};
@@ -41,7 +43,7 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
         for (std::size_t i = 0; i < line.size(); ++i)
             expect_value_of(key, line[i], told[i]);
     } else if (line.is_string()) {
-        // The line says more of why there is no fix.
+        // The line contains a more detailed reason why there is no fix.
         if (key != "message") {
             EXPECT_EQ(line, told) << key;
         }
@@ -53,7 +55,7 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
     }
 }
 
-/// All that the line tells must be told, and nothing else but times.
+/// Expects the same fields and values as in the line, and in addition only the times.
 inline void expect_told(const nlohmann::json& line, nlohmann::json told) {
     for (const auto& [key, value] : line.items()) {
         if (is_only_in_lines(key)) continue;

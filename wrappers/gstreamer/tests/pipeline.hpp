@@ -1,4 +1,4 @@
-/// Runs pipelines of GStreamer, and keeps what comes out of them.
+/// Runs GStreamer pipelines and collects their output.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace dotpose::test {
 
-/// Starts GStreamer with the plugin of this build, and with a registry of its own.
+/// Initialises GStreamer with the plugin of this build and with a separate registry.
 inline void start_gstreamer() {
     g_setenv("GST_PLUGIN_PATH", DOTPOSE_GSTREAMER_FOLDER, TRUE);
     g_setenv("GST_REGISTRY", DOTPOSE_REGISTRY, TRUE);
@@ -23,7 +23,7 @@ inline bool has_element(const char* name) {
     return true;
 }
 
-/// Returns a value of a structure, with all its digits.
+/// Returns a value of a structure with all its digits.
 inline nlohmann::json json_of(const GValue* value) {
     if (G_VALUE_HOLDS_STRING(value)) return g_value_get_string(value);
     if (G_VALUE_HOLDS_DOUBLE(value)) return g_value_get_double(value);
@@ -45,7 +45,7 @@ inline nlohmann::json json_of(const GstStructure* structure) {
     return fields;
 }
 
-/// Returns the fields of the meta of a buffer; null if it has none.
+/// Returns the fields of the meta of a buffer, or null if the buffer has no meta.
 inline nlohmann::json meta_of(GstBuffer* buffer) {
     GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, "dotpose");
     if (meta == nullptr) return nullptr;
@@ -67,9 +67,9 @@ struct Arrived {
 };
 
 struct Outcome {
-    std::vector<nlohmann::json> messages;  ///< of the element, in their order
+    std::vector<nlohmann::json> messages;  ///< messages of the element, in order
     std::vector<Arrived> frames;
-    std::string error;  ///< the first one, empty if there was none
+    std::string error;  ///< first error; empty if there was none
 };
 
 namespace pipeline_detail {
@@ -79,7 +79,7 @@ inline void keep(GstElement* /*sink*/, GstBuffer* buffer, GstPad* /*pad*/, gpoin
         {GST_BUFFER_PTS(buffer), GST_BUFFER_DURATION(buffer), meta_of(buffer), bytes_of(buffer)});
 }
 
-/// Takes a message, and returns whether it is the last one.
+/// Collects a message. Returns true if it is the last message.
 inline bool take(GstMessage* message, Outcome& outcome) {
     if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ELEMENT) {
         const GstStructure* structure = gst_message_get_structure(message);
@@ -99,7 +99,7 @@ inline bool take(GstMessage* message, Outcome& outcome) {
 
 }  // namespace pipeline_detail
 
-/// Runs a pipeline, whose last element is left out, to its end.
+/// Runs a pipeline to its end. The description omits the sink, which is appended.
 inline Outcome run_pipeline(const std::string& description) {
     Outcome outcome;
     GError* error = nullptr;

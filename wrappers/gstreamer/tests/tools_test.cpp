@@ -1,4 +1,4 @@
-// The element as the users of GStreamer's tools and of Python see it.
+// The element as used through the tools of GStreamer and from Python.
 #include <cstdlib>
 #include <fstream>
 #include <string>
@@ -15,7 +15,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Skips a test where a program is missing that it needs.
+/// Skips a test if a program is missing.
 #define DOTPOSE_NEEDS(program)                                             \
     if (run_shell("command -v " program " 2>&1").exit_code != 0 ||         \
         !has_element("rawvideoparse")) {                                   \
@@ -27,7 +27,7 @@ class GstreamerTools : public WatchCommand {
     using ToolCommand::shell;
     static void SetUpTestSuite() { start_gstreamer(); }
 
-    /// Runs gst-launch-1.0 with the frames of drive.raw, and returns the exit code.
+    /// Runs gst-launch-1.0 with the frames of drive.raw, and returns its exit code.
     int launch(const std::string& options, const std::string& properties) {
         return shell("timeout 60 gst-launch-1.0 " + options +
                      " filesrc location=drive.raw ! rawvideoparse format=gray8 width=320 "

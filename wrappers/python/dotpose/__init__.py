@@ -1,4 +1,4 @@
-"""Where a camera is on a sheet printed with tiny dots, to microns.
+"""Computes the pose of a camera over a sheet printed with tiny dots, to microns.
 
     import dotpose
 
@@ -8,12 +8,13 @@
     else:
         print(fix.message)
 
-Locator and Fix are all that most programs need. Tracker follows a robot from frame to frame,
-Follower does so over printed sheets; print_sheet, overlay, check_print and calibrate do what the
-commands of the tool do; simulate makes frames whose pose is known.
+Most programs need only Locator and Fix. Tracker follows a robot from frame to frame, and
+Follower over the sheets of a sheet file. print_sheet, overlay, check_print and calibrate are
+equivalent to the commands of the tool. simulate renders frames with known poses.
 
-Names carry units: _mm, _rad, _px, _us. The pattern frame has x to the right and y DOWN, as the page
-is read; angles are clockwise as seen on the paper. The centre of the first pixel is (0, 0).
+Names have units as suffixes: _mm, _rad, _px, _us. In the pattern frame, x points to the right
+and y DOWN on the page as it is read. Angles are clockwise as seen on the paper. The centre of
+the first pixel is (0, 0).
 """
 
 from dotpose._dotpose import (

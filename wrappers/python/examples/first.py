@@ -1,4 +1,4 @@
-"""Takes a simulated picture of a sheet and finds the camera in it."""
+"""Renders a simulated picture of a sheet and locates the camera in it."""
 import dotpose
 
 frame = dotpose.simulate(1)[0]

@@ -1,4 +1,5 @@
-"""Shows what a camera sees of a sheet: webcam.py [NUMBER or VIDEO]. Any key ends it."""
+"""Shows the picture of a camera with the dots located in it: webcam.py [NUMBER or VIDEO]. Press any
+key to exit."""
 import sys
 
 import cv2

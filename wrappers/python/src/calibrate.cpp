@@ -1,4 +1,4 @@
-// Calibration: lens, view and mount of a camera, and sheets beside each other.
+// Calibration: lens, view and mount of a camera, and poses of adjacent sheets.
 #include "dotpose/tools/calibrate.hpp"
 
 #include <fmt/core.h>
@@ -22,7 +22,7 @@ CalibrateOptions options_of(const std::string& name, double spacing_mm) {
     return options;
 }
 
-/// Runs `work(frames, frame_at)` over images, without the interpreter's lock.
+/// Runs `work(frames, frame_at)` over images, with the GIL released.
 template <typename Work>
 auto over(const py::iterable& images, const Work& work) {
     const std::vector<Frame> frames = frames_of(images);
@@ -34,33 +34,37 @@ auto over(const py::iterable& images, const Work& work) {
 
 void define_lens(py::module_& module) {
     py::class_<LensCalibration>(module, "LensCalibration",
-                                "The calibrated camera, with the evidence for it.")
+                                "A calibrated camera, with statistics of the calibration.")
         .def_readonly("camera", &LensCalibration::camera, "The Camera.")
         .def_property_readonly(
             "verdict", [](const LensCalibration& c) { return name(c.verdict); },
-            "\"good\", or why not to trust it: \"too_few_frames\", \"same_place\", "
+            "\"good\", or the reason why the result is unreliable: \"too_few_frames\", "
+            "\"same_place\", "
             "\"out_of_focus\", \"corners_unseen\".")
         .def_readonly("advice", &LensCalibration::advice, "One or two sentences for the user.")
         .def_property_readonly(
             "code", [](const LensCalibration& c) { return name(c.code); }, "Code of the sheet.")
         .def_readonly("is_mounted", &LensCalibration::is_mounted,
-                      "Whether all frames share height and tilt.")
-        .def_readonly("frames", &LensCalibration::frames, "Frames given.")
-        .def_readonly("located", &LensCalibration::located, "Different frames with a fix.")
-        .def_readonly("dots", &LensCalibration::dots, "Dots used.")
-        .def_readonly("outliers", &LensCalibration::outliers, "Dots left out.")
+                      "True if all frames have the same height and tilt.")
+        .def_readonly("frames", &LensCalibration::frames, "Number of frames given.")
+        .def_readonly("located", &LensCalibration::located,
+                      "Number of different frames with a fix.")
+        .def_readonly("dots", &LensCalibration::dots, "Number of dots used.")
+        .def_readonly("outliers", &LensCalibration::outliers,
+                      "Number of dots rejected as outliers.")
         .def_readonly("residual_before_px", &LensCalibration::residual_before_px,
-                      "Rms per axis without distortion, skew and tilt, in px.")
-        .def_readonly("residual_px", &LensCalibration::residual_px, "Rms per axis, in px.")
-        .def_readonly("px_per_spacing", &LensCalibration::px_per_spacing, "Mean over the frames.")
+                      "Rms residual per axis of a model without distortion, skew and tilt, in px.")
+        .def_readonly("residual_px", &LensCalibration::residual_px, "Rms residual per axis, in px.")
+        .def_readonly("px_per_spacing", &LensCalibration::px_per_spacing,
+                      "Mean grid spacing over the frames, in px.")
         .def_readonly("coverage", &LensCalibration::coverage,
-                      "Share of the parts of the image that show dots.")
+                      "Fraction of the parts of the image that contain dots.")
         .def(
             "draw",
             [](const LensCalibration& c, const std::filesystem::path& path) {
                 draw_calibration(path, c);
             },
-            "path"_a, "Write a picture (SVG) of the residuals before and after.");
+            "path"_a, "Write a picture (SVG) of the residuals before and after calibration.");
     module.def(
         "calibrate",
         [](const py::iterable& images, const std::string& code, double spacing_mm) {
@@ -71,35 +75,40 @@ void define_lens(py::module_& module) {
         },
         "images"_a, py::kw_only(), "code"_a = "auto", "spacing_mm"_a = kDefaultSpacing_mm,
         "Return the LensCalibration of a camera from images of any sheet, at least 5: arrays or "
-        "names of files.\n\nLengths are true if the spacing, in mm, is.");
+        "names of files.\n\nLengths are correct if spacing_mm is the printed spacing.");
 }
 
 void define_mount(py::module_& module) {
-    py::class_<SpinCalibration>(module, "SpinCalibration",
-                                "Where a camera sits, from a robot that turned on the spot.")
+    py::class_<SpinCalibration>(
+        module, "SpinCalibration",
+        "The mounting position of a camera, from a robot that turned on the spot.")
         .def_readonly("camera", &SpinCalibration::camera, "The Camera with its reference point.")
         .def_property_readonly(
             "verdict", [](const SpinCalibration& c) { return name(c.verdict); },
-            "\"good\", or \"drifted\" if the robot moved on while it turned.")
+            "\"good\", or \"drifted\" if the robot moved while it turned.")
         .def_property_readonly(
             "offset_mm",
             [](const SpinCalibration& c) {
                 return py::make_tuple(c.offset_mm.x_mm, c.offset_mm.y_mm);
             },
-            "Centre of rotation from the point under the image centre, along the image axes.")
-        .def_readonly("located", &SpinCalibration::located, "Frames with a fix.")
-        .def_readonly("sigma_mm", &SpinCalibration::sigma_mm, "Its deviation per axis, in mm.")
-        .def_readonly("residual_mm", &SpinCalibration::residual_mm, "Rms per axis, in mm.")
-        .def_readonly("turn_rad", &SpinCalibration::turn_rad, "Arc of all angles, in rad.")
+            "Centre of rotation relative to the paper point at the image centre, along the image "
+            "axes, in mm.")
+        .def_readonly("located", &SpinCalibration::located, "Number of frames with a fix.")
+        .def_readonly("sigma_mm", &SpinCalibration::sigma_mm,
+                      "Standard deviation of the centre per axis, in mm.")
+        .def_readonly("residual_mm", &SpinCalibration::residual_mm, "Rms residual per axis, in mm.")
+        .def_readonly("turn_rad", &SpinCalibration::turn_rad,
+                      "Arc that contains all angles, in rad.")
         .def(
             "draw",
             [](const SpinCalibration& c, const std::filesystem::path& path) { draw_spin(path, c); },
             "path"_a, "Write a picture (SVG) of the turn.");
     py::class_<DriveCalibration>(module, "DriveCalibration",
-                                 "The direction of a camera, from a straight drive forwards.")
+                                 "The direction of a camera, from a straight forward drive.")
         .def_readonly("camera", &DriveCalibration::camera, "The Camera with its direction.")
-        .def_readonly("located", &DriveCalibration::located, "Frames with a fix.")
-        .def_readonly("sigma_rad", &DriveCalibration::sigma_rad, "Its deviation, in rad.")
+        .def_readonly("located", &DriveCalibration::located, "Number of frames with a fix.")
+        .def_readonly("sigma_rad", &DriveCalibration::sigma_rad,
+                      "Standard deviation of the direction, in rad.")
         .def_readonly("residual_mm", &DriveCalibration::residual_mm,
                       "Rms distance from a straight line, in mm.")
         .def_readonly("length_mm", &DriveCalibration::length_mm, "Length of the drive, in mm.");
@@ -114,7 +123,8 @@ void define_mount(py::module_& module) {
         },
         "images"_a, "camera"_a = py::none(), py::kw_only(), "code"_a = "auto",
         "spacing_mm"_a = kDefaultSpacing_mm,
-        "Return where the camera sits, from at least 3 frames of a robot that turns on the spot.");
+        "Return the mounting position of the camera, from at least 3 frames of a robot that turns "
+        "on the spot.");
     module.def(
         "calibrate_drive",
         [](const py::iterable& images, const std::optional<Camera>& camera, const std::string& code,
@@ -126,16 +136,16 @@ void define_mount(py::module_& module) {
         },
         "images"_a, "camera"_a = py::none(), py::kw_only(), "code"_a = "auto",
         "spacing_mm"_a = kDefaultSpacing_mm,
-        "Return the direction in which the camera looks, from frames of a straight drive forwards, "
-        "in order.");
+        "Return the direction of the camera, from frames of a straight forward drive, in order.");
 }
 
 void define_stitching(py::module_& module) {
-    py::class_<Stitching>(module, "Stitching", "Sheets laid out in the world.")
+    py::class_<Stitching>(module, "Stitching", "Poses of sheets in the world.")
         .def_readonly("sheets", &Stitching::sheets, "The entries, with world poses and scales.")
-        .def_readonly("unconnected", &Stitching::unconnected, "Names of sheets seen alone.")
-        .def_readonly("frames", &Stitching::frames, "Frames given.")
-        .def_readonly("used", &Stitching::used, "Frames that show two sheets.");
+        .def_readonly("unconnected", &Stitching::unconnected,
+                      "Names of sheets that no frame shows with another sheet.")
+        .def_readonly("frames", &Stitching::frames, "Number of frames given.")
+        .def_readonly("used", &Stitching::used, "Number of frames that show two sheets.");
     module.def(
         "stitch_sheets",
         [](const py::iterable& images, const std::vector<SheetEntry>& sheets,
@@ -146,7 +156,7 @@ void define_stitching(py::module_& module) {
             });
         },
         "images"_a, "sheets"_a, "camera"_a = py::none(),
-        "Return how sheets lie, from images that show parts of two.");
+        "Return the poses of sheets, from images that each show parts of two.");
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 using Pair = std::array<double, 2>;
 
-/// Returns a property of a point of the image that is always known, as (u, v).
+/// Returns a property that is a point of the image, as (u, v).
 template <typename Member>
 void define_point(py::class_<Camera>& camera, const char* name, Member member, const char* doc) {
     camera.def_property(
@@ -22,7 +22,7 @@ void define_point(py::class_<Camera>& camera, const char* name, Member member, c
         doc);
 }
 
-/// Applies a map of single points to an array of them, n x 2.
+/// Applies a map of single points to an array of points, n x 2.
 template <typename Map>
 py::array_t<double> mapped(
     const Camera& camera,
@@ -59,15 +59,16 @@ py::object reference(const Camera& camera) {
 }
 
 void define_view(py::module_& module) {
-    py::class_<PaperScale>(module, "PaperScale",
-                           "How the undistorted image lies on the paper, for a camera that rides "
-                           "on it at a fixed height.")
+    py::class_<PaperScale>(
+        module, "PaperScale",
+        "The map from the undistorted image to the paper, for a camera at a fixed height.")
         .def_readwrite("mm_per_px_x", &PaperScale::mm_per_px_x, "Scale along x, in mm per px.")
         .def_readwrite("mm_per_px_y", &PaperScale::mm_per_px_y, "Scale along y, in mm per px.")
-        .def_readwrite("skew", &PaperScale::skew, "Shift of rows against each other, px per px.")
+        .def_readwrite("skew", &PaperScale::skew,
+                       "Shift of each row relative to the next, in px per px.")
         .def_readwrite("perspective_u", &PaperScale::perspective_u, "Perspective, per px.")
         .def_readwrite("perspective_v", &PaperScale::perspective_v, "Perspective, per px.");
-    py::class_<Tilt>(module, "Tilt", "Tilt of the paper against the image plane.")
+    py::class_<Tilt>(module, "Tilt", "Tilt of the paper relative to the image plane.")
         .def_readwrite("x_rad", &Tilt::x_rad, "About the image x axis, in rad.")
         .def_readwrite("y_rad", &Tilt::y_rad, "About the image y axis, in rad.");
 }
@@ -77,41 +78,42 @@ void define_view(py::module_& module) {
 void define_camera(py::module_& module) {
     define_view(module);
     py::class_<Camera> camera(module, "Camera",
-                              "The optics of a camera, its view of the paper and its place on a "
+                              "The optics of a camera, its view of the paper and its mount on a "
                               "robot: the content of a camera file.");
     camera
         .def(py::init(&new_camera), "width_px"_a, "height_px"_a, "k_per_px2"_a = 0.0,
              "centre_px"_a = py::none(),
-             "Make a camera of a lens: k in 1/px^2, below 0 for barrel, about a centre (u, v) in "
-             "px, by default that of the image.")
+             "Make a camera from a lens: k in 1/px^2, negative for barrel distortion, about a "
+             "centre (u, v) in px, by default the image centre.")
         .def_static("read", &read_camera, "path"_a,
                     "Return the camera of a camera file, or of a camera_info file of ROS.")
         .def(
             "write",
             [](const Camera& self, const std::filesystem::path& path) { write_camera(path, self); },
-            "path"_a, "Write a camera file, completely or not at all.")
+            "path"_a, "Write a camera file atomically.")
         .def_readwrite("width_px", &Camera::width_px, "Width of the images, in px.")
         .def_readwrite("height_px", &Camera::height_px, "Height of the images, in px.")
         .def_readwrite("k_per_px2", &Camera::k_per_px2,
-                       "Radial distortion, in 1/px^2; below 0 for barrel.")
+                       "Radial distortion, in 1/px^2; negative for barrel distortion.")
         .def_readwrite("paper", &Camera::paper,
-                       "View of the paper of a mounted camera; None if held by hand.")
-        .def_readwrite("focal_px", &Camera::focal_px, "Focal length, in px; None: not known.")
-        .def_readwrite("tilt", &Camera::tilt, "Tilt of a mounted camera; None: not known.")
+                       "View of the paper of a mounted camera; None for a hand-held camera.")
+        .def_readwrite("focal_px", &Camera::focal_px, "Focal length, in px; None if unknown.")
+        .def_readwrite("tilt", &Camera::tilt, "Tilt of a mounted camera; None if unknown.")
         .def_property(
             "reference_px", &reference,
             [](Camera& c, const std::optional<Pair>& point) {
                 c.reference_px.reset();
                 if (point) c.reference_px = PixelPoint{(*point)[0], (*point)[1]};
             },
-            "Undistorted pixel (u, v) whose pose is wanted; None: the image centre.")
+            "Reference point of the pose, as an undistorted pixel (u, v); None for the image "
+            "centre.")
         .def_readwrite("theta_offset_rad", &Camera::theta_offset_rad,
                        "Heading of the robot minus the angle of the image x axis, in rad.")
         .def_readwrite("flip", &Camera::flip,
-                       "Whether frames must be flipped, left to right, before they are located: "
+                       "True if frames must be flipped, left to right, before they are located: "
                        "image[:, ::-1].")
-        .def_readwrite("exposure_us", &Camera::exposure_us, "Exposure, in us; for users.")
-        .def_readwrite("gain", &Camera::gain, "Gain of the sensor; for users.")
+        .def_readwrite("exposure_us", &Camera::exposure_us, "Exposure, in us.")
+        .def_readwrite("gain", &Camera::gain, "Gain of the sensor.")
         .def_readwrite("sigma", &Camera::sigma,
                        "Standard deviations from a calibration, by the key of the camera file.")
         .def(
@@ -120,15 +122,15 @@ void define_camera(py::module_& module) {
                const py::array_t<double, py::array::c_style | py::array::forcecast>& points) {
                 return mapped(self, points, &dotpose::undistorted);
             },
-            "points"_a,
-            "Return where a camera without distortion would see pixels (u, v): n x 2 arrays.")
+            "points"_a, "Return the undistorted positions of pixels (u, v): n x 2 arrays.")
         .def(
             "distorted",
             [](const Camera& self,
                const py::array_t<double, py::array::c_style | py::array::forcecast>& points) {
                 return mapped(self, points, &dotpose::distorted);
             },
-            "points"_a, "Return where this camera sees undistorted pixels (u, v): n x 2 arrays.")
+            "points"_a,
+            "Return the pixels of this camera for undistorted positions (u, v): n x 2 arrays.")
         .def("__repr__", [](const Camera& self) {
             return fmt::format("<Camera {} x {} px, k {:.4g} per px^2>", self.width_px,
                                self.height_px, self.k_per_px2);

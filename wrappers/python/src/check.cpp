@@ -1,4 +1,4 @@
-// check_print: what a scan or photo of a printed sheet shows about printer and paper.
+// check_print: checks printer and paper from a scan or photo of a printed sheet.
 #include <fmt/core.h>
 
 #include "dotpose/files/code_names.hpp"
@@ -11,29 +11,33 @@
 namespace dotpose::python {
 namespace {
 
-/// A check with its scan, which its picture shows.
+/// A check, and the scan that its picture shows.
 struct SeenCheck {
     PrintCheck check;
     GreyImage scan;
 };
 
 void define_scale(py::module_& module) {
-    py::class_<PrintScale>(module, "PrintScale",
-                           "Scale and angles of a print on a flatbed scan; the scanner's own are "
-                           "part of them.")
-        .def_readonly("scale_x", &PrintScale::scale_x, "Printed over nominal length along x.")
-        .def_readonly("scale_y", &PrintScale::scale_y, "Printed over nominal length along y.")
+    py::class_<PrintScale>(
+        module, "PrintScale",
+        "Scale and angles of a print on a flatbed scan, including those of the scanner.")
+        .def_readonly("scale_x", &PrintScale::scale_x,
+                      "Ratio of printed to nominal length along x.")
+        .def_readonly("scale_y", &PrintScale::scale_y,
+                      "Ratio of printed to nominal length along y.")
         .def_readonly("rotation_rad", &PrintScale::rotation_rad,
                       "Direction of the pattern's x axis in the scan, in rad.")
         .def_readonly("skew_rad", &PrintScale::skew_rad,
-                      "Excess over 90 degrees of the angle between the axes, in rad.");
+                      "Angle between the axes minus 90 degrees, in rad.");
     py::class_<Finding>(module, "Finding", "One fault or remark about a print.")
         .def_property_readonly(
             "kind", [](const Finding& f) { return name(f.kind); },
             "Identifier, such as \"uneven_scale\"; \"good\" if there is no fault.")
-        .def_readonly("is_fault", &Finding::is_fault, "Whether it should be corrected.")
-        .def_readonly("field", &Finding::field, "Index of the field concerned; None: the scan.")
-        .def_readonly("text", &Finding::text, "What is wrong, the likely cause, the remedy.")
+        .def_readonly("is_fault", &Finding::is_fault, "True for a fault that should be corrected.")
+        .def_readonly("field", &Finding::field,
+                      "Index of the field concerned; None for the whole scan.")
+        .def_readonly("text", &Finding::text,
+                      "Description of the fault, the likely cause and the remedy.")
         .def("__repr__", [](const Finding& f) {
             return fmt::format("<Finding {}: {}>", name(f.kind), f.text);
         });
@@ -48,36 +52,40 @@ void define_field(py::module_& module) {
             [](const PrintField& f) {
                 return py::make_tuple(f.pattern.section.u, f.pattern.section.v);
             },
-            "Section (u, v) that was read.")
+            "Section (u, v) of the field.")
         .def_property_readonly(
             "origin", [](const PrintField& f) { return py::make_tuple(f.origin.x, f.origin.y); },
             "First cell (x, y) of the region.")
-        .def_readonly("columns", &PrintField::columns, "Columns of the region.")
-        .def_readonly("rows", &PrintField::rows, "Rows of the region.")
-        .def_readonly("is_patch", &PrintField::is_patch, "Whether it is a patch of a test page.")
-        .def_readonly("sheet", &PrintField::sheet, "Index of the sheet given; None: of none.")
-        .def_readonly("scale", &PrintField::scale, "PrintScale; None: the image is a photo.")
+        .def_readonly("columns", &PrintField::columns, "Number of columns of the region.")
+        .def_readonly("rows", &PrintField::rows, "Number of rows of the region.")
+        .def_readonly("is_patch", &PrintField::is_patch, "True for a patch of a test page.")
+        .def_readonly("sheet", &PrintField::sheet,
+                      "Index of the sheet in `sheets`; None for other regions.")
+        .def_readonly("scale", &PrintField::scale, "PrintScale; None for a photo.")
         .def_readonly("spacing_px", &PrintField::spacing_px, "Spacing in the image, in px.")
         .def_readonly("residual_mm", &PrintField::residual_mm,
-                      "Rms of the dots from their fitted places, per axis, in mm.")
+                      "Rms distance of the dots from their fitted places, per axis, in mm.")
         .def_readonly("scatter_mm", &PrintField::scatter_mm,
-                      "Rms of single dots about their neighbours, per axis, in mm.")
+                      "Rms displacement of dots relative to their neighbours, per axis, in mm.")
         .def_readonly("largest_distortion_mm", &PrintField::largest_distortion_mm,
-                      "Greatest mean displacement of a part of the region, in mm.")
-        .def_readonly("cells", &PrintField::cells, "Cells in view and not covered.")
-        .def_readonly("missing", &PrintField::missing, "Cells without a dot.")
-        .def_readonly("merged", &PrintField::merged, "Dots that touch a neighbour.")
-        .def_readonly("covered", &PrintField::covered, "Cells under other print.")
-        .def_readonly("dots", &PrintField::dots, "Dots found.")
-        .def_readonly("bits_wrong", &PrintField::bits_wrong, "Wrong bits, of two for each dot.")
+                      "Maximum of the mean displacements of parts of the region, in mm.")
+        .def_readonly("cells", &PrintField::cells, "Number of cells in view that are not covered.")
+        .def_readonly("missing", &PrintField::missing, "Number of cells without a dot.")
+        .def_readonly("merged", &PrintField::merged, "Number of dots that touch a neighbour.")
+        .def_readonly("covered", &PrintField::covered, "Number of cells covered by other print.")
+        .def_readonly("dots", &PrintField::dots, "Number of dots found.")
+        .def_readonly("bits_wrong", &PrintField::bits_wrong,
+                      "Number of wrong bits. Each dot has two bits.")
         .def_readonly("dot_mm", &PrintField::dot_mm, "Median diameter of the dots, in mm.")
         .def_readonly("contrast", &PrintField::contrast, "Darkness of the dots, 0 to 1.")
-        .def_property_readonly("gain", &PrintField::gain,
-                               "Growth of the dot's diameter over the nominal one.");
+        .def_property_readonly(
+            "gain", &PrintField::gain,
+            "Dot gain: ratio of the printed to the nominal diameter of the dots, minus 1.");
 }
 
 void define_check_class(py::module_& module) {
-    py::class_<SeenCheck>(module, "PrintCheck", "What a scan or photo shows about a print.")
+    py::class_<SeenCheck>(module, "PrintCheck",
+                          "The result of checking a scan or photo of a print.")
         .def_property_readonly(
             "fields", [](const SeenCheck& c) { return c.check.fields; },
             "Regions of the code, a list of PrintField, the largest first.")
@@ -91,25 +99,25 @@ void define_check_class(py::module_& module) {
                     if (finding.is_fault) return false;
                 return !c.check.fields.empty();
             },
-            "Whether the pattern was found, without a fault.")
+            "True if the pattern was found without a fault.")
         .def_property_readonly(
             "code", [](const SeenCheck& c) { return name(c.check.code); }, "Code of the page.")
         .def_property_readonly(
             "is_test_page", [](const SeenCheck& c) { return c.check.is_test_page; },
-            "Whether the scan shows a test page.")
+            "True if the scan shows a test page.")
         .def_property_readonly(
             "best",
             [](const SeenCheck& c) -> std::optional<std::size_t> {
                 if (c.check.best_per_spacing.empty()) return std::nullopt;
                 return c.check.best;
             },
-            "Of a test page: index of the field with the best settings; else None.")
+            "Index of the field of a test page with the best settings; None for other pages.")
         .def(
             "draw",
             [](const SeenCheck& c, const std::filesystem::path& path) {
                 draw_distortion(path, c.scan.view(), c.check);
             },
-            "path"_a, "Write a picture (SVG) of how dots are displaced over the page.");
+            "path"_a, "Write a picture (SVG) of the displacements of the dots over the page.");
 }
 
 SeenCheck check(const py::object& scan, const std::string& code, double spacing_mm,
@@ -154,11 +162,11 @@ void define_check(py::module_& module) {
         "dpi"_a = py::none(), "ink_reflectance"_a = 0.15,
         "Return a PrintCheck of the scan or photo of a printed sheet: an array or the name of an "
         "image file.\n\n"
-        "dpi: resolution of the scan; default: that of the file, if it states one. Without it,\n"
-        "with is_photo, or with a camera's EXIF data, the image counts as a photo, and scale is\n"
-        "not judged.\n"
-        "sheets: entries of the sheets that may be seen. ink_reflectance: of solid ink, relative "
-        "to paper, 0 to 0.9.");
+        "dpi: resolution of the scan; default: the resolution stated in the file. Without a\n"
+        "resolution, with is_photo, or with EXIF data of a camera, the image is treated as a\n"
+        "photo, and its scale is not checked.\n"
+        "sheets: entries of the sheets that the scan may show. ink_reflectance: reflectance of "
+        "solid ink, relative to paper, 0 to 0.9.");
 }
 
 }  // namespace dotpose::python

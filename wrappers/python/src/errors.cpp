@@ -1,4 +1,4 @@
-// The exceptions of the tools as Python exceptions.
+// Converts the exceptions of the tools to Python exceptions.
 #include <exception>
 
 #include "binding.hpp"
@@ -9,7 +9,7 @@
 namespace dotpose::python {
 namespace {
 
-/// Throws the error as an instance of the Python class that has its name.
+/// Raises the error as the Python exception class with the same name.
 void translate(std::exception_ptr error) {
     const auto raise = [](const char* name, const std::exception& what) {
         const py::object type = py::module_::import("dotpose._dotpose").attr(name);
@@ -47,13 +47,13 @@ void define_errors(py::module_& module) {
     const py::object value_error = py::reinterpret_borrow<py::object>(PyExc_ValueError);
     const py::object error =
         new_exception(module, "Error", py::make_tuple(runtime_error),
-                      "Something could not be done; the text names the file or value concerned.\n\n"
-                      "A frame without a fix is no error: see Fix.ok.");
+                      "An operation failed; the text names the file or value concerned.\n\n"
+                      "A frame without a fix is not an error: see Fix.ok.");
     new_exception(module, "BadArgument", py::make_tuple(error, value_error),
-                  "The request itself cannot be met; the text says which value is wrong.");
+                  "An argument is invalid; the text names the value.");
     const py::object large =
         new_exception(module, "ImageTooLarge", py::make_tuple(error),
-                      "An image file has more pixels than are read: width_px x height_px.");
+                      "An image file has more pixels than the limit: width_px x height_px.");
     large.attr("width_px") = 0;
     large.attr("height_px") = 0;
     py::register_exception_translator(translate);

@@ -19,7 +19,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kBam_per_rad = 2147483648.0 / std::numbers::pi;
 
-/// Returns a function that gives a number of an ok fix, otherwise not a number.
+/// Returns a getter for a number of a fix. The result is NaN unless the fix is ok.
 template <typename Get>
 auto if_ok(Get get) {
     return [get](const SeenFix& self) { return self.is_ok() ? double{get(self.fix)} : kNaN; };
@@ -66,7 +66,7 @@ std::string text_of_fix(const SeenFix& self) {
                        fix.x_mm(), fix.y_mm(), fix.theta_rad(), fix.p_wrong());
 }
 
-/// Appends numbers to a list as the lines of wrappers/golden have them.
+/// Appends numbers to a list in the format of the lines of wrappers/golden.
 class Bits {
   public:
     template <typename Value>
@@ -90,7 +90,7 @@ class Bits {
         }
         put(plane.lens_q40);
     }
-    /// The type of the value in C, so that its bits can be compared.
+    /// Sets the C type of the value, to compare its bits.
     template <typename Value>
     void put_bits(Value value) {
         list_.append(py::bytes(reinterpret_cast<const char*>(&value), sizeof value));
@@ -110,8 +110,8 @@ class Bits {
     py::list list_;
 };
 
-/// Returns the numbers of a line of wrappers/golden, floating-point ones as bytes, for tests that
-/// compare bits.
+/// Returns the numbers of a line of wrappers/golden, with floating-point numbers as bytes, for
+/// tests that compare bits.
 py::list bits(const SeenFix& self) {
     const Fix& fix = self.fix;
     Bits all;
@@ -128,7 +128,7 @@ py::list bits(const SeenFix& self) {
     return all.list();
 }
 
-/// Returns a field of the evidence as Python has it; without a pose, numbers are 0 or not a number.
+/// Returns a field of the evidence for Python. Without a pose, numbers are 0 or NaN.
 template <typename Value>
 py::object evidence(bool is_known, Value value) {
     if constexpr (std::is_enum_v<Value>)
@@ -140,11 +140,10 @@ py::object evidence(bool is_known, Value value) {
 }
 
 void define_pose(py::class_<SeenFix>& fix) {
-    fix.def_property_readonly(
-           "ok", &SeenFix::is_ok,
-           "Whether there is a pose. If not, status and message say why, and numbers of the pose "
-           "are nan or None.")
-        .def("__bool__", &SeenFix::is_ok, "Whether there is a pose, as ok.")
+    fix.def_property_readonly("ok", &SeenFix::is_ok,
+                              "True if there is a pose. Otherwise status and message give the "
+                              "reason, and the numbers of the pose are nan or None.")
+        .def("__bool__", &SeenFix::is_ok, "The same as ok.")
         .def_property_readonly(
             "status", [](const SeenFix& self) { return name(self.fix.status); },
             "Identifier of the result: \"ok\", \"too_few_dots\", ...")
@@ -167,8 +166,7 @@ void define_pose(py::class_<SeenFix>& fix) {
             "Covariance of (x_mm, y_mm, theta_rad): 3 x 3, in mm^2, mm rad and rad^2.")
         .def_property_readonly(
             "p_wrong", [](const SeenFix& self) { return self.is_ok() ? self.fix.p_wrong() : 1.0; },
-            "Bound of the probability that the position is wrong; 1 if there "
-            "is none.")
+            "Upper bound of the probability that the position is wrong; 1 without a fix.")
         .def_property_readonly(
             "section",
             [](const SeenFix& self) {
@@ -181,9 +179,9 @@ void define_pose(py::class_<SeenFix>& fix) {
             "Intersection (x, y) of the grid to the upper left of the reference point; None "
             "without a fix.")
         .def_property_readonly("x_grid", if_ok([](const Fix& f) { return f.x_grid(); }),
-                               "As x_mm, in spacings of the grid.")
+                               "The same as x_mm, in spacings of the grid.")
         .def_property_readonly("y_grid", if_ok([](const Fix& f) { return f.y_grid(); }),
-                               "As y_mm, in spacings of the grid.");
+                               "The same as y_mm, in spacings of the grid.");
 }
 
 /// Defines the fields of FIX_EVIDENCE.
@@ -203,23 +201,24 @@ void define_evidence(py::class_<SeenFix>& fix) {
     fix.def_property_readonly(
            "code", [](const SeenFix& self) { return name(self.code); },
            "Code that the position was read in: \"anoto\", \"libdots\" or \"microdots\".")
-        .def_property_readonly(
-            "other", &other,
-            "Another place that explains the frame as well, as (code, cell, section); else None.")
+        .def_property_readonly("other", &other,
+                               "A place in another code that also explains the frame, as (code, "
+                               "cell, section), or None.")
         .def_property_readonly("spacing_mm", if_ok([](const Fix& f) { return f.spacing_mm(); }),
-                               "Spacing of the printed grid, in mm; nan if it is not known.")
+                               "Spacing of the printed grid, in mm; nan if unknown.")
         .def_property_readonly("spacing_px", if_ok([](const Fix& f) { return f.spacing_px(); }),
                                "Spacing of the grid in the image, in px.")
         .def_property_readonly("_bits", &bits);
 }
 
 void define_prediction(py::module_& module) {
-    py::class_<SeenPrediction>(
-        module, "Prediction",
-        "Where the pattern is expected in the next frame: with one, locate is faster, and as "
-        "certain.")
+    py::class_<SeenPrediction>(module, "Prediction",
+                               "The expected position of the pattern in the next frame. With a "
+                               "prediction, locate is faster, and as "
+                               "certain.")
         .def_static("like", &SeenPrediction::like, "fix"_a,
-                    "Return the prediction that the next frame looks like that of an ok fix.")
+                    "Return the prediction that the next frame has the same pose as a fix, which "
+                    "must be ok.")
         .def(
             "moved",
             [](const SeenPrediction& self, double x_mm, double y_mm, double turn_rad) {
@@ -232,8 +231,8 @@ void define_prediction(py::module_& module) {
                 return result;
             },
             "x_mm"_a, "y_mm"_a, "turn_rad"_a = 0.0,
-            "Return the prediction for a camera that has moved by so much in the pattern, in mm, "
-            "and turned about its reference point, in rad.")
+            "Return the prediction for a camera that has moved in the pattern, in mm, and turned "
+            "about its reference point, in rad.")
         .def_property(
             "sigma_mm",
             [](const SeenPrediction& self) {
@@ -297,20 +296,21 @@ void define_fix(py::module_& module) {
     define_picture(module);
     py::class_<SeenFix> fix(
         module, "Fix",
-        "The pose that one frame shows, with its evidence; true if there is one.\n\n"
-        "The pattern frame has x to the right and y DOWN, as the page is read. The pose is the\n"
-        "pattern point under the reference point (by default the image centre).");
+        "The pose computed from one frame, with its evidence. True if there is a pose.\n\n"
+        "In the pattern frame, x points to the right and y DOWN on the page as it is read. The\n"
+        "pose is the pattern point at the reference point (by default the image centre).");
     define_pose(fix);
     define_evidence(fix);
     define_fields(fix);
     fix.def_property_readonly(
            "dots", &dots,
            "Pixels (u, v) where dots were found, n x 2; the centre of the first pixel is (0, 0). "
-           "Only of a locator's newest fix, unless it keeps stages.")
+           "Only available for the newest fix of a locator, unless it keeps stages.")
         .def("draw", &draw, "path"_a = py::none(), "title"_a = "",
-             "Return a picture (SVG) of what was seen in the frame: dots, grid, bits and pose, or "
-             "how far it came; also write it to path. Only of a locator's newest fix, unless it "
-             "keeps stages.")
+             "Return a picture (SVG) of the frame with dots, grid, bits and pose, or of the stages "
+             "that it reached. With path, also write a file. Only available for the newest fix of "
+             "a locator, "
+             "unless it keeps stages.")
         .def("__repr__", &text_of_fix);
     define_prediction(module);
 }

@@ -1,4 +1,4 @@
-/// What Python calls a Fix and a Prediction: those of C++ with what belongs to them.
+/// The Python classes Fix and Prediction: those of C++ with additional data.
 #pragma once
 
 #include <cstdint>
@@ -14,33 +14,33 @@
 
 namespace dotpose::python {
 
-/// Another place that explains a frame as well as its fix does.
+/// A place in another code that also explains a frame.
 struct OtherPlace {
     CodeVariant code = CodeVariant::anoto;
     Cell cell;
     Section section;
 };
 
-/// A fix, the code variant it was read in, and the way to the stages of its frame.
+/// A fix, the code it was read in, and a reference to the stages of its frame.
 struct SeenFix {
     Fix fix;
     CodeVariant code = CodeVariant::anoto;
     std::optional<OtherPlace> other;
-    /// The reference point, which the pose belongs to, in 2^-8 px from the image centre.
+    /// The reference point of the pose, in 2^-8 px from the image centre.
     FixedVec reference_q8;
     std::shared_ptr<StageSource> source;   ///< who located the frame
     std::uint64_t number = 0;              ///< of the frame, among those of `source`
     std::string fault;                     ///< option outside of its range; empty if none is
-    std::shared_ptr<const Stages> stages;  ///< null: not asked for yet
+    std::shared_ptr<const Stages> stages;  ///< null until requested
 
     bool is_ok() const { return fix.status == Status::ok; }
     const Stages& seen_stages();
 };
 
-/// Returns a fix as read, without a way to its stages.
+/// Returns a fix without a reference to its stages.
 SeenFix seen_fix(const CodeReading& reading);
 
-/// A prediction and what it was made for.
+/// A prediction, and the code, spacing and size for which it was made.
 struct SeenPrediction {
     Prediction prediction;
     CodeVariant code = CodeVariant::anoto;
@@ -50,8 +50,7 @@ struct SeenPrediction {
     static SeenPrediction like(const SeenFix& fix);
 };
 
-/// Returns the covariance in mm and rad of one in spacings and rad; not a number if `is_known` is
-/// false.
+/// Converts a covariance in spacings and rad to mm and rad. Returns NaN if `is_known` is false.
 py::array_t<double> covariance_array(const float (&covariance)[3][3], double spacing_mm,
                                      bool is_known);
 

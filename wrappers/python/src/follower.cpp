@@ -1,4 +1,4 @@
-// Follower: frames located on the sheets of a sheet file, and a robot followed over them.
+// Follower: locates frames on the sheets of a sheet file, and tracks a robot over them.
 #include "dotpose/tools/follower.hpp"
 
 #include <mutex>
@@ -15,7 +15,7 @@
 namespace dotpose::python {
 namespace {
 
-/// The result of an image: Located or Followed, in terms of Python.
+/// The result for an image: Located or Followed, as a Python class.
 struct SeenLocated {
     SeenFix fix;
     std::optional<SeenPlace> place;
@@ -93,21 +93,22 @@ std::string text_of_located(const SeenLocated& self) {
 }  // namespace
 
 void define_follower(py::module_& module) {
-    py::class_<SeenLocated>(module, "Located",
-                            "What an image shows: its fix, the place on a sheet, and the track.")
+    py::class_<SeenLocated>(
+        module, "Located", "The result for an image: its fix, the place on a sheet, and the track.")
         .def_property_readonly(
             "fix", [](SeenLocated& self) { return &self.fix; },
             py::return_value_policy::reference_internal, "The Fix, which may not be ok.")
-        .def_readonly("place", &SeenLocated::place, "SheetPlace of the fix; None: on no sheet.")
+        .def_readonly("place", &SeenLocated::place,
+                      "SheetPlace of the fix; None if the fix is on no sheet.")
         .def_readonly("track", &SeenLocated::track,
                       "Track after the image; None from Follower.locate.")
         .def_readonly("reduced_by", &SeenLocated::reduced_by,
-                      "Factor by which a too large image was reduced.")
+                      "Factor by which an image was reduced because it was too large.")
         .def("__bool__", [](const SeenLocated& self) { return self.fix.is_ok(); })
         .def("__repr__", &text_of_located);
     py::class_<FollowerOfPython>(
         module, "Follower",
-        "Locates images on the sheets of a sheet file and follows a robot over them.\n\n"
+        "Locates images on the sheets of a sheet file and tracks a robot over the sheets.\n\n"
         "    follower = dotpose.Follower(dotpose.read_sheets(\"sheets.json\"))\n"
         "    now = follower.follow(image, time_us)\n"
         "    if now.place:\n"
@@ -117,21 +118,22 @@ void define_follower(py::module_& module) {
              "reference_px"_a = py::none(), py::arg_v("options", LocatorOptions{}, "Options()"),
              "keep_stages"_a = false,
              "Make a follower.\n\n"
-             "sheets: entries of the pages that may be seen; without, poses are those of the "
-             "pattern.\ncode, spacing_mm: of the pattern where there are no sheets.\n"
+             "sheets: entries of the pages that may be in view; without sheets, poses are in the "
+             "pattern frame.\ncode, spacing_mm: code and spacing of the pattern without sheets.\n"
              "camera, reference_px, options, keep_stages: as in Locator.\n"
              "Options of the tracker are given by name, as in Tracker.")
         .def("locate", &FollowerOfPython::locate, "image"_a,
-             "Return what an image shows by itself. One that is too large is reduced.")
+             "Locate a single image. An image that is too large is reduced.")
         .def("follow", &FollowerOfPython::follow, "image"_a, "time_us"_a,
-             "Return what the next image of a sequence shows, given those before; time in us.")
+             "Locate the next image of a sequence, using the previous images; time in us.")
         .def_property_readonly(
             "is_in_world",
             [](const FollowerOfPython& self) { return self.follower().is_in_world(); },
-            "Whether tracks are in the world of the sheet file (y up), not in the pattern.")
+            "True if tracks are in the world of the sheet file (y up) instead of the pattern "
+            "frame.")
         .def_property_readonly(
             "sheets", [](const FollowerOfPython& self) { return self.follower().sheets(); },
-            "The entries that were given.");
+            "The sheet entries of the follower.");
 }
 
 }  // namespace dotpose::python

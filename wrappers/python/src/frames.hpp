@@ -1,4 +1,4 @@
-/// Images that Python gives: arrays or names of files.
+/// Images passed from Python: arrays or names of files.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,12 @@
 
 namespace dotpose::python {
 
-/// One image: pixels that were copied from an array, or the name of a file that is read when it is
-/// needed.
+/// An image: pixels copied from an array, or the name of a file that is read when needed.
 using Frame = std::variant<GreyImage, std::filesystem::path>;
 
 /// Returns the image of an array or a path. Throws TypeError for anything else.
 Frame frame_of(const py::handle& image);
-/// Returns those of a sequence.
+/// Returns the images of a sequence.
 std::vector<Frame> frames_of(const py::iterable& images);
 /// Returns the pixels. Throws Error if the file cannot be read.
 GreyImage pixels_of(const Frame& frame);

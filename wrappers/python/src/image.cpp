@@ -19,7 +19,7 @@ std::string described(const py::array& array) {
     throw py::type_error(std::string(kWanted) + ", not " + given + advice);
 }
 
-/// An image larger than any that is located keeps being too large.
+/// Converts a length to int. An image that is too large to be located remains too large.
 int side_px(py::ssize_t length) {
     return static_cast<int>(std::min<py::ssize_t>(length, std::numeric_limits<int>::max()));
 }
@@ -29,21 +29,21 @@ int side_px(py::ssize_t length) {
 ImageView view_of(const py::handle& image) {
     if (!py::isinstance<py::array>(image)) {
         refuse("a " + std::string(py::str(py::type::of(image).attr("__name__"))),
-               "; numpy.asarray(image) makes an array of most images");
+               "; numpy.asarray(image) converts most images");
     }
     const auto array = py::reinterpret_borrow<py::array>(image);
     if (array.ndim() == 3) {
         refuse(described(array),
-               "; a colour image is made grey by image.mean(axis=2).astype("
+               "; convert a colour image to grey by image.mean(axis=2).astype("
                "\"uint8\") or cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)");
     }
     if (array.ndim() != 2) refuse(described(array), "");
     if (!py::isinstance<py::array_t<std::uint8_t>>(array)) {
-        refuse(described(array), "; image.astype(\"uint8\") makes one of grey levels 0 to 255");
+        refuse(described(array), "; image.astype(\"uint8\") converts grey levels from 0 to 255");
     }
     if (array.shape(1) > 1 && array.strides(1) != 1) {
-        refuse(described(array) + " whose pixels of a row lie apart",
-               "; numpy.ascontiguousarray(image) puts them side by side");
+        refuse(described(array) + " whose rows are not contiguous",
+               "; numpy.ascontiguousarray(image) makes them contiguous");
     }
     return {static_cast<const std::uint8_t*>(array.data()), side_px(array.shape(1)),
             side_px(array.shape(0)), array.strides(0)};

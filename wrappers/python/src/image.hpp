@@ -1,4 +1,4 @@
-/// Images: numpy arrays are seen without a copy, grey images become arrays of their own.
+/// Conversion of images: views of numpy arrays without a copy, and arrays from grey images.
 #pragma once
 
 #include "binding.hpp"
@@ -7,11 +7,11 @@
 
 namespace dotpose::python {
 
-/// Returns a view of a two-dimensional array of uint8, whose rows may lie apart. The array must
-/// live as long as the view. Throws TypeError, which says what is wanted and what was given.
+/// Returns a view of a two-dimensional array of uint8, whose rows need not be contiguous. The array
+/// must outlive the view. Throws TypeError with the expected and the actual type.
 ImageView view_of(const py::handle& image);
 
-/// Returns the array of an image, which takes over its pixels.
+/// Returns an array that takes ownership of the pixels of the image.
 py::array_t<std::uint8_t> array_of(GreyImage&& image);
 
 /// Returns a copy of the pixels.

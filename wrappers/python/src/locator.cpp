@@ -13,7 +13,7 @@
 namespace dotpose::python {
 namespace {
 
-/// Whether two fixes say the same of a frame.
+/// Returns true if two fixes of a frame are equal.
 bool are_alike(const Fix& a, const Fix& b) {
     return a.status == b.status && a.dots_seen == b.dots_seen &&
            (a.status != Status::ok ||
@@ -118,8 +118,8 @@ std::shared_ptr<const Stages> LocatorOfPython::stages_of(std::uint64_t number) {
     const std::scoped_lock lock(mutex_);
     if (!is_newest || newest_.number != number) {
         throw Error(
-            "the locator has located another frame since, so dots and picture of this one "
-            "are gone; Locator(keep_stages=True) keeps them with each fix");
+            "the locator has located a newer frame, so the dots and picture of this frame "
+            "are no longer available; Locator(keep_stages=True) keeps them with each fix");
     }
     const CodeVariant code = locator_.options().code;
     set_options(newest_.code, true);
@@ -176,31 +176,33 @@ std::shared_ptr<LocatorOfPython> new_locator(const std::string& code, double spa
 void define_locator(py::module_& module) {
     py::class_<LocatorOfPython, std::shared_ptr<LocatorOfPython>>(
         module, "Locator",
-        "Finds where the pattern is seen in an image.\n\n"
-        "Threads run side by side if each has a locator of its own; threads that share one wait\n"
+        "Locates the pattern in images.\n\n"
+        "Threads run concurrently if each has its own locator. Threads that share a locator wait\n"
         "for each other.")
-        .def(py::init(&new_locator), "code"_a = "auto", "spacing_mm"_a = kDefaultSpacing_mm,
-             py::kw_only(), "camera"_a = py::none(), "reference_px"_a = py::none(),
-             py::arg_v("options", LocatorOptions{}, "Options()"), "keep_stages"_a = false,
-             "Make a locator.\n\n"
-             "code: of the sheet: \"anoto\", \"libdots\", \"microdots\", or \"auto\" to find it "
-             "from all frames.\n"
-             "spacing_mm: spacing of the printed grid, in mm.\n"
-             "camera: a Camera with its lens and view; images must then have its size.\n"
-             "reference_px: pixel (u, v) whose pose is wanted; default: that of the camera, or "
-             "the image centre.\n"
-             "options: thresholds and limits.\n"
-             "keep_stages: whether each fix keeps its image, dots and grid, for dots and draw "
-             "at any later time; costs time and memory.")
+        .def(
+            py::init(&new_locator), "code"_a = "auto", "spacing_mm"_a = kDefaultSpacing_mm,
+            py::kw_only(), "camera"_a = py::none(), "reference_px"_a = py::none(),
+            py::arg_v("options", LocatorOptions{}, "Options()"), "keep_stages"_a = false,
+            "Make a locator.\n\n"
+            "code: code of the sheet: \"anoto\", \"libdots\", \"microdots\", or \"auto\" to detect "
+            "the code from all frames.\n"
+            "spacing_mm: spacing of the printed grid, in mm.\n"
+            "camera: a Camera with its lens and view; images must have its size.\n"
+            "reference_px: reference point (u, v) of the pose; default: that of the camera, or "
+            "the image centre.\n"
+            "options: thresholds and limits.\n"
+            "keep_stages: if true, each fix keeps its image, dots and grid for later calls of dots "
+            "and draw; costs time and memory.")
         .def("locate", &LocatorOfPython::locate, "image"_a, "prediction"_a = py::none(),
              "Return the Fix of an image: a numpy array of uint8 with the shape (height, width), "
-             "0 black, dots dark on light paper. It is not copied; rows may lie apart.\n\n"
-             "With a prediction, the pattern is first looked for where it is expected; a frame "
-             "that does not confirm it is located without.")
+             "0 is black, with dark dots on light paper. The image is not copied; rows need not be "
+             "contiguous.\n\n"
+             "With a prediction, the pattern is first searched at the predicted position. A frame "
+             "that does not confirm the prediction is located without it.")
         .def("_cpp_us", &LocatorOfPython::cpp_us, "image"_a, "repeats"_a)
         .def_property_readonly(
             "code", [](LocatorOfPython& self) { return name(self.code()); },
-            "Code that was given, otherwise the likeliest by the frames so far.");
+            "The given code or, if it is detected, the likeliest code so far.");
 }
 
 }  // namespace dotpose::python

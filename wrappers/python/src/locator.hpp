@@ -1,4 +1,4 @@
-/// LocatorOfPython: a Locator with all that Python may ask of it later.
+/// LocatorOfPython: a Locator, and the data that Python may request after a frame.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace dotpose::python {
 
-/// What is known of code and camera.
+/// The known properties of the code and the camera.
 struct LocatorSetup {
     std::optional<CodeVariant> code;  ///< none: found from all frames
     std::optional<Camera> camera;
@@ -22,32 +22,33 @@ struct LocatorSetup {
     bool keep_stages = false;
 };
 
-/// Locates frames one after the other; threads that share it wait for each other, without the
-/// interpreter's lock.
+/// Locates frames one after the other. Threads may share a locator: they wait for each other with
+/// the GIL released.
 class LocatorOfPython : public StageSource, public std::enable_shared_from_this<LocatorOfPython> {
   public:
     explicit LocatorOfPython(const LocatorSetup& setup);
 
-    /// Locates an array. Throws TypeError for what is no image, BadArgument if the image does not
-    /// have the size of the camera file.
+    /// Locates the pattern in an array. Throws TypeError if the object is not an image, BadArgument
+    /// if the image does not have the size of the camera file.
     SeenFix locate(const py::object& image, const std::optional<SeenPrediction>& expected);
 
     std::shared_ptr<const Stages> stages_of(std::uint64_t number) override;
 
-    /// Returns the mean time in us that the same image takes in C++, for tests of what Python adds.
+    /// Returns the mean time, in µs, of locating the same image in C++, to measure the overhead of
+    /// Python.
     double cpp_us(const py::object& image, int repeats);
 
-    /// Returns the code variant that was given, otherwise the likeliest so far.
+    /// Returns the given code or, if it is detected, the likeliest code so far.
     CodeVariant code();
 
   private:
-    /// What the newest frame was located with, so that its stages can be found once more.
+    /// The inputs of the newest frame, to compute its stages again.
     struct Request {
         std::uint64_t number = 0;
         CodeEvidence evidence;  ///< before the frame
         CodeVariant code = CodeVariant::anoto;
         std::optional<SeenPrediction> expected;
-        Fix fix;  ///< before the camera file is applied
+        Fix fix;  ///< fix before the camera file is applied
     };
 
     void use_options_for(int width_px, int height_px);
@@ -56,15 +57,15 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
     SeenFix locate_locked(const ImageView& image, const std::optional<SeenPrediction>& expected);
 
     LocatorSetup setup_;
-    std::mutex mutex_;  ///< of all below but the image
+    std::mutex mutex_;  ///< guards all members below except the image
     Locator locator_;
-    Options options_;  ///< for images of the newest size
+    Options options_;  ///< options for images of the newest size
     int width_px_ = 0;
     int height_px_ = 0;
     CodeEvidence evidence_;
     Request newest_;
 
-    // Guarded by the interpreter's lock.
+    // Guarded by the GIL.
     py::object image_;
     std::uint64_t image_number_ = 0;
 };

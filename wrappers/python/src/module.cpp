@@ -1,11 +1,11 @@
-// The module dotpose._dotpose. The package dotpose shows what it defines.
+// The module dotpose._dotpose. The package dotpose re-exports its contents.
 #include "binding.hpp"
 #include "dotpose/version.hpp"
 
 PYBIND11_MODULE(_dotpose, module) {
     using namespace dotpose::python;
     module.doc() = "The compiled part of dotpose; use the package dotpose.";
-    // Classes say that they belong to the package, where users find them.
+    // Classes report the package as their module, because users find them there.
     const py::object own_name = module.attr("__name__");
     module.attr("__name__") = "dotpose";
     module.attr("__version__") = DOTPOSE_VERSION;

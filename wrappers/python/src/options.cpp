@@ -1,4 +1,4 @@
-// Options: limits of locating, with the names and units of C++.
+// Options: limits of locating, with the same names and units as in C++.
 #include <array>
 
 #include "binding.hpp"
@@ -19,7 +19,7 @@ Value named(const char* what, const std::string& wanted, const std::array<Value,
     throw BadArgument(std::string(what) + ": '" + wanted + "' is none of " + known);
 }
 
-/// Sets the members that are given by name; a name that there is none of is a TypeError.
+/// Sets the members that are given by name. An unknown name is a TypeError.
 LocatorOptions options_of(const py::kwargs& given) {
     py::object self = py::cast(LocatorOptions{});
     for (const auto& [key, value] : given) {
@@ -35,16 +35,16 @@ LocatorOptions options_of(const py::kwargs& given) {
 
 void define_options(py::module_& module) {
     using Given = LocatorOptions;
-    py::class_<Given>(module, "Options",
-                      "Limits of locating; the defaults suit any camera. Ranges are in [brackets]; "
-                      "a locator that "
-                      "gets\na value outside raises BadArgument.")
-        .def(py::init(&options_of),
-             "Make options; members are given by their names: Options(min_dots=60).")
+    py::class_<Given>(
+        module, "Options",
+        "Limits of locating. The defaults suit any camera. Ranges are in [brackets];\n"
+        "a locator raises BadArgument for a value that is out of range.")
+        .def(py::init(&options_of), "Make options from keyword arguments: Options(min_dots=60).")
         .def_property(
             "effort", [](const Given& o) { return name(o.effort); },
             [](Given& o, const std::string& value) { o.effort = named("effort", value, kEfforts); },
-            "Attempts for a frame: \"twice\", \"once\", or \"device\" as on a microcontroller.")
+            "Number of attempts per frame: \"twice\", \"once\", or \"device\" as on a "
+            "microcontroller.")
         .def_property(
             "decoder", [](const Given& o) { return name(o.decoder); },
             [](Given& o, const std::string& value) {
@@ -53,19 +53,19 @@ void define_options(py::module_& module) {
             "Dots from which the position is read: \"all\", or \"window\" as in the paper.")
         .def_readwrite(
             "min_contrast", &Given::min_contrast,
-            "Contrast between paper and dots, in grey levels, below which a frame has the "
+            "Minimum contrast between paper and dots, in grey levels. With less, a frame gets the "
             "status no_contrast. Raise it for noisy cameras. [0 to 255]")
         .def_readwrite("min_dots", &Given::min_dots,
-                       "Minimum number of dots from which a grid is searched. [0 to 2^20]")
-        .def_readwrite(
-            "max_p_wrong", &Given::max_p_wrong,
-            "Upper bound of the probability of being wrong; a position that exceeds it is "
-            "refused. Rounded down to a power of two. [1e-300 to 1]")
+                       "Minimum number of dots for the search for a grid. [0 to 2^20]")
+        .def_readwrite("max_p_wrong", &Given::max_p_wrong,
+                       "Maximum probability of a wrong position. Positions above this limit are "
+                       "refused. Rounded down to a power of two. [1e-300 to 1]")
         .def_readwrite("max_bit_errors", &Given::max_bit_errors,
-                       "Largest ratio of wrong bits on either axis. [0 to 1]")
+                       "Maximum ratio of wrong bits on either axis. [0 to 1]")
         .def_readwrite("lens_k_per_px2", &Given::lens_k_per_px2,
-                       "Radial distortion k in 1/px^2 (eq. 2 of the paper); below 0 for barrel. A "
-                       "camera file sets it.")
+                       "Radial distortion k in 1/px^2 (eq. 2 of the paper); negative for barrel "
+                       "distortion. Set by a "
+                       "camera file.")
         .def_property(
             "lens_centre_offset_px",
             [](const Given& o) { return py::make_tuple(o.lens_centre_dx_px, o.lens_centre_dy_px); },
@@ -78,7 +78,7 @@ void define_options(py::module_& module) {
 
 Options checked(const LocatorOptions& options) {
     if (const char* bad = bad_option(options)) {
-        throw BadArgument(std::string("Options: ") + bad + " is outside of its range");
+        throw BadArgument(std::string("Options: ") + bad + " is out of range");
     }
     return options;
 }

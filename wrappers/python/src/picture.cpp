@@ -14,7 +14,7 @@ void Picture::save(const std::filesystem::path& path) const {
 }
 
 void define_picture(py::module_& module) {
-    py::class_<Picture>(module, "Picture", "A drawing, an SVG document. Notebooks show it.")
+    py::class_<Picture>(module, "Picture", "A drawing as an SVG document, which notebooks display.")
         .def_readonly("svg", &Picture::svg, "The text of the document.")
         .def("save", &Picture::save, "path"_a, "Write the document to a file.")
         .def("_repr_svg_", [](const Picture& self) { return self.svg; })

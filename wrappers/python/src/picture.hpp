@@ -1,4 +1,4 @@
-/// Picture: a drawing as SVG, which notebooks show.
+/// Picture: a drawing in SVG format, which notebooks display.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace dotpose::python {
 struct Picture {
     std::string svg;
 
-    /// Writes the file. Throws Error.
+    /// Writes the file. Throws Error if that fails.
     void save(const std::filesystem::path& path) const;
 };
 

@@ -1,4 +1,4 @@
-// Printing: sheets laid out and written, alone or over the pages of a PDF.
+// Printing: lays out and writes sheets, also over the pages of a PDF.
 #include "dotpose/tools/print.hpp"
 
 #include <span>
@@ -15,7 +15,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// The sheet file and the name under which pages are entered there before they are written.
+/// Enters sheets into a sheet file under a name, before their pages are written.
 class Entering {
   public:
     Entering(const std::optional<Path>& file, const std::optional<std::string>& name)
@@ -26,7 +26,7 @@ class Entering {
         wait_.stop = was_interrupted;
     }
 
-    /// Gives each sheet the next free region; its own origin does not matter.
+    /// Assigns the next free region to each sheet. The previous origins of the sheets are ignored.
     void reserve(std::span<Sheet*> sheets) {
         if (!file_) return;
         const auto enter_all = [&](SheetFile& file) {
@@ -63,7 +63,7 @@ SheetOptions layout_of(const std::string& paper, bool is_landscape, double margi
     return options;
 }
 
-/// Returns the options, with a title that is by default the name of the file.
+/// Returns the print options. The default title is the name of the file.
 PrintOptions options_of(const Path& path, double dpi, const std::string& dots, bool labels,
                         const std::optional<std::string>& title) {
     PrintOptions options;
@@ -115,8 +115,8 @@ void define_layout(py::module_& module) {
         "displacement_mm"_a = py::none(),
         "Return a Sheet that fills a page with whole cells.\n\n"
         "paper: A0 to A6, Letter, Legal, Tabloid, or WIDTHxHEIGHT in mm.\n"
-        "margin_mm: kept free of ink on all sides.\n"
-        "origin: cell (x, y) at the top left; should differ from sheet to sheet.\n"
+        "margin_mm: margin without ink on all sides.\n"
+        "origin: cell (x, y) at the top left; should be different for each sheet.\n"
         "section: (u, v), each 0 to 62.\n"
         "dot_mm, displacement_mm: diameter of a dot, and its distance from the intersection; a "
         "sixth of the spacing by default.");
@@ -124,7 +124,7 @@ void define_layout(py::module_& module) {
                "landscape"_a = false, "margin_mm"_a = 5.0, "origin"_a = Whole{0, 0},
                "section"_a = Whole{0, 0}, "code"_a = "anoto", "spacing_mm"_a = kDefaultSpacing_mm,
                "dot_mm"_a = py::none(), "displacement_mm"_a = py::none(),
-               "Return sheets whose regions lie side by side, laid out as by make_sheet.");
+               "Return sheets with adjacent regions, laid out as by make_sheet.");
 }
 
 void define_printing(py::module_& module) {
@@ -152,12 +152,12 @@ void define_printing(py::module_& module) {
         "path"_a, "sheet"_a = py::none(), py::kw_only(), "dpi"_a = 600.0, "dots"_a = "auto",
         "labels"_a = true, "title"_a = py::none(), "sheet_file"_a = py::none(),
         "name"_a = py::none(),
-        "Write a sheet (default: that of make_sheet) as .pdf, .svg, .png, .tif or .txt, completely "
-        "or not at all. Return the sheet as written. Print it at 100 %.\n\n"
-        "dpi: the printer's own resolution. dots: in a PDF, \"auto\", \"glyphs\" or "
+        "Write a sheet (default: that of make_sheet) as .pdf, .svg, .png, .tif or .txt, "
+        "atomically. Return the sheet as written. Print it at 100 %.\n\n"
+        "dpi: native resolution of the printer. dots: in a PDF, \"auto\", \"glyphs\" or "
         "\"strokes\".\nlabels: text and rulers in the margins of a PDF.\n"
-        "sheet_file, name: also enter the sheet in a sheet file, in the next free region of the "
-        "code instead of its own.");
+        "sheet_file, name: also enter the sheet in a sheet file, with the next free region of the "
+        "code instead of its origin.");
 }
 
 py::tuple numbered(const OverlaidPage& page) {
@@ -190,7 +190,7 @@ OverlayReport run(OverlayArguments& arguments) {
 }
 
 void define_overlay(py::module_& module) {
-    py::class_<OverlayReport>(module, "OverlayReport", "What was done to a document.")
+    py::class_<OverlayReport>(module, "OverlayReport", "The result of laying dots over a document.")
         .def_property_readonly(
             "pages",
             [](const OverlayReport& report) {
@@ -199,9 +199,9 @@ void define_overlay(py::module_& module) {
                     pages.append(numbered(page));
                 return pages;
             },
-            "Pages that got dots: a list of (number from 1, Sheet).")
+            "Pages with dots: a list of (number from 1, Sheet).")
         .def_readonly("warnings", &OverlayReport::warnings,
-                      "What may hide dots or was not converted, in sentences.");
+                      "Warnings about content that may hide dots or was not converted.");
     module.def(
         "overlay",
         [](const Path& document, const Path& path, const std::string& pages, const Whole& origin,
@@ -229,10 +229,10 @@ void define_overlay(py::module_& module) {
         "dpi"_a = 600.0, "dots"_a = "auto", "under"_a = false, "cmy_black"_a = false,
         "lighten"_a = 0.0, "password"_a = "", "sheet_file"_a = py::none(), "name"_a = py::none(),
         "Lay dots over the pages of a PDF and write it to path. Return an OverlayReport.\n\n"
-        "pages: those that get dots, such as \"1-3,7\"; \"z\" is the last; default: all.\n"
+        "pages: pages that get dots, such as \"1-3,7\"; \"z\" is the last; default: all.\n"
         "under: dots below the document instead of above. cmy_black: print the document's black "
-        "without black ink. lighten: share of its ink that the document gives up, 0 to under 1.\n"
-        "Other arguments are those of make_sheet and print_sheet.");
+        "without black ink. lighten: fraction of the ink removed from the document, 0 to under 1.\n"
+        "Other arguments: see make_sheet and print_sheet.");
 }
 
 }  // namespace

@@ -1,19 +1,19 @@
-/// Progress of long work, asked for now and then while the interpreter's lock is released: Ctrl-C
-/// ends the work.
+/// Progress of long operations. Checks regularly for Ctrl-C while the GIL is released, and ends the
+/// operation.
 #pragma once
 
 #include "binding.hpp"
 
 namespace dotpose::python {
 
-/// Whether a signal has come that raises an exception in Python. The exception is then set.
+/// Returns true if a signal has raised an exception in Python, which is then set.
 inline bool was_interrupted() {
     const py::gil_scoped_acquire lock;
     return PyErr_CheckSignals() != 0;
 }
 
-/// Runs the work without the interpreter's lock. An exception of Python, such as KeyboardInterrupt,
-/// that was set meanwhile counts instead of the one that the work then throws.
+/// Runs the work with the GIL released. If a Python exception such as KeyboardInterrupt was set
+/// meanwhile, it is raised instead of the exception that the work throws.
 template <typename Work>
 auto without_lock(const Work& work) {
     try {

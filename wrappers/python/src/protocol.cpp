@@ -1,4 +1,4 @@
-// The paper's experiment (section IV), simulated.
+// Simulation of the experiment in section IV of the paper.
 #include "dotpose/tools/protocol.hpp"
 
 #include "binding.hpp"
@@ -21,7 +21,7 @@ void define_protocol(py::module_& module) {
                         "(bias, sigma).")
         .def_property_readonly(
             "place_mm", [](const Station& s) { return py::make_tuple(s.place_mm.x, s.place_mm.y); },
-            "Place (x, y) from the middle of the area, y DOWN, in mm.")
+            "Position (x, y) relative to the middle of the area, y DOWN, in mm.")
         .def_readonly("theta_deg", &Station::theta_deg, "Angle of the device, in degrees.")
         .def_property_readonly(
             "x_mm",
@@ -42,14 +42,16 @@ void define_protocol(py::module_& module) {
             },
             "Error of theta, in degrees.")
         .def_readonly("samples", &Station::samples, "Frames.")
-        .def_readonly("located", &Station::located, "Right fixes.")
-        .def_readonly("wrong", &Station::wrong, "Wrong fixes.");
+        .def_readonly("located", &Station::located, "Number of correct fixes.")
+        .def_readonly("wrong", &Station::wrong, "Number of wrong fixes.");
     py::class_<ProtocolResult>(module, "ProtocolResult", "The experiment on one page.")
         .def_readonly("positions", &ProtocolResult::positions, "Stations on 200 x 200 mm, 11 x 11.")
         .def_readonly("angles", &ProtocolResult::angles, "Stations at 36 angles, in the middle.");
     py::class_<Protocol>(module, "Protocol", "The experiment on a perfect and on a printed page.")
-        .def_readonly("perfect", &Protocol::perfect, "Every dot in its intended place.")
-        .def_readonly("printed", &Protocol::printed, "With the errors of a printer.");
+        .def_readonly("perfect", &Protocol::perfect,
+                      "Results on a page with every dot in its intended place.")
+        .def_readonly("printed", &Protocol::printed,
+                      "Results on a page with the errors of a printer.");
     module.def(
         "run_protocol",
         [](int samples, std::uint64_t seed, int threads) {
@@ -61,8 +63,8 @@ void define_protocol(py::module_& module) {
             return without_lock([&] { return run_protocol(options); });
         },
         "samples"_a = 20, py::kw_only(), "seed"_a = 1, "threads"_a = 0,
-        "Simulate the paper's experiment with so many samples at each position and angle. Return a "
-        "Protocol. threads: 0 for one on each core.");
+        "Simulate the paper's experiment with a number of samples at each position and angle. "
+        "Return a Protocol. threads: number of threads; 0 for one per core.");
 }
 
 }  // namespace dotpose::python

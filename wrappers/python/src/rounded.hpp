@@ -1,4 +1,4 @@
-/// Rounding of Python's numbers to the integers of the core.
+/// Rounds Python numbers to the integers of the core.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace dotpose::python {
 
-/// Returns the nearest integer, at most the largest there is; 0 for what is no number.
+/// Returns the nearest integer, clamped to the range of the type. Returns 0 for NaN.
 inline std::int32_t rounded(double value) {
     if (std::isnan(value)) return 0;
     return static_cast<std::int32_t>(std::clamp(std::round(value),

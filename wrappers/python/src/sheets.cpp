@@ -1,4 +1,4 @@
-// Sheet, SheetEntry and SheetFile: what is printed where, and where pages lie in the world.
+// Sheet, SheetEntry and SheetFile: the printed sheets, and the poses of pages in the world.
 #include "sheets.hpp"
 
 #include <memory>
@@ -17,7 +17,7 @@ py::tuple pair_of(const Cell& cell) {
     return py::make_tuple(cell.x, cell.y);
 }
 
-/// A SheetFile that is open from `with` to the end of its block, and saved there.
+/// A SheetFile that is open during a `with` block and saved at its end.
 class OpenSheetFile {
   public:
     OpenSheetFile(std::filesystem::path path, double max_s) : path_(std::move(path)) {
@@ -34,7 +34,8 @@ class OpenSheetFile {
         if (file && error.is_none()) file->save();
     }
     SheetFile& file() {
-        if (!file_) throw Error("a SheetFile is changed in a block: with SheetFile(...) as file");
+        if (!file_)
+            throw Error("a SheetFile can only be changed in a block: with SheetFile(...) as file");
         return *file_;
     }
 
@@ -45,10 +46,11 @@ class OpenSheetFile {
 };
 
 void define_sheet(py::module_& module) {
-    py::class_<Sheet>(module, "Sheet",
-                      "A page: columns x rows intersections of the pattern, the first of which is "
-                      "its origin.\n\nThe sheet frame is in mm from the top left corner of the "
-                      "page, x right, y DOWN.")
+    py::class_<Sheet>(
+        module, "Sheet",
+        "A page with columns x rows intersections of the pattern. The first intersection is "
+        "the origin.\n\nThe sheet frame is in mm from the top left corner of the "
+        "page, x to the right, y DOWN.")
         .def_property_readonly(
             "code", [](const Sheet& s) { return name(s.pattern.code); }, "Code of the dots.")
         .def_property_readonly(
@@ -70,8 +72,10 @@ void define_sheet(py::module_& module) {
         .def_readonly("rows", &Sheet::rows, "Number of rows of intersections.")
         .def_readonly("width_mm", &Sheet::width_mm, "Width of the page, in mm.")
         .def_readonly("height_mm", &Sheet::height_mm, "Height of the page, in mm.")
-        .def_readonly("origin_x_mm", &Sheet::origin_x_mm, "Of the first intersection on the page.")
-        .def_readonly("origin_y_mm", &Sheet::origin_y_mm, "Of the first intersection on the page.")
+        .def_readonly("origin_x_mm", &Sheet::origin_x_mm,
+                      "x of the first intersection on the page, in mm.")
+        .def_readonly("origin_y_mm", &Sheet::origin_y_mm,
+                      "y of the first intersection on the page, in mm.")
         .def("__repr__", [](const Sheet& s) {
             return fmt::format("<Sheet {:g} x {:g} mm, {} x {} cells from ({}, {}), code {}>",
                                s.width_mm, s.height_mm, s.columns, s.rows, s.origin.x, s.origin.y,
@@ -81,14 +85,14 @@ void define_sheet(py::module_& module) {
 
 void define_entry(py::module_& module) {
     py::class_<WorldPose>(module, "WorldPose",
-                          "Place and direction of a page in the world: m, y up, angles "
+                          "Position and direction of a page in the world: m, y up, angles "
                           "counter-clockwise.")
         .def(py::init([](double x_m, double y_m, double yaw_rad) {
                  return WorldPose{x_m, y_m, yaw_rad};
              }),
              "x_m"_a, "y_m"_a, "yaw_rad"_a = 0.0)
-        .def_readwrite("x_m", &WorldPose::x_m, "Of the top left corner, in m.")
-        .def_readwrite("y_m", &WorldPose::y_m, "Of the top left corner, in m.")
+        .def_readwrite("x_m", &WorldPose::x_m, "x of the top left corner, in m.")
+        .def_readwrite("y_m", &WorldPose::y_m, "y of the top left corner, in m.")
         .def_readwrite("yaw_rad", &WorldPose::yaw_rad, "Direction of the upper edge, in rad.");
     py::class_<SheetEntry>(module, "SheetEntry", "One page of a sheet file.")
         .def(py::init([](std::string name, const Sheet& sheet) {
@@ -98,16 +102,17 @@ void define_entry(py::module_& module) {
                  return entry;
              }),
              "name"_a, "sheet"_a)
-        .def_readwrite("name", &SheetEntry::name, "Unique in the file.")
-        .def_readwrite("page", &SheetEntry::page, "Number among pages printed together, from 1.")
+        .def_readwrite("name", &SheetEntry::name, "Name of the page, unique in the file.")
+        .def_readwrite("page", &SheetEntry::page,
+                       "Number of the page among pages printed together, from 1.")
         .def_readwrite("sheet", &SheetEntry::sheet, "The page.")
         .def_readwrite("print_scale_x", &SheetEntry::print_scale_x,
-                       "Printed length of a unit length along x.")
+                       "Ratio of printed to nominal length along x.")
         .def_readwrite("print_scale_y", &SheetEntry::print_scale_y,
-                       "Printed length of a unit length along y.")
-        .def_readwrite("world", &SheetEntry::world, "WorldPose of the page; None: not known.")
+                       "Ratio of printed to nominal length along y.")
+        .def_readwrite("world", &SheetEntry::world, "WorldPose of the page; None if unknown.")
         .def_readonly("is_reserved", &SheetEntry::is_reserved,
-                      "Whether the region is taken although the page may not exist.")
+                      "True if the region is reserved but the page may not exist.")
         .def("__repr__", [](const SheetEntry& e) {
             return fmt::format("<SheetEntry '{}', {} x {} cells from ({}, {})>", e.name,
                                e.sheet.columns, e.sheet.rows, e.sheet.origin.x, e.sheet.origin.y);
@@ -119,12 +124,13 @@ void define_file(py::module_& module) {
                "Return the entries of a sheet file, a list of SheetEntry.");
     py::class_<OpenSheetFile>(
         module, "SheetFile",
-        "A sheet file that is changed; other writers wait until the end of the block, where it\n"
-        "is saved unless an exception ends it.\n\n"
+        "Changes a sheet file. Other writers wait until the end of the block, where the file is\n"
+        "saved unless an exception was raised.\n\n"
         "    with dotpose.SheetFile(\"sheets.json\") as file:\n"
         "        file.allocate(\"table\", dotpose.make_sheet(\"A3\"))")
         .def(py::init<std::filesystem::path, double>(), "path"_a, "wait_s"_a = 60.0,
-             "Name a sheet file, which need not exist, and how long to wait for other writers.")
+             "Set the path of the sheet file, which need not exist, and the time to wait for other "
+             "writers.")
         .def("__enter__", &OpenSheetFile::enter, py::return_value_policy::reference_internal)
         .def("__exit__", [](OpenSheetFile& self, const py::object& type, const py::object&,
                             const py::object&) { self.leave(type); })
@@ -137,47 +143,50 @@ void define_file(py::module_& module) {
                 return self.file().allocate(name, sheet, count);
             },
             "name"_a, "sheet"_a, "count"_a = 1,
-            "Add pages like a sheet, each in the next free region of the code; several are named "
+            "Add copies of a sheet, each in the next free region of the code. Several copies are "
+            "named "
             "name-1, name-2, ... Return their entries.")
         .def(
             "add", [](OpenSheetFile& self, const SheetEntry& e) { self.file().add(e); }, "entry"_a,
-            "Add a page whose region was chosen elsewhere.")
+            "Add a page with a given region.")
         .def(
             "replace", [](OpenSheetFile& self, const SheetEntry& e) { self.file().replace(e); },
-            "entry"_a, "Replace the page that has the name of the entry.")
+            "entry"_a, "Replace the page with the name of the entry.")
         .def(
             "rename",
             [](OpenSheetFile& self, const std::string& name, const std::string& new_name) {
                 self.file().rename(name, new_name);
             },
-            "name"_a, "new_name"_a, "Give a page another name.")
+            "name"_a, "new_name"_a, "Rename a page.")
         .def(
             "remove",
             [](OpenSheetFile& self, const std::string& name) { self.file().remove(name); },
-            "name"_a, "Remove a page, if there is one of this name.")
+            "name"_a, "Remove the page with this name, if any.")
         .def(
             "save", [](OpenSheetFile& self) { self.file().save(); },
-            "Write the file now, completely or not at all.");
+            "Write the file now, atomically.");
 }
 
 void define_place(py::module_& module) {
     py::class_<WorldPlace>(module, "WorldPlace",
-                           "Where a fix lies in the world: m, y up, angles counter-clockwise.")
-        .def_readonly("x_m", &WorldPlace::x_m, "In m.")
-        .def_readonly("y_m", &WorldPlace::y_m, "In m.")
+                           "The place of a fix in the world: m, y up, angles counter-clockwise.")
+        .def_readonly("x_m", &WorldPlace::x_m, "x in the world, in m.")
+        .def_readonly("y_m", &WorldPlace::y_m, "y in the world, in m.")
         .def_readonly("yaw_rad", &WorldPlace::yaw_rad, "Direction of the image x axis, in rad.")
         .def_property_readonly(
             "covariance", [](const WorldPlace& p) { return array_of(p.covariance); },
             "Covariance of (x_m, y_m, yaw_rad), 3 x 3.");
     py::class_<SeenPlace>(module, "SheetPlace",
-                          "Where a fix lies on a page: mm from its top left corner, y DOWN.")
+                          "The place of a fix on a page: mm from the top left corner, y DOWN.")
         .def_readonly("entry", &SeenPlace::entry, "Entry of the page.")
         .def_property_readonly(
             "name", [](const SeenPlace& p) { return p.entry.name; }, "Name of the page.")
         .def_property_readonly(
-            "x_mm", [](const SeenPlace& p) { return p.place.x_mm; }, "In mm, as printed.")
+            "x_mm", [](const SeenPlace& p) { return p.place.x_mm; },
+            "x on the printed page, in mm.")
         .def_property_readonly(
-            "y_mm", [](const SeenPlace& p) { return p.place.y_mm; }, "In mm, as printed.")
+            "y_mm", [](const SeenPlace& p) { return p.place.y_mm; },
+            "y on the printed page, in mm.")
         .def_property_readonly(
             "theta_rad", [](const SeenPlace& p) { return p.place.theta_rad; },
             "Angle of the image x axis, clockwise on the page, in rad.")
@@ -191,7 +200,7 @@ void define_place(py::module_& module) {
                 place.entry = &p.entry;
                 return world_place(place);
             },
-            "WorldPlace of the fix; None if the page's own is not known.")
+            "WorldPlace of the fix; None if the pose of the page is unknown.")
         .def("__repr__", [](const SeenPlace& p) {
             return fmt::format("<SheetPlace '{}': x {:.3f} mm, y {:.3f} mm>", p.entry.name,
                                p.place.x_mm, p.place.y_mm);
@@ -203,7 +212,7 @@ void define_place(py::module_& module) {
 Cell cell_of(const Whole& pair) {
     for (const std::int64_t value : pair)
         if (value < 0 || value >= std::int64_t{kPositionsPerAxis})
-            throw BadArgument("origin: " + std::to_string(value) + " is no cell of the pattern");
+            throw BadArgument("origin: " + std::to_string(value) + " is not a cell of the pattern");
     return {static_cast<std::uint32_t>(pair[0]), static_cast<std::uint32_t>(pair[1])};
 }
 

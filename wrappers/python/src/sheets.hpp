@@ -1,4 +1,4 @@
-/// Sheets and their entries, which many functions of Python take and give.
+/// Conversions of sheets and their entries.
 #pragma once
 
 #include <array>
@@ -12,15 +12,16 @@ namespace dotpose::python {
 
 using Whole = std::array<std::int64_t, 2>;
 
-/// Returns the cell or section of two integers. Throws BadArgument for others than there are.
+/// Returns the cell or section of two integers. Throws BadArgument if they are out of range.
 Cell cell_of(const Whole& pair);
 Section section_of_pair(const Whole& pair);
 
-/// Returns a pattern; displacement and dot are by default a sixth of the spacing.
+/// Returns a pattern. Displacement and dot diameter are a sixth of the spacing by default.
 Pattern pattern_of(const std::string& code, double spacing_mm, const std::optional<double>& dot_mm,
                    const std::optional<double>& displacement_mm, const Whole& section);
 
-/// Returns the way to draw dots: "auto", "glyphs" or "strokes". Throws BadArgument for others.
+/// Returns the drawing mode of dots: "auto", "glyphs" or "strokes". Throws BadArgument for any
+/// other text.
 DotDrawing drawing_named(const std::string& name);
 
 /// A place on a sheet with a copy of its entry.
@@ -28,7 +29,7 @@ struct SeenPlace {
     SheetPlace place;
     SheetEntry entry;
 };
-/// Returns the place with a copy of its entry, none for none.
+/// Returns the place with a copy of its entry, or none if there is no place.
 std::optional<SeenPlace> seen_place(const std::optional<SheetPlace>& place);
 
 /// Returns a 3 x 3 array.

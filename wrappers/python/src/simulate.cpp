@@ -1,4 +1,4 @@
-// Simulated frames whose exact pose is known.
+// Simulated frames with exactly known poses.
 #include "dotpose/tools/simulate.hpp"
 
 #include <array>
@@ -15,7 +15,7 @@
 namespace dotpose::python {
 namespace {
 
-/// An imperfection that is a single number.
+/// An imperfection with a single number.
 struct Effect {
     const char* name;
     double Imperfections::*member;
@@ -24,28 +24,32 @@ struct Effect {
 
 constexpr std::array kEffects = {
     Effect{"paper_level", &Imperfections::paper_level, "Grey level of bare paper, 0 to 255."},
-    Effect{"ink_reflectance", &Imperfections::ink_reflectance, "Of ink, relative to paper."},
+    Effect{"ink_reflectance", &Imperfections::ink_reflectance,
+           "Reflectance of ink, relative to paper."},
     Effect{"ink_variation", &Imperfections::ink_variation,
            "Standard deviation of a dot's reflectance."},
     Effect{"palest_ink", &Imperfections::palest_ink, "Contrast of the palest ink, 0 to 1."},
     Effect{"vignetting", &Imperfections::vignetting, "Loss of light in the corners, 0 to 1."},
     Effect{"fall", &Imperfections::fall, "Change of light from side to side, 0 to 2."},
-    Effect{"blur_sigma_px", &Imperfections::blur_sigma_px, "Sigma of the lens's blur, in px."},
-    Effect{"noise_sigma", &Imperfections::noise_sigma, "Sigma of the noise, in grey levels."},
-    Effect{"salt_and_pepper", &Imperfections::salt_and_pepper, "Share of the pixels, 0 to 1."},
+    Effect{"blur_sigma_px", &Imperfections::blur_sigma_px,
+           "Standard deviation of the blur of the lens, in px."},
+    Effect{"noise_sigma", &Imperfections::noise_sigma,
+           "Standard deviation of the noise, in grey levels."},
+    Effect{"salt_and_pepper", &Imperfections::salt_and_pepper,
+           "Fraction of the pixels that are black or white, 0 to 1."},
     Effect{"jitter_mm", &Imperfections::jitter_mm,
            "Standard deviation of a printed dot's place, per axis, in mm."},
     Effect{"missing", &Imperfections::missing, "Share of the dots that are missing, 0 to 1."},
     Effect{"texture", &Imperfections::texture, "Standard deviation of the paper's reflectance."},
 };
 
-/// A shot and the image that the camera takes of it.
+/// A shot and the image that the simulated camera takes of it.
 struct SimulatedFrame {
     Shot shot;
     py::array_t<std::uint8_t> image;
 };
 
-/// Sets one coordinate, in spacings.
+/// Sets one coordinate from a value in spacings.
 void set_grid(double x, std::uint32_t& cell, double& fraction) {
     if (!(x >= 0 && x < kPositionsPerAxis)) throw BadArgument("the place is not on the pattern");
     cell = static_cast<std::uint32_t>(x);
@@ -107,7 +111,7 @@ std::vector<Shot> draw_shots(int frames, const std::string& preset, std::uint64_
 
 void define_shot(py::module_& module) {
     py::class_<Shot> shot(module, "Shot",
-                          "All inputs of a simulated frame; change what you like, then render.");
+                          "All inputs of a simulated frame. Change them as required, then render.");
     const auto spacing = [](const Shot& s) { return s.page.pattern.spacing_mm; };
     shot.def_property(
             "x_mm", [=](const Shot& s) { return x_grid(s.pose) * spacing(s); },
@@ -139,13 +143,13 @@ void define_shot(py::module_& module) {
                 s.pose.fraction_x += x_grid;
                 s.pose.fraction_y += y_grid;
             },
-            "x_grid"_a, "y_grid"_a, "Move the camera by so many spacings of the grid.")
+            "x_grid"_a, "y_grid"_a, "Move the camera by a number of grid spacings.")
         .def_property_readonly(
             "section",
             [](const Shot& s) {
                 return py::make_tuple(s.page.pattern.section.u, s.page.pattern.section.v);
             },
-            "Section (u, v) that is printed.")
+            "Section (u, v) of the printed pattern.")
         .def_property_readonly(
             "code", [](const Shot& s) { return name(s.page.pattern.code); },
             "Code that is printed.")
@@ -188,7 +192,7 @@ void define_simulate(py::module_& module) {
         "spacing_mm"_a = kDefaultSpacing_mm, "section"_a = py::none(), "width_px"_a = 188,
         "height_px"_a = 120, "mm_per_px"_a = 0.046, "k_per_px2"_a = 0.0, "first"_a = 0,
         "Return simulated frames, a list of SimulatedFrame, the same on every machine.\n\n"
-        "preset: \"clean\", \"nominal\" or \"hard\". section: (u, v); default: drawn anew for each "
+        "preset: \"clean\", \"nominal\" or \"hard\". section: (u, v); default: random for each "
         "frame.\nmm_per_px: size of a pixel on the paper, in mm. k_per_px2: distortion of the "
         "lens, in 1/px^2.\nfirst: number of the first frame of the run, so that runs can be "
         "continued.");

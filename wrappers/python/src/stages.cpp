@@ -11,11 +11,11 @@ namespace {
 template <typename T>
 std::vector<T> kept(std::span<const T>& shown) {
     std::vector<T> copy(shown.begin(), shown.end());
-    shown = copy;  // Moving the vector out leaves its elements where they are.
+    shown = copy;  // moving the vector leaves its elements in place
     return copy;
 }
 
-/// Returns a camera that has no more than the lens of the options.
+/// Returns a camera with only the lens of the options.
 Camera camera_of(const FixedLens& lens, int width_px, int height_px) {
     Camera camera;
     camera.width_px = width_px;

@@ -1,4 +1,4 @@
-/// Stages: what a locator saw in one frame, kept for as long as a fix needs it.
+/// Stages: the intermediate results of a locator for one frame, kept while a fix refers to them.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@
 
 namespace dotpose::python {
 
-/// A frame and its trace, whose spans show the vectors beside it. Never copied or moved.
+/// A frame and its trace, whose spans refer to the vectors in this object. Neither copied nor
+/// moved.
 class Stages {
   public:
     Stages(const ImageView& image, const Trace& trace);
@@ -35,12 +36,13 @@ class Stages {
     std::vector<GridCell> cells_;
 };
 
-/// Something that locates frames, one after the other, and can show the stages of its newest.
+/// Interface of objects that locate frames one after the other and can return the stages of the
+/// newest frame.
 class StageSource {
   public:
     virtual ~StageSource() = default;
-    /// Returns the stages of the frame with this number. Throws Error if there was another frame
-    /// since.
+    /// Returns the stages of the frame with the given number. Throws Error if a newer frame was
+    /// located.
     virtual std::shared_ptr<const Stages> stages_of(std::uint64_t number) = 0;
 };
 

@@ -1,4 +1,4 @@
-// Tracker and Track: a robot followed through the fixes of its frames.
+// Tracker and Track: track a robot from the fixes of its frames.
 #include "tracker.hpp"
 
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// A member of TrackOptions that is given by its name.
+/// A float member of TrackOptions that is set by name.
 struct FloatOption {
     const char* name;
     float TrackOptions::*member;
@@ -60,14 +60,14 @@ bool set_if_named(const Named& named, const std::string& key, const py::handle& 
         try {
             options.*option.member = value.cast<Value>();
         } catch (const py::cast_error&) {
-            throw py::type_error(key + " is a number");
+            throw py::type_error(key + " must be a number");
         }
         return true;
     }
     return false;
 }
 
-/// A Tracker that remembers its newest fix, which predictions begin with.
+/// A Tracker with its newest fix, from which predictions are made.
 class TrackerOfPython {
   public:
     explicit TrackerOfPython(const TrackOptions& options) : tracker_(options) {}
@@ -125,7 +125,7 @@ py::array_t<double> covariance(const Track& track) {
     return array;
 }
 
-/// Returns a function that gives a number of the pose, not a number while the robot is lost.
+/// Returns a getter for a number of the pose. The result is NaN while the robot is lost.
 template <typename Get>
 auto if_seen(Get get) {
     return [get](const Track& self) { return self.is_lost ? kNaN : double{get(self.pose)}; };
@@ -143,17 +143,18 @@ void define_track(py::module_& module) {
                       "The state of a robot after a frame. Its plane is the pattern (mm, y DOWN), "
                       "or the world of a sheet file (mm, y up).")
         .def_readonly("is_lost", &Track::is_lost,
-                      "Whether the robot was not seen for too long; the pose is nan then.")
-        .def_readonly("is_stationary", &Track::is_stationary, "Whether the robot is at rest.")
+                      "True if the robot was not seen for too long. The pose is then nan.")
+        .def_readonly("is_stationary", &Track::is_stationary, "True if the robot is at rest.")
         .def_property_readonly(
             "verdict", [](const Track& self) { return name(self.verdict); },
-            "How the fix was judged: \"none\", \"accepted\", \"with_prior\", \"gated\" or "
+            "Verdict of the tracker on the fix: \"none\", \"accepted\", \"with_prior\", \"gated\" "
+            "or "
             "\"too_weak\".")
         .def_property_readonly(
             "p_wrong", [](const Track& self) { return std::ldexp(1.0, self.p_wrong_log2); },
-            "Bound of the probability that the pose is wrong, given the frames before.")
+            "Upper bound of the probability that the pose is wrong, given the previous frames.")
         .def_property_readonly("events", &events,
-                               "What this frame changed: a set of \"fix\", \"lost\", "
+                               "Changes caused by the frame: a set of \"fix\", \"lost\", "
                                "\"kidnapped\", \"stationary\", \"moving\".")
         .def_property_readonly(
             "time_us", [](const Track& self) { return self.pose.time_us; },
@@ -196,20 +197,21 @@ TrackOptions track_options_of(const py::dict& given) {
 void define_tracker(py::module_& module) {
     define_track(module);
     py::class_<TrackerOfPython>(module, "Tracker",
-                                "Follows one robot through the fixes of its frames.\n\n"
+                                "Tracks one robot from the fixes of its frames.\n\n"
                                 "    fix = locator.locate(image, tracker.predict(time_us))\n"
                                 "    track = tracker.update(time_us, fix)")
         .def(py::init([](const py::kwargs& options) {
                  return TrackerOfPython(track_options_of(options));
              }),
-             "Make a tracker, which starts as lost. How the robot moves is given by name, such as\n"
+             "Make a tracker, in the state lost. Options are keyword arguments, such as\n"
              "acceleration_mm_s2=600, max_speed_mm_s=1000, lost_after_us=70000; docs/tracking.md\n"
-             "has all.")
+             "lists all options.")
         .def("update", &TrackerOfPython::update, "time_us"_a, "fix"_a = py::none(),
-             "Take the next frame: its time in us on any clock, and its Fix, which may not be ok. "
-             "Return the Track after it.")
+             "Update the tracker with the next frame: its time in us on any clock, and its Fix, "
+             "which "
+             "need not be ok. Return the Track after the frame.")
         .def("predict", &TrackerOfPython::predict, "time_us"_a,
-             "Return the Prediction for a frame at this time, None while the robot is lost.")
+             "Return the Prediction for a frame at the given time; None while the robot is lost.")
         .def_property_readonly(
             "track", [](const TrackerOfPython& self) { return Track(self.track()); },
             "The Track after the newest frame.");

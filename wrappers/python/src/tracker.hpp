@@ -1,4 +1,4 @@
-/// Track for Python, which a Tracker and a Follower give.
+/// The Python class Track, which Tracker and Follower return.
 #pragma once
 
 #include "binding.hpp"
@@ -6,8 +6,7 @@
 
 namespace dotpose::python {
 
-/// Returns the options of a tracker from arguments by their names. Throws TypeError for a name that
-/// there is none of.
+/// Returns the options of a tracker from keyword arguments. Throws TypeError for an unknown name.
 TrackOptions track_options_of(const py::dict& given);
 
 }  // namespace dotpose::python

@@ -1,4 +1,4 @@
-"""What the tests share."""
+"""Helpers shared by the tests."""
 
 import os
 from pathlib import Path
@@ -11,13 +11,13 @@ import dotpose
 
 @pytest.fixture(scope="session")
 def frames():
-    """Five nominal frames, which all have a fix."""
+    """Returns five nominal frames, which all have a fix."""
     return dotpose.simulate(5, seed=3)
 
 
 @pytest.fixture(scope="session")
 def golden():
-    """The folder of the golden files (wrappers/golden)."""
+    """Returns the folder of the golden files (wrappers/golden)."""
     folder = Path(os.environ.get("DOTPOSE_GOLDEN", ""))
     if not (folder / "vga.csv").exists():
         pytest.skip("without golden files: build and run dotpose_golden_files")
@@ -25,12 +25,13 @@ def golden():
 
 
 def bits_of(fix):
-    """The part of a line of a golden file that tells of the fix; numbers of C are little-endian here."""
+    """Returns the part of a line of a golden file that describes the fix. C numbers are
+    little-endian here."""
     return ",".join(n[::-1].hex() if isinstance(n, bytes) else str(n) for n in fix._bits)
 
 
 def images_in(path):
-    """The binary PGM images that stand one after the other in a file."""
+    """Returns the binary PGM images of a file that contains a sequence of them."""
     data = memoryview(Path(path).read_bytes())
     at = 0
     while at < len(data):

@@ -1,9 +1,9 @@
-"""How much longer a frame takes in Python than in C++, measured side by side in one process.
+"""Measures the overhead of Python per frame relative to C++, in one process.
 
     python3 cost.py
 
-Both locate the same image with a locator of the same options, in short batches that alternate; of
-each, the fastest batch counts, since others are slowed down by other programs.
+Python and C++ locate the same image with the same options, in short alternating batches. The
+result is the fastest batch of each, because other programs slow down the other batches.
 """
 
 import time
@@ -12,7 +12,7 @@ import dotpose
 
 
 def cost_us(image, locator, batches=2000, frames=4):
-    """Returns the time of a frame in C++, in Python, and in Python with the pose read, in us."""
+    """Returns the time per frame in µs: in C++, in Python, and in Python with access to the pose."""
     cpp, python, read = [], [], []
     for _ in range(batches):
         cpp.append(locator._cpp_us(image, frames))

@@ -1,4 +1,4 @@
-"""Calibration of simulated cameras, camera files, and the paper's experiment."""
+"""Calibration of simulated cameras, camera files, and the experiment of the paper."""
 
 import math
 import os
@@ -15,7 +15,7 @@ K_PER_PX2 = -4e-6
 
 @pytest.fixture(scope="module")
 def lens():
-    """A calibration from frames of a camera whose lens is known."""
+    """Returns a calibration from frames of a camera with a known lens."""
     frames = dotpose.simulate(8, seed=5, section=(0, 0), k_per_px2=K_PER_PX2)
     return dotpose.calibrate(frame.image for frame in frames)
 
@@ -65,7 +65,7 @@ def test_a_locator_uses_the_camera(lens):
 
 
 def turned_and_driven():
-    """Images of a robot that turns about a point 2 mm to the right of the image centre."""
+    """Returns images of a robot that turns about a point 2 mm to the right of the image centre."""
     shot = dotpose.draw_shots(1, seed=31, section=(0, 0))[0]
     x_mm, y_mm = shot.x_mm, shot.y_mm
     for step in range(12):
@@ -110,7 +110,7 @@ def test_the_experiment_of_the_paper():
     places = np.array([station.place_mm for station in protocol.printed.positions])
     assert places.min() == -100 and places.max() == 100
     assert all(s.located == s.samples == 2 and s.wrong == 0 for s in protocol.perfect.positions)
-    # Table III: the printer's errors are far larger than those of locating.
+    # Table III: the errors of the printer are far larger than those of locating.
     worst = max(abs(s.y_mm[0]) for s in protocol.printed.positions)
     assert 0.1 < worst < 0.5 and max(abs(s.y_mm[0]) for s in protocol.perfect.positions) < 0.01
 

@@ -1,4 +1,4 @@
-"""The examples do what they say."""
+"""The examples run and print what they promise."""
 
 import json
 import os
@@ -15,7 +15,7 @@ EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 
 
 def run(name, *arguments):
-    """Runs an example as a user would and returns what it prints."""
+    """Runs an example as a user would, and returns its output."""
     command = [sys.executable, str(EXAMPLES / name), *map(str, arguments)]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 

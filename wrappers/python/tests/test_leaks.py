@@ -1,4 +1,4 @@
-"""No memory is lost over many frames: DOTPOSE_LEAK_FRAMES, 100,000 in scripts/nightly."""
+"""No memory is leaked over many frames: DOTPOSE_LEAK_FRAMES, 100,000 in scripts/nightly."""
 
 import gc
 import os
@@ -17,7 +17,7 @@ def resident_kb():
 
 
 def use_all_of(fix, tracker, time_us):
-    """Whatever a program reads of a frame."""
+    """Reads everything that a program may read of a frame."""
     fix.covariance, fix.section, fix.cell, fix.other, fix.message, repr(fix)
     track = tracker.update(time_us, fix)
     track.covariance, track.events
@@ -45,7 +45,7 @@ def test_no_leak_over_many_frames():
                 except TypeError:
                     pass
 
-    run(0, 1000)  # What is allocated once.
+    run(0, 1000)  # Excludes memory that is allocated once.
     gc.collect()
     references = sum(sys.getrefcount(image) for image in images)
 
@@ -56,10 +56,10 @@ def test_no_leak_over_many_frames():
         gc.collect()
         return resident_kb() - before
 
-    # The heap may settle in the first round; a leak shows in both.
+    # The heap may still grow in the first round. A leak grows the heap in both.
     grown = min(growth_kb(), growth_kb())
     print(f"{FRAMES} frames: {grown} KB more")
-    # A leaked Fix has 400 bytes, an image 22 KB.
+    # A leaked Fix takes 400 bytes, a leaked image 22 KB.
     assert grown < 512 + FRAMES * 0.05
-    # A locator holds its newest image.
+    # A locator keeps a reference to its newest image.
     assert sum(sys.getrefcount(image) for image in images) <= references + 1

@@ -1,4 +1,4 @@
-"""Locator, Fix, Prediction and the arrays that they take."""
+"""Locator, Fix, Prediction, and their arrays."""
 
 import math
 
@@ -29,7 +29,7 @@ def test_covariance_is_in_mm_and_rad(frames):
     covariance = fix.covariance
     assert covariance.shape == (3, 3) and covariance.dtype == np.float64
     assert (covariance == covariance.T).all() and (np.linalg.eigvalsh(covariance) > 0).all()
-    # About a micron and a fiftieth of a degree (docs/accuracy.md).
+    # About 1 µm and 0.02 degrees (docs/accuracy.md).
     assert 0.0003 < math.sqrt(covariance[0, 0]) < 0.003
     assert 0.0001 < math.sqrt(covariance[2, 2]) < 0.001
     half = dotpose.Locator(spacing_mm=0.254).locate(frames[0].image)
@@ -64,7 +64,7 @@ def test_rows_may_lie_apart_and_in_any_order(frames):
 
 
 def test_the_pixels_are_not_copied(frames):
-    # A view of a file that is larger than memory needs no memory.
+    # A view that is larger than the memory takes no memory.
     huge = np.broadcast_to(np.uint8(200), (1 << 40, 100))
     with pytest.raises(TypeError, match="apart"):
         dotpose.Locator().locate(huge)

@@ -1,4 +1,4 @@
-"""Sheets, sheet files, printing, overlays and checks of prints."""
+"""Sheets, sheet files, printing, overlays, and checks of prints."""
 
 import pytest
 
@@ -7,7 +7,7 @@ import dotpose
 
 def test_a_sheet_fills_its_page():
     sheet = dotpose.make_sheet()
-    # What `dotpose print -o sheet.png --paper A4` says (README.md).
+    # The size that `dotpose print -o sheet.png --paper A4` prints (README.md).
     assert (sheet.width_mm, sheet.height_mm, sheet.columns, sheet.rows) == (210, 297, 394, 565)
     assert sheet.spacing_mm == 0.508 and sheet.dot_mm == sheet.displacement_mm == 0.508 / 6
     assert sheet.code == "anoto" and sheet.section == (0, 0) and sheet.origin == (0, 0)
@@ -35,7 +35,7 @@ def test_printed_sheets_read_back(tmp_path):
     page = dotpose.read_image(tmp_path / "sheet.png")
     assert page.shape == (1890, 2362)
     fix = dotpose.Locator().locate(page)
-    # Pixel (0, 0) is at half a pixel from the corner of the page.
+    # The centre of pixel (0, 0) is half a pixel from the corner of the page.
     middle_mm = (page.shape[1] - 1) / 2 * 25.4 / 600 + 25.4 / 1200
     assert fix.section == (5, 6) and abs(fix.theta_rad) < 1e-4
     assert fix.x_mm == pytest.approx(3000 * 0.508 + middle_mm - sheet.origin_x_mm, abs=0.01)
@@ -133,7 +133,7 @@ def test_a_print_is_checked(tmp_path):
     assert field.dots == field.cells == field.columns * field.rows
     check.draw(tmp_path / "scan.svg")
     assert "<svg" in (tmp_path / "scan.svg").read_text()
-    # The same pixels, said to be larger, are a page that was printed too large.
+    # The same pixels with a lower resolution are a page that was printed too large.
     scaled = dotpose.check_print(dotpose.read_image(path), dpi=580)
     assert not scaled.is_good
     assert scaled.fields[0].scale.scale_x == pytest.approx(600 / 580, abs=1e-4)

@@ -1,4 +1,4 @@
-"""Threads: side by side with a locator each, one after the other with a shared one."""
+"""Threads: concurrently with one locator each, and sequentially with a shared locator."""
 
 import os
 import threading
@@ -16,7 +16,8 @@ def locate_all(locator, images, results):
 
 
 def run(locators, images):
-    """Locates the images with each locator in a thread of its own; returns results and seconds."""
+    """Locates the images with each locator in its own thread. Returns the results and the time in
+    seconds."""
     results = []
     threads = [
         threading.Thread(target=locate_all, args=(locator, images, results))
@@ -50,7 +51,7 @@ def test_threads_may_share_a_locator(images):
 
 
 def test_the_interpreter_goes_on_while_a_thread_locates():
-    """Another thread notes the time again and again, also in the midst of locating."""
+    """Another thread records the time repeatedly, also while a frame is located."""
     image = dotpose.simulate(1, seed=8, width_px=4096, height_px=4096)[0].image
     locator = dotpose.Locator("anoto")
     noted = []
@@ -71,12 +72,12 @@ def test_the_interpreter_goes_on_while_a_thread_locates():
         noted.clear()
     stop.set()
     noter.join()
-    # If locate held the lock, moments would be noted at its very ends only.
+    # If locate held the GIL, times would be recorded only before and after it.
     assert sum(0.2 < share < 0.8 for share in shares) >= 5
 
 
 def cores_of_processes(images):
-    """How many cores two processes use that do the same."""
+    """Returns the number of cores that two identical processes use."""
     start = time.perf_counter()
     children = []
     for _ in range(2):
@@ -93,8 +94,8 @@ def cores_of_processes(images):
 @pytest.mark.skipif("DOTPOSE_TIMES" not in os.environ, reason="times only with DOTPOSE_TIMES=1")
 @pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="needs two cores")
 def test_two_threads_use_two_cores(images):
-    """Processor time grows faster than the clock. On a busy machine a moment without others is
-    awaited; threads that hold the lock never show one."""
+    """Processor time increases faster than the wall clock. On a busy machine, the test waits for a
+    moment with free cores. Threads that hold the GIL never use two cores."""
     by_processes = 0.0
     for _ in range(20):
         cpu = time.process_time()

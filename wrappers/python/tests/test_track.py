@@ -12,7 +12,7 @@ PERIOD_US = 10_000
 
 
 def drive(frames, step_mm=0.15, turn_rad=0.002):
-    """Shots of a straight drive, with a turn on the spot besides."""
+    """Returns shots of a straight drive that also turns on the spot."""
     shot = dotpose.draw_shots(1, seed=21, section=(0, 0))[0]
     for index in range(frames):
         yield index * PERIOD_US, copy.copy(shot)
@@ -48,7 +48,7 @@ def test_options_of_a_tracker_are_checked():
     dotpose.Tracker(max_speed_mm_s=50, confirmations=2, lost_after_us=30_000)
     with pytest.raises(TypeError, match="max_speed"):
         dotpose.Tracker(max_speed=50)
-    with pytest.raises(TypeError, match="confirmations is a number"):
+    with pytest.raises(TypeError, match="confirmations must be a number"):
         dotpose.Tracker(confirmations="two")
 
 
@@ -67,7 +67,7 @@ def sheet_entry(world=None):
 
 
 def shot_on(entry, x_mm, y_mm, theta_rad=0.3):
-    """A shot of the place on the page."""
+    """Returns a shot of a place on the page."""
     sheet = entry.sheet
     shot = dotpose.draw_shots(1, seed=2, section=(0, 0))[0]
     shot.x_mm = sheet.origin[0] * sheet.spacing_mm + x_mm - sheet.origin_x_mm
@@ -86,7 +86,7 @@ def test_a_follower_finds_the_place_on_a_sheet_and_in_the_world():
     assert (place.x_mm, place.y_mm) == (pytest.approx(100, abs=0.01), pytest.approx(50, abs=0.01))
     assert place.theta_rad == pytest.approx(0.3, abs=0.003)
     assert place.covariance.shape == (3, 3) and place.covariance[0, 0] > 0
-    # The page's x axis runs along the world's y axis, so its downward y along the world's x axis.
+    # The page's x axis is the world's y axis, so the page's y axis (down) is the world's x axis.
     world = place.world
     assert (world.x_m, world.y_m) == (pytest.approx(1.05, abs=1e-5), pytest.approx(2.1, abs=1e-5))
     assert world.yaw_rad == pytest.approx(math.pi / 2 - 0.3, abs=0.003)

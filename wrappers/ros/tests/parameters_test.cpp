@@ -71,7 +71,7 @@ TEST(RosParameters, RefusesNumbersThatMeanNothing) {
     }
     EXPECT_THAT(problem_of("spacing_mm", std::int64_t{0}), HasSubstr("must be from 0.01 to 100"));
     EXPECT_THAT(problem_of("reliable", std::int64_t{1}), HasSubstr("must be true or false"));
-    EXPECT_THAT(problem_of("sheets", std::int64_t{1}), HasSubstr("must be a text"));
+    EXPECT_THAT(problem_of("sheets", std::int64_t{1}), HasSubstr("must be a string"));
 }
 
 TEST(RosParameters, ThePrefixIsOfTheRobotsOwnFrames) {

@@ -1,4 +1,4 @@
-// Encodings of ROS as grey images.
+// Conversion of the encodings of ROS to grey images.
 #include "raw_image.hpp"
 
 #include <string>
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Returns the grey levels of an image of one row, or of more.
+/// Returns the grey levels of an image with one or more rows.
 Bytes grey(const std::string& encoding, std::uint32_t width, const Bytes& data,
            bool is_bigendian = false, std::uint32_t height = 1) {
     const auto step = static_cast<std::uint32_t>(data.size() / height);
@@ -54,7 +54,7 @@ TEST(RosRawImage, GreyIsNotCopied) {
 }
 
 TEST(RosRawImage, ColoursBecomeTheirLuma) {
-    // Red, green, blue and white, by Rec. 601.
+    // Red, green, blue and white, with the weights of Rec. 601.
     const auto expected = ElementsAre(76, 150, 29, 255);
     EXPECT_THAT(grey("rgb8", 4, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}), expected);
     EXPECT_THAT(grey("bgr8", 4, {0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255}), expected);
@@ -69,16 +69,16 @@ TEST(RosRawImage, LumaOfYuvIsEverySecondByte) {
 }
 
 TEST(RosRawImage, SixteenBitsMayHoldTwelve) {
-    // 4095, 2048 and 16 of 4096 levels, in both orders of bytes.
+    // Levels 4095, 2048 and 16 of 4096, in both byte orders.
     EXPECT_THAT(grey("mono16", 3, {0xFF, 0x0F, 0x00, 0x08, 0x10, 0x00}), ElementsAre(255, 128, 1));
     EXPECT_THAT(grey("mono16", 3, {0x0F, 0xFF, 0x08, 0x00, 0x00, 0x10}, true),
                 ElementsAre(255, 128, 1));
-    // All 16 bits.
+    // Levels that use all 16 bits.
     EXPECT_THAT(grey("mono16", 2, {0xFF, 0xFF, 0x00, 0x80}), ElementsAre(255, 128));
 }
 
 TEST(RosRawImage, AMosaicOfOneColourIsEvenGrey) {
-    // Red 200, green 100 and blue 40 everywhere: (200 + 2 * 100 + 40) / 4.
+    // A mosaic of red 200, green 100 and blue 40: (200 + 2 * 100 + 40) / 4.
     const Bytes rggb = {200, 100, 200, 100, 100, 40, 100, 40, 200, 100, 200, 100, 100, 40, 100, 40};
     for (const std::uint8_t level : grey("bayer_rggb8", 4, rggb, false, 4))
         EXPECT_EQ(level, 110);
@@ -88,7 +88,7 @@ TEST(RosRawImage, SaysWhatIsWrongAndWhatToDo) {
     const Bytes data(640 * 480);
     EXPECT_THAT(problem_of({"32FC1", 64, 64, 256, false, data}),
                 AllOf(HasSubstr("'32FC1'"), HasSubstr("set the camera's driver to mono8")));
-    // A row that is longer than the step, and rows that are missing.
+    // A row longer than the step, and missing rows.
     const auto is_size = AllOf(HasSubstr("640 x 480 px in bgr8 need a step of 1920"),
                                HasSubstr("these have a step of"), HasSubstr("correct width"));
     EXPECT_THAT(problem_of({"bgr8", 640, 480, 640, false, data}), is_size);

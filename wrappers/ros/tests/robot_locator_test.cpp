@@ -1,4 +1,4 @@
-// From images of ROS to messages, without ROS: stamps, lenses, diagnostics.
+// RobotLocator from ROS images to messages, without ROS: stamps, lenses, diagnostics.
 #include "robot_locator.hpp"
 
 #include <map>
@@ -30,7 +30,7 @@ Settings settings_with(const std::string& name = "spacing_mm",
     return settings_of(values);
 }
 
-/// A camera that rests above the pattern, and the locator of its images.
+/// A camera at rest above the pattern, and the locator for its images.
 class RosLocator : public testing::Test {
   protected:
     static void SetUpTestSuite() {
@@ -45,14 +45,14 @@ class RosLocator : public testing::Test {
                 width,   false, grey_.pixels};
     }
 
-    /// Takes an image with the stamp of frame number `frame`, which comes 10 ms after the one
-    /// before.
+    /// Passes an image with the stamp of frame number `frame`, which arrives 10 ms after the
+    /// previous image.
     RobotLocator::Answer take(int frame, const RawImage& image = RosLocator::image()) {
         arrival_ns_ += kStep_ns;
         return locator_.take(image, kStart_ns + frame * kStep_ns, arrival_ns_);
     }
 
-    /// Takes more images until a status is due, a second later at the latest.
+    /// Passes images until a status is due, which takes at most a second.
     dotpose::ros::DiagnosticStatus status_from(int frame,
                                                const RawImage& image = RosLocator::image()) {
         for (int i = 0; i <= 100; ++i) {
@@ -72,7 +72,7 @@ class RosLocator : public testing::Test {
 TEST_F(RosLocator, GivesPoseOdometryAndTransforms) {
     const auto answer = take(0);
     ASSERT_TRUE(answer.messages.pose);
-    // 200,000 cells of the pattern, in metres and y up.
+    // The place is at 200,000 cells of the pattern. Messages are in metres, with y up.
     EXPECT_NEAR(answer.messages.pose->pose.pose.position.x, 100'000 * 0.508e-3, 1e-5);
     EXPECT_NEAR(answer.messages.pose->pose.pose.position.y, -200'000 * 0.508e-3, 1e-5);
     EXPECT_EQ(answer.messages.pose->header.stamp.sec, 1000);
@@ -86,7 +86,8 @@ TEST_F(RosLocator, DiagnosticsComeAtChangesAndOnceASecond) {
     int messages = 0;
     for (int i = 0; i < 300; ++i)
         messages += static_cast<int>(take(i).messages.status.status.size());
-    // At the first image, then when the robot is found to be at rest, then once a second.
+    // A status is published for the first image, when the robot comes to rest, and then once per
+    // second.
     EXPECT_GE(messages, 3);
     EXPECT_LE(messages, 5);
 }
@@ -131,8 +132,8 @@ TEST_F(RosLocator, SaysThatStampsStandStill) {
         if (!answer.messages.status.status.empty()) last = answer.messages;
     }
     EXPECT_EQ(warnings,
-              "images are left out, because their stamps do not increase: correct the clock of the "
-              "camera's driver");
+              "images are skipped because their stamps do not increase; correct the clock of the "
+              "camera driver");
     ASSERT_EQ(last.status.status.size(), 1U);
     EXPECT_EQ(last.status.status.front().level, kError);
     EXPECT_THAT(last.status.status.front().message, HasSubstr("do not increase"));
@@ -162,7 +163,7 @@ TEST_F(RosLocator, SaysWhatIsWrongWithImages) {
     EXPECT_EQ(answer.messages.status.status.front().level, kError);
     EXPECT_THAT(answer.messages.status.status.front().message,
                 AllOf(HasSubstr("'32FC1'"), HasSubstr("set the camera's driver to mono8")));
-    // Once: the next status is due a second later, and the log has had it.
+    // The warning is logged only once, and the next status is due after a second.
     const auto next = take(2, wrong);
     EXPECT_EQ(next.warning, "");
     EXPECT_TRUE(next.messages.status.status.empty());
@@ -184,7 +185,7 @@ TEST_F(RosLocator, ReadsColour) {
 }
 
 TEST_F(RosLocator, AMosaicLosesLittle) {
-    // Of grey dots, every colour of the mosaic sees the same.
+    // Grey dots have the same level in every colour of the mosaic.
     RawImage mosaic = image();
     mosaic.encoding = "bayer_grbg8";
     const auto pose = take(0).messages.pose;
@@ -202,7 +203,8 @@ TEST_F(RosLocator, TakesTheFirstLensThatItCanUse) {
     Lens none = lens_of(188, 120);
     none.k = {};
     EXPECT_THAT(locator_.take(none), HasSubstr("never calibrated"));
-    EXPECT_EQ(locator_.take(none), "");  // it is said once, though each image has a camera_info
+    EXPECT_EQ(locator_.take(none),
+              "");  // the problem is reported once, though each image has a camera_info
     EXPECT_EQ(status_from(0).level, kOk);
 
     Lens fisheye = lens_of(188, 120);

@@ -1,6 +1,7 @@
-/// Stands in for ROS 2, which Debian does not have: what the node uses of rclcpp, declared by its
-/// documentation, and the messages, so that a compiler can check the rest of the node. Nothing of
-/// it runs. Each header of ROS that the node includes is a file that includes this one.
+/// Replacement for ROS 2, which Debian does not have: declarations, according to the documentation,
+/// of the parts of rclcpp and of the messages that the node uses. The node can then be compiled but
+/// not run. Each ROS header that the node includes is generated as a file that includes this
+/// header.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@
 
 #include <dotpose/tools/ros_messages.hpp>
 
-// The members of these messages are those of ROS: robots.Cdr.TypesAreDefinedAsInRos.
+// The members of these messages are those of ROS, as robots.Cdr.TypesAreDefinedAsInRos checks.
 namespace std_msgs::msg {
 using dotpose::ros::Header;
 }
@@ -141,7 +142,7 @@ class Node {
     template <typename Message, typename Callback>
     typename Subscription<Message>::SharedPtr create_subscription(const std::string&, const QoS&,
                                                                   Callback&& callback) {
-        // A callback of this type is one of those that rclcpp takes.
+        // Checks that the callback has one of the types that rclcpp accepts.
         std::function<void(typename Message::ConstSharedPtr)> checked =
             std::forward<Callback>(callback);
         return nullptr;
@@ -154,10 +155,10 @@ bool shutdown();
 
 }  // namespace rclcpp
 
-/// Checks that logger, format and values fit, as rclcpp's macro does by printf.
+/// Checks that the arguments match the format, as rclcpp's macro does by printf.
 [[gnu::format(printf, 1, 2)]] void stand_in_log(const char* format, ...);
 #define RCLCPP_WARN(logger, ...) (static_cast<void>(logger), stand_in_log(__VA_ARGS__))
 
-/// A component can be made of options.
+/// Checks that the component can be constructed from options.
 #define RCLCPP_COMPONENTS_REGISTER_NODE(type) \
     static_assert(std::is_constructible_v<type, const rclcpp::NodeOptions&>);

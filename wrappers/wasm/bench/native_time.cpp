@@ -1,6 +1,6 @@
-// Prints how long the C++ library takes for the golden frames (wrappers/golden/README.md) without
-// AVX2: a line for each frame, with the microseconds it takes alone, and the frame after it,
-// tracked.
+// Prints the times of the C++ library without AVX2 for the golden frames
+// (wrappers/golden/README.md). Each line has the time of a frame without a prediction, and of its
+// next frame with the prediction, in µs.
 //
 //   dotpose_wasm_time FILE.frames...
 #include <chrono>
@@ -16,7 +16,7 @@
 
 namespace dotpose::core {
 
-// Takes the place of the library's own function, which would choose AVX2.
+// Replaces the function of the library, which would choose AVX2.
 const Kernels& kernels() {
     return wide_kernels();
 }
@@ -53,7 +53,7 @@ Fix timed(double& took_us, const Call& call) {
     return fix;
 }
 
-/// Locates each frame, and the frame after it with the prediction of the first.
+/// Locates each frame, and its next frame with the prediction of the first.
 void measure(Locator& locator, const std::vector<GreyImage>& images, bool prints) {
     for (std::size_t i = 0; i + 1 < images.size(); i += 2) {
         const ImageView image = images[i].view();
@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
         const std::vector<GreyImage> images = images_of(argv[i]);
         if (images.empty()) return 1;
-        measure(locator, images, false);  // until caches are warm
+        measure(locator, images, false);  // warms up the caches
         measure(locator, images, true);
     }
 }

@@ -1,8 +1,9 @@
-// Compares the time of the modules with that of the C++ library without AVX2, in turns.
+// Compares the times of the modules and of the C++ library without AVX2, measured alternately.
 //
 //   node wrappers/wasm/bench/time.mjs [ROUNDS [GOLDEN]]
 //
-// needs the built package, and of the release preset the targets dotpose_golden_files and dotpose_wasm_time.
+// Needs the built package, and the targets dotpose_golden_files and dotpose_wasm_time of the
+// release preset.
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -17,7 +18,10 @@ const kNative = join(kBin, "dotpose_wasm_time");
 const kVariants = ["simd", "scalar"].filter((name) => existsSync(join(kDist, `dotpose-${name}.wasm`)));
 const rounds = Number(process.argv[2] ?? 5);
 
-/** Returns the microseconds of each frame, alone and tracked in turns, as the native program does. */
+/**
+ * Returns the times of each frame in µs, without and with a prediction, as the native program
+ * does.
+ */
 function measure(locator, images) {
     const times_us = [];
     const timed = (call) => {
@@ -39,12 +43,12 @@ function measureNative(path) {
     return lines.trim().split(/\s+/).map(Number);
 }
 
-/** Keeps the least time of each frame, so that other programs on the machine do not count. */
+/** Keeps the minimum time of each frame, to exclude the influence of other programs. */
 function keepLeast(least, times_us) {
     return times_us.map((us, i) => Math.min(us, least?.[i] ?? Infinity));
 }
 
-/** Returns the mean over the frames, alone (0) or tracked (1). */
+/** Returns the mean over the frames, without (0) or with (1) a prediction. */
 function mean(times_us, way) {
     const chosen = times_us.filter((_, i) => i % 2 === way);
     return chosen.reduce((sum, us) => sum + us) / chosen.length;
@@ -80,7 +84,7 @@ try {
     for (const set of kSets) {
         const path = join(golden, `${set}.frames`);
         const images = [...imagesOf(readFileSync(path))];
-        for (const locator of locators) measure(locator, images); // until the engine has optimized
+        for (const locator of locators) measure(locator, images); // warms up the engine's optimizer
         const least = [];
         for (let round = 0; round < rounds; ++round) {
             least[0] = keepLeast(least[0], measureNative(path));

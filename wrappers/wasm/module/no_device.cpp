@@ -1,5 +1,5 @@
-// Takes the place of the attempts of microcontrollers, which JavaScript cannot choose and would
-// download: without src/device/{attempt,tracked}.cpp the linker leaves out what only these call.
+// Replaces the attempts of microcontrollers, which JavaScript cannot select but would download.
+// Without src/device/{attempt,tracked}.cpp, the linker drops the code that only these sources call.
 #include "device/attempt.hpp"
 #include "device/tracked.hpp"
 

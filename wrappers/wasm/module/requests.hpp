@@ -1,5 +1,5 @@
-// What JavaScript asks of the tools. Only doubles, in the order in which src/requests.ts writes
-// them, so that both sides agree on every offset; whole numbers up to 2^53 are exact.
+// Requests of JavaScript to the tools. All members are doubles, in the order in which
+// src/requests.ts writes them, so both sides agree on every offset. Integers up to 2^53 are exact.
 #pragma once
 
 namespace dotpose::wasm {
@@ -18,7 +18,7 @@ struct SheetRequest {
     double margin_mm;
 };
 
-/// Where `make_sheet` puts the dots.
+/// Layout of the dots of a sheet, as computed by `make_sheet`.
 struct SheetLayout {
     double columns;
     double rows;
@@ -63,7 +63,7 @@ struct ImperfectionsRequest {
 
 struct RenderRequest {
     SheetRequest sheet;
-    double whole_plane;  ///< 1: dots everywhere, as if the sheet had no end; 0: a page on a table
+    double whole_plane;  ///< 1: dots everywhere, as on an infinite sheet; 0: a page on a table
     double page_seed;
     double table_reflectance;
     CameraRequest camera;

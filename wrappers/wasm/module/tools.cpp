@@ -1,8 +1,9 @@
-// The module dotpose-tools.wasm: sheets and the simulated camera, by the sources of the tool.
+// The module dotpose-tools.wasm: sheets and the simulated camera, compiled from the sources of the
+// tool.
 //
-// A function that cannot do what is asked ends the instance with a trap, after
-// `dotpose_tools_error` has got its message; the loader then throws it in JavaScript and starts
-// another instance. So nothing here has to unwind, and the module needs no support for exceptions.
+// A function that fails sets the message of `dotpose_tools_error` and ends the instance with a
+// trap. The loader then throws the message in JavaScript and starts another instance. Therefore
+// nothing is unwound, and the module needs no support for exceptions.
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -22,7 +23,7 @@ namespace {
 
 using namespace dotpose;
 
-// An instance serves one call after the other; what a call gives stays until the next one.
+// An instance serves one call at a time. The result of a call is valid until the next call.
 const char* error_text = "";
 wasm::RenderRequest request;
 wasm::SheetLayout layout;
@@ -60,7 +61,7 @@ Sheet sheet_of(const wasm::SheetRequest& sheet) {
     return make_sheet(options);
 }
 
-/// Returns the page on a table, its edges where those of the paper are.
+/// Returns a page on a table. The edges of the page are those of the paper.
 Page page_on_table(const Sheet& sheet, double table_reflectance) {
     Page page = page_of(sheet);
     const double spacing_mm = sheet.pattern.spacing_mm;
@@ -128,7 +129,8 @@ Imperfections imperfections_of(const wasm::ImperfectionsRequest& asked) {
 
 extern "C" {
 
-// Called by `throw`. All that is thrown here derives from std::exception, as its first base.
+// Called by `throw`. All exceptions thrown in this module have std::exception as their first base
+// class.
 void* __cxa_allocate_exception(std::size_t size_bytes) noexcept {
     return ::operator new(size_bytes);
 }
@@ -137,26 +139,26 @@ void* __cxa_allocate_exception(std::size_t size_bytes) noexcept {
     __builtin_trap();
 }
 
-// Called by abort; a module of its own has no process to end.
+// Called by abort. A module has no process to exit.
 void __wasi_proc_exit(std::uint32_t) {
     __builtin_trap();
 }
 
-// Called when the memory has grown. The loader makes its views anew after each call; this is here
-// only so that the module need not import it.
+// Called when the memory has grown. The loader recreates its views after each call. The function
+// exists only to avoid an import.
 void emscripten_notify_memory_growth(std::size_t) {}
 
-/// Returns the message of the error that ended the instance, "" for none.
+/// Returns the message of the error that ended the instance, or "" if there was none.
 const char* dotpose_tools_error() {
     return error_text;
 }
 
-/// Returns where the request of the next call is written.
+/// Returns the address at which the request of the next call is written.
 double* dotpose_tools_request() {
     return &request.sheet.code;
 }
 
-/// Lays out the sheet; returns a SheetLayout.
+/// Lays out the sheet, and returns a SheetLayout.
 const double* dotpose_tools_layout() {
     const Sheet sheet = sheet_of(request.sheet);
     layout = {static_cast<double>(sheet.columns), static_cast<double>(sheet.rows),
@@ -164,12 +166,12 @@ const double* dotpose_tools_layout() {
     return &layout.columns;
 }
 
-/// Returns the size of what the call before gave, in bytes.
+/// Returns the size of the result of the previous call, in bytes.
 std::size_t dotpose_tools_size() {
     return bytes.size();
 }
 
-/// Writes the sheet as SVG; returns its text.
+/// Writes the sheet as SVG, and returns the text.
 const std::uint8_t* dotpose_tools_svg() {
     bytes.clear();
     MemorySink sink;
@@ -177,7 +179,7 @@ const std::uint8_t* dotpose_tools_svg() {
     return bytes.data();
 }
 
-/// Draws the sheet; returns its rows, 8 pixels per byte, 1 for ink.
+/// Draws the sheet, and returns its rows: 8 pixels per byte, 1 for ink.
 const std::uint8_t* dotpose_tools_raster(double dpi) {
     const Sheet sheet = sheet_of(request.sheet);
     validate_resolution(sheet, dpi);
@@ -188,7 +190,7 @@ const std::uint8_t* dotpose_tools_raster(double dpi) {
     return bytes.data();
 }
 
-/// Returns the centres of all dots, x and y in mm from the upper left corner of the page.
+/// Returns the centres of all dots: x and y in mm from the upper left corner of the page.
 const double* dotpose_tools_dots() {
     const Sheet sheet = sheet_of(request.sheet);
     print::SymbolRows symbols(sheet);
@@ -203,7 +205,7 @@ const double* dotpose_tools_dots() {
     return points_mm.data();
 }
 
-/// Renders what the camera sees; returns the grey levels.
+/// Renders the image of the simulated camera, and returns the grey levels.
 const std::uint8_t* dotpose_tools_render() {
     bytes =
         render(requested_page(), camera_of(request.camera), pose_of(request.camera),

@@ -1,7 +1,7 @@
-// The module of the core, in the form that the engine can run.
+// Loads the module of the core in the variant that the engine supports.
 import { compile, hasSimd, type WasmSource } from "./instance.js";
 
-/** Returns the module: that of the caller, otherwise the file beside this one. */
+/** Returns the module given by the caller, or the file beside this one. */
 export function coreModule(wasm?: WasmSource): Promise<WebAssembly.Module> {
     if (wasm !== undefined) return compile(wasm);
     return compile(

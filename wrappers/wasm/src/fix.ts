@@ -1,39 +1,46 @@
-// The pose that one frame shows, read from a dotpose_fix of wrappers/c/dotpose.h.
+// The pose computed from one frame, read from a dotpose_fix of wrappers/c/dotpose.h.
 import { fieldsOf, kAt, type FixFields } from "./fix_fields.js";
 import { kCodes, type Cell, type Code, type Section } from "./names.js";
 
 /**
- * The pose that one frame shows, with its evidence; plain data, which workers can send.
+ * The pose computed from one frame, with its evidence. A Fix is plain data, which workers can
+ * send.
  *
- * The pattern has x to the right and y DOWN, as the printed page is read. The pose is that of the pattern
- * under the centre of the image. Unless `ok`, pose and covariance are not numbers, and only `status`,
- * `message` and `dots_seen` count.
+ * In the pattern frame, x points to the right and y DOWN on the printed page as it is read. The
+ * pose is the pattern position at the image centre. Unless `ok`, the pose and covariance are
+ * NaN, and only `status`, `message` and `dots_seen` are valid.
  */
 export interface Fix extends FixFields {
-    /** Whether there is a pose. A frame without one is a normal result; `message` says why. */
+    /**
+     * True if there is a pose. A frame without a pose is not an error; `message` contains the
+     * reason.
+     */
     ok: boolean;
-    /** Identifier, for example "ok" or "too_few_dots". */
+    /** Identifier of the status, for example "ok" or "too_few_dots". */
     status: string;
-    /** One plain sentence for the user, without a full stop. */
+    /** Message for the user: one sentence without a full stop. */
     message: string;
     /** Covariance of x, y and theta, in mm and rad: nine numbers, row by row. */
     covariance: Float32Array;
     section: Section;
-    /** Intersection to the upper left of the pose. */
+    /** Grid intersection to the upper left of the pose. */
     cell: Cell;
-    /** Table of the code in which the frame was read. */
+    /** Code in which the frame was read. */
     code: Code;
     /** Spacing of the printed grid. */
     spacing_mm: number;
     /** Spacing of the grid in the image. */
     spacing_px: number;
-    /** Centres of the dots found, u and v in px from the first pixel's centre; null unless asked for. */
+    /**
+     * Centres of the dots found, u and v in px from the centre of the first pixel. Null unless
+     * the option `dots` is set.
+     */
     dots: Float32Array | null;
-    /** The same fix to the last bit: a dotpose_fix, as wrappers/c/dotpose.h lays it out. */
+    /** The same fix, bit by bit, as a dotpose_fix of wrappers/c/dotpose.h. */
     bytes: Uint8Array<ArrayBuffer>;
 }
 
-/** What a fix has beside its bytes. */
+/** Properties of a fix in addition to its bytes. */
 export interface Context {
     status: string;
     message: string;
@@ -43,7 +50,7 @@ export interface Context {
 
 const kGrid_q16 = 65536;
 
-/** Returns the fix of the bytes, which it keeps. */
+/** Returns the fix stored in `bytes`. The fix keeps the bytes. */
 export function fixOf(bytes: Uint8Array<ArrayBuffer>, context: Context): Fix {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const int = (offset: number) => view.getInt32(offset, true);
@@ -64,7 +71,7 @@ export function fixOf(bytes: Uint8Array<ArrayBuffer>, context: Context): Fix {
     };
 }
 
-/** The map from the image to the paper of a fix: dotpose_plane, in px and spacings. */
+/** The map from the image to the paper of a fix, as in dotpose_plane, but in px and spacings. */
 interface Plane {
     place: Cell;
     centre: [number, number];
@@ -91,7 +98,7 @@ function planeOf(fix: Fix): Plane {
     };
 }
 
-/** Returns the point of the pattern, in mm, that an image point shows; the fix must be ok. */
+/** Returns the point of the pattern, in mm, at an image point. The fix must be ok. */
 export function patternFromImage(fix: Fix, u_px: number, v_px: number): { x_mm: number; y_mm: number } {
     const plane = planeOf(fix);
     const u = u_px - plane.centre[0];
@@ -106,15 +113,15 @@ export function patternFromImage(fix: Fix, u_px: number, v_px: number): { x_mm: 
     };
 }
 
-/** Returns the image point, in px, that shows a point of the pattern; the fix must be ok. */
+/** Returns the image point, in px, of a point of the pattern. The fix must be ok. */
 export function imageFromPattern(fix: Fix, x_mm: number, y_mm: number): { u_px: number; v_px: number } {
     const plane = planeOf(fix);
     const x = x_mm / fix.spacing_mm - plane.place.x - plane.at_centre[0];
     const y = y_mm / fix.spacing_mm - plane.place.y - plane.at_centre[1];
     let u = 0;
     let v = 0;
-    // Without a lens the first step is exact: x (1 + g u + h v) = a u + b v is linear in u and v. With one,
-    // the term that depends on the radius is taken from the step before.
+    // Without lens distortion the first step is exact: x (1 + g u + h v) = a u + b v is linear in u
+    // and v. With distortion, the term that depends on the radius is taken from the previous step.
     const kSteps = plane.lens === 0 ? 1 : 12;
     for (let step = 0; step < kSteps; ++step) {
         const depth = 1 + plane.lens * (u * u + v * v);

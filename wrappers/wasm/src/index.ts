@@ -1,4 +1,4 @@
-// dotpose: where a camera is, from one small frame of a sheet printed with dots.
+// dotpose: computes the pose of a camera from one small frame of a sheet printed with dots.
 export { imageFromPattern, patternFromImage, type Fix } from "./fix.js";
 export { hasSimd, type WasmSource } from "./instance.js";
 export {

@@ -1,9 +1,13 @@
-// Compiles and starts the modules. They import nothing, so an instance is a memory and some functions.
+// Compiles and starts the modules. The modules import nothing, so an instance consists of a memory
+// and functions.
 
-/** Where a module comes from: the URL of the `.wasm` file, its bytes, or the module itself. */
+/** Source of a module: the URL of the `.wasm` file, its bytes, or the compiled module. */
 export type WasmSource = string | URL | BufferSource | WebAssembly.Module;
 
-/** A module with one function, which makes a vector; engines without vectors refuse it. */
+/**
+ * A module with one function that creates a vector. Engines without vector instructions reject
+ * it.
+ */
 const kSimdProbe = new Uint8Array([
     ...[0x00, 0x61, 0x73, 0x6d, 0x01, 0x00, 0x00, 0x00], // "\0asm", version 1
     ...[0x01, 0x05, 0x01, 0x60, 0x00, 0x01, 0x7b], // types: () -> v128
@@ -11,15 +15,15 @@ const kSimdProbe = new Uint8Array([
     ...[0x0a, 0x08, 0x01, 0x06, 0x00, 0x41, 0x00, 0xfd, 0x0f, 0x0b], // code: i8x16.splat of 0
 ]);
 
-/** Whether this engine has the vector instructions that `dotpose-simd.wasm` needs. */
+/** Returns true if the engine has the vector instructions that `dotpose-simd.wasm` needs. */
 export function hasSimd(): boolean {
     return WebAssembly.validate(kSimdProbe);
 }
 
-/** Modules by URL: each is compiled once. */
+/** Modules by URL. Each module is compiled once. */
 const compiled = new Map<string, Promise<WebAssembly.Module>>();
 
-/** Returns the module of a source. */
+/** Returns the compiled module of a source. */
 export function compile(source: WasmSource): Promise<WebAssembly.Module> {
     if (source instanceof WebAssembly.Module) return Promise.resolve(source);
     if (typeof source !== "string" && !(source instanceof URL)) return WebAssembly.compile(source);
@@ -27,7 +31,7 @@ export function compile(source: WasmSource): Promise<WebAssembly.Module> {
     let module = compiled.get(url);
     if (module === undefined) {
         module = bytesOf(url).then((bytes) => WebAssembly.compile(bytes));
-        module.catch(() => compiled.delete(url)); // so that the next call tries again
+        module.catch(() => compiled.delete(url)); // lets the next call try again
         compiled.set(url, module);
     }
     return module;
@@ -35,7 +39,8 @@ export function compile(source: WasmSource): Promise<WebAssembly.Module> {
 
 async function bytesOf(url: string): Promise<BufferSource> {
     if (url.startsWith("file:")) {
-        // Node, whose fetch reads no files. The name is a variable so that bundlers leave it alone.
+        // Node, whose fetch cannot read files. The module name is a variable to keep bundlers from
+        // resolving it.
         const name = "node:fs/promises";
         const files = (await import(/* @vite-ignore */ /* webpackIgnore: true */ name)) as {
             readFile(url: URL): Promise<Uint8Array<ArrayBuffer>>;
@@ -60,22 +65,22 @@ export class Instance {
         this.#functions["_initialize"]?.();
     }
 
-    /** Starts a module; asynchronous, as browsers want it of large ones. */
+    /** Starts a module asynchronously, which browsers require for large modules. */
     static async start(module: WebAssembly.Module): Promise<Instance> {
         return new Instance((await WebAssembly.instantiate(module, {})).exports);
     }
 
-    /** Starts a module at once. */
+    /** Starts a module synchronously. */
     static startNow(module: WebAssembly.Module): Instance {
         return new Instance(new WebAssembly.Instance(module, {}).exports);
     }
 
-    /** Calls a function of the module with numbers and addresses. */
+    /** Calls a function of the module with numbers or addresses as arguments. */
     call(name: string, ...args: number[]): number {
         return this.#functions[name]!(...args);
     }
 
-    /** Returns the address of memory that stays reserved; only in modules that do not allocate. */
+    /** Reserves memory and returns its address. Only for modules that do not allocate memory. */
     reserve(bytes: number): number {
         const kAlignment = 64;
         const kPage = 65536;
@@ -86,11 +91,14 @@ export class Instance {
         return address;
     }
 
-    /** A view of the memory; it is valid until the memory grows, so it is made anew for each use. */
+    /**
+     * Returns a view of the memory. The view is valid until the memory grows, so create one for
+     * each use.
+     */
     bytes(address: number, length: number): Uint8Array<ArrayBuffer> {
         return new Uint8Array(this.#memory.buffer as ArrayBuffer, address, length);
     }
-    /** The same, for numbers. */
+    /** Returns a view of the memory for reading numbers. */
     view(address: number, length: number): DataView<ArrayBuffer> {
         return new DataView(this.#memory.buffer as ArrayBuffer, address, length);
     }

@@ -1,54 +1,62 @@
-// Locator: finds where the pattern is seen in an image.
+// Locator: locates the pattern in images.
 import { coreModule } from "./core.js";
 import { fixOf, type Fix } from "./fix.js";
 import { kAt, kFixBytes } from "./fix_fields.js";
 import { Instance, type WasmSource } from "./instance.js";
 import { codeNumber, type Code } from "./names.js";
 
-/** An 8-bit grey image, dark dots on light paper; row v begins at `data[v * stride]`. */
+/** An 8-bit grey image with dark dots on light paper. Row v begins at `data[v * stride]`. */
 export interface Image {
     data: Uint8Array | Uint8ClampedArray;
     width: number;
     height: number;
-    /** Bytes from one row to the next; default: `width`. */
+    /** Distance of the beginnings of rows, in bytes. Default: `width`. */
     stride?: number;
 }
 
-/** Options of a locator; the defaults suit any camera. */
+/** Options of a locator. The defaults suit any camera. */
 export interface LocatorOptions {
     /**
-     * Table of the code that the sheets are printed with; default "auto": the frames show it. What one frame
-     * leaves open, others of the same locator decide; until then it has the status "ambiguous_code".
+     * Code of the sheets. The default "auto" detects the code from the frames. If one frame is
+     * ambiguous, further frames of the same locator decide. Until then, frames have the status
+     * "ambiguous_code".
      */
     code?: Code | "auto";
-    /** Spacing of the printed grid; default 0.508. */
+    /** Spacing of the printed grid. Default: 0.508. */
     spacing_mm?: number;
-    /** Radial distortion k of p_u = m + r / (1 + k r^2), per px^2, negative for barrels; default 0. */
+    /**
+     * Radial distortion k of p_u = m + r / (1 + k r^2), per px^2, negative for barrel
+     * distortion. Default: 0.
+     */
     lens_k_per_px2?: number;
-    /** Number of attempts: 2 reads a frame again, filtered, that could not be read; default 2. */
+    /**
+     * Number of attempts. With 2, a frame that cannot be located is filtered and located again.
+     * Default: 2.
+     */
     attempts?: 1 | 2;
-    /** Greatest probability of being wrong with which a position is given; default 1e-9. */
+    /** Maximum probability of a wrong position. Other positions are refused. Default: 1e-9. */
     max_p_wrong?: number;
-    /** Whether a fix has the centres of its dots, which takes time; default false. */
+    /** True to include the centres of the dots in a fix, which takes time. Default: false. */
     dots?: boolean;
-    /** The module of the core, if it does not lie beside this file: URL, bytes or module. */
+    /** The module of the core, as URL, bytes or module. Default: the file beside this one. */
     wasm?: WasmSource;
 }
 
 /** Options of one frame. */
 export interface FrameOptions {
     /**
-     * The fix of the frame before: the pattern is first looked for where it was, which takes a fraction of
-     * the time. A frame that does not bear it out, or a fix that is not ok, costs nothing but time.
+     * The fix of the previous frame. The pattern is first searched at its previous position,
+     * which takes a fraction of the time. If the frame does not confirm the prediction, or the
+     * fix is not ok, the frame is located without it.
      */
     prediction?: Fix | null | undefined;
 }
 
-/** Places in a dotpose_options of wrappers/c/dotpose.h. */
+/** Size of a dotpose_options of wrappers/c/dotpose.h, and offsets of its members. */
 const kOptionsBytes = 96;
 const kOptionOffsets = { code: 4, effort: 8, show_stages: 88 };
 const kDoubleOffsets = { spacing_mm: 16, lens_k_per_px2: 24, max_p_wrong: 64 };
-/** Sizes of the other structs of that header. */
+/** Sizes of other structs of dotpose.h. */
 const kPredictionBytes = 72;
 const kEvidenceBytes = 36;
 const kReadingBytes = 28;
@@ -56,30 +64,30 @@ const kDotBytes = 16;
 const kMaxDots = 16384;
 const kPointerBytes = 4;
 
-/** Least and greatest width and height of an image. */
+/** Minimum and maximum width and height of an image. */
 export const kMinFrameSide_px = 64;
 export const kMaxFrameSide_px = 4096;
 
 /**
- * Finds where the pattern is seen in an image.
+ * Locates the pattern in images.
  *
  *     const locator = await Locator.create({ spacing_mm: 0.508 });
  *     const fix = locator.locate({ data, width, height });
  *     if (fix.ok) console.log(fix.x_mm, fix.y_mm, fix.theta_rad);
  *
- * Each locator has a memory of its own, of 4 MB and the image, which goes with it. The same image gives the
- * same bits in every engine, and natively.
+ * Each locator has its own memory of 4 MB plus the image. The memory is released with the
+ * locator. The same image gives the same bits in every engine and natively.
  */
 export class Locator {
     readonly #core: Instance;
     readonly #locator: number;
     readonly #fix: number;
     readonly #prediction: number;
-    /** Of all frames so far; 0 if the code is given. */
+    /** Address of the evidence of all frames so far, or 0 if the code is given. */
     readonly #evidence: number;
     readonly #reading: number;
     readonly #dots: number;
-    /** Number of the code that is given, or was read last. */
+    /** Number of the given code, or of the last code that was read. */
     #code: number;
     readonly #texts = new Map<number, { status: string; message: string }>();
     #pixels = 0;
@@ -98,12 +106,15 @@ export class Locator {
         this.#locator = this.#init(options);
     }
 
-    /** Makes a locator; asynchronous because the module is loaded and compiled for the first one. */
+    /** Creates a locator. Asynchronous, because the first call loads and compiles the module. */
     static async create(options: LocatorOptions = {}): Promise<Locator> {
         return new Locator(await Instance.start(await coreModule(options.wasm)), options);
     }
 
-    /** Returns the pose that an image shows. Throws RangeError if the image has less data than it says. */
+    /**
+     * Returns the fix of an image. Throws RangeError if the image has less data than its size
+     * requires.
+     */
     locate(image: Image, options: FrameOptions = {}): Fix {
         const stride = this.#write(image);
         const prediction = this.#predict(options.prediction);
@@ -140,19 +151,26 @@ export class Locator {
         return core.view(pointer, kPointerBytes).getUint32(0, true);
     }
 
-    /** Throws the message of a status that only a wrong option or argument can have. */
+    /**
+     * Throws an error with the message of a status that is caused by an invalid option or
+     * argument.
+     */
     #require(status: number): void {
         if (status !== 0) throw new RangeError(this.#core.text(this.#core.call("dotpose_status_message", status)));
     }
 
-    /** Copies the pixels into the module's memory, without gaps between rows; returns their stride. */
+    /**
+     * Copies the pixels into the module's memory, without gaps between rows. Returns the stride
+     * of the copy.
+     */
     #write({ data, width, height, stride = width }: Image): number {
         if (![width, height, stride].every((n) => Number.isInteger(n) && n >= 0) || stride < width)
             throw new RangeError(`bad image: ${width} x ${height} px with a stride of ${stride}`);
         const needed = height === 0 ? 0 : (height - 1) * stride + width;
         if (data.length < needed)
             throw new RangeError(`the image needs ${needed} bytes, its data has ${data.length}`);
-        // Sizes that the core refuses are not copied: it looks at no pixel, only for an address.
+        // Images whose size the core refuses are not copied, because the core does not read their
+        // pixels.
         const is_refused = Math.max(width, height) > kMaxFrameSide_px;
         const pixels = this.#room(is_refused ? 1 : width * height);
         if (is_refused) return stride;
@@ -163,7 +181,7 @@ export class Locator {
         return width;
     }
 
-    /** Returns memory for an image; it grows with the largest one. */
+    /** Returns memory for an image. The memory grows with the largest image. */
     #room(bytes: number): Uint8Array<ArrayBuffer> {
         if (bytes > this.#pixels_bytes || this.#pixels === 0) {
             this.#pixels = this.#core.reserve(bytes);
@@ -172,7 +190,7 @@ export class Locator {
         return this.#core.bytes(this.#pixels, bytes);
     }
 
-    /** Returns the address of the prediction that the frame looks like that of the fix; 0 for none. */
+    /** Returns the address of the prediction made from a fix, or 0 if there is none. */
     #predict(fix: Fix | null | undefined): number {
         if (!fix?.ok || codeNumber(fix.code) !== this.#code) return 0;
         this.#core.bytes(this.#fix, kFixBytes).set(fix.bytes);
@@ -191,7 +209,10 @@ export class Locator {
         });
     }
 
-    /** Returns the name and the sentence of a status; read once, since each frame has one. */
+    /**
+     * Returns the name and the message of a status. They are cached, because each frame has a
+     * status.
+     */
     #textsOf(status: number): { status: string; message: string } {
         const text = (name: string) => this.#core.text(this.#core.call(name, status));
         let texts = this.#texts.get(status);

@@ -1,10 +1,10 @@
-// Names of the numbers in wrappers/c/dotpose.h.
+// Names of the enumeration values in wrappers/c/dotpose.h.
 
 export const kCodes = ["anoto", "libdots", "microdots"] as const;
-/** Which table of the code a sheet is printed with: `anoto` for everything new. */
+/** Code variants in which sheets are printed. Use `anoto` for new sheets. */
 export type Code = (typeof kCodes)[number];
 
-/** Returns the number of a table; throws RangeError for others. */
+/** Returns the number of a code. Throws RangeError for other names. */
 export function codeNumber(code: Code): number {
     const number = kCodes.indexOf(code);
     if (number < 0) throw new RangeError(`unknown code '${code}'; known are ${kCodes.join(", ")}`);
@@ -12,14 +12,14 @@ export function codeNumber(code: Code): number {
 }
 
 export const kAttempts = ["tracked", "first", "second", "device"] as const;
-/** What made a fix: `tracked` if the prediction was confirmed. */
+/** Attempt that produced a fix. `tracked` if the prediction was confirmed. */
 export type Attempt = (typeof kAttempts)[number];
 
 export const kSurfaces = ["even", "divided", "uneven"] as const;
 /** Flatness of the paper in view, as determined from the dots. */
 export type Surface = (typeof kSurfaces)[number];
 
-/** One more coordinate per axis, 0 to 62: there are 63 x 63 sheets of all positions. */
+/** Section of the code, 0 to 62 per axis. There are 63 x 63 sections, each with all cells. */
 export interface Section {
     u: number;
     v: number;

@@ -1,9 +1,9 @@
-// The position code: which symbol stands where.
+// The position code: the symbols of a part of the pattern.
 import { coreModule } from "./core.js";
 import { Instance, type WasmSource } from "./instance.js";
 import { codeNumber, type Cell, type Code, type Section } from "./names.js";
 
-/** A rectangle of the code, of which `cell` is the upper left one. */
+/** A rectangle of the code. `cell` is its upper left corner. */
 export interface PatternPart {
     /** Default: "anoto". */
     code?: Code;
@@ -14,7 +14,10 @@ export interface PatternPart {
     rows: number;
 }
 
-/** Displacements of a dot from its intersection by symbol, in units of the displacement length; y down. */
+/**
+ * Displacements of a dot from its intersection, indexed by symbol, in units of the displacement
+ * length. y points down.
+ */
 export const kDisplacements: readonly { dx: number; dy: number }[] = [
     { dx: 0, dy: -1 },
     { dx: -1, dy: 0 },

@@ -1,9 +1,9 @@
-// Writes PNG files of 1 bit per pixel; the engine's own deflate compresses them.
+// Writes PNG files with 1 bit per pixel, compressed by the engine's deflate.
 import type { Raster } from "./tools.js";
 
 const kSignature = [137, 80, 78, 71, 13, 10, 26, 10];
 
-/** Table of the checksum of PNG, a byte at a time. */
+/** Table of the PNG checksum, indexed by byte. */
 const kCrcTable = Uint32Array.from({ length: 256 }, (_, byte) => {
     let crc = byte;
     for (let bit = 0; bit < 8; ++bit) crc = crc & 1 ? 0xedb88320 ^ (crc >>> 1) : crc >>> 1;
@@ -31,22 +31,25 @@ function header({ width_px, height_px }: Raster): Uint8Array {
     const view = new DataView(bytes.buffer);
     view.setUint32(0, width_px);
     view.setUint32(4, height_px);
-    bytes[8] = 1; // bit per pixel; grey, deflate, no filter, no interlacing are zeros
+    bytes[8] = 1; // bits per pixel; zeros for grey, deflate, no filter, no interlacing
     return bytes;
 }
 
-/** Pixels per metre, by which programs print the page in its true size. */
+/**
+ * Returns the chunk with the pixels per metre, from which programs print the page in its true
+ * size.
+ */
 function size(dpi: number): Uint8Array {
     const bytes = new Uint8Array(9);
     const view = new DataView(bytes.buffer);
     const per_metre = Math.round((dpi * 1000) / 25.4);
     view.setUint32(0, per_metre);
     view.setUint32(4, per_metre);
-    bytes[8] = 1; // the unit is the metre
+    bytes[8] = 1; // unit: metre
     return bytes;
 }
 
-/** Returns the rows as PNG has them: each after the number of its filter, 0 for black. */
+/** Returns the rows in PNG format: each is preceded by the number of its filter, and 0 is black. */
 function scanlines({ width_px, height_px, bits }: Raster): Uint8Array<ArrayBuffer> {
     const stride = Math.ceil(width_px / 8);
     const lines = new Uint8Array((stride + 1) * height_px);

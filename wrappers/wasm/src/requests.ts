@@ -1,18 +1,22 @@
-// What module/requests.hpp asks for, field by field in its order: every value is a double.
+// The requests of module/requests.hpp, with the same fields in the same order. Every value is a
+// double.
 import { codeNumber, type Cell, type Code, type Section } from "./names.js";
 
-/** A page with the pattern; the defaults are those of the tool: A4, margins of 5 mm, spacing 0.508 mm. */
+/**
+ * A page with the pattern. The defaults are those of the tool: A4, margins of 5 mm, spacing
+ * 0.508 mm.
+ */
 export interface SheetOptions {
     /** Default: "anoto". */
     code?: Code;
     /** Default: 0, 0. */
     section?: Section;
     spacing_mm?: number;
-    /** Distance of a dot's centre from its intersection; default: a sixth of the spacing. */
+    /** Distance of the centre of a dot from its intersection. Default: a sixth of the spacing. */
     displacement_mm?: number;
-    /** Diameter of a dot; default: a sixth of the spacing. */
+    /** Diameter of a dot. Default: a sixth of the spacing. */
     dot_mm?: number;
-    /** Cell of the upper left dot; should differ from sheet to sheet. Default: 0, 0. */
+    /** Cell of the upper left dot. Should be different for each sheet. Default: 0, 0. */
     origin?: Cell;
     /** Default: A4 portrait. */
     width_mm?: number;
@@ -21,40 +25,49 @@ export interface SheetOptions {
     margin_mm?: number;
 }
 
-/** Size and optics of the simulated camera; the defaults are those of the paper's device. */
+/** Size and optics of the simulated camera. The defaults are those of the device in the paper. */
 export interface Camera {
     width_px?: number;
     height_px?: number;
-    /** Size of a pixel at the image centre on the paper; default 0.046. */
+    /** Size of a pixel on the paper at the image centre. Default: 0.046. */
     mm_per_px?: number;
-    /** Radial distortion per px^2, negative for barrels. */
+    /** Radial distortion per px^2, negative for barrel distortion. */
     k?: number;
-    /** Distance of the projection centre from the paper, which matters with tilt; default 16. */
+    /**
+     * Distance of the projection centre from the paper, which matters for tilted cameras.
+     * Default: 16.
+     */
     working_distance_mm?: number;
 }
 
-/** Where the simulated camera looks. */
+/** Pose of the simulated camera. */
 export interface CameraPose {
-    /** Pattern point under the image centre. */
+    /** Pattern point at the image centre. */
     x_mm: number;
     y_mm: number;
     /** Angle of the image's x axis in the pattern, clockwise as seen on the paper. */
     theta_rad?: number;
-    /** Above 0, the paper recedes towards the bottom of the image. */
+    /**
+     * Tilt about the image x axis. If positive, the paper recedes towards the bottom of the
+     * image.
+     */
     tilt_x_rad?: number;
-    /** Above 0, the paper comes closer towards the right. */
+    /**
+     * Tilt about the image y axis. If positive, the paper comes closer towards the right of the
+     * image.
+     */
     tilt_y_rad?: number;
 }
 
-/** Effects of printer, paper, light and sensor; by default there are none. */
+/** Effects of printer, paper, light and sensor. By default there are none. */
 export interface Imperfections {
-    /** Grey level of bare paper at the image centre, 0 to 255; default 200. */
+    /** Grey level of bare paper at the image centre, 0 to 255. Default: 200. */
     paper_level?: number;
-    /** Relative to paper; default 0.15. */
+    /** Reflectance of ink, relative to paper. Default: 0.15. */
     ink_reflectance?: number;
-    /** Standard deviation of a dot's reflectance. */
+    /** Standard deviation of the reflectance of dots. */
     ink_variation?: number;
-    /** Contrast of the palest ink relative to the darkest; default 1. */
+    /** Contrast of the palest ink relative to the darkest. Default: 1. */
     palest_ink?: number;
     /** Loss of light in the corners, 0 to 1. */
     vignetting?: number;
@@ -62,22 +75,22 @@ export interface Imperfections {
     fall?: number;
     fall_direction_rad?: number;
     blur_sigma_px?: number;
-    /** Motion in the image during exposure. */
+    /** Motion in the image during the exposure. */
     motion_x_px?: number;
     motion_y_px?: number;
-    /** Grey levels. */
+    /** Standard deviation of the noise, in grey levels. */
     noise_sigma?: number;
-    /** Share of the pixels that are black or white. */
+    /** Fraction of the pixels that are black or white. */
     salt_and_pepper?: number;
-    /** Standard deviation of a printed dot's place, per axis. */
+    /** Standard deviation of the position of a printed dot, per axis. */
     jitter_mm?: number;
-    /** Share of the dots that were not printed. */
+    /** Fraction of the dots that are missing. */
     missing?: number;
-    /** Dark specks in the frame. */
+    /** Number of dark specks in the frame. */
     dirt_blobs?: number;
-    /** Thick strokes or words in the frame. */
+    /** Number of thick strokes or words in the frame. */
     graphics?: number;
-    /** Standard deviation of the paper's reflectance. */
+    /** Standard deviation of the reflectance of the paper. */
     texture?: number;
 }
 
@@ -85,16 +98,16 @@ export interface Imperfections {
 export interface Scene {
     /** The page on a table. */
     sheet?: SheetOptions;
-    /** Dots everywhere, as if the page had no end; default: false. */
+    /** True for dots everywhere, as on an infinite page. Default: false. */
     whole_plane?: boolean;
-    /** Determines the printing errors, which every frame of the page shows alike; default 1. */
+    /** Seed of the printing errors, which are the same in all frames of the page. Default: 1. */
     page_seed?: number;
-    /** Reflectance of the table, relative to paper; default 0.2. */
+    /** Reflectance of the table, relative to paper. Default: 0.2. */
     table_reflectance?: number;
     camera?: Camera;
     pose: CameraPose;
     imperfections?: Imperfections;
-    /** Determines noise and dirt; default 1. */
+    /** Seed of noise and dirt. Default: 1. */
     seed?: number;
 }
 

@@ -1,4 +1,5 @@
-// dotpose/tools: sheets to print, and a simulated camera over them, by the sources of the command-line tool.
+// dotpose/tools: sheets to print, and a simulated camera, compiled from the sources of the
+// command-line tool.
 import { compile, Instance, type WasmSource } from "./instance.js";
 import type { Image } from "./locator.js";
 import { pngOf } from "./png.js";
@@ -8,16 +9,19 @@ export type { Camera, CameraPose, Imperfections, Scene, SheetOptions } from "./r
 export type { Cell, Code, Section } from "./names.js";
 export type { Image } from "./locator.js";
 
-/** Where the dots of a sheet are. */
+/** Layout of the dots of a sheet. */
 export interface SheetLayout {
     columns: number;
     rows: number;
-    /** The first intersection, from the upper left corner of the page. */
+    /** Position of the first intersection, from the upper left corner of the page. */
     origin_x_mm: number;
     origin_y_mm: number;
 }
 
-/** A page as pixels, 8 per byte, the leftmost in the highest bit; 1 is ink. Rows begin at whole bytes. */
+/**
+ * A page as pixels, 8 per byte, with the leftmost pixel in the most significant bit. 1 is ink.
+ * Rows begin at whole bytes.
+ */
 export interface Raster {
     width_px: number;
     height_px: number;
@@ -34,7 +38,7 @@ const kInch_mm = 25.4;
  *     const png = await tools.png({ width_mm: 100, height_mm: 100 }, 600);
  *     const image = tools.render({ pose: { x_mm: 50, y_mm: 60 }, imperfections: { noise_sigma: 3 } });
  *
- * What cannot be done throws RangeError, with a sentence that says which value is wrong.
+ * Invalid requests throw RangeError with a message that names the invalid value.
  */
 export class Tools {
     readonly #module: WebAssembly.Module;
@@ -45,13 +49,13 @@ export class Tools {
         this.#instance = instance;
     }
 
-    /** Loads the module; `wasm` if it does not lie beside this file. */
+    /** Loads the module. `wasm` is required if the module is not beside this file. */
     static async create(wasm?: WasmSource): Promise<Tools> {
         const module = await compile(wasm ?? new URL("./dotpose-tools.wasm", import.meta.url));
         return new Tools(module, await Instance.start(module));
     }
 
-    /** Returns where the dots of a sheet are: whole cells inside the margins, from the upper left. */
+    /** Returns the layout of a sheet: whole cells inside the margins, from the upper left. */
     layout(sheet: SheetOptions = {}): SheetLayout {
         const kLayoutBytes = 32;
         const address = this.#call("dotpose_tools_layout", sheetFields(sheet));
@@ -60,7 +64,10 @@ export class Tools {
         return { columns: columns!, rows: rows!, origin_x_mm: origin_x_mm!, origin_y_mm: origin_y_mm! };
     }
 
-    /** Returns the centres of all dots, row by row: x and y in mm from the upper left corner of the page. */
+    /**
+     * Returns the centres of all dots, row by row: x and y in mm from the upper left corner of
+     * the page.
+     */
     dots(sheet: SheetOptions = {}): Float64Array {
         const { columns, rows } = this.layout(sheet);
         const address = this.#call("dotpose_tools_dots", sheetFields(sheet));
@@ -72,25 +79,28 @@ export class Tools {
         return new TextDecoder().decode(this.#bytes("dotpose_tools_svg", sheetFields(sheet)));
     }
 
-    /** Returns the pixels of the sheet, the same as in `dotpose print -o sheet.png`. */
+    /** Returns the pixels of the sheet, the same as those of `dotpose print -o sheet.png`. */
     raster(sheet: SheetOptions = {}, dpi = 600): Raster {
         const bits = this.#bytes("dotpose_tools_raster", sheetFields(sheet), dpi);
         const px = (mm: number) => Math.round((mm * dpi) / kInch_mm);
         return { width_px: px(sheet.width_mm ?? 210), height_px: px(sheet.height_mm ?? 297), dpi, bits };
     }
 
-    /** Returns the sheet as a PNG file of 1 bit per pixel, which prints in its true size. */
+    /** Returns the sheet as a PNG file with 1 bit per pixel, which prints in its true size. */
     png(sheet: SheetOptions = {}, dpi = 600): Promise<Uint8Array<ArrayBuffer>> {
         return pngOf(this.raster(sheet, dpi));
     }
 
-    /** Returns the image that the simulated camera sees: the same bytes for the same scene, everywhere. */
+    /**
+     * Returns the image of the simulated camera. The same scene gives the same bytes on every
+     * machine.
+     */
     render(scene: Scene): Image {
         const { width_px: width = 188, height_px: height = 120 } = scene.camera ?? {};
         return { data: this.#bytes("dotpose_tools_render", sceneFields(scene)), width, height };
     }
 
-    /** Calls a function that leaves bytes. */
+    /** Calls a function whose result is a sequence of bytes. */
     #bytes(name: string, fields: number[], ...args: number[]): Uint8Array<ArrayBuffer> {
         const address = this.#call(name, fields, ...args);
         return this.#instance.bytes(address, this.#instance.call("dotpose_tools_size")).slice();
@@ -105,7 +115,7 @@ export class Tools {
             return this.#instance.call(name, ...args);
         } catch (trap) {
             const message = this.#instance.text(this.#instance.call("dotpose_tools_error"));
-            // A trap leaves the instance as it was in the middle of the call.
+            // A trap leaves the instance in an undefined state, in the middle of a call.
             this.#instance = Instance.startNow(this.#module);
             throw message === "" ? trap : new RangeError(message);
         }

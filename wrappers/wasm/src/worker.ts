@@ -1,13 +1,16 @@
 // Runs in the worker of a WorkerLocator.
 import { Locator, type FrameOptions, type Image, type LocatorOptions } from "./locator.js";
 
-/** What a WorkerLocator sends; its answers carry the same number. */
+/** A request of a WorkerLocator. Its answer has the same number. */
 export type Request = { id: number } & (
     | { kind: "create"; options: LocatorOptions }
     | { kind: "locate"; image: Image; options: FrameOptions }
 );
 
-/** The part of a worker's global object that is used here; the types of pages do not know it. */
+/**
+ * The part of a worker's global object that is used here. The TypeScript types of pages do not
+ * contain it.
+ */
 interface Scope {
     onmessage: ((event: MessageEvent<Request>) => void) | null;
     postMessage(message: unknown, transfer: Transferable[]): void;

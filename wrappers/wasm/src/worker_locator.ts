@@ -1,4 +1,4 @@
-// WorkerLocator: a Locator that works beside the page.
+// WorkerLocator: a Locator that runs in a worker.
 import type { Fix } from "./fix.js";
 import { compile } from "./instance.js";
 import type { FrameOptions, Image, LocatorOptions } from "./locator.js";
@@ -6,7 +6,7 @@ import type { FrameOptions, Image, LocatorOptions } from "./locator.js";
 /** The answer to one frame. */
 export interface Located {
     fix: Fix;
-    /** The image that was sent, so that its buffer can be filled again. */
+    /** The image that was sent, to reuse its buffer. */
     image: Image;
 }
 
@@ -17,13 +17,13 @@ interface Answer {
 }
 
 /**
- * Locates images in a worker of its own, so that the page stays quick; in browsers.
+ * Locates images in a separate worker, to keep the page responsive. For browsers.
  *
  *     const locator = await WorkerLocator.create();
  *     const { fix, image } = await locator.locate({ data, width, height });
  *
- * Images are moved to the worker, not copied: `data` is empty until its answer brings it back. Calls are
- * answered in their order.
+ * Images are transferred to the worker, not copied: `data` is empty until the answer returns it.
+ * Calls are answered in order.
  */
 export class WorkerLocator {
     readonly #worker: Worker;
@@ -37,12 +37,12 @@ export class WorkerLocator {
         this.#worker.onerror = (event) => this.#fail(new Error(event.message || "the worker did not start"));
     }
 
-    /** Starts a worker with a locator; the options are those of Locator.create. */
+    /** Starts a worker with a locator. The options are those of Locator.create. */
     static async create(options: LocatorOptions = {}): Promise<WorkerLocator> {
         const locator = new WorkerLocator();
         try {
             const { wasm } = options;
-            // A module can be sent to a worker; a relative URL would mean another place there.
+            // A module can be sent to a worker. A relative URL would be resolved differently there.
             const sent = wasm === undefined ? options : { ...options, wasm: await compile(wasm) };
             await locator.#ask({ kind: "create", options: sent }, []);
         } catch (error) {
@@ -52,12 +52,12 @@ export class WorkerLocator {
         return locator;
     }
 
-    /** Returns the pose that an image shows, and the image; its buffer is moved. */
+    /** Returns the fix of an image, and the image. The buffer of the image is transferred. */
     async locate(image: Image, options: FrameOptions = {}): Promise<Located> {
         return (await this.#ask({ kind: "locate", image, options }, [image.data.buffer]))!;
     }
 
-    /** Ends the worker; what was not answered is rejected. */
+    /** Ends the worker, and rejects pending calls. */
     close(): void {
         this.#is_closed = true;
         this.#worker.terminate();

@@ -14,7 +14,7 @@ export function* imagesOf(buffer) {
     }
 }
 
-/** Types, numbers and offsets in a dotpose_fix (wrappers/c/dotpose.h) of the columns. */
+/** Types, counts and offsets of the columns in a dotpose_fix (wrappers/c/dotpose.h). */
 const kColumns = [
     ["double", 1, 8], // x_mm
     ["double", 1, 16], // y_mm
@@ -43,7 +43,7 @@ const kColumns = [
     ["float", 9, 204], // covariance_grid
 ];
 
-/** Returns the numbers of a fix as the lines of the golden files have them. */
+/** Returns the numbers of a fix in the format of the lines of the golden files. */
 function lineOf(fix) {
     const view = new DataView(fix.bytes.buffer);
     const hex = (value, digits) => value.toString(16).padStart(digits, "0");
@@ -59,7 +59,10 @@ function lineOf(fix) {
     return numbers.join(",");
 }
 
-/** Locates the frames of a set as its lines say; returns how many there are, and what differs in any bit. */
+/**
+ * Locates the frames of a set in the ways of its lines. Returns the number of frames, and the
+ * lines that differ in any bit.
+ */
 export async function compareSet({ Locator }, frames, csv, wasm) {
     const images = [...imagesOf(frames)];
     const locator = await Locator.create({ code: "anoto", wasm });

@@ -1,5 +1,6 @@
-// Uses the packed and installed package in node. DOTPOSE_PACKAGE: the folder it was installed in;
-// DOTPOSE_GOLDEN: that of the golden files; DOTPOSE_TOOL: the command-line tool.
+// Uses the packed and installed package in node. Environment: DOTPOSE_PACKAGE is the folder in
+// which the package is installed, DOTPOSE_GOLDEN the folder of the golden files, DOTPOSE_TOOL the
+// command-line tool.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -18,7 +19,7 @@ const dotpose = await import(url("dotpose"));
 const { Tools } = await import(url("dotpose/tools"));
 const { Locator } = dotpose;
 
-/** A frame with known pose. */
+/** A frame with a known pose. */
 const kScene = { sheet: { origin: { x: 1000, y: 2000 } }, pose: { x_mm: 560, y_mm: 1070, theta_rad: 0.5 } };
 
 describe("golden frames: the same bits as the C++ library", () => {
@@ -119,7 +120,7 @@ describe("Locator", () => {
             const back = dotpose.imageFromPattern(fix, at.x_mm, at.y_mm);
             assert.ok(Math.hypot(back.u_px - fix.dots[i], back.v_px - fix.dots[i + 1]) < 1e-6);
             const off = [at.x_mm, at.y_mm].map((mm) => Math.abs(mm / 0.508 - Math.round(mm / 0.508)));
-            // A dot lies a sixth of the spacing from its intersection, along one axis.
+            // A dot is displaced from its intersection by a sixth of the spacing, along one axis.
             if (Math.abs(Math.max(...off) - 1 / 6) < 0.03 && Math.min(...off) < 0.03) ++near;
         }
         assert.ok(near > 0.95 * (fix.dots.length / 2), `${near} of ${fix.dots.length / 2}`);
@@ -166,7 +167,7 @@ describe("sheets and the simulated camera", () => {
         const ours = parts(Buffer.from(await tools.png(kSheet)));
         const theirs = parts(printed("sheet.png"));
         for (const type of ["IHDR", "pHYs"]) assert.deepEqual(ours[type], theirs[type], type);
-        // Bits beyond the width are of no account, and the width here ends a byte early.
+        // Bits beyond the width are undefined. The width ends within a byte here.
         const { width_px, height_px } = tools.raster(kSheet);
         const stride = Math.ceil(width_px / 8) + 1;
         const mask = 0xff00 >> (width_px % 8 || 8);

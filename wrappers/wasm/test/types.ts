@@ -1,4 +1,4 @@
-// Compiled against the installed package, to show that its types say what they should.
+// Compiled against the installed package, to check its types.
 import { Locator, patternBits, WorkerLocator, type Fix } from "dotpose";
 import { Tools, type Scene } from "dotpose/tools";
 
@@ -12,9 +12,9 @@ export const position: [number, number] = [next.x_mm, next.covariance[0]!];
 export const back: ArrayBufferLike = (await (await WorkerLocator.create()).locate(image)).image.data.buffer;
 export const bits: Uint8Array = await patternBits({ cell: { x: 1, y: 2 }, columns: 8, rows: 8 });
 
-// @ts-expect-error: there is no such code
+// @ts-expect-error: unknown code
 await Locator.create({ code: "morse" });
-// @ts-expect-error: an image has a height
+// @ts-expect-error: an image without a height
 locator.locate({ data: new Uint8Array(9), width: 3 });
-// @ts-expect-error: 16-bit images are not grey images of 8 bits
+// @ts-expect-error: 16-bit images are not supported
 locator.locate({ data: new Uint16Array(9), width: 3, height: 3 });

@@ -1,5 +1,5 @@
-// The other end of the line: reads pose packets from a device and prints them. In the manner of C,
-// with dotpose.h.
+// Receiver of pose packets: reads the packets of a device from a serial line and prints the poses.
+// Uses the C interface, dotpose.h.
 #include <dotpose.h>
 
 static dotpose_packet_reader reader;

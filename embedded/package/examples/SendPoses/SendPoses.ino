@@ -1,5 +1,5 @@
-// Sends the pose of every camera frame over the serial line: `dotpose listen /dev/ttyUSB0` prints
-// them on a computer. board.cpp has the three functions that a board needs.
+// Sends the pose of every camera frame over the serial line. `dotpose listen /dev/ttyUSB0` prints
+// the poses on a computer. board.cpp contains the three functions of the board.
 #include <dotpose_device.hpp>
 
 #include "pose_sender.hpp"

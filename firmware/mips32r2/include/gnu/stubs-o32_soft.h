@@ -1,2 +1,3 @@
-/* Debian's C library for MIPS has no build without an FPU, and so not this header, which its others
-   include. It would name functions that are not there; nothing here calls any. */
+/* Debian's C library for MIPS has no soft-float build, so this header, which other headers of
+   the library include, is missing there. The header would name functions that the library lacks;
+   the firmware calls none of them. */

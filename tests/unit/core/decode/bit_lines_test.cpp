@@ -1,4 +1,4 @@
-// Blocks of bits cut from the code and turned, compared with symbol_at.
+// Blocks of bits cut from the code and turned, compared with `symbol_at`.
 #include "core/decode/bit_lines.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using core_test::operator-;
 
 constexpr std::uint64_t kSeed = 76;
 
-/// Returns the cell that `core::turned` has to make of a cell of a block.
+/// Returns the cell to which `core::turned` must move a cell of a block.
 FixedVec cell_turned(int quarters, FixedVec cell) {
     switch (quarters) {
         case 1:
@@ -44,7 +44,7 @@ void set_bit(core::BitLines& lines, int line, int cell, bool value) {
     if (value) lines.bits[at] |= bit;
 }
 
-/// Returns the block that a camera turned by `quarters` sees of a rectangle of cells; the
+/// Returns the block of a rectangle of cells as seen by a camera turned by `quarters`. The
 /// displacement of a dot turns with the paper.
 BitBlock seen_block(CodeVariant code, const Place& zero, int quarters, FixedVec least,
                     FixedVec most, const Damage& damage, Rng& rng) {
@@ -76,7 +76,7 @@ void expect_same(const BitBlock& a, const BitBlock& b) {
     }
 }
 
-/// Returns a random place, often across the ends of the plane.
+/// Returns a random place, often near the ends of the plane.
 Place some_place(int i, Rng& rng) {
     Place place = random_place(rng);
     if (i % 4 == 1) place.cell.x = i % 8 == 1 ? 3 : kPositionsPerAxis - 4;
@@ -120,8 +120,8 @@ TEST(BitLines, APlaneTurnsAsItsCellsDo) {
             const auto x = static_cast<float>(rng.uniform(-90, 90));
             const auto y = static_cast<float>(rng.uniform(-60, 60));
             const Vec2 before = at(plane, x, y);
-            // A cell becomes the one that `turned` of blocks says, and points between cells move
-            // with them.
+            // A cell moves as `turned` moves it in blocks, and points between cells move with the
+            // cells.
             const FixedVec zero = cell_turned(quarters, {});
             const FixedVec right = cell_turned(quarters, {1, 0}) - zero;
             const FixedVec down = cell_turned(quarters, {0, 1}) - zero;
@@ -139,7 +139,8 @@ struct Found {
     int exactly = 0;
 };
 
-/// Counts how many of `blocks` random blocks are found; none may be found in another place.
+/// Returns the number of blocks found among `blocks` random blocks. None may be found at another
+/// place.
 Found find_blocks(int blocks, int min_side, const Damage& damage, const core::Kernels& kernels) {
     Rng rng(kSeed);
     Found found;
@@ -204,7 +205,7 @@ TEST(BitLines, OneWrongBitMakesALineInexact) {
             const std::uint64_t here = std::uint64_t{1} << cell;
             const bool bit = main_bit(roll + static_cast<unsigned>(cell)) == 1;
             bits = bit ? bits | here : bits & ~here;
-            // There are six adjacent bits at the beginning; any of the others may be missing.
+            // Six adjacent bits at the beginning are always present. Any other bit may be missing.
             if (cell < first + 6 || rng.below(8) != 0) valid |= here;
         }
         EXPECT_EQ(core::exact_roll(bits, valid), roll);
@@ -222,7 +223,7 @@ TEST(BitLines, LinesOfTwoPlacesAreNotOnePlace) {
         const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         BitBlock block = seen_block(code, some_place(i, rng), 0, {-8, -8}, {8, 8}, {}, rng);
         const BitBlock other = seen_block(code, random_place(rng), 0, {-8, -8}, {8, 8}, {}, rng);
-        // The first columns are of another place.
+        // The first columns belong to another place.
         for (std::size_t line = 24; line < 28; ++line)
             block.columns.bits[line] = other.columns.bits[line];
         Place place;

@@ -37,8 +37,8 @@ DetectedDot dot_in(int i, int j, Vec2 offset) {
     return dot_at(kMesh.at(i + offset.x, j + offset.y));
 }
 
-/// Returns dots at two corners of `columns` x `rows` cells from (i0, j0), which give the grid its
-/// extent.
+/// Returns dots at two corners of `columns` x `rows` cells from (i0, j0), which determine the
+/// extent of the grid.
 std::vector<DetectedDot> corners(int i0, int j0, int columns, int rows) {
     return {dot_in(i0, j0, {0, -1 / 6.0}), dot_in(i0 + columns - 1, j0 + rows - 1, {0, -1 / 6.0})};
 }
@@ -100,7 +100,7 @@ TEST(Likelihood, TheMiddleOfALargerGridIsKept) {
     EXPECT_EQ(owned.grid.j0, -5);
     EXPECT_EQ(owned.grid.i0, -8);
     EXPECT_EQ(owned.grid.at(3, 2).dot, 2);
-    // If all cells lie on one side of the origin, those nearest to it are kept.
+    // If all cells are on one side of the origin, the cells nearest to it are kept.
     ASSERT_EQ(assign_likelihoods(corners(2, -5, 40, 12), kPlane, owned.grid), Status::ok);
     EXPECT_EQ(owned.grid.i0, 2);
     ASSERT_EQ(assign_likelihoods(corners(-45, -5, 40, 12), kPlane, owned.grid), Status::ok);

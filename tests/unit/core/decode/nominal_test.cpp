@@ -1,4 +1,4 @@
-// The symbols of a grid whose place is known, against a second implementation of the code.
+// The symbols of a grid at a known place, compared with a second implementation of the code.
 #include "core/decode/nominal.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using namespace core;
 constexpr std::uint64_t kSeed = 31;
 constexpr std::uint32_t kL = code_test::kL;
 
-/// Returns the place at a position past the end of an axis, counted from the beginning of the code.
+/// Returns the place at a position past the end of an axis, wrapped to the beginning of the code.
 Place wrapped(CodeVariant code, std::uint64_t x, std::uint64_t y, Section section) {
     int u = section.u;
     int v = section.v;
@@ -31,7 +31,7 @@ Place wrapped(CodeVariant code, std::uint64_t x, std::uint64_t y, Section sectio
             {static_cast<std::uint8_t>(u % 63), static_cast<std::uint8_t>(v % 63)}};
 }
 
-/// Checks a grid that shows a window of the pattern at some turn, where the window's symbol `known`
+/// Checks a grid that shows a window of the pattern at a quarter turn. The window's symbol `known`
 /// is at cell (0, 0).
 void check(CodeVariant code, const Place& first, int columns, int rows, QuarterTurn turn,
            FixedVec known) {
@@ -81,7 +81,7 @@ TEST(Nominal, ContinuesPastBothEndsOfTheCode) {
     for (int i = 0; i < 120; ++i) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
         Place first = random_place(rng);
-        // The end of the code is inside the grid on one axis or both, before or behind `known`.
+        // The end of the code is inside the grid on one or both axes, before or after `known`.
         if (i % 3 != 0) first.cell.x = kL - 1 - rng.below(29);
         if (i % 3 != 1) first.cell.y = kL - 1 - rng.below(29);
         const FixedVec known{static_cast<std::int32_t>(rng.below(30)),

@@ -1,4 +1,4 @@
-// Orientation and position from ideal views of the pattern, whichever way the grid was found.
+// Orientation and position from ideal views of the pattern, for all orientations of the grid.
 #include "core/decode/position.hpp"
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ TEST(Position, IsReadAcrossBothEndsOfTheCode) {
 }
 
 TEST(Position, IsReadFromManyDotsThoughSomeAreWrong) {
-    // 6 % of the dots show another symbol, and as many are missing.
+    // 6 % of the dots have another symbol, and another 6 % are missing.
     Rng rng(kSeed);
     for_many_views(60, [&](const View& view, QuarterTurn turn) {
         std::vector<DetectedDot> dots;
@@ -98,7 +98,7 @@ TEST(Position, TheMirrorImageIsKnown) {
         for (const PlacedDot& d : pattern_dots(view)) {
             dots.push_back(dot_at({view.image_px.x - 1 - d.centre_px.x, d.centre_px.y}));
         }
-        // The grid of the mirrored view has the same spacing and the opposite angle.
+        // The grid of the mirrored view has the same spacing and the negated angle.
         View behind = view;
         behind.theta_rad = -view.theta_rad;
         Mesh mesh = view.mesh();

@@ -1,4 +1,4 @@
-// Bits read from the image itself, from drawn frames whose dots are known.
+// Bits sampled directly from drawn frames with known dots.
 #include "core/decode/sample_cells.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ GreyImage drawn(const View& view) {
     return image;
 }
 
-/// The view's cells as sampled from an image.
+/// The cells of a view, sampled from an image.
 struct Sampled {
     Sampled(const View& view_, QuarterTurn turn_, const GreyImage& image)
         : view(view_), turn(turn_), owned(64) {
@@ -39,8 +39,8 @@ struct Sampled {
         sample_cells(image.view(), paper, FixedLens{}, plane, owned.grid);
     }
     const Grid& grid() const { return owned.grid; }
-    /// Calls `use(cell, its place in px, its bits on the pattern, the code's symbol)` for all
-    /// cells.
+    /// Calls `use` for all cells, with the cell, its place in px, its bits turned to the pattern,
+    /// and the symbol of the code.
     template <typename Use>
     void visit(Use use) const {
         for (int j = grid().j0; j < grid().j0 + grid().rows; ++j) {
@@ -82,7 +82,7 @@ TEST(SampleCells, ReadsTheBitsOfACleanFrame) {
                 EXPECT_EQ(cell.x, 0);
                 EXPECT_EQ(cell.y, 0);
             }
-            // Bits are known where the image shows all of the blurred dot.
+            // Bits are known where the whole blurred dot is in the image.
             const double margin = view.spacing_px / 6 + 2;
             if (at.x < margin || at.y < margin || at.x > view.image_px.x - 1 - margin ||
                 at.y > view.image_px.y - 1 - margin) {

@@ -1,4 +1,4 @@
-// The position from all steps between lines, where runs of lines do not tell it.
+// The position from all steps between lines, if no run of lines determines it.
 #include "core/decode/step_search.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(SearchBySteps, ReadsLinesOnBothSidesOfHiddenOnes) {
     Rng rng(kSeed);
     int right = 0;
     for (int i = 0; i < 300; ++i) {
-        // No six lines in a row are seen.
+        // There are no six consecutive lines with bits.
         const std::size_t hidden = 1 + rng.below(3);
         RatiosCase c = at_random_place(rng, 10 + static_cast<int>(hidden));
         read_lines(c, 12, 0.03, rng,

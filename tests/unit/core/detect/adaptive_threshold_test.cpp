@@ -71,10 +71,10 @@ TEST(AdaptiveThreshold, ThresholdsLieAtTheirSharesOfTheContrast) {
                       [&, p = paper, i = ink](int) {
                           for (int t = 0; t < 8; ++t) {
                               const Levels level = levels_of_tile(w.threshold, t);
-                              // The third and seventh row of a tile count; ink is a quarter of the
-                              // third.
+                              // The third and seventh row of a tile are measured. A quarter of the
+                              // third row is ink.
                               const double mean = std::floor(p - (p - i) / 8.0);
-                              // The contrast is known in steps of 1/64 of the paper's level.
+                              // The contrast is quantised to 1/64 of the paper's level.
                               const double step = mean / 64 + 1;
                               const double low = mean - (mean - i) * options.low_q8 / 256;
                               const double high = mean - (mean - i) * options.high_q8 / 256;
@@ -146,8 +146,8 @@ TEST(AdaptiveThreshold, ADefectPixelIsHalfAsDarkAsInk) {
                         dark_tiles += levels_of_tile(w.threshold, t).low > 0;
                 });
                 const bool is_pair = width == 2 && u % 2 == 0;
-                // The tile of the mark and the eight around it count as dark; if the mark is split
-                // over two tiles, those and the ten around them.
+                // The tile of the mark and its eight neighbours count as dark. If the mark is split
+                // over two tiles, both tiles and their ten neighbours do.
                 const bool is_split = width == 2 && u == 31;
                 EXPECT_EQ(dark_tiles, min_contrast == 100 && !is_pair ? 0
                                       : is_split                      ? 12
@@ -167,8 +167,8 @@ TEST(AdaptiveThreshold, BlankAreasHaveNoInk) {
             }
         });
     }
-    // Contrast below the minimum counts as blank, contrast above it does not; tiles far from the
-    // ink stay blank.
+    // A contrast below the minimum counts as blank, and a contrast above it does not. Tiles far
+    // from the ink remain blank.
     ThresholdOptions options;
     options.min_contrast = 20;
     for (const int ink : {185, 150}) {
@@ -188,7 +188,7 @@ TEST(AdaptiveThreshold, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
     SmallWorkspace w;
     ThresholdOptions options;
     options.min_contrast = 8;
-    // Two spots of noise, with a spot of ink between them.
+    // Two spots of noise with a spot of ink between them.
     GreyImage image = blank(120, 120);
     fill(image, 18, 18, 20, 20, 190);
     fill(image, 98, 50, 100, 52, 80);
@@ -204,7 +204,7 @@ TEST(AdaptiveThreshold, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
 }
 
 TEST(AdaptiveThreshold, ThresholdsFollowAShadow) {
-    // The right half gets a third of the light.
+    // The right half has a third of the light.
     SmallWorkspace w;
     GreyImage image = dotted(160, 80, 210, 30);
     for (int v = 0; v < 80; ++v) {

@@ -1,4 +1,4 @@
-// Blobs and their centroids, on images drawn by hand.
+// Blobs and their centroids on images drawn by hand.
 #include "core/detect/blobs.hpp"
 
 #include <string>
@@ -16,12 +16,13 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 22;
 
-/// Greatest and usual shift of a dot's centroid, because the threshold cuts off its skirts in whole
-/// pixels.
+/// Maximum and usual shift of a dot's centroid, which occurs because the threshold cuts off whole
+/// pixels at the rim of the dot.
 constexpr double kWorstShift_px = 0.25;
 constexpr double kUsualShift_px = 0.11;
 
-/// Draws letters other than '.' of a picture as ink, 2 x 2 px each, from (u0, 30).
+/// Returns an image in which each letter other than '.' of a picture is ink of 2 x 2 px, from (u0,
+/// 30) on.
 GreyImage drawn(std::initializer_list<std::string_view> picture, int u0 = 30) {
     GreyImage image = blank(96, 80);
     int v = 30;
@@ -40,8 +41,8 @@ TEST(Blobs, ABlurredDotIsFoundAtEverySubPixelPhase) {
         double squares = 0;
         for (int phase = 0; phase < 64; ++phase) {
             const Vec2 centre{40 + phase % 8 / 8.0, 33 + phase / 8 / 8.0};
-            // Dots as large as this are printed in so wide a grid that only large images show
-            // enough of it.
+            // Dots of this size have such a large spacing that only large images contain enough of
+            // them.
             GreyImage image = sigma < 4 ? blank(80, 64) : blank(256, 256);
             darken(image, centre, sigma, 0.7);
             const auto dots = blobs_of(image);
@@ -75,7 +76,7 @@ TEST(Blobs, DotsThatTouchAreOneAndDotsThatDoNotAreTwo) {
     }
 }
 
-/// Expects one blob of all pixels drawn, with its centroid at theirs.
+/// Expects one blob that consists of all pixels drawn, with the same centroid.
 void expect_one(std::initializer_list<std::string_view> picture) {
     Vec2 sum;
     int area = 0;
@@ -90,13 +91,13 @@ void expect_one(std::initializer_list<std::string_view> picture) {
         shape.append(line).append("\n");
         ++v;
     }
-    // At these columns the shape lies on one tile, or across a border of two.
+    // At these columns the shape is within one tile, or across the border of two tiles.
     for (const int u0 : {24, 29, 33}) {
         const auto dots = blobs_of(drawn(picture, u0));
         ASSERT_EQ(dots.size(), 1u) << shape << "at " << u0;
         EXPECT_EQ(dots[0].area_px, 4 * area) << shape << "at " << u0;
         const Vec2 centre = Vec2{u0 + 0.5, 30.5} + 2.0 / area * sum;
-        // Levels differ by some percent from tile to tile, and so do the weights.
+        // Levels vary by some percent from tile to tile, and the weights with them.
         EXPECT_LT(nearest_px(dots, centre), 0.3) << shape << "at " << u0;
     }
 }
@@ -134,7 +135,8 @@ TEST(Blobs, WhatTouchesTheBorderIsNoDot) {
 }
 
 TEST(Blobs, FoundInUnevenLight) {
-    // Dots are 9.3 px apart; the light falls to a third from one corner to the other.
+    // The dots are 9.3 px apart. The light decreases to a third from one corner to the opposite
+    // one.
     GreyImage image = blank(190, 120);
     std::vector<Vec2> centres;
     for (double y = 7.2; y < 113; y += 9.3) {
@@ -224,7 +226,7 @@ TEST(Blobs, AFullListKeepsTheDotsNearestTheCentre) {
 }
 
 TEST(Blobs, NoMoreRunsAreLookedAtThanTheWorkspaceSays) {
-    // The image has seven rows of ten dots, each of two runs.
+    // The image has seven rows of ten dots. Each dot has two runs.
     GreyImage image = blank(188, 120);
     for (int v = 10; v < 80; v += 10) {
         for (int u = 10; u < 110; u += 10)
@@ -235,7 +237,7 @@ TEST(Blobs, NoMoreRunsAreLookedAtThanTheWorkspaceSays) {
         w.open.max_runs = rows * 20;
         EXPECT_EQ(static_cast<int>(blobs_of(image, w).size()), rows * 10);
     }
-    // A row without room for all its runs ends the dots in it there.
+    // If a row has more runs than there is room for, the remaining dots end in this row.
     w.open.max_runs = 3 * 20 + 5;
     EXPECT_EQ(blobs_of(image, w).size(), 35u);
 }
@@ -311,8 +313,8 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
     for (int i = 0; i < 60; ++i) {
         GreyImage image =
             blank(64 + static_cast<int>(rng.below(220)), 64 + static_cast<int>(rng.below(220)));
-        // The image is so dense that even tiles in corners have ink around them, in one of the four
-        // rows that are measured there.
+        // The density is high enough for ink near the tiles in the corners, in one of the four rows
+        // that are measured there.
         const double density = rng.uniform(0.2, 0.42);
         const int side = density < 0.3 ? 2 : 1;
         for (int v = 0; v + side <= image.height_px; v += side) {
@@ -328,7 +330,7 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
     }
 }
 
-/// Dots of one size with some others among them, and those that the filter leaves.
+/// Dots of one size with some blobs of other sizes, and the dots that the filter keeps.
 struct Sifted {
     std::vector<DetectedDot> dots;
     int count = 0;
@@ -365,7 +367,7 @@ TEST(Blobs, TheSizeFilterIsRelativeToTheMedianDot) {
 }
 
 TEST(Blobs, SaltAndPepperIsSiftedOut) {
-    // Among dots of about nine pixels, 1 % of the pixels are single dark or light ones.
+    // Dots have about nine pixels. 1 % of the pixels are isolated dark or light ones.
     Rng rng(kSeed);
     GreyImage image = blank(188, 120);
     std::vector<Vec2> centres;

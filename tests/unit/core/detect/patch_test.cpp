@@ -34,7 +34,7 @@ TEST(Patch, LiesAroundItsCentreWithinTheImage) {
         EXPECT_GE(patch->top_px, 0);
         EXPECT_LE(patch->left_px + patch->width_px * scale, image.width_px);
         EXPECT_LE(patch->top_px + patch->height_px * scale, image.height_px);
-        // The patch is as near to the centre as the image allows.
+        // The patch is as close to the centre as the image allows.
         const double off_u = double{core::middle_u_px(*patch)} - u;
         if (patch->left_px > 0 && patch->left_px + patch->width_px * scale < image.width_px) {
             EXPECT_LE(std::abs(off_u), 1);
@@ -56,7 +56,7 @@ TEST(Patch, IsNeverLargerThanItsMemory) {
     EXPECT_EQ(patch->height_px, Patch::kMaxHeight_px);
 }
 
-/// Returns a patch whose tiles have these levels of paper and of the darkest pixel.
+/// Returns a patch whose tiles have a given level of paper and a given darkest pixel.
 std::unique_ptr<Patch> lit_patch(int width_px, int height_px, int paper, int darkest) {
     auto patch = std::make_unique<Patch>();
     patch->width_px = width_px;
@@ -76,8 +76,8 @@ TEST(PatchContrast, IsThatOfTheTypicalTile) {
             patch->darkness[i] = 55;
         ASSERT_TRUE(core::measure_contrast(*patch));
         EXPECT_NEAR(patch->dot_contrast_q8, 256.0 * (200 - darkest) / 200, 4.1);
-        // The threshold lies between dot and paper, nearer to the dot; in a darker tile it is in
-        // proportion.
+        // The threshold is between the levels of dot and paper, closer to the dot. In a darker
+        // tile, it is scaled with the light.
         const double depth = (200 - darkest) / 200.0;
         EXPECT_NEAR(patch->thresholds[2], 200 * (1 - depth * 150 / 256), 3);
     }
@@ -99,7 +99,7 @@ TEST(PatchContrast, ThresholdsFollowTheLight) {
 TEST(PatchContrast, WhatIsBlankHasNone) {
     EXPECT_FALSE(core::measure_contrast(*lit_patch(160, 96, 200, 195)));
     EXPECT_FALSE(core::measure_contrast(*lit_patch(160, 96, 0, 0)));
-    // Only a few tiles have something dark.
+    // Only a few tiles contain dark pixels.
     const auto patch = lit_patch(160, 96, 200, 199);
     for (std::size_t i = 0; i < 10; ++i)
         patch->darkness[i] = 200;

@@ -1,4 +1,4 @@
-// The pixels of a blob: exactly those darker than the threshold of their tile.
+// The pixels of a blob are exactly those darker than the threshold of their tile.
 #include <algorithm>
 #include <utility>
 
@@ -14,7 +14,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 52;
 
-/// A set of dark pixels that touch.
+/// A set of connected dark pixels.
 struct Set {
     int area_px = 0;
     int left, top, right, bottom;
@@ -75,7 +75,7 @@ Set flood(Marked& pixels, int width, int height, int u, int v) {
     return found;
 }
 
-/// Returns the sets away from the border that have a pixel below the high threshold.
+/// Returns the sets that do not touch the border and have a pixel below the high threshold.
 std::vector<Set> expected_sets(const GreyImage& image, AdaptiveThreshold& threshold) {
     Marked pixels = marked(image, threshold);
     std::vector<Set> sets;
@@ -111,7 +111,7 @@ void expect_sets(const GreyImage& image) {
 }
 
 TEST(PixelSets, AreThoseDarkerThanTheirTilesLevel) {
-    // Grey levels are of all kinds, also one step to either side of the threshold, in uneven light.
+    // Random grey levels, including levels one step from the threshold, in uneven light.
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         const int width = 64 + static_cast<int>(rng.below(260));
@@ -139,8 +139,7 @@ TEST(PixelSets, AreThoseDarkerThanTheirTilesLevel) {
 }
 
 TEST(PixelSets, RunsBeginAndEndAtAnyColumn) {
-    // There are bars of every length, from every column of eight, each with a gap of one pixel in a
-    // row.
+    // Bars of every length, from every column of eight, each with a gap of one pixel in one row.
     for (int length = 2; length <= 26; ++length) {
         GreyImage image = blank(200, 140);
         std::size_t bars = 0;

@@ -1,4 +1,4 @@
-// Runs, compared with a search pixel by pixel in plain arithmetic, on rows of all kinds.
+// Runs, compared with a pixel-by-pixel search in plain arithmetic, on random rows.
 #include "core/detect/runs.hpp"
 
 #include <algorithm>
@@ -17,15 +17,14 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 61;
 
-/// A row of an image and levels that change from tile to tile.
+/// A row of an image, with levels that vary from tile to tile.
 struct Row {
     LargeWorkspace workspace;
     AdaptiveThreshold& threshold = workspace.threshold;
 
     void draw(Rng& rng, int width_px) {
         std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width_px));
-        // Rows range from rare specks to hardly any paper, with grey levels at and about the
-        // thresholds.
+        // Rows range from a few specks to almost no paper, with grey levels near the thresholds.
         const double dark_share = rng.uniform(0, 1);
         begin_threshold(width_px, kMinFrameSide_px, threshold);
         for (int u = 0; u < whole_width(threshold); u += kTileWidth_px) {

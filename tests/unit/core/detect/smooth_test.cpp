@@ -50,21 +50,22 @@ TEST(Smooth, SinglePixelsVanish) {
         const GreyImage found = smoothed(image);
         for (int v = 0; v < 120; ++v) {
             for (int u = 0; u < 188; ++u) {
-                // The mean of at least 5 x 5 pixels around still counts a bright one: 55 / 25.
+                // The mean of at least 5 x 5 pixels around includes the bright pixel: 55 / 25.
                 ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 3) << u << ", " << v;
             }
         }
         EXPECT_NEAR(found.view().row(60)[90], kNormalLevel, 1);
     }
-    // Two pixels that touch are not an impulse but a dark spot.
+    // Two adjacent pixels are a dark spot and not an impulse.
     GreyImage image = blank(188, 120);
     fill(image, 90, 60, 92, 61, 0);
     EXPECT_LT(smoothed(image).view().row(60)[90], kNormalLevel - 30);
 }
 
 TEST(Smooth, DotsAreWeightedWithTheBinomial) {
-    // A square of 3 x 3 pixels is wider than an impulse; (1 4 6 4 1) / 16 along each axis leaves
-    // (2 / 16) of the light beside the middle: 1 - (14 / 16)^2. An eighth darker than the paper.
+    // A square of 3 x 3 pixels is wider than an impulse. The filter (1 4 6 4 1) / 16 along each
+    // axis keeps 2 / 16 of the light beside the middle: 1 - (14 / 16)^2. The square is an eighth
+    // darker than the paper.
     GreyImage image = blank(400, 400);
     fill(image, 199, 199, 202, 202, pixel(image, 0, 0) * 7 / 8);
     const GreyImage found = smoothed(image);
@@ -99,7 +100,7 @@ TEST(Smooth, AGradientOfTheLightBecomesEven) {
                 ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 2) << u << ", " << v;
             }
         }
-        // Nearer to the border the surroundings reach only 4 px inwards: 2 px of the slope.
+        // Closer to the border, the surroundings extend only 4 px inwards, over 2 px of the slope.
         expect_even(found, 5);
     }
 }

@@ -15,8 +15,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 71;
 
-/// Returns the mean over every fourth row about the middle, and the darkest mean of two adjacent
-/// pixels, the first in an even column. Rows go on after the last column.
+/// Returns the mean over every fourth row about the middle, and the minimum mean of two adjacent
+/// pixels, the first in an even column. Rows continue after the last column.
 Tile expected_tile(const AdaptiveThreshold& threshold, int band, int tile) {
     const int begin = band_begin(threshold, band);
     const int end = band_end(threshold, band);

@@ -1,4 +1,4 @@
-// Paper eq. 1-2 in double precision.
+// Undistortion by eq. 1-2 of the paper, compared with double precision.
 #include "core/detect/undistort.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ TEST(Undistort, IsEquations1And2) {
     Rng rng(kSeed);
     for (const Vec2 size : {Vec2{64, 64}, Vec2{188, 120}, Vec2{640, 480}, Vec2{4096, 4096}}) {
         const Vec2 centre{(size.x - 1) / 2, (size.y - 1) / 2};
-        // The lens changes the radius at the corner to between half of it and twice.
+        // The lens changes the radius of the corner by a factor between one half and two.
         for (const double at_corner : {-0.5, -0.2, -0.01, 0.0, 0.01, 0.3, 1.0}) {
             const double k = at_corner / (centre.x * centre.x + centre.y * centre.y);
             std::vector<DetectedDot> dots;
@@ -49,8 +49,8 @@ TEST(Undistort, DistortedIsTheInverse) {
                 const FixedVec seen = fixed({rng.uniform(0, size.x), rng.uniform(0, size.y)}, 8);
                 const FixedVec again =
                     core::distorted(lens, centre, core::undistorted(lens, centre, seen));
-                // Both directions round to 1/256 px; a lens of 0.2 magnifies the rounding up to
-                // twofold.
+                // Both directions round to 1/256 px. A lens of 0.2 magnifies the rounding by up to
+                // two.
                 ASSERT_LE(std::abs(again.x - seen.x), 3) << at_corner << ", seed " << kSeed;
                 ASSERT_LE(std::abs(again.y - seen.y), 3) << at_corner << ", seed " << kSeed;
             }
@@ -74,14 +74,14 @@ TEST(Undistort, TheLensMayBeCentredElsewhere) {
     }
 }
 
-// Regression: the fuzzer found a plane seen from the side, which has such points.
+// Regression: the fuzzer found a plane seen edge-on, which has such points.
 TEST(Undistort, PointsFarOutsideTheImageKeepTheirDirection) {
     for (const std::int32_t k_q40 : {-385875968, INT32_MIN, INT32_MAX}) {
         const FixedLens lens{k_q40};
         for (const int far_px : {4096, 11'500, 1'000'000}) {
             const FixedVec r{far_px * 256, -far_px * 128};
-            // The factors are in fifths: 2 / (1 + 4), and 2 where no point of the image shows the
-            // point.
+            // Factors in fifths: 2 / (1 + 4) for barrel distortion. For pincushion distortion, no
+            // image point maps to this distance, and the factor is 2.
             const int fifths = k_q40 < 0 ? 2 : 10;
             const FixedVec seen = core::distorted(lens, {}, r);
             EXPECT_NEAR(seen.x, r.x / 5 * fifths, far_px) << k_q40;

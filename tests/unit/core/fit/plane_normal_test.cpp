@@ -1,4 +1,4 @@
-// The equations of the fit against derivatives and solutions computed in double precision.
+// The normal equations of the fit, compared with derivatives and solutions in double precision.
 #include "core/fit/plane_normal.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ using namespace core;
 constexpr std::uint64_t kSeed = 61;
 constexpr int kReach_px = 94;
 
-/// Returns the plane of a camera that is tilted by some degrees and whose lens bends.
+/// Returns the plane of a camera that is tilted by some degrees and has lens distortion.
 PlaneFromImage random_plane(Rng& rng) {
     const double theta = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double per_px = 1 / rng.uniform(8, 14);
@@ -42,7 +42,7 @@ ScaledPlane scaled(const PlaneFromImage& plane) {
     return {float_plane(plane), kReach_px};
 }
 
-/// Returns the place of a pixel as the first of four; the other three lie elsewhere.
+/// Returns the place of a pixel as the first of four. The other three are at other pixels.
 FourVecs project(const ScaledPlane& scaled, const PlaneFromImage& plane, FixedVec pixel_q8) {
     const auto x = static_cast<float>(pixel_q8.x - plane.centre_q8.x) / 256;
     const auto y = static_cast<float>(pixel_q8.y - plane.centre_q8.y) / 256;
@@ -83,13 +83,13 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
             const Vec2 change =
                 (1 / (2 * static_cast<double>(kStep))) * (formula(scaled(plane).changed(more), px) -
                                                           formula(scaled(plane).changed(less), px));
-            // The derivative by the bend is that of a plane without tilt and shear.
+            // The derivative with respect to the bend neglects tilt and shear.
             const double most = k == kBend ? 0.15 : 0.002;
             ASSERT_NEAR(derivatives[0][k], change.x, most);
             ASSERT_NEAR(derivatives[1][k], change.y, most);
         }
-        // A large change of any parameter but the bend is exact, too: a tilt in the pattern stays a
-        // tilt in the image.
+        // A large change of any parameter other than the bend is also exact, because a tilt in the
+        // pattern is a tilt in the image.
         const Vec2 place = formula(seen, px) - formula(seen, {});
         const double by = 1 + (0.3 * place.x - 0.2 * place.y) / 9;
         const auto unit = scaled(plane).scale();
@@ -126,14 +126,14 @@ TEST(ScaledPlane, DistortionsAreWhatMakesItDifferFromAPlainCamera) {
         value = -value;
     const FloatPlane plain = scaled(plane).changed(off);
     EXPECT_NEAR(plain.bend, 0, 1e-11);
-    // Taking off the shear, which is 1 %, turns what is left of the tilt a little.
+    // Removing the shear, which is 1 %, slightly rotates the remaining tilt.
     EXPECT_NEAR(plain.tilt_x, 0, 2e-5);
     EXPECT_NEAR(plain.tilt_y, 0, 2e-5);
     EXPECT_NEAR(plain.du_x, plain.dv_y, 2e-5);
     EXPECT_NEAR(plain.du_y, -plain.dv_x, 2e-5);
 }
 
-/// Places of many points, with residuals that a known step explains.
+/// Places of many points, with residuals caused by a known step.
 struct Problem {
     static constexpr int kPoints = 150;
     PlaneNormal normal;
@@ -183,7 +183,7 @@ TEST(PlaneNormal, FindsTheStepThatExplainsTheResiduals) {
                     1e-4 * problem.squared_residuals);
         ASSERT_TRUE(problem.normal.decompose());
         const Parameters white = problem.normal.whitened(problem.normal.right());
-        // The known step explains all of the residuals.
+        // The known step explains all residuals.
         double explained = 0;
         for (const float part : white)
             explained += static_cast<double>(part * part);
@@ -270,7 +270,7 @@ TEST(PlaneNormal, CountsAPointOfWeightThreeThreeTimes) {
 }
 
 TEST(PlaneNormal, LeavesOutWhatThePointsDoNotDetermine) {
-    // For points on one line, terms with y cannot be told apart from others.
+    // For points on one line, the terms with y cannot be distinguished from others.
     Rng rng(kSeed);
     Problem problem({0.01F, -0.02F, 0.03F, 0.01F}, rng, true);
     ASSERT_TRUE(problem.normal.decompose());

@@ -1,4 +1,4 @@
-// The posterior of further terms compared with integrals over all their possible values.
+// The posterior of the additional terms, compared with integrals over all their values.
 #include "core/fit/posterior.hpp"
 
 #include <cmath>
@@ -16,7 +16,8 @@ constexpr std::uint64_t kSeed = 62;
 constexpr DistortionPrior kTwo{kTilt, 2, {{{0.3F, 0}, {0.5F, 0.02F}, {0.2F, 0.2F}}}};
 constexpr DistortionPrior kOne{kBend, 1, {{{0.6F, 0}, {0.3F, 0.02F}, {0.1F, 0.2F}}}};
 
-/// Returns equations of points that determine all parameters, some of them only in combination.
+/// Returns the normal equations of points that determine all parameters, some of them only in
+/// combination.
 PlaneNormal random_normal(Rng& rng) {
     const auto random = [&] {
         Four values;
@@ -36,7 +37,7 @@ double density(double x, double variance) {
     return std::exp(-x * x / (2 * variance)) / std::sqrt(variance);
 }
 
-/// Mean and covariance of the whitened terms, summed over a fine grid of their possible values.
+/// Mean and covariance of the whitened terms, summed over a fine grid of their values.
 struct Integral {
     double mean[2] = {};
     double covariance[2][2] = {};

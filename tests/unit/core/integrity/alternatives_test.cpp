@@ -1,4 +1,4 @@
-// Odds of alternatives compared with sums in double precision.
+// Odds of alternatives, compared with sums in double precision.
 #include "core/integrity/alternatives.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 42;
 
-/// Returns log2 of the alternatives' odds for an error-free window of 12 rows.
+/// Returns log2 of the odds of the alternatives for an error-free window of 12 rows.
 int alternatives_of_window(CodeVariant code, const Place& place, int columns, int odds_q8) {
     constexpr int kRows = 12;
     OwnedGrid owned(std::max(columns, kRows));
@@ -36,7 +36,7 @@ int alternatives_of_window(CodeVariant code, const Place& place, int columns, in
     reading.position = place.cell.x;
     reading.roll = static_cast<std::uint8_t>(
         (roll(code, place.cell.x) + place.section.u + static_cast<int>(place.cell.y % 63)) % 63);
-    // All bits of the line agree with the roll that the code has there.
+    // All bits of the line agree with the roll of the code at this position.
     EXPECT_EQ(lines[0][reading.roll], 127 * kRows);
     return alternatives_log2(LikelihoodRatios(code, lines, reading, odds_q8));
 }
@@ -53,10 +53,11 @@ TEST(Alternatives, GetFewerWithEveryColumn) {
             ASSERT_LT(log2, before) << columns << " columns, window " << i << ", seed " << kSeed;
             before = log2;
         }
-        // Positions that share five of 17 lines differ in twelve, by at least two of twelve bits:
-        // that makes 2^-120 times their number, 2^29. What is left is the floor of negligible odds.
+        // Positions that share five of 17 lines differ in twelve lines, by at least two of twelve
+        // bits: 2^-120 times their number, 2^29. The remainder is the lower limit of negligible
+        // odds.
         EXPECT_LE(before, -40);
-        // Better odds per bit leave less for alternatives.
+        // Higher odds per bit reduce the odds of the alternatives.
         EXPECT_LT(alternatives_of_window(code, place, 8, 2 * kOdds_q8),
                   alternatives_of_window(code, place, 8, kOdds_q8));
     }
@@ -74,9 +75,9 @@ TEST(Alternatives, FewLinesExcludeNone) {
 
 using Odds = std::array<float, kSections>;
 
-/// Returns the sum, over all alternatives, of the odds that two lines give them, with every digit
-/// in every sequence that differs one by one, for a reading whose first line is at `position`.
-/// `factor` is that of the step between the lines.
+/// Returns the sum, over all alternatives, of the odds given by two lines, enumerating every digit
+/// of every sequence that differs. The first line of the reading is at `position`, and `factor` is
+/// the factor of the step between the lines.
 double two_lines(std::uint32_t position, const Odds& first, const Odds& second, double factor) {
     constexpr std::array<int, 4> kBases{3, 3, 2, 3};
     const auto texts = code_test::secondary_texts(CodeVariant::anoto);
@@ -133,8 +134,8 @@ TEST(ExpectedAlternatives, OfOneLineAreAllInProportion) {
     Odds odds{};
     odds[0] = 1;
     odds[17] = 0.25F;
-    // The alternatives that differ in two or more sequences: (1 + a1) ... (1 + a4) without none and
-    // single ones.
+    // The number of alternatives that differ in two or more sequences: (1 + a1) ... (1 + a4), minus
+    // the reading itself and those that differ in one sequence.
     const double alternatives = 237.0 * 234 * 32 * 242 - 1 - (236 + 233 + 31 + 241);
     EXPECT_NEAR(static_cast<double>(sum_of(7, 4, {odds})) / (1.25 * alternatives), 1, 1e-5);
 }
@@ -160,7 +161,7 @@ TEST(ExpectedAlternatives, OfTwoLinesAreThoseOfEveryPairOfDigits) {
 }
 
 TEST(ExpectedAlternatives, EachDifferenceHasItsOwnShare) {
-    // Each line has odds at one shift only, so that the sum is the share of one difference.
+    // Each line has odds at a single shift, so the sum is the fraction of one difference.
     for (const int from : {0, 5, 62}) {
         for (int to = 0; to < 63; ++to) {
             Odds first{};

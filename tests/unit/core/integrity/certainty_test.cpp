@@ -1,4 +1,4 @@
-// The claim of the first and tracked attempts compared with sums over all alternatives in double
+// p_wrong of the first and tracked attempts, compared with sums over all alternatives in double
 // precision.
 #include "core/integrity/certainty.hpp"
 
@@ -77,8 +77,8 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
     }
 }
 
-/// Returns bits between two alternatives: in columns in which they differ, half of the bits that
-/// tell them apart are those of the alternative, so that both explain the view equally well.
+/// Returns bits between two alternatives: in columns in which they differ, half of the
+/// distinguishing bits are those of the alternative. Both then explain the view equally well.
 Block between(const Block& block, const std::vector<int>& own,
               const std::vector<int>& alternative) {
     Block mixed = block;
@@ -124,7 +124,7 @@ TEST(IsCertain, RefusesWhatAnAlternativeExplainsAsWell) {
         }
         ASSERT_FALSE(worst.empty());
         IntegrityOptions options;
-        // The number of errors alone must not be the reason for a refusal.
+        // The number of errors alone must not cause a refusal.
         options.max_bit_error_q8 = 256;
         without_errors += judge(block, block.place, options).is_certain;
         EXPECT_FALSE(judge(between(block, own, worst), block.place, options).is_certain);
@@ -161,7 +161,7 @@ TEST(IsCertain, RefusesTwoPatternsWhateverTheLimit) {
     }
 }
 
-/// Returns what `verify` says of the same bits.
+/// Returns the verdict of `verify` on the same bits.
 Verdict verify_block(const Block& block, const IntegrityOptions& options) {
     std::vector<GridCell> cells(block.x.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -190,7 +190,7 @@ TEST(IsCertain, AgreesWithVerify) {
         const Block block = random_block(rng, i, 0.2, 0.1);
         const Verdict ours = judge(block, block.place);
         if (!ours.is_certain) continue;
-        // What is certain here is certain there, apart from roundings.
+        // A view that is certain here is also certain in `verify`, up to rounding.
         IntegrityOptions options;
         options.max_p_wrong_log2 = -28;
         const Verdict theirs = verify_block(block, options);

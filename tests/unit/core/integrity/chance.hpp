@@ -1,4 +1,4 @@
-// The probability of chance, summed exactly.
+// The probability of a match by chance, summed exactly.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Blocks of the code with known damage, and what an exact sum says of them.
+// Blocks of the code with known damage, and exact sums over their alternatives.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace dotpose::core_test {
 
-/// Bits of a block of the code from `place` on: 1, 0, or -1 for a bit that was not read.
+/// Bits of a block of the code from `place` on: 1, 0, or -1 for an unread bit.
 struct Block {
     CodeVariant code;
     Place place;
@@ -55,7 +55,7 @@ struct Verdict {
     Fix fix;
 };
 
-/// Returns how many bits of an axis contradict a position whose lines have these rolls.
+/// Returns the number of bits of an axis that contradict a position whose lines have these rolls.
 inline int contradictions(const Block& block, bool is_x, const std::vector<int>& rolls) {
     int wrong = 0;
     for (int row = 0; row < block.rows; ++row) {
@@ -73,8 +73,8 @@ inline int contradictions(const Block& block, bool is_x, const std::vector<int>&
     return wrong;
 }
 
-/// Returns the rolls of the lines of an axis, if one sequence is `further` digits ahead of where
-/// the position has it and all rolls are larger by `shift`.
+/// Returns the rolls of the lines of an axis, if one sequence is `further` digits ahead of its
+/// place at the position, and all rolls are larger by `shift`.
 inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequence, int further,
                                  int shift) {
     const Place& p = block.place;
@@ -97,7 +97,7 @@ inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequ
 }
 
 /// Returns log2 of the summed odds, for both axes, of all alternatives that differ in one sequence
-/// and share a line, of other sections and of chance, at the odds per bit that the claim uses.
+/// and share a line, of other sections, and of chance, at the odds per bit that the verdict uses.
 inline double exact_log2(const Block& block) {
     double sum = 0;
     core::Confidence both;
@@ -113,7 +113,7 @@ inline double exact_log2(const Block& block) {
     const double odds_per_bit = core::odds_per_bit_q8(both) / 256.0;
     for (const bool is_x : {true, false}) {
         const int own_wrong = errors[is_x ? 0 : 1];
-        // Chance cannot be less probable than the sum over the binomial distribution.
+        // Chance is at least as probable as the sum over the binomial distribution.
         sum += std::exp2(
             static_cast<double>(exact_chance_log2(read)[static_cast<std::size_t>(own_wrong)]));
         const auto texts = code_test::secondary_texts(block.code);

@@ -1,4 +1,4 @@
-// Coded blocks compared with what the encoder has, cell by cell.
+// Coded blocks, compared cell by cell with the encoder.
 #include "core/integrity/coded_block.hpp"
 
 #include <bit>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 4021;
 
-/// What is seen around cell (0, 0) at a place of the code: columns and rows from kFirst on.
+/// The block around cell (0, 0) at a place of the code, with columns and rows from kFirst on.
 struct Seen {
     static constexpr int kFirst = -20;
     static constexpr int kCount = 41;

@@ -1,4 +1,4 @@
-// Odds of bits, and the bound of the probability that chance agrees.
+// Odds of bits, and the upper bound of the probability of a match by chance.
 #include "core/integrity/confidence.hpp"
 
 #include <gtest/gtest.h>
@@ -53,10 +53,11 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
     for (const int bits : {100, 400, 3000}) {
         for (const int wrong : {0, 1, 5, 20}) {
             SCOPED_TRACE(testing::Message() << wrong << " wrong of " << bits);
-            // The share of wrong bits is 1 / (1 + odds).
+            // The fraction of wrong bits is 1 / (1 + odds).
             const double expected = std::log2(bits / (wrong + 2.0) - 1);
-            // Weights are known in steps of 8 and the exponential to 2 %. That allows 0.1 of a
-            // power of two in all, and 3 % of the exponent for the middle of the heaviest step.
+            // Weights are quantised in steps of 8, and the exponential is accurate to 2 %. The
+            // tolerance is 0.1 of a power of two, plus 3 % of the exponent for the middle of the
+            // heaviest step.
             EXPECT_NEAR(odds_per_bit_q8(confidence(bits, 127, wrong)) / 256.0, expected,
                         0.1 + 0.03 * expected);
         }
@@ -64,14 +65,14 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
 }
 
 TEST(OddsPerBit, GrowWithTheWeightOfWhatIsRight) {
-    // If weak bits are right, full bits are even surer, in proportion to their weight.
+    // If weak bits are correct, full bits are even more certain, in proportion to their weights.
     const double full = odds_per_bit_q8(confidence(1000, 124, 50));
     const double half = odds_per_bit_q8(confidence(1000, 60, 50));
     EXPECT_GT(half, 1.7 * full);
 }
 
 TEST(OddsPerBit, HalfOfTheWeightWrongSaysNothing) {
-    // Weights are kept in steps of 8; those in the middle of a step are kept exactly.
+    // Weights are quantised in steps of 8. Weights in the middle of a step are exact.
     for (const int weight : {20, 60, 124, 127}) {
         EXPECT_EQ(odds_per_bit_q8(confidence(400, weight, 200)), 0) << weight;
         EXPECT_EQ(odds_per_bit_q8(confidence(400, weight, 400)), 0) << weight;
@@ -83,7 +84,7 @@ TEST(OddsPerBit, FallWithTheWrongWeight) {
     const auto odds_of = [](int wrong) { return odds_per_bit_q8(confidence(400, 127, wrong)); };
     for (int wrong = 0; wrong < 400; ++wrong) {
         ASSERT_LE(odds_of(wrong + 1), odds_of(wrong)) << wrong;
-        // Odds are computed to 2^-5, and fall by at least 2^-6 per bit up to here.
+        // Odds are computed to 2^-5, and decrease by at least 2^-6 per bit in this range.
         if (wrong < 150) {
             ASSERT_LT(odds_of(wrong + 3), odds_of(wrong)) << wrong;
         }
@@ -108,9 +109,9 @@ TEST(Chance, ChanceIsBoundedFromAboveAndNotFarOff) {
             const int bound = chance_log2(bits, odds);
             ASSERT_GE(bound, std::min(exact[static_cast<std::size_t>(e)], 37.0L) - 1e-9L);
             if (2 * e > n) continue;
-            // The slack: Chernoff's bound is off by a factor of up to sqrt(8 n p q), odds for two
-            // errors more than there were by up to about (e + 2) log2((e + 2) / e), and rounding by
-            // 2 and n / 2^6.
+            // The tolerance contains Chernoff's bound, which is too large by a factor of up to
+            // sqrt(8 n p q), odds for two additional errors, which change the result by up to about
+            // (e + 2) log2((e + 2) / e), and rounding by 2 and n / 2^6.
             const double slack = 0.5 * std::log2(8.0 * n) + 10 + n / 64.0;
             ASSERT_LE(bound, exact[static_cast<std::size_t>(e)] + slack);
         }
@@ -129,7 +130,7 @@ TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
             const double fine = chance_log2_q8(bits, odds, kThree_q8) / 256.0;
             ASSERT_GE(fine, exact[static_cast<std::size_t>(e)] + std::log2(3.0L) - 1e-9L);
             ASSERT_LE(fine, chance_log2(bits, odds) + kThree_q8 / 256.0);
-            // Without errors the best odds are those of bits beyond doubt.
+            // Without errors, the optimum odds are those of bits that are certain.
             if (e == 0) {
                 ASSERT_LE(fine, exact[0] + std::log2(3.0L) + 0.05L);
             }
@@ -138,7 +139,8 @@ TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
 }
 
 TEST(Chance, EachBitThatAgreesHasItsFactor) {
-    // With so many bits the sum gives the logarithm of one factor, (1 + 2^-y) / 2, to 2^-20.
+    // With this number of bits, the sum determines the logarithm of one factor, (1 + 2^-y) / 2, to
+    // 2^-20.
     constexpr int kDoublings = 20;
     for (const int weight : {4, 12, 60, 124}) {
         Confidence bits = confidence(1, weight, 0);
@@ -149,7 +151,7 @@ TEST(Chance, EachBitThatAgreesHasItsFactor) {
             const double exact = std::log2(1 + std::exp2(-y)) - 1;
             const double found = std::ldexp(chance_log2(bits, odds_q8) - 37, -kDoublings);
             ASSERT_GE(found, exact - 1e-6) << weight << " at " << odds_q8;
-            // y is rounded down to 2^-8, where the slope is at most 1/2; a chord over half a unit
+            // y is rounded down to 2^-8, where the slope is at most 1/2. A chord over half a unit
             // is 0.173 / 2^5 above the curve.
             ASSERT_LE(found, exact + 0.002 + 0.0055) << weight << " at " << odds_q8;
         }
@@ -157,7 +159,7 @@ TEST(Chance, EachBitThatAgreesHasItsFactor) {
 }
 
 TEST(Chance, EachBitThatContradictsHasItsFactor) {
-    // A bit that contradicts has 2^y times the factor of one that agrees.
+    // The factor of a contradicting bit is 2^y times that of an agreeing bit.
     constexpr int kBits = 1 << 12;
     for (const int weight : {12, 60, 124}) {
         const Confidence agree = confidence(kBits, weight, 0);
@@ -165,9 +167,9 @@ TEST(Chance, EachBitThatContradictsHasItsFactor) {
         for (int odds_q8 = 256; odds_q8 <= 4 * 256; odds_q8 += 64) {
             const int before = chance_log2(agree, odds_q8);
             const int after = chance_log2(contradict, odds_q8);
-            if (after > 30) continue;  // chance above certainty is cut off
+            if (after > 30) continue;  // probabilities are limited to 1
             const double y = odds_q8 / 256.0 * weight / 127;
-            // y is in steps of 2^-8, and both results are whole numbers.
+            // y is a multiple of 2^-8, and both results are integers.
             EXPECT_NEAR(after - before, y * kBits / 16, kBits / 16 / 256.0 + 1.01)
                 << weight << " at " << odds_q8;
         }
@@ -175,7 +177,8 @@ TEST(Chance, EachBitThatContradictsHasItsFactor) {
 }
 
 TEST(Chance, WeakBitsThatContradictSayLittle) {
-    // 200 full bits agree; of 50 weak ones half contradict, which says least.
+    // 200 full bits agree. Half of the 50 weak bits contradict, which is the least informative
+    // case.
     const auto chance_with_weak = [](int weight) {
         Confidence bits;
         for (int i = 0; i < 200; ++i)
@@ -186,13 +189,13 @@ TEST(Chance, WeakBitsThatContradictSayLittle) {
     };
     EXPECT_LT(chance_with_weak(5), chance_with_weak(60) - 20);
     EXPECT_LT(chance_with_weak(60), chance_with_weak(127) - 20);
-    // 200 fair coins give this by chance alone.
+    // 200 fair coins all agree by chance with this probability.
     EXPECT_GE(chance_with_weak(5), 37 - 200);
 }
 
 TEST(Chance, ChanceHoldsForRandomBits) {
-    // Counts how often random bits of random weights agree as well as 2^-8 claims, for one
-    // hypothesis.
+    // Counts the random bits of random weights that agree as well as a claim of 2^-8 requires, for
+    // one hypothesis.
     Rng rng(kSeed);
     constexpr int kTrials = 200'000;
     int beyond = 0;
@@ -200,7 +203,8 @@ TEST(Chance, ChanceHoldsForRandomBits) {
         Confidence bits;
         for (int i = 0; i < 20; ++i)
             bits.add(static_cast<int>(rng.below(128)), rng.below(2) == 0);
-        // 8 below the 2^37 hypotheses is a claim of 2^-8, so at most 781 of the trials may be.
+        // A result of 8 below the 2^37 hypotheses is a claim of 2^-8, so at most 781 of the trials
+        // may have it.
         beyond += chance_log2(bits, odds_per_bit_q8(bits)) <= 37 - 8;
     }
     EXPECT_LE(beyond, kTrials / 256 + 100);

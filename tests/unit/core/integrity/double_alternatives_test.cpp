@@ -1,4 +1,4 @@
-// Double alternatives compared with a sum over all of them in double precision.
+// Double alternatives, compared with a sum over all of them in double precision.
 #include "core/integrity/double_alternatives.hpp"
 
 #include <gtest/gtest.h>
@@ -16,10 +16,10 @@ using namespace core;
 constexpr std::uint64_t kSeed = 46;
 constexpr int kLines = 9;
 constexpr int kOdds_q8 = 3 * 256;
-/// Minimum of the sum: the odds that are added for every pair of places at every shift.
+/// Minimum of the sum: the odds added for every pair of places at every shift.
 constexpr double kFloor = 190'027.0 * 63 * 0x1p-64;
 
-/// Lines that fit a position; scores of other rolls are random, from `least` to `least` + 600.
+/// Lines that fit a position. The scores of other rolls are random, from `least` to `least` + 600.
 struct Case {
     Case(Rng& rng, int least) : position(rng.below(kPositionsPerAxis)) {
         lines.all = storage;
@@ -91,7 +91,7 @@ double exact_sum(const Case& c) {
 
 TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
     Rng rng(kSeed);
-    // The reading's own score is 1000, so in the last case other rolls fit some lines better.
+    // The score of the reading is 1000, so in the last case other rolls fit some lines better.
     for (const int least : {-600, -200, 420}) {
         const Case c(rng, least);
         const LikelihoodRatios ratios(CodeVariant::anoto, c.lines, c.reading, kOdds_q8);
@@ -99,12 +99,12 @@ TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
         const double exact = exact_sum(c);
         ASSERT_GT(exact, 1e-12);
         const RankedLines lines(ratios);
-        // The limits are such that all pairs that share two lines or more are evaluated. The other
-        // pairs are counted at 32 times their expectation.
+        // With these limits, all pairs that share two or more lines are evaluated. The other pairs
+        // count 32 times their expectation.
         const float rest = expected_double_alternatives(lines, kLines)[2];
         const auto sum = static_cast<double>(sum_of_double_alternatives(lines, 0, 64 * rest));
         const double ratio = (sum - kFloor - 31 * static_cast<double>(rest)) / exact;
-        // Exponentials are right to 2 %, and exact only in whole 2^-8 of a power of two.
+        // Exponentials are accurate to 2 %, and exact only at multiples of 2^-8 of a power of two.
         EXPECT_GE(ratio, 0.96) << "least " << least << ", seed " << kSeed;
         // Pairs that share one line or none are counted at their expectation.
         EXPECT_LE(ratio, least == 420 ? 2 : 1.04) << "least " << least << ", seed " << kSeed;

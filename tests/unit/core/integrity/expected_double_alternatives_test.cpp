@@ -1,4 +1,4 @@
-// Expected double alternatives compared with a sum over every digit of every pair, in double
+// Expected double alternatives, compared with a sum over every digit of every pair in double
 // precision.
 #include "core/integrity/expected_double_alternatives.hpp"
 

@@ -1,4 +1,4 @@
-// Ratios of bits that are all equally sure compared with those of weights of 127.
+// Ratios of bits of equal certainty, compared with those of weights of 127.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -42,7 +42,7 @@ struct Columns {
             line.code = code::kMainWords[rolls[static_cast<std::size_t>(i)]];
             for (int j = 0; j < kLength; ++j) {
                 const std::uint32_t bit = std::uint32_t{1} << j;
-                // Corners are not in view, as in a frame that is turned.
+                // The corners are not in view, as in a rotated frame.
                 const bool is_in_view = i + j > 3 && i + j < kLines + kLength - 6;
                 const bool is_seen = is_in_view && rng.below(40) >= static_cast<unsigned>(lost);
                 const bool is_wrong = is_seen && rng.below(60) < static_cast<unsigned>(lost);
@@ -102,9 +102,11 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanThereIs) {
     for (int round = 0; round < 200; ++round) {
         Columns columns(rng);
         const int estimate_q8 = quick_alternatives_log2_q8(columns.of_bits());
-        // The exact sum counts one by one and is rounded up to a power of two, several times.
+        // The exact sum counts alternatives one by one, and is rounded up to a power of two several
+        // times.
         const int counted = alternatives_log2(columns.of_weights());
-        // The exact sum counts negligible odds as 2^-64; for 12,597 alternatives that makes 2^-50.
+        // The exact sum counts negligible odds as 2^-64. For 12,597 alternatives, this adds up to
+        // 2^-50.
         if (counted > -49) {
             EXPECT_GE(estimate_q8, 256 * (counted - 2));
         }
@@ -134,7 +136,7 @@ double single_odds(const LikelihoodRatios& ratios) {
     return sum;
 }
 
-/// Holds whether tables settle it or a closer look does.
+/// The estimate is an upper bound both if tables suffice and if alternatives are enumerated.
 TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSingleAlternatives) {
     Rng rng(12);
     int told = 0;
@@ -153,7 +155,7 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSingleAlternatives) {
 }
 
 /// Returns the expected odds of one set of far alternatives (docs/integrity.md, the quick estimate)
-/// in double precision: those that share the lines from one on, and all others together.
+/// in double precision: of the alternatives that share a run of lines, and of all others together.
 double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
     const auto power = [](int log2_q8) { return std::exp2(log2_q8 / 256.0); };
     const double equal = power(set.equal_q8 + kUnevenness_q8);
@@ -176,8 +178,8 @@ double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
     return sum * power(set.alternatives_q8);
 }
 
-/// Holds however doubtful the reading is, and whatever the limit. With so few lines the other sets
-/// have about as much as the first.
+/// The estimate is an upper bound for any certainty of the reading and any limit. With so few
+/// lines, the other sets have about the same odds as the first.
 TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     Rng rng(11);
     int doubtful = 0;
@@ -202,7 +204,7 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     EXPECT_GT(doubtful, 100);
 }
 
-/// Every alternative loses at least what the table says.
+/// Every alternative loses at least the loss given by the table.
 TEST(UnsharedLines, AreNotSharedByAnyAlternative) {
     Rng rng(10);
     int known = 0;

@@ -1,4 +1,4 @@
-// The least losses compared with all patterns of shared lines.
+// Minimum losses, compared with all patterns of shared lines.
 #include "core/integrity/min_losses.hpp"
 
 #include <gtest/gtest.h>
@@ -21,9 +21,9 @@ RatiosCase random_case(int lines, CodeVariant code, Rng& rng) {
     return c;
 }
 
-/// Returns the least loss over all patterns of shared lines (a bit each) with at most `max_shared`
-/// of them in a row.
-int min_of_patterns(const std::vector<int>& losses, int max_shared) {
+/// Returns the minimum loss over all patterns of shared lines (one bit each) with at most
+/// `max_shared` consecutive ones.
+int min_loss_of_patterns(const std::vector<int>& losses, int max_shared) {
     int least = INT32_MAX;
     for (std::uint32_t shared = 0; shared < 1U << losses.size(); ++shared) {
         int sum = 0;
@@ -40,7 +40,7 @@ int min_of_patterns(const std::vector<int>& losses, int max_shared) {
     return least;
 }
 
-/// Returns what the best other roll of each line loses; a gain counts as 0.
+/// Returns the loss of the best other roll of each line. A gain counts as 0.
 std::vector<int> losses_of(const RatiosCase& c) {
     std::vector<int> losses;
     for (std::size_t line = 0; line < c.rolls.size(); ++line) {
@@ -69,10 +69,10 @@ TEST(MinLosses, AreTheMinimumOverAllPatternsOfSharedRuns) {
         for (std::size_t n = 0; n <= losses.size(); ++n) {
             const auto end = static_cast<std::ptrdiff_t>(n);
             EXPECT_EQ(from_first[n],
-                      min_of_patterns({losses.begin(), losses.begin() + end}, max_shared))
+                      min_loss_of_patterns({losses.begin(), losses.begin() + end}, max_shared))
                 << n;
-            EXPECT_EQ(from_last[n],
-                      min_of_patterns({backwards.begin(), backwards.begin() + end}, max_shared))
+            EXPECT_EQ(from_last[n], min_loss_of_patterns(
+                                        {backwards.begin(), backwards.begin() + end}, max_shared))
                 << n;
         }
     }
@@ -88,8 +88,8 @@ TEST(MinLosses, ABorderSeparatesTwoPatterns) {
         const std::vector<int> losses = losses_of(c);
         int least = INT32_MAX;
         for (auto border = losses.begin(); border != losses.end(); ++border) {
-            least = std::min(least, min_of_patterns({losses.begin(), border}, max_shared) +
-                                        min_of_patterns({border, losses.end()}, max_shared));
+            least = std::min(least, min_loss_of_patterns({losses.begin(), border}, max_shared) +
+                                        min_loss_of_patterns({border, losses.end()}, max_shared));
         }
         EXPECT_EQ(core::min_loss_with_border(c.ratios()), least);
     }

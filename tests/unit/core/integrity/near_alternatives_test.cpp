@@ -1,4 +1,4 @@
-// Near alternatives compared with a search for the digits of every run, in double precision.
+// Near alternatives, compared with a search for the digits of every run in double precision.
 #include "core/integrity/near_alternatives.hpp"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 52;
 
-/// Returns the places of the first line, in one sequence, that have the reading's digits from `run`
-/// on.
+/// Returns the places of the first line, in one sequence, that have the digits of the reading from
+/// `run` on.
 std::vector<std::uint32_t> places_with_digits(const std::string& text, std::uint32_t own, int run,
                                               int digits) {
     const auto digit = [&](std::uint32_t place, int n) {

@@ -1,4 +1,4 @@
-// The claim of clean bits compared with sums over all alternatives in double precision.
+// p_wrong of error-free bits, compared with sums over all alternatives in double precision.
 #include <gtest/gtest.h>
 
 #include "code_blocks.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 79;
 
-/// Judges the bits alone, as those of a block at `claimed`.
+/// Judges only the bits, as those of a block at `claimed`.
 Verdict judge_plainly(const Block& block, const Place& claimed,
                       const IntegrityOptions& options = {}) {
     Block there = block;
@@ -120,7 +120,7 @@ TEST(IsPlainlyCertain, RefusesWhatASeamExplainsBetter) {
         SCOPED_TRACE(testing::Message() << "block " << i << ", seed " << kSeed);
         Block block = cut_block(CodeVariant::anoto, any_place(rng), 16, 16);
         alone += judge_plainly(block, block.place).is_certain;
-        // Most columns show another section.
+        // Most columns belong to another section.
         Place other = block.place;
         other.section.u = static_cast<std::uint8_t>((other.section.u + 30) % 63);
         const Block beyond = cut_block(CodeVariant::anoto, other, 16, 16);

@@ -1,4 +1,4 @@
-// The quick estimate of alternatives compared with sums in double precision.
+// The quick estimate of alternatives, compared with sums in double precision.
 #include "core/integrity/quick_alternatives.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 51;
 
-/// Returns some lines with bits that are missing, weak or wrong, and odds that suit them.
+/// Returns some lines with missing, weak or wrong bits, and odds that match them.
 RatiosCase random_case(Rng& rng) {
     RatiosCase c =
         at_random_place(rng, 6 + static_cast<int>(rng.below(rng.below(2) == 0 ? 12 : 59)));
@@ -26,8 +26,8 @@ RatiosCase random_case(Rng& rng) {
     return c;
 }
 
-/// Returns the odds of all places of one sequence except the reading's, at every shift that shares
-/// some line.
+/// Returns the odds of all places of one sequence except that of the reading, at every shift that
+/// shares a line.
 double sum_of_singles(const RatiosCase& c) {
     const auto texts = code_test::secondary_texts(c.code);
     const std::size_t count = c.rolls.size();
@@ -36,7 +36,7 @@ double sum_of_singles(const RatiosCase& c) {
         const std::size_t length = texts[k].size();
         for (std::size_t place = 0; place < length; ++place) {
             if (place == c.position % length) continue;
-            std::vector<int> rolls;  // of the alternative, up to the shift
+            std::vector<int> rolls;  // rolls of the alternative, up to the shift
             int offset = 0;
             for (std::size_t line = 0; line < count; ++line) {
                 rolls.push_back(c.rolls[line] + offset);
@@ -53,7 +53,7 @@ double sum_of_singles(const RatiosCase& c) {
                     lost += c.storage[line].scores[static_cast<std::size_t>(c.rolls[line])] -
                             c.storage[line].scores[static_cast<std::size_t>(other)];
                 }
-                // A lost score is twice the weight that changes sides.
+                // A lost score is twice the weight of the bits that change sign.
                 if (shares) sum += std::exp2(-lost / 2 / 127 * c.odds_q8 / 256);
             }
         }
@@ -82,8 +82,8 @@ TEST(QuickAlternatives, CountAllThatDifferInOneSequence) {
 }
 
 TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
-    // An alternative may share five lines in a row, in `libdots` seven. Only these few are clear
-    // here, and all others are weak.
+    // An alternative may share five consecutive lines, in `libdots` seven. Only these lines are
+    // certain here, and all others are weak.
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 400; ++i) {
@@ -103,8 +103,8 @@ TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
 }
 
 TEST(QuickAlternatives, CountOthersThatLinesFitBetter) {
-    // Some lines show the roll of no line nearby, so that an alternative may regain what it lost
-    // elsewhere.
+    // Some lines have the roll of no line nearby, so an alternative may regain the score that it
+    // lost elsewhere.
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 300; ++i) {
@@ -148,7 +148,7 @@ TEST(QuickAlternatives, FewLinesOrWeakOddsDoNotTell) {
         c.storage.push_back(scored_line(own, 12, 0, 127, rng));
     c.odds_q8 = 8;
     EXPECT_EQ(quick_alternatives_log2_q8(c.ratios()), 0);
-    // With odds of 2^8 for a full bit, the same lines leave hardly any.
+    // With odds of 2^8 for a full bit, the same lines leave almost no odds.
     c.odds_q8 = 8 * 256;
     EXPECT_LT(quick_alternatives_log2_q8(c.ratios()), -30 * 256);
 }

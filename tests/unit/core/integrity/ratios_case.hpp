@@ -1,4 +1,4 @@
-// Lines as they are read, for tests of sums over alternatives.
+// Lines of bits, for tests of sums over alternatives.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace dotpose::core_test {
 
 using namespace core;
 
-/// Lines of the code from some position on, read with some odds.
+/// Lines of the code from a position on, and the odds of their bits.
 struct RatiosCase {
     CodeVariant code;
     std::uint32_t position;
@@ -28,8 +28,8 @@ struct RatiosCase {
     LikelihoodRatios ratios() const { return {code, lines(), reading(), odds_q8}; }
 };
 
-/// Returns a line of `bits` bits of the main sequence with weights up to `most`; a share `wrong` of
-/// the bits is flipped.
+/// Returns a line of `bits` bits of the main sequence with weights up to `most`. The fraction
+/// `wrong` of the bits is flipped.
 inline ScoredLine scored_line(int roll, int bits, double wrong, int most, Rng& rng) {
     std::vector<std::int8_t> weights;
     for (int i = 0; i < bits; ++i) {
@@ -45,7 +45,7 @@ inline ScoredLine scored_line(int roll, int bits, double wrong, int most, Rng& r
     return line;
 }
 
-/// Returns the rolls of lines at a random place; the lines are still to be added.
+/// Returns the rolls of lines at a random place. The lines must still be added.
 inline RatiosCase at_random_place(Rng& rng, int lines) {
     RatiosCase c;
     c.code = code_test::kCodeVariants[rng.below(3)];
@@ -60,7 +60,7 @@ inline RatiosCase at_random_place(Rng& rng, int lines) {
     return c;
 }
 
-/// Returns lines of 6 to 11 bits, a tenth of them wrong.
+/// Returns lines of 6 to 11 bits, a tenth of which are wrong.
 inline RatiosCase read_at_random(Rng& rng, int lines) {
     RatiosCase c = at_random_place(rng, lines);
     c.odds_q8 = 3 * 256;
@@ -69,7 +69,7 @@ inline RatiosCase read_at_random(Rng& rng, int lines) {
     return c;
 }
 
-/// The place that a position has in each sequence.
+/// The place of a position in each sequence.
 using PlacesOfAlternative = std::array<std::uint32_t, 4>;
 
 inline PlacesOfAlternative own_places(const RatiosCase& c) {
@@ -80,7 +80,8 @@ inline PlacesOfAlternative own_places(const RatiosCase& c) {
     return places;
 }
 
-/// Returns the rolls of the lines from these places on, where line `shared` has the reading's roll.
+/// Returns the rolls of the lines from these places on, shifted to give line `shared` the roll of
+/// the reading.
 inline std::vector<int> rolls_from(const RatiosCase& c, const PlacesOfAlternative& places,
                                    std::size_t shared) {
     const auto texts = code_test::secondary_texts(c.code);
@@ -98,8 +99,8 @@ inline std::vector<int> rolls_from(const RatiosCase& c, const PlacesOfAlternativ
     return rolls;
 }
 
-/// Returns the odds of a position with these rolls against the one read, at least the negligible
-/// odds.
+/// Returns the odds of a position with these rolls relative to the reading, limited from below by
+/// the negligible odds.
 inline double odds_of_rolls(const RatiosCase& c, const std::vector<int>& rolls) {
     double lost = 0;
     for (std::size_t line = 0; line < rolls.size(); ++line) {

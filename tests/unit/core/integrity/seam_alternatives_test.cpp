@@ -1,4 +1,4 @@
-// Seam alternatives compared with a sum over all places, borders and shifts in double precision.
+// Seam alternatives, compared with a sum over all places, borders and shifts in double precision.
 #include "core/integrity/seam_alternatives.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ constexpr std::uint64_t kSeed = 57;
 constexpr double kSeamLog2 = -32;
 constexpr double kMinLog2 = -8;
 
-/// A place in a sequence, and by how much its roll in each line exceeds that of the reading.
+/// A place in a sequence, and the difference of its roll to that of the reading for each line.
 struct Alternative {
     std::size_t sequence;
     std::size_t place;
@@ -48,8 +48,8 @@ std::vector<Alternative> all_alternatives(const RatiosCase& c) {
     return alternatives;
 }
 
-/// Returns the least loss of an alternative in the lines [first, end), over the shifts at which it
-/// shares any line in view.
+/// Returns the minimum loss of an alternative in the lines [first, end), over the shifts at which
+/// it shares a line in view.
 double min_loss(const RatiosCase& c, const Alternative& alternative, std::size_t first,
                 std::size_t end) {
     double least = std::numeric_limits<double>::infinity();
@@ -71,14 +71,14 @@ struct Sum {
     int terms = 0;
 };
 
-/// Returns the sum over all alternatives and borders whose odds are not too small to count.
+/// Returns the sum over all alternatives and borders whose odds are not negligible.
 Sum sum_of_all(const RatiosCase& c) {
     Sum sum;
     for (const Alternative& alternative : all_alternatives(c)) {
         for (std::size_t border = 1; border < c.rolls.size(); ++border) {
             const double lost = min_loss(c, alternative, 0, border) +
                                 min_loss(c, alternative, border, c.rolls.size());
-            // A lost score is twice the weight that changes sides.
+            // A lost score is twice the weight of the bits that change sign.
             const double odds = -lost / 2 / 127 * c.odds_q8 / 256;
             if (odds <= kMinLog2) continue;
             sum.odds += std::exp2(odds + kSeamLog2);
@@ -88,7 +88,7 @@ Sum sum_of_all(const RatiosCase& c) {
     return sum;
 }
 
-/// Returns clear lines of 10 to 16 bits.
+/// Returns lines of 10 to 16 certain bits.
 RatiosCase clear_lines(Rng& rng, int lines) {
     RatiosCase c = at_random_place(rng, lines);
     for (const int own : c.rolls)
@@ -106,13 +106,13 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
         RatiosCase c = at_random_place(rng, 6 + static_cast<int>(rng.below(12)));
         const double wrong = rng.uniform(0, 0.1);
         for (const int own : c.rolls) {
-            // Some lines show little, or the roll of no line nearby.
+            // Some lines have few bits, or the roll of no line nearby.
             const int shown = rng.below(15) == 0 ? static_cast<int>(rng.below(63)) : own;
             const int bits = rng.below(3) == 0 ? 3 : 6 + static_cast<int>(rng.below(10));
             c.storage.push_back(scored_line(shown, bits, wrong, 127, rng));
         }
         c.odds_q8 = static_cast<int>(256 * rng.uniform(2, 8));
-        // Odds near the limit may be counted or not, as they are rounded.
+        // Because of rounding, odds near the limit may or may not be counted.
         const double limit = std::exp2(kSeamLog2 + kMinLog2);
         const LikelihoodRatios ratios = c.ratios();
         const int counted_q8 = seam_alternatives_log2_q8(ratios);
@@ -131,7 +131,8 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
 }
 
 TEST(SeamAlternatives, ASeamExplainsTenLinesAsWell) {
-    // The lines have four steps, one at which the digits differ, and four more steps.
+    // The lines have four steps with equal digits, one step at which the digits differ, and four
+    // more equal steps.
     constexpr std::size_t kLines = 10;
     constexpr std::size_t kBorder = 5;
     Rng rng(kSeed);
@@ -165,8 +166,8 @@ TEST(SeamAlternatives, NoneExplainsManyClearLines) {
 }
 
 TEST(SeamAlternatives, WhatTheLinesShowBetterIsDoubt) {
-    // Five lines on either side of the border are shared; in one more line the frame shows the
-    // alternative.
+    // Five lines on either side of the border are shared. One more line of the frame agrees with
+    // the alternative.
     Rng rng(kSeed);
     int shown = 0;
     for (int i = 0; i < 2000; ++i) {

@@ -1,5 +1,5 @@
-// Similar places of alternatives: one place at a time compared with the definition, and many at a
-// time.
+// Similar places of alternatives: 32 places at a time, compared with the definition for single
+// places.
 #include "core/integrity/similar_places.hpp"
 
 #include <algorithm>
@@ -24,13 +24,13 @@ RatiosCase random_case(Rng& rng) {
     return c;
 }
 
-/// Returns whether a place, at the first step, loses less than enough.
+/// Returns true if the loss of a place is below the limit.
 bool is_similar(const code::Secondary& a, std::uint32_t own, std::uint32_t place,
                 const Steps& steps) {
     if (place == own) return false;
     if (!steps.can_exclude) return true;
     unsigned lost = 0;
-    bool is_counted = false;  // whether the step before counted
+    bool is_counted = false;  // true if the previous step was counted
     for (int step = 0; step < steps.count; ++step) {
         const auto i = static_cast<std::uint32_t>(step);
         const unsigned parts = steps.losses[i];

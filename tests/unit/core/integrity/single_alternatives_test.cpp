@@ -1,4 +1,4 @@
-// Single alternatives compared with a sum over all of them in double precision.
+// Single alternatives, compared with a sum over all of them in double precision.
 #include "core/integrity/single_alternatives.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,8 @@ TEST(SingleAlternatives, AreSummedOneByOne) {
         const LikelihoodRatios ratios = c.ratios();
         const double sum = static_cast<double>(sum_of_single_alternatives(RankedLines(ratios)));
         const double exact = exact_sum(c);
-        // Powers of two are exact to 2 %. Hopeless ones count once for every line they share.
+        // Powers of two are accurate to 2 %. Alternatives with negligible odds count once for every
+        // line they share.
         EXPECT_GE(sum, 0.97 * exact) << i << ", seed " << kSeed;
         EXPECT_LE(sum, 1.04 * exact + 737 * 15 * 0x1p-64) << i << ", seed " << kSeed;
     }

@@ -1,4 +1,4 @@
-// Bounds by tables compared with sums over all alternatives in double precision.
+// Bounds from tables, compared with sums over all alternatives in double precision.
 #include "core/integrity/tabled_alternatives.hpp"
 
 #include <algorithm>
@@ -77,7 +77,7 @@ class Comparison {
     double min_factor_ = std::numeric_limits<double>::infinity();
 };
 
-/// Returns a position near the end of the code, near the end of a sequence, or anywhere.
+/// Returns a position near the end of the code, near the end of a sequence, or anywhere else.
 std::uint32_t any_position(Rng& rng, int i) {
     const auto before = static_cast<std::uint32_t>(rng.below(20));
     if (i % 8 == 0) return kPositionsPerAxis - 1 - before;

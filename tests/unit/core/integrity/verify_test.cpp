@@ -1,4 +1,4 @@
-// The bound of the probability that chance agrees, and what it leads to.
+// The upper bound of the probability of a match by chance, and the resulting verdicts.
 #include "core/integrity/verify.hpp"
 
 #include <gtest/gtest.h>
@@ -59,11 +59,12 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             ++flipped;
             const Verdict now = judge(reading);
             ASSERT_EQ(now.fix.bit_errors, flipped);
-            // More contradictions never make a position more certain, unless doubt leads to a
-            // closer look.
+            // Additional contradictions never make a position more certain, unless they cause the
+            // exact sums to be computed.
             const Verdict quick = judge(reading, any, verify_quickly);
             ASSERT_EQ(quick.fix.bit_errors, flipped);
-            // Below 2^-36 on either axis the quick estimate is coarse, and both are rounded.
+            // Below 2^-36 on either axis, the quick estimate is coarse, and both values are
+            // rounded.
             constexpr int kCoarse = -34;
             ASSERT_GE(std::max(quick.fix.p_wrong_log2, kCoarse),
                       std::max(quick_before.fix.p_wrong_log2, kCoarse) - 1);
@@ -88,7 +89,7 @@ TEST(Verify, RefusesWhatMissesTheAskedCertainty) {
         Verdict verdict = judge(reading, options, how);
         EXPECT_EQ(verdict.status, Status::ok);
         EXPECT_EQ(verdict.fix.p_wrong_log2, usual.fix.p_wrong_log2);
-        // A closer look may find more certainty, once.
+        // If the limit is lowered once more, the exact sums may still confirm the position.
         int looks = 0;
         for (; verdict.status == Status::ok; ++looks) {
             ASSERT_LE(verdict.fix.p_wrong_log2, options.max_p_wrong_log2);
@@ -147,7 +148,7 @@ TEST(Verify, LinesThatAreScoredAreNotScoredAgain) {
                   Status::ok);
         EXPECT_EQ(fix.p_wrong_log2, fresh.fix.p_wrong_log2);
         // The result depends on the scores in the storage: lines that agree with every roll exclude
-        // none.
+        // no alternative.
         storage.fill({});
         EXPECT_EQ(verify(reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
                   Status::not_certain);
@@ -159,7 +160,7 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     for (int i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
         Reading reading(random_view(rng), QuarterTurn{i % 4});
-        // Half of the bits contradict, as where the frame shows another pattern.
+        // Half of the bits contradict, as if the frame showed another pattern.
         for (GridCell& cell : reading.owned.cells) {
             if (rng.below(2) == 0) cell.x = static_cast<std::int8_t>(-cell.x);
             if (rng.below(2) == 0) cell.y = static_cast<std::int8_t>(-cell.y);
@@ -174,8 +175,7 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     }
 }
 
-/// Returns a view with much that goes wrong: it is small, dots are missing or off their place, or
-/// show another symbol.
+/// Returns a difficult view: it is small, and dots are missing, displaced, or have another symbol.
 Reading troubled(Rng& rng, int turn) {
     View view = random_view(rng);
     view.code = kCodeVariants[static_cast<std::size_t>(rng.below(3))];
@@ -195,7 +195,8 @@ Reading troubled(Rng& rng, int turn) {
     return Reading(view, QuarterTurn{turn}, dots);
 }
 
-/// Returns the probability of chance and of all alternatives of both axes, by the exact sums.
+/// Returns the sum of the probabilities of chance and of all alternatives of both axes, from the
+/// exact sums.
 double exact_p_wrong(const Reading& reading) {
     const Decoding truth = reading.truth();
     const CodeVariant code = reading.view.code;
@@ -250,7 +251,7 @@ TEST(VerifyQuickly, NeverClaimsMoreThanACloseLookBears) {
         const Verdict quick = judge(reading, options, verify_quickly);
         if (quick.status != Status::ok) continue;
         ++accepted;
-        // Alternatives are summed up to whole powers of two.
+        // Sums of alternatives are rounded up to powers of two.
         EXPECT_GE(quick.fix.p_wrong_log2, exact_p_wrong(reading) - 1);
         const Verdict close = judge(reading, options);
         EXPECT_EQ(close.status, Status::ok);

@@ -1,5 +1,5 @@
-// What places of other code variants explain, compared with sums over all places that differ in a4
-// and with the decoder of windows.
+// Odds of places of other code variants, compared with sums over all places that differ in a4, and
+// with the window decoder.
 #include "core/integrity/weigh_codes.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 83;
 
-/// Returns the same lines as if they were of another code variant.
+/// Returns the same lines interpreted in another code variant.
 RatiosCase as_in(CodeVariant code, const RatiosCase& c) {
     RatiosCase other;
     other.code = code;
@@ -94,8 +94,8 @@ TEST(WeighOtherCodes, SumsUpPlacesAlongBothAxes) {
             const OtherCode& there = others.of[static_cast<std::size_t>(other)];
             EXPECT_NEAR(static_cast<double>(there.here()) / (x_here * y_here), 1, 0.06);
             EXPECT_GE(static_cast<double>(there.elsewhere()), 0.94 * exact);
-            // Unlikely places are not summed one by one: each counts with an upper limit of its
-            // odds, so the sum may exceed the exact one by these limits.
+            // Unlikely places are not summed individually. Each contributes an upper limit of its
+            // odds, so the sum may exceed the exact sum by these limits.
             const double most = x_here + x_elsewhere + y_here + y_elsewhere;
             EXPECT_LE(static_cast<double>(there.elsewhere()), 1.06 * exact + 2e-12 * most + 4e-13);
             close += exact > 1e-9 ? 1 : 0;
@@ -104,7 +104,7 @@ TEST(WeighOtherCodes, SumsUpPlacesAlongBothAxes) {
     EXPECT_GT(close, 20);
 }
 
-/// Returns clear lines of 12 bits, from a position on.
+/// Returns lines of 12 certain bits from a position on.
 RatiosCase clear_lines(CodeVariant code, std::uint32_t position, int lines) {
     Rng rng(kSeed);
     RatiosCase c;

@@ -1,4 +1,4 @@
-// Lists of similar places compared with plain computations.
+// Lists of similar places, compared with plain computations.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace core;
 
-/// Places of the four sequences, and the roll offsets of an alternative in one of them.
+/// Places in the four sequences, and the roll offsets of an alternative in one of them.
 struct OwnPlaces {
     const code::Basis& basis;
     std::array<std::uint32_t, 4> own;
@@ -46,7 +46,7 @@ TEST(KernelsAlternatives, SimilarPlacesLoseTooLittleByTheirSteps) {
                     ASSERT_FALSE(is_similar);
                     continue;
                 }
-                // All steps that differ count, but no two in a row; more cannot be counted.
+                // Computes the maximum sum over differing steps, no two of which are adjacent.
                 int most = 0;
                 int max_before = 0;
                 for (int step = 0; step < steps.count; ++step) {
@@ -83,7 +83,7 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
         if (!kernels.list_similar_places(places.basis, places.own, sequences, lines, enough, list))
             return;
         std::set<std::array<int, 3>>
-            found;  // sequence, place and the shift at which it shares a line
+            found;  // sequence, place, and the shift at which the place shares a line
         for (const auto& [k, place, line] :
              std::span(list.places).first(static_cast<std::size_t>(list.count)))
             found.insert({k, place, places.offset(k, place, line)});
@@ -103,7 +103,8 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
                         lost += places.offset(k, place, line) == shift ? 0 : loss;
                     const std::array<int, 3> alternative{static_cast<int>(k),
                                                          static_cast<int>(place), shift};
-                    // Losses are counted from the shared line on, so others may be listed, too.
+                    // The kernel counts losses from the shared line on, so it may list further
+                    // places.
                     if (lost >= enough) continue;
                     ASSERT_TRUE(found.count(alternative) > 0) << k << ' ' << place << ' ' << shift;
                     ++listed;
@@ -116,7 +117,7 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
 
 TEST(KernelsAlternatives, LeastLossesAreThoseOfSortedLosses) {
     repeat_with_each_form(50, [&](const Kernels& kernels, Rng& rng) {
-        // Small ranges have many equal losses.
+        // Small ranges produce many equal losses.
         const int most = whole(rng, 0, 1) == 0 ? 3 : INT16_MAX;
         std::vector<std::int16_t> losses;
         const int count = whole(rng, 8, 16);

@@ -1,4 +1,4 @@
-// Kernels compared with plain computations. `kernels_test.cpp` shows that all forms agree.
+// Kernels, compared with plain computations. `kernels_test.cpp` checks that all forms agree.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace core;
 
-/// Returns where a plane without perspective has a point of the image, in double precision.
+/// Maps a point of the image by a plane without perspective, in double precision.
 std::array<double, 2> exactly(const FloatPlane& plane, double x, double y) {
     const auto along = [&](float at, float du, float dv) {
         return static_cast<double>(at) + static_cast<double>(du) * x + static_cast<double>(dv) * y;

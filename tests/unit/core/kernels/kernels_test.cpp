@@ -1,5 +1,5 @@
-// Kernels: all forms give the same bits for any input. `kernels_plain_test.cpp` shows that they are
-// right.
+// All forms of a kernel give the same bits for any input. `kernels_plain_test.cpp` checks that the
+// results are correct.
 #include "core/kernels/kernels.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr std::uint64_t kSeed = 20261;
 
 class KernelsTest : public ::testing::Test {
   protected:
-    /// Calls `use(rng)` so many times, each time with its own random numbers.
+    /// Calls `use(rng)` a number of times, each time with different random numbers.
     template <typename Use>
     void repeat(int times, Use use) {
         for (int i = 0; i < times; ++i) {
@@ -54,7 +54,7 @@ void record(const BitLines& lines, Record& record) {
     record.add(lines.valid);
 }
 
-/// Returns dots anywhere; their number is not that of whole vectors.
+/// Returns dots at random places. Their number is not a multiple of the vector size.
 std::unique_ptr<PatchDots> random_dots(int count, Rng& rng) {
     auto dots = std::make_unique<PatchDots>();
     dots->count = count;

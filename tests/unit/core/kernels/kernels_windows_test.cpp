@@ -1,4 +1,4 @@
-// Windows and centres of dots compared with plain computations of the same.
+// Windows and centres of dots, compared with plain computations.
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace core;
 
-/// Expects the sums of a window to be those added pixel by pixel.
+/// Expects the sums of a window to equal the sums over its pixels.
 void expect_sums(const Picture& picture, int half_px, int cut_q8, const MeasuredDots& dots,
                  std::size_t k) {
     const int u = dots.window_u[k];
@@ -58,7 +58,7 @@ TEST(KernelsWindows, WindowsAreSummedUpToTheBorder) {
             table.dots.window_u[k] = whole(rng, 0, picture.view.width_px - 1);
             table.dots.window_v[k] = whole(rng, 0, picture.view.height_px - 1);
         }
-        // Windows around the first and the last pixel of the image are among them.
+        // Includes windows around the first and the last pixel of the image.
         table.dots.window_u[0] = table.dots.window_v[0] = 0;
         table.dots.window_u[1] = picture.view.width_px - 1;
         table.dots.window_v[1] = picture.view.height_px - 1;
@@ -74,7 +74,7 @@ TEST(KernelsWindows, WindowsAreSummedUpToTheBorder) {
     });
 }
 
-/// One dot on an image, with what `measure_windows` might say of it.
+/// One dot on an image, and a possible output of `measure_windows` for it.
 struct OneDot {
     static constexpr int kSide_px = 80;
     static constexpr double kPaper = 200;
@@ -83,7 +83,8 @@ struct OneDot {
     CellsInView cells;
     DotTable table{8};
 
-    /// Draws a Gaussian dot at (u, v), predicted `off_px` to the right of that and below.
+    /// Draws a Gaussian dot at (u, v) with a prediction that is `off_px` too far to the right and
+    /// down.
     OneDot(double u, double v, double sigma_px, double off_px) {
         for (int y = 0; y < kSide_px; ++y) {
             for (int x = 0; x < kSide_px; ++x) {
@@ -110,17 +111,19 @@ TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
     repeat_with_each_form(200, [](const Kernels& kernels, Rng& rng) {
         constexpr double kMargin_px = 2;
         const double sigma_px = rng.uniform(0.7, 4);
-        // Smaller windows cover hardly more than the flat top of a dot, in whole grey levels.
+        // Smaller windows contain little more than the flat top of a dot, because of the rounding
+        // to whole grey levels.
         const auto reach_px = static_cast<float>(rng.uniform(std::max(3.3, 2.5 * sigma_px), 12));
         const auto anywhere = [&] { return rng.uniform(20, OneDot::kSide_px - 21); };
         const auto at_border = [&] { return rng.uniform(kMargin_px, kMargin_px + 1); };
-        // A large dot at the border would be seen only in part.
+        // A large dot at the border would be only partly in view.
         const bool is_inside = sigma_px > 0.8 || rng.below(2) == 0;
         const double u = is_inside ? anywhere() : at_border();
         const double v = anywhere();
         OneDot dot(u, v, sigma_px, rng.uniform(-0.15, 0.15));
         kernels.refine_centres(dot.view, dot.cells, reach_px, dot.table.dots);
-        // Rounding to grey levels leaves a few thousandths; the border cuts off a dot's skirt.
+        // Rounding to grey levels causes an error of a few thousandths. The border cuts off the rim
+        // of a dot.
         const double max_px = is_inside ? 0.01 : 0.04;
         EXPECT_NEAR(dot.table.dots.x[0], u, max_px) << sigma_px << ' ' << reach_px;
         EXPECT_NEAR(dot.table.dots.y[0], v, max_px) << sigma_px << ' ' << reach_px;
@@ -142,8 +145,8 @@ TEST(KernelsWindows, CentresFarFromTheirDotsStay) {
 
 TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
     repeat_with_each_form(100, [](const Kernels& kernels, Rng& rng) {
-        // Lists one dot several times, each time with another prediction around it. The kernel
-        // estimates the slope of the moment over the offset from the near predictions.
+        // Lists one dot several times with different predictions around it. The kernel estimates
+        // the slope of the moment over the offset from the close predictions.
         const double u = rng.uniform(20, OneDot::kSide_px - 21);
         const double v = rng.uniform(20, OneDot::kSide_px - 21);
         OneDot dot(u, v, rng.uniform(0.9, 1.5), 0);
@@ -164,7 +167,8 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
         double across = 0;
         for (std::size_t k = 0; k < 8; ++k) {
             if (k == 5) continue;
-            // Farther off, a large dot reaches beyond the window, so its weight decreases faster.
+            // At larger offsets, a large dot extends beyond the window, so its weight decreases
+            // faster.
             const double max_px = 0.02 + 0.2 * std::pow(std::abs(off[k]), 3);
             EXPECT_NEAR(dots.x[k], u, max_px) << off[k];
             EXPECT_NEAR(dots.y[k], v, max_px) << off[k];
@@ -184,8 +188,8 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
     });
 }
 
-/// Sixteen Gaussian dots in a square on paper whose level is level(x, y), each predicted a
-/// tenth of a pixel off.
+/// Sixteen Gaussian dots in a square, on paper with the level level(x, y). The error of each
+/// prediction is a tenth of a pixel.
 struct LitDots {
     static constexpr int kSide_px = 80;
     static constexpr std::size_t kDots = 16;
@@ -225,7 +229,7 @@ struct LitDots {
         view.pixels = pixels.data();
     }
     static double sq(double value) { return value * value; }
-    /// Returns how far the dots are off on the whole, px.
+    /// Returns the mean error of the measured dots, in px.
     std::pair<double, double> mean_error() const {
         double x = 0;
         double y = 0;
@@ -263,7 +267,8 @@ TEST(KernelsWindows, LightThatFallsOffMovesNoCentres) {
 
 TEST(KernelsWindows, AShadowThatEndsMovesNoCentresBesideItsEdge) {
     repeat_with_each_form(20, [](const Kernels& kernels, Rng& rng) {
-        // Between the second and the third column of dots, outside all centroid windows.
+        // The edge is between the second and the third column of dots, outside all centroid
+        // windows.
         expect_no_common_error(kernels, rng, 3.3F,
                                [&](double u, double /*v*/) { return u < 40 ? 90 : 200; });
     });
@@ -271,7 +276,7 @@ TEST(KernelsWindows, AShadowThatEndsMovesNoCentresBesideItsEdge) {
 
 TEST(KernelsWindows, PredictedDotsAreReadByTheDarkestPlace) {
     repeat_with_each_form(40, [](const Kernels& kernels, Rng& rng) {
-        // The dot is below the intersection at (40, 40), which is symbol 3; the grid is upright.
+        // The dot is below the intersection at (40, 40), which is symbol 3. The grid is upright.
         const OneDot dot(40, 41.8, 1, 0);
         CellsInView view = dot.cells;
         view.plane = {0, 0, 1 / 11.0F, 0, 0, 1 / 11.0F, 0, 0, 0};
@@ -301,7 +306,7 @@ TEST(KernelsWindows, PredictedDotsAreReadByTheDarkestPlace) {
         EXPECT_EQ(columns.bits[i], columns.valid[i]);
         EXPECT_EQ(rows.valid[j], std::uint64_t{1} << i);
         EXPECT_EQ(rows.bits[j], rows.valid[j]);
-        // Where a dot should be far darker, none is seen.
+        // No dot is found if a dot should be much darker.
         dots.x[0] = 20;
         EXPECT_EQ(kernels.read_levels(dot.view, view, 100, dots, nullptr, nullptr).seen, 0);
     });

@@ -1,4 +1,4 @@
-// Random inputs for kernels, and records of their outputs that can be compared to the bit.
+// Random inputs for kernels, and records of their outputs for bitwise comparison.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +51,7 @@ class Record {
     std::vector<unsigned char> bytes_;
 };
 
-/// Calls `run(kernels, record)` for all forms, and expects the records to be that of the portable
+/// Calls `run(kernels, record)` for all forms, and expects the same record as for the portable
 /// form.
 template <typename Run>
 void expect_same(Run run) {
@@ -66,7 +66,8 @@ void expect_same(Run run) {
 
 inline constexpr std::uint64_t kPlainSeed = 20262;
 
-/// Calls `use(kernels, rng)` so many times for each form, each time with its own random numbers.
+/// Calls `use(kernels, rng)` a number of times for each form, each time with different random
+/// numbers.
 template <typename Use>
 void repeat_with_each_form(int times, Use use) {
     for (const core::Kernels* form : forms()) {
@@ -86,7 +87,7 @@ inline float number(Rng& rng, double least, double most) {
     return static_cast<float>(rng.uniform(least, most));
 }
 
-/// An image with its pixels; the bytes beyond the end of a row are random.
+/// An image with its pixels. The bytes beyond the end of a row are random.
 struct Picture {
     std::vector<std::uint8_t> pixels;
     ImageView view;
@@ -102,7 +103,7 @@ struct Picture {
     int at_or_white(int u, int v) const {
         return u >= 0 && v >= 0 && u < view.width_px && v < view.height_px ? at(u, v) : 255;
     }
-    /// Draws paper, with dots about `spacing_px` apart.
+    /// Draws paper with dots about `spacing_px` apart.
     void draw_dots(double spacing_px, Rng& rng) {
         for (std::uint8_t& pixel : pixels)
             pixel = static_cast<std::uint8_t>(200 + rng.below(40));
@@ -178,7 +179,7 @@ class DotTable {
     std::array<std::vector<std::int32_t>, 7> ints_;
 };
 
-/// Returns the plane of a camera that sees the pattern turned, somewhat tilted, and bent.
+/// Returns the plane of a camera over a rotated pattern, with some tilt and lens distortion.
 inline core::FloatPlane random_plane(Rng& rng, double spacing_px, double tilt, double bend) {
     const double turn = rng.uniform(0, 6.283);
     const double unit = 1 / spacing_px;
@@ -195,8 +196,8 @@ inline core::FloatPlane random_plane(Rng& rng, double spacing_px, double tilt, d
     return plane;
 }
 
-/// Returns dots as if measured: row by row, some missing, some off their place, and not in whole
-/// vectors.
+/// Returns measured dots: row by row, some missing, some displaced, with a number that is not a
+/// multiple of the vector size.
 inline DotTable random_measures(const core::FloatPlane& plane, int count, float displacement,
                                 Rng& rng) {
     DotTable table(count);

@@ -14,7 +14,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 25;
 
-/// Returns the symmetric edges among the dots nearest the middle of an image.
+/// Returns the symmetric edges among the dots closest to the middle of an image.
 std::vector<SeedEdge> edges_of(const std::vector<DetectedDot>& dots, Vec2 image_px) {
     std::array<std::uint16_t, kMaxSeeds> seeds;
     const FixedVec centre = fixed({(image_px.x - 1) / 2, (image_px.y - 1) / 2}, 8);
@@ -56,12 +56,13 @@ TEST(Axes, AreFoundAtAnyAngleAndSpacing) {
                 length_errors.push_back(std::abs(length(axis) / spacing - 1));
                 angle_errors.push_back(std::abs(std::remainder(degrees(axis) - angle, 90)));
             }
-            // v is u turned from +x towards +y.
+            // v is u rotated from +x towards +y.
             EXPECT_NEAR(std::remainder(degrees(found.v) - degrees(found.u) - 90, 360), 0, 1e-6);
         }
     }
-    // Displacements are up to a third of an edge, but half of the edges have none along or across.
-    // 5 % over the 4 cells where the refinement starts are 1/5 cell.
+    // Displacements change an edge by up to a third of its length, but half of the edges have no
+    // displacement along or across them. 5 % over the 4 cells from which the refinement starts is
+    // 1/5 cell.
     const auto worst = [](std::vector<double>& errors, double share) {
         std::sort(errors.begin(), errors.end());
         return errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))];
@@ -79,7 +80,8 @@ TEST(Axes, AreNearlyExactWithoutDisplacements) {
         const auto dots = dots_of(placed_dots(mesh, 20, image, [](int, int) { return Vec2{}; }));
         Lattice lattice;
         ASSERT_EQ(axes_of(edges_of(dots, image), lattice), Status::ok) << angle;
-        // The axes are made 4 % longer, because displaced neighbours seem nearer than they are.
+        // The axes are made 4 % longer, because the nearest neighbours of displaced dots are closer
+        // than a spacing.
         EXPECT_NEAR(length(mesh_of(lattice).u), 11 * 1.043, 0.05) << angle;
         EXPECT_NEAR(std::remainder(degrees(mesh_of(lattice).u) - angle, 90), 0, 0.2) << angle;
     }
@@ -98,9 +100,10 @@ TEST(Axes, NeedEdgesInTwoDirections) {
     };
     EXPECT_EQ(axes_of(edges({{2816, 0}, {0, 2816}}, 40), lattice), Status::ok);
     EXPECT_EQ(axes_of(edges({{2816, 0}, {0, 2816}}, 2), lattice),
-              Status::no_grid);  // too few
+              Status::no_grid);  // too few edges
     EXPECT_EQ(axes_of(edges({{2816, 0}}, 80), lattice), Status::no_grid);
-    EXPECT_EQ(axes_of(edges({{2816, 0}, {0, 900}}, 40), lattice), Status::no_grid);  // 3:1
+    EXPECT_EQ(axes_of(edges({{2816, 0}, {0, 900}}, 40), lattice),
+              Status::no_grid);  // a ratio of 3:1
     EXPECT_EQ(axes_of(edges({{2816, 0}, {1900, 2078}}, 40), lattice), Status::no_grid);
     EXPECT_EQ(axes_of(edges({{0, 0}}, 80), lattice), Status::no_grid);
 }
@@ -141,7 +144,7 @@ TEST(Axes, APlaneHasASpacingOfAtLeastFourPixels) {
 }
 
 TEST(Axes, BlobsFarApartDoNotOverflow) {
-    // In a row of the largest image, 40 blobs may be 100 px apart and more, but no grid has such a
+    // In a row of the largest image, 40 blobs may be 100 px apart or more, but no grid has such a
     // spacing.
     Lattice lattice;
     for (const int step_px : {70, 100, 300, 1000}) {

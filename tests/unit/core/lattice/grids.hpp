@@ -1,4 +1,5 @@
-// First estimates of grids with the greatest errors, and checks of what a stage makes of them.
+// First estimates of grids with maximum errors, and checks of the grids that a stage computes from
+// them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,7 +9,7 @@
 
 namespace dotpose::core_test {
 
-/// Returns the mesh with errors in length, angle and place, as large as in a first estimate.
+/// Returns the mesh with errors in length, angle and place, as large as those of a first estimate.
 inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
     const auto turned = [&](Vec2 a) {
         const double angle = radians(rng.uniform(-1, 1));
@@ -21,8 +22,8 @@ inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
     return result;
 }
 
-/// Expects the plane to give every dot its cell, and intersections their place within a tolerance
-/// in spacings. The grid may count from another intersection than the mesh.
+/// Expects the plane to map every dot to its cell, and intersections to their places within a
+/// tolerance in spacings. The origin of the grid may be another intersection than that of the mesh.
 inline void expect_grid(const PlaneFromImage& plane, const std::vector<PlacedDot>& dots,
                         const std::vector<Vec2>& intersections_px, double tolerance) {
     const auto at = [&](Vec2 p) { return real(core::plane_point_q16(plane, fixed(p, 8)), 16); };
@@ -49,9 +50,10 @@ inline std::vector<PlacedDot> displaced_dots(const Mesh& mesh, int reach, Vec2 i
     return placed_dots(mesh, reach, image_px, [&](int, int) { return random_displacement(rng); });
 }
 
-/// Returns the tolerance at an image's corner for a fit of three parameters per axis to dots that
-/// are displaced by 1/6 along one axis at random, which is 0.12 per dot. The variance there is 1 /
-/// n for the mean and 3 / n for each slope; the tolerance is five standard deviations.
+/// Returns the tolerance, at a corner of the image, of a fit of three parameters per axis to dots
+/// that are displaced by 1/6 along one random axis, which is 0.12 per dot. The variance at the
+/// corner is 1 / n for the mean and 3 / n for each slope. The tolerance is five standard
+/// deviations.
 inline double affine_tolerance(const std::vector<PlacedDot>& dots) {
     return 5 * 0.118 * std::sqrt(7.0 / static_cast<double>(dots.size()));
 }

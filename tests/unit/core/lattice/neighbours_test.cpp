@@ -28,7 +28,7 @@ std::int64_t squared_distance(const DetectedDot& a, const DetectedDot& b) {
     return x * x + y * y;
 }
 
-/// Whether two dots are near enough: no grid has cells of 128 px.
+/// Returns true if two dots are close enough to be neighbours. No grid has cells of 128 px.
 bool may_be_neighbours(const DetectedDot& a, const DetectedDot& b) {
     const std::int32_t x = std::abs(a.centre_q8.x - b.centre_q8.x);
     const std::int32_t y = std::abs(a.centre_q8.y - b.centre_q8.y);
@@ -37,8 +37,8 @@ bool may_be_neighbours(const DetectedDot& a, const DetectedDot& b) {
 
 constexpr int kKinds = 6;
 
-/// Returns points of one of several kinds: scattered, in clumps, on a line, on a grid, some twice,
-/// on a grid whose last row has one dot when the list is full.
+/// Returns points of one of several kinds: scattered, in clumps, on a line, on a grid, some of them
+/// twice, or on a grid whose last row has a single dot when the list is full.
 std::vector<DetectedDot> points(Rng& rng, int count, int kind) {
     std::vector<DetectedDot> dots;
     for (int i = 0; i < count; ++i) {
@@ -133,10 +133,10 @@ TEST(Neighbours, EdgesAreThosePairsThatBothEndsCount) {
             const FixedVec from = dots[static_cast<std::size_t>(edge.from)].centre_q8;
             const FixedVec to = dots[static_cast<std::size_t>(edge.to)].centre_q8;
             ASSERT_EQ(edge.step_q8, (FixedVec{to.x - from.x, to.y - from.y}));
-            // As in Fig. 4, all edges point down, level ones to the right.
+            // As in Fig. 4, all edges point down, and horizontal ones to the right.
             ASSERT_TRUE(edge.step_q8.y > 0 || (edge.step_q8.y == 0 && edge.step_q8.x >= 0));
         }
-        ASSERT_EQ(static_cast<int>(found.size()), count);  // each once
+        ASSERT_EQ(static_cast<int>(found.size()), count);  // each edge once
         ASSERT_EQ(found, expected);
     }
 }
@@ -175,7 +175,7 @@ TEST(Neighbours, SeedsAreTheDotsNearestTheCentre) {
 }
 
 TEST(Neighbours, AMixedUpCrowdAtTheCentreStillGivesSeeds) {
-    // More dots than seeds have the same distance: some of them are chosen.
+    // More dots than seeds have the same distance. Some of them are chosen.
     std::vector<DetectedDot> dots(500, dot_at({50, 50}));
     dots.push_back(dot_at({4000, 4000}));
     std::array<std::uint16_t, kMaxSeeds> seeds;

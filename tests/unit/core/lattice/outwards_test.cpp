@@ -1,4 +1,4 @@
-// Grids of dots in double precision, seen by tilted cameras, and dots that form no grid.
+// Grids of dots in double precision, seen by tilted cameras, and dots that do not form a grid.
 #include "core/lattice/outwards.hpp"
 
 #include <memory>
@@ -17,8 +17,8 @@ constexpr std::uint64_t kSeed = 75;
 
 struct Trouble {
     double missing = 0;
-    double extra = 0;      ///< false dots at random places, per dot
-    double jitter_px = 0;  ///< standard deviation, per axis
+    double extra = 0;      ///< number of false dots at random places, per dot
+    double jitter_px = 0;  ///< standard deviation of dots, per axis
     double displacement = 1 / 6.0;
 };
 
@@ -48,7 +48,7 @@ std::unique_ptr<Patch> patch_of(const FloatPlane& plane, const Trouble& trouble,
     for (int j = -70; j <= 70; ++j) {
         for (int i = -70; i <= 70; ++i) {
             const Vec2 d = 6 * trouble.displacement * random_displacement(rng);
-            // Behind the horizon of a tilted plane there are no dots.
+            // There are no dots behind the horizon of a tilted plane.
             const Vec2 at = image_of(plane, {i + d.x, j + d.y});
             const Vec2 seen = at + trouble.jitter_px * Vec2{rng.normal(), rng.normal()};
             if (!(std::abs(seen.x) < half.x - 2 && std::abs(seen.y) < half.y - 2)) continue;
@@ -62,8 +62,7 @@ std::unique_ptr<Patch> patch_of(const FloatPlane& plane, const Trouble& trouble,
     return patch;
 }
 
-/// Returns the greatest difference of two planes, except for a whole number of cells and quarter
-/// turns.
+/// Returns the maximum difference of two planes, up to a whole number of cells and quarter turns.
 double difference(const FloatPlane& found, const FloatPlane& truth, Vec2 half_px) {
     double least = 1e9;
     for (int quarters = 0; quarters < 4; ++quarters) {
@@ -93,7 +92,7 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
     int exact = 0;
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << i << ", seed " << kSeed);
-        // The tilt is up to 20 degrees at a focal length of 350 px.
+        // The tilt is up to 20 degrees, with a focal length of 350 px.
         const double tilt = std::tan(radians(rng.uniform(0, 20))) / 350;
         const double spacing_px = rng.uniform(6, 20);
         const FloatPlane truth = random_float_plane(spacing_px, tilt, rng);
@@ -104,8 +103,8 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
         EXPECT_LT(difference(grid.grid_from_image, truth, {20, 20}), 0.1);
         EXPECT_NEAR(grid.displacement, 1 / 6.0, 0.03);
         EXPECT_LT(grid.variance, 0.003);
-        // The plane must be near enough for windows around the intersections to hold the dots. A
-        // grid that ended soon may miss dots farther out, and is refused when its dots are
+        // The plane must be accurate enough for windows around the intersections to contain the
+        // dots. A grid that ended early may miss dots farther out, and is refused when its dots are
         // measured.
         exact += difference(grid.grid_from_image, truth, {56, 40}) < 0.15 &&
                  difference(grid.grid_from_image, truth, {112, 80}) < 0.45;
@@ -138,7 +137,7 @@ TEST(FindGrid, FindsCoarseGridsInReducedPatches) {
         ASSERT_TRUE(core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid))
             << scale;
         EXPECT_LT(difference(grid.grid_from_image, truth, {112.0 * scale, 80.0 * scale}), 0.05);
-        // These dots are too coarse or too fine for a patch of another scale.
+        // The spacing of these dots is too large or too small for a patch of another scale.
         patch->scale = scale == 2 ? 4 : 1;
         EXPECT_FALSE(core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid) &&
                      difference(grid.grid_from_image, truth, {40, 40}) > 0.2);
@@ -159,7 +158,7 @@ TEST(FindGrid, RefusesWhatIsNoGrid) {
         finish_patch(*scattered, dots);
         EXPECT_FALSE(
             core::find_grid(core::kernels(), *scattered, core::whole_view(*scattered), grid));
-        // Dots lie on their intersections.
+        // The dots are on their intersections.
         const auto plain =
             patch_of(random_float_plane(rng.uniform(7, 15), 1e-4, rng), {0, 0, 0.02, 0}, rng);
         EXPECT_FALSE(core::find_grid(core::kernels(), *plain, core::whole_view(*plain), grid));

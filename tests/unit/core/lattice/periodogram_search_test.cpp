@@ -1,4 +1,4 @@
-// The grid from the dots' periodogram, from inaccurate first estimates.
+// The grid from the periodogram of the dots, starting from inaccurate first estimates.
 #include "core/lattice/periodogram_search.hpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ TEST(SearchPeriodogram, RecoversTheGridWithAThirdOfTheDotsMissing) {
         EXPECT_NEAR(turned_degrees(std::atan2(found.u.y, found.u.x), angle), 0, 0.5);
         EXPECT_NEAR(length(found.v) / spacing, 1, 0.01);
         EXPECT_NEAR(turned_degrees(std::atan2(found.v.y, found.v.x), angle), 0, 0.5);
-        // The origin may be any intersection; 150 displacements of 0.12 spacings leave an error of
+        // The origin may be any intersection. 150 displacements of 0.12 spacings cause an error of
         // 0.01.
         const Vec2 at = mesh.inverse(found.origin);
         EXPECT_NEAR(std::remainder(at.x, 1), 0, 0.06);
@@ -58,8 +58,8 @@ TEST(SearchPeriodogram, RecoversTheGridWithAThirdOfTheDotsMissing) {
 }
 
 TEST(SearchPeriodogram, RecoversTheGridThatATiltedCameraSees) {
-    // The camera is tilted by 30 degrees about any axis, so that one direction is shorter by cos
-    // 30.
+    // The camera is tilted by 30 degrees about any axis, so one direction is shorter by a factor of
+    // cos 30.
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
@@ -78,7 +78,7 @@ TEST(SearchPeriodogram, RecoversTheGridThatATiltedCameraSees) {
         const std::vector<DetectedDot> dots = dots_of(placed_dots(mesh, 40, image, displacement));
         std::array<std::uint16_t, kMaxSeeds> seeds;
         const int count = choose_seeds(dots, fixed(centre, 8), seeds);
-        // Clustered edges give an estimate that is about square.
+        // Clustered edges result in an estimate that is about square.
         Lattice lattice = lattice_of({0.97 * flat.u, 0.97 * flat.v, centre});
         search_periodogram(dots, std::span(seeds).first(static_cast<std::size_t>(count)),
                            fixed(centre, 8), 12, lattice);
@@ -98,7 +98,7 @@ TEST(SearchPeriodogram, LeavesAGoodEstimateGood) {
     search_periodogram(dots, std::span(seeds).first(static_cast<std::size_t>(count)),
                        fixed(centre, 8), 12, lattice);
     const Mesh found = mesh_of(lattice);
-    // The finest steps are an eighth of a degree and of an eightieth of the spacing.
+    // The finest steps are an eighth of a degree and an eightieth of the spacing.
     EXPECT_NEAR(length(found.u), 12, 12.0 / 640);
     EXPECT_NEAR(turned_degrees(std::atan2(found.u.y, found.u.x), 0.3), 0, 0.13);
     const Vec2 at = mesh.inverse(found.origin);

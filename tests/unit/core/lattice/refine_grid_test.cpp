@@ -1,4 +1,4 @@
-// The grid over the whole image from a rough estimate in its middle.
+// Refining the grid over the whole image, from a rough estimate in the middle.
 #include "core/lattice/refine_grid.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,8 @@ TEST(RefineGrid, ReachesOverATiltedPage) {
                 places.push_back(projection.pixel_from_offset(kDefaultSpacing_mm * cell));
             }
         }
-        // The mesh has the grid's axes as the camera sees them in the middle.
+        // The axes of the mesh are those of the grid in the middle of the image, as seen by the
+        // camera.
         const Vec2 middle = projection.pixel_from_offset({});
         const Mesh mesh{projection.pixel_from_offset({kDefaultSpacing_mm, 0}) - middle,
                         projection.pixel_from_offset({0, kDefaultSpacing_mm}) - middle, middle};

@@ -1,5 +1,5 @@
-// What growing and refining a grid have in common: both reach over the whole image from a rough
-// estimate in its middle, and refuse dots that form no grid.
+// Common properties of growing and refining a grid: both extend the grid from a rough estimate in
+// the middle over the whole image, and refuse dots that do not form a grid.
 #include "core/lattice/regularity.hpp"
 
 #include <ostream>
@@ -18,9 +18,9 @@ using namespace core;
 constexpr std::uint64_t kSeed = 47;
 constexpr Vec2 kImage_px{188, 120};
 
-/// Returns the tolerance where displacements count as noise of 0.12 spacings. At the corners, where
-/// the error is greatest, a fit of 8 parameters to 100 dots or more has 2 times, rarely 3 times,
-/// the error 0.12 sqrt(8 / 100).
+/// Returns the tolerance if displacements count as noise of 0.12 spacings. At the corners, where
+/// the error is largest, a fit of 8 parameters to at least 100 dots has 2, rarely 3 times the error
+/// 0.12 sqrt(8 / 100).
 double perspective_tolerance(const std::vector<PlacedDot>&) {
     return 0.25;
 }
@@ -28,7 +28,8 @@ double perspective_tolerance(const std::vector<PlacedDot>&) {
 struct Stage {
     const char* name;
     decltype(grow_grid)* find_grid;
-    /// Tolerances of fits to displaced dots, and to dots on their intersections, in spacings.
+    /// Tolerance of fits to displaced dots, and of fits to dots on their intersections, in
+    /// spacings.
     double (*tolerance)(const std::vector<PlacedDot>& dots);
     double plain_tolerance;
 };
@@ -96,7 +97,7 @@ TEST_P(OutwardGrid, RefusesScatteredDots) {
     }
 }
 
-/// The cases lie at the bounds: 7 of 10 near, and mean squares of 1/10 and 1/256.
+/// Cases at the limits: 7 of 10 close dots, and mean squares of 1/10 and 1/256.
 TEST(Regularity, JudgesByItsBounds) {
     const auto verdict = [](int near, double mean_square) {
         const Regularity regularity{100, near, 9};

@@ -17,7 +17,7 @@ using namespace core;
 constexpr std::uint64_t kSeed = 20;
 constexpr double kBamPerRad = 2147483648.0 / std::numbers::pi;
 
-/// Returns the difference a - b of two binary angles, the shorter way around.
+/// Returns the difference a - b of two binary angles, along the shorter arc.
 double bam_difference(std::int32_t a, double b_rad) {
     return std::remainder(a - b_rad * kBamPerRad, 4294967296.0);
 }
@@ -100,7 +100,7 @@ TEST(Fixed, SquareRootIsTheLargestWhoseSquareFits) {
     }
 }
 
-/// Compares the median and the upper quartile with sorting.
+/// Compares the median and the upper quartile with those of sorted values.
 void expect_ranks(const std::vector<std::int32_t>& values) {
     std::vector<std::int32_t> sorted = values;
     std::sort(sorted.begin(), sorted.end());
@@ -115,7 +115,7 @@ TEST(Fixed, MedianAndQuartileAreThoseOfTheSorted) {
     for (int i = 0; i < 3000 && !HasFailure(); ++i) {
         SCOPED_TRACE("list " + std::to_string(i) + ", seed " + std::to_string(kSeed));
         std::vector<std::int32_t> values(1 + rng.below(300));
-        // Values range from a few that repeat to all of 32 bits.
+        // The values range from a few repeated ones to all 32 bits.
         const std::uint32_t most = UINT32_MAX >> rng.below(32);
         for (std::int32_t& value : values)
             value = static_cast<std::int32_t>((rng.below(UINT32_MAX) & most) - 2);
@@ -151,7 +151,7 @@ TEST(Fixed, SumsOfPowersOfTwoAreRoundedUp) {
         for (int b = -40 * 256; b <= 0; b += 41) {
             const double exact = 256 * std::log2(std::exp2(a / 256.0) + std::exp2(b / 256.0));
             ASSERT_GE(add_log2(a, b), exact) << a << ", " << b;
-            // A chord of log2(1 + 2^-d) is 0.021 above the curve; two roundings.
+            // A chord of log2(1 + 2^-d) is at most 0.021 above the curve, plus two roundings.
             ASSERT_LE(add_log2(a, b), exact + 5.5 + 2) << a << ", " << b;
         }
         ASSERT_LE(add_log2(a, kNever_q8), a + 1);

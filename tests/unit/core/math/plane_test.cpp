@@ -1,5 +1,5 @@
-// Points between image and plane (paper eq. 3-5, with perspective and lens), compared with double
-// precision.
+// Mapping of points between image and plane (paper eq. 3-5, with perspective and lens), compared
+// with double precision.
 #include "core/math/plane.hpp"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 26;
 
-/// Returns the plane of a camera above it, which may be tilted and have a wide lens: each changes
-/// the scale by up to 10 % towards the corners.
+/// Returns the plane of a camera above the paper, which may be tilted and have a wide lens. Tilt
+/// and lens each change the scale by up to 10 % towards the corners.
 PlaneFromImage random_plane(Rng& rng, double side_px, bool is_bent) {
     PlaneFromImage plane = affine_plane(side_px, rng.uniform(6, 60), 1.2, rng);
     if (is_bent) {
@@ -36,7 +36,8 @@ TEST(Plane, PointsAreThoseOfTheFormula) {
             const FixedVec p_q8 = fixed({rng.uniform(0, side), rng.uniform(0, side)}, 8);
             const Vec2 expected = formula(plane, real(p_q8, 8));
             const Vec2 found = real(plane_point_q16(plane, p_q8), 16);
-            // The divisor is kept to 2^-30 and the products are rounded to 2^-16 spacing.
+            // The divisor has a resolution of 2^-30, and the products are rounded to 2^-16
+            // spacings.
             ASSERT_NEAR(found.x, expected.x, 4e-5);
             ASSERT_NEAR(found.y, expected.y, 4e-5);
             const GridPoint g = grid_point(plane, p_q8);
@@ -63,8 +64,8 @@ TEST(Plane, OfALatticeGivesItsCoordinates) {
             const Vec2 p{rng.uniform(0, 4095), rng.uniform(0, 4095)};
             const Vec2 expected = mesh.inverse(p);
             const Vec2 found = real(plane_point_q16(plane, fixed(p, 8)), 16);
-            // The inverse is kept to 2^-24 per px and axis, 5e-4 over 4096 px; points and the
-            // origin to 1/256 px, 7e-4 at 6 px.
+            // The inverse has a resolution of 2^-24 per px and axis, 5e-4 over 4096 px. Points and
+            // the origin have 1/256 px, 7e-4 at 6 px.
             ASSERT_NEAR(found.x, expected.x, 1.2e-3) << "lattice " << i << ", seed " << kSeed;
             ASSERT_NEAR(found.y, expected.y, 1.2e-3) << "lattice " << i << ", seed " << kSeed;
         }
@@ -88,8 +89,8 @@ TEST(Plane, ImagePointsAreTheInverse) {
 }
 
 TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
-    // The plane has as much lens as any fit can hold, far outside of the dots it was fitted to: no
-    // image point is there, and no number may overflow on the way.
+    // The plane has the maximum lens that a fit can represent, far outside of the dots to which it
+    // was fitted. No image point maps there, and no intermediate result may overflow.
     Rng rng(kSeed);
     for (int i = 0; i < 2000; ++i) {
         SCOPED_TRACE(testing::Message() << "plane " << i << ", seed " << kSeed);

@@ -8,7 +8,7 @@
 namespace dotpose::core {
 namespace {
 
-// The system 3 x + 2 y = 16, 2 x + 5 y = 29 has the solution (2, 5); its determinant is 11.
+// The system 3 x + 2 y = 16, 2 x + 5 y = 29 has the solution (2, 5) and the determinant 11.
 constexpr Symmetric2<std::int64_t> kIntegers{3, 2, 5};
 
 TEST(Symmetric2, SolvesTimesTheDeterminant) {

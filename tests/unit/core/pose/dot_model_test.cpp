@@ -1,4 +1,4 @@
-// The model dot, against dots that were drawn by sampling, and against itself a step on.
+// The model dot, compared with dots drawn by sampling, and with the model at the next step.
 #include "core/pose/dot_model.hpp"
 
 #include <numbers>

@@ -1,5 +1,5 @@
-// Dots of any shape as a camera sees them, drawn by sampling the ink: slow, and independent of the
-// dot model of the core.
+// Images of dots of any shape, drawn by sampling the ink. Slow, and independent of the dot model of
+// the core.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace dotpose::core_test {
 
-/// Whether there is ink at a place, px from the middle of a dot.
+/// Returns true if there is ink at a place, in px from the middle of a dot.
 using InkAt = std::function<bool(Vec2)>;
 
 inline InkAt disc(double radius_px) {
@@ -35,14 +35,14 @@ struct DrawnDot {
     std::vector<double> darkness;
 };
 
-/// Returns the share of what is at `offset_px` from the middle of a pixel that the pixel collects
-/// through a Gaussian blur.
+/// Returns the fraction of the light from `offset_px` beside the middle of a pixel that the pixel
+/// collects through a Gaussian blur.
 inline double collected(double offset_px, double blur_px) {
     const double scale = blur_px * std::numbers::sqrt2;
     return 0.5 * (std::erf((offset_px + 0.5) / scale) - std::erf((offset_px - 0.5) / scale));
 }
 
-/// Draws a dot whose middle is at `centre`, px from the middle of the pixel in the middle.
+/// Draws a dot centred at `centre`, in px from the middle of the central pixel.
 inline DrawnDot drawn_dot(const InkAt& ink, Vec2 centre, double blur_px) {
     constexpr int kPerPixel = 40;
     constexpr double kReach_px = 5;

@@ -1,4 +1,4 @@
-// Bias of facing dots: the measured centres of facing dots are shifted towards each other, those of
+// Bias of facing dots: the measured centres of facing dots are shifted towards each other. Those of
 // other neighbours are not.
 #include "core/pose/facing_dots.hpp"
 
@@ -17,7 +17,7 @@ using core::FloatPlane;
 
 constexpr std::uint64_t kSeed = 95;
 constexpr double kDisplacement = 1 / 6.0;
-constexpr double kNoise = 0.005;  // spacings
+constexpr double kNoise = 0.005;  // in spacings
 
 /// Dots with their true places in the image.
 class FacingFrame {
@@ -40,7 +40,8 @@ class FacingFrame {
         }
     }
 
-    /// Returns the mean distance of the dots from their places without pull, px.
+    /// Returns the mean distance, in px, of the measured dots from their true places (without
+    /// pull).
     double mean_error_px() const {
         double sum = 0;
         int count = 0;
@@ -78,7 +79,7 @@ class FacingFrame {
 core::PoseFit fit_with(double pull) {
     core::PoseFit fit;
     fit.displacement = static_cast<float>(kDisplacement);
-    // One coordinate in eight is pulled: a quarter of the dots face a neighbour, along one axis.
+    // One coordinate in eight is shifted: a quarter of the dots face a neighbour, along one axis.
     fit.variance = static_cast<float>(kNoise * kNoise + pull * pull / 8);
     return fit;
 }

@@ -1,4 +1,4 @@
-// Fits to dots that were placed by a plane in double precision.
+// Fits to dots placed by a plane in double precision.
 #include "core/pose/float_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ constexpr std::uint64_t kSeed = 78;
 constexpr double kDisplacement = 1 / 6.0;
 constexpr int kReach_px = 95;
 
-/// Adds all dots that the plane shows in an image of 188 x 120 px.
+/// Adds all dots of the plane that are in an image of 188 x 120 px.
 void show_dots(const FloatPlane& plane, double noise_px, double wrong, Rng& rng, OwnedDots& owned) {
     for (int j = -14; j <= 14; ++j) {
         for (int i = -14; i <= 14; ++i) {
@@ -31,7 +31,7 @@ void show_dots(const FloatPlane& plane, double noise_px, double wrong, Rng& rng,
     }
 }
 
-/// Returns a plane that is off by up to a tenth of a spacing, somewhat turned, and without
+/// Returns a plane with an error of up to a tenth of a spacing, slightly rotated, and without
 /// perspective.
 FloatPlane guess_of(const FloatPlane& truth, Rng& rng) {
     FloatPlane guess = truth;
@@ -102,7 +102,7 @@ TEST(FitPlane, SaysHowFarItMayBeOff) {
             square(std::remainder(turn, 6.283185307)) / double{fix.covariance[2][2]} / kTrials;
         EXPECT_NEAR(fix.residual_px, 0.1, 0.03);
     }
-    // The mean of 200 squared normal numbers has a deviation of 0.1.
+    // The mean of 200 squared standard normal numbers has a standard deviation of 0.1.
     EXPECT_NEAR(nees_x, 1, 0.35);
     EXPECT_NEAR(nees_y, 1, 0.35);
     EXPECT_NEAR(nees_theta, 1, 0.45);
@@ -121,7 +121,7 @@ TEST(FitPlane, FollowsTiltsOfTwentyDegreesAndALens) {
         ASSERT_TRUE(core::fit_plane(core::kernels(), owned.dots, kReach_px, 9,
                                     static_cast<float>(kDisplacement), plane, fit));
         EXPECT_LT(worst_difference(plane, truth), 0.01);
-        // Another fit finds little to improve: less than half a deviation.
+        // Another fit improves the plane only slightly, by less than half a standard deviation.
         FloatPlane again = plane;
         ASSERT_TRUE(core::fit_plane(core::kernels(), owned.dots, kReach_px, 9,
                                     static_cast<float>(kDisplacement), again, fit));

@@ -1,4 +1,4 @@
-// Centres measured in drawn frames whose dots are known.
+// Centres of dots measured in drawn frames with known dots.
 #include "core/pose/measure.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 45;
 
-/// Draws paper whose light falls off from one side to the other, with dots on it.
+/// Draws paper with dots, and with light that decreases from one side to the other.
 GreyImage drawn(const View& view, const std::vector<PlacedDot>& dots, double angle) {
     GreyImage image = blank(static_cast<int>(view.image_px.x), static_cast<int>(view.image_px.y));
     const Vec2 way{std::cos(angle), std::sin(angle)};
@@ -36,8 +36,9 @@ bool is_inside(const View& view, Vec2 point_px, double margin_px) {
            point_px.y < far.y;
 }
 
-/// Expects every measured dot to be that of its cell, to the tolerance, or to a third of a pixel
-/// where the border cuts the window. No dot at least `margin_px` inside the image may be missing.
+/// Expects every measured dot to be the dot of its cell, within the tolerance, or within a third of
+/// a pixel where the border cuts the window. No dot that is at least `margin_px` inside the image
+/// may be missing.
 void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int quarters,
                      double margin_px, double tolerance_px, Rng& rng) {
     const GreyImage image = drawn(view, placed, rng.uniform(0, 6.3));
@@ -45,7 +46,7 @@ void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int
     ASSERT_EQ(reading.status, Status::ok);
     const Nominal nominal(reading.grid(), view.code, reading.truth());
     PlaneFromImage pose = upright_plane(reading.plane, reading.turn);
-    // The first attempt leaves a pose some hundredths of a spacing off.
+    // The pose of the first attempt has an error of some hundredths of a spacing.
     const Vec2 off{rng.uniform(-0.03, 0.03), rng.uniform(-0.03, 0.03)};
     pose.at_centre_q16 = fixed(real(pose.at_centre_q16, 16) + off, 16);
     std::vector<DetectedDot> measured(1000);
@@ -87,9 +88,9 @@ TEST(MeasureDots, FindsTheirCentresInUnevenLight) {
 }
 
 TEST(MeasureDots, FindsBadlyPrintedOnesWhereTheyAre) {
-    // A printer that scatters by 25 um puts one dot in a hundred 75 um off: 0.15 spacings. If such
-    // dots were lost, or not followed all the way, the residuals would not show how badly it
-    // prints.
+    // A printer with a scatter of 25 µm displaces one dot in a hundred by 75 µm, or 0.15 spacings.
+    // If such dots were lost, or measured with too small displacements, the residuals would not
+    // show the quality of the print.
     Rng rng(kSeed);
     for (int i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
@@ -101,7 +102,7 @@ TEST(MeasureDots, FindsBadlyPrintedOnesWhereTheyAre) {
             Vec2& at = placed[d].centre_px;
             at = at + 0.15 * view.spacing_px * Vec2{std::cos(direction), std::sin(direction)};
         }
-        // A dot may come as near as half a spacing to a neighbour, whose rim the window sees.
+        // A dot may be as close as half a spacing to a neighbour, whose rim is then in the window.
         expect_measured(view, placed, i % 4, 7, 0.14, rng);
     }
 }

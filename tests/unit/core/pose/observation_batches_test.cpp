@@ -1,4 +1,4 @@
-// The batches that the rounds of a fit visit, compared with the grid itself.
+// The batches visited in the rounds of a fit, compared with the grid itself.
 #include "core/pose/observation_batches.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ constexpr std::uint64_t kSeed = 65;
 
 struct Counted {
     int dots = 0;
-    std::int64_t sum = 0;  ///< of products that depend on the dots and their order
+    std::int64_t sum = 0;  ///< sum of products that depend on the dots and their order
 
     void add(std::int64_t x, std::int64_t y, std::int64_t step_x, std::int64_t step_y,
              std::int64_t side) {
@@ -27,7 +27,7 @@ TEST(ObservationBatches, ShowsAllDotsInOrder) {
     Rng rng(kSeed);
     for (int i = 0; i < 40; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
-        // Views have fewer dots than fit one batch, or more.
+        // Some views have fewer dots than fit into one batch, others have more.
         View view = random_view(rng);
         view.spacing_px = i % 2 == 0 ? 12 : 6;
         const Reading reading(view, QuarterTurn{i % 4});

@@ -1,4 +1,4 @@
-// Dots that fall on the pixels alike, drawn in shapes that the dot model knows, and in others.
+// Dots with equal sub-pixel phases, drawn with the shape of the dot model and with other shapes.
 #include "core/pose/pixel_bias.hpp"
 
 #include <gtest/gtest.h>
@@ -18,14 +18,15 @@ constexpr double kContrast = 0.85;
 constexpr double kNoise = 3;
 constexpr double kBlur_px = 0.3;
 
-/// How far the mean of the centres is off, px.
+/// Error of the mean of the measured centres, in px.
 struct MeanError {
     Vec2 before;
     Vec2 after;
     core::FloatVec variance_px2;
 };
 
-/// A frame of dots that are whole pixels apart, all displaced by two pixels.
+/// A frame of dots with equal sub-pixel phases, which are whole pixels apart and displaced by two
+/// pixels.
 class AlikeFrame {
   public:
     AlikeFrame(const InkAt& ink, Vec2 phase, Rng& rng)
@@ -37,7 +38,7 @@ class AlikeFrame {
                 const int u = kMiddle_u + kSpacing_px * column + 2 * dx(symbol);
                 const int v = kMiddle_v + kSpacing_px * row + 2 * dy(symbol);
                 add(dot, u, v);
-                // Windows find dots to a tenth of a pixel.
+                // Windows locate dots with an error of a tenth of a pixel.
                 const Vec2 found{u - kMiddle_u + phase.x + 0.1, v - kMiddle_v + phase.y - 0.1};
                 owned_.add({column, row}, symbol, found);
                 truth_.push_back({u - kMiddle_u + phase.x, v - kMiddle_v + phase.y});
@@ -68,7 +69,7 @@ class AlikeFrame {
         }
         MeanError error;
         error.before = mean_error();
-        // Where a plane that was fitted to these centres has its origin.
+        // The origin of a plane that was fitted to these centres.
         const Vec2 origin = truth_.front() + error.before - place_of_first();
         core::FloatPlane plane;
         plane.du_x = plane.dv_y = 1.0F / kSpacing_px;
@@ -108,7 +109,7 @@ class AlikeFrame {
     }
 
     GreyImage image_;
-    std::vector<double> light_;  ///< without noise
+    std::vector<double> light_;  ///< light without noise
     OwnedDots owned_;
     std::vector<Vec2> truth_;
 };
@@ -137,7 +138,7 @@ TEST(PixelBias, IsTakenFromDiscs) {
     const MeanError error = typical_error(disc(1), 1.05F);
     EXPECT_GT(error.before.x, 0.006);
     EXPECT_GT(error.before.y, 0.006);
-    // Noise alone leaves 0.0016.
+    // Noise alone causes 0.0016.
     EXPECT_LT(error.after.x, 0.0024);
     EXPECT_LT(error.after.y, 0.0024);
 }
@@ -151,7 +152,7 @@ TEST(PixelBias, IsTakenFromSmallAndLargeDiscs) {
     }
 }
 
-/// Real dots are squares of a printer's grid, and longer than wide where paper is fed unevenly.
+/// Real dots are squares of a printer's grid, and elongated if the paper is fed unevenly.
 TEST(PixelBias, IsNotMadeWorseByOtherShapes) {
     for (const InkAt& ink : {square(1.77), ellipse(1.15, 0.87), ellipse(0.8, 1.25)}) {
         const MeanError error = typical_error(ink, 1.05F);

@@ -1,4 +1,4 @@
-// The pose from the place in the code, compared with a camera whose geometry is known.
+// The pose from the place in the code, compared with a camera of known geometry.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -59,7 +59,8 @@ TEST(Pose, FittedToExactDotsIsExact) {
         const Reading reading = reading_off_grid(i, rng);
         const Fitted fit = fitted(reading);
         ASSERT_TRUE(fit.ok);
-        // Rounding to 1/256 px is in step with the pixels, which looks like a lens.
+        // The rounding to 1/256 px depends on the place in the image, which has the same effect as
+        // a lens.
         expect_pose(reading, fit.pose, reading.view.centre_px(), 2e-4);
         EXPECT_GE(fit.fix.dots_used, static_cast<int>(reading.dots.size()) * 9 / 10);
     }
@@ -161,7 +162,7 @@ TEST(Pose, PastTheEndOfTheCodeItContinuesInAnotherSection) {
     EXPECT_EQ(fix.fraction_x_q16, 0.75 * 65536);
 }
 
-/// Sums for the covariance of (x, y, theta): squared errors, and what fixes claim.
+/// Sums for the covariance of (x, y, theta): squared errors, and the covariances of the fixes.
 struct Scatter {
     double squares[3][3] = {};
     double claimed[3][3] = {};
@@ -181,7 +182,7 @@ struct Scatter {
     }
 };
 
-/// Fits poses to one view with fresh noise on all dots in each round.
+/// Fits poses to one view, with different noise on all dots in each round.
 Scatter scatter(const View& view, Vec2 reference, double sigma_px, int rounds, Rng& rng) {
     const auto placed = pattern_dots(view);
     Scatter result;
@@ -207,8 +208,8 @@ TEST(Pose, CovarianceIsThatOfManyNoisyFrames) {
         const Scatter found = scatter(view, reference, 0.1, kRounds, rng);
         ASSERT_EQ(found.count, kRounds);
         for (std::size_t r = 0; r < 3; ++r) {
-            // Claims allow for a tilt, which this view does not have, so that away from the centre
-            // it is better than claimed.
+            // Covariances allow for a tilt, which this view does not have. Away from the centre,
+            // they are therefore too large.
             const double ratio = found.claimed[r][r] / found.squares[r][r];
             EXPECT_GT(ratio, 0.85) << r;
             EXPECT_LT(ratio, 1.6) << r;
@@ -237,9 +238,9 @@ struct HalfDark {
 };
 
 TEST(Pose, DotsInTheDarkCountLess) {
-    // Noise of 0.02 px in the light is 0.08 px in the dark. With two halves of 1 and 16 times the
-    // variance, the plain mean has 8.5 times the variance of the better half, the weighted one 1.9
-    // times.
+    // Noise of 0.02 px in the light part corresponds to 0.08 px in the dark part. With two halves
+    // of 1 and 16 times the variance, the plain mean has 8.5 times the variance of the better half,
+    // and the weighted mean 1.9 times.
     Rng rng(kSeed);
     const HalfDark paper;
     const View view = random_view(rng);

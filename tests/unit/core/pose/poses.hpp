@@ -1,5 +1,5 @@
-// Views of the pattern whose dots may be wrong in several ways, and checks that the pose fitted to
-// them is that of the camera.
+// Views of the pattern whose dots have several kinds of errors, and checks that the fitted pose is
+// that of the camera.
 #pragma once
 
 #include <cmath>
@@ -12,20 +12,20 @@
 
 namespace dotpose::core_test {
 
-/// Returns how far off the plane is at a pixel, in spacings.
+/// Returns the error of the plane at a pixel, in spacings.
 inline Vec2 error_at(const Reading& reading, const PlaneFromImage& found, Vec2 pixel) {
     const Vec2 zero{static_cast<double>(reading.zero.x), static_cast<double>(reading.zero.y)};
     const Vec2 expected = reading.view.pattern(pixel) - zero;
     return real(core::plane_point_q16(found, fixed(pixel, 8)), 16) - expected;
 }
 
-/// Expects the plane to be right at a pixel, in value and slope.
+/// Expects the plane to be correct at a pixel, in value and slope.
 inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec2 pixel,
                         double tolerance) {
     const Vec2 error = error_at(reading, found, pixel);
     EXPECT_NEAR(error.x, 0, tolerance);
     EXPECT_NEAR(error.y, 0, tolerance);
-    // Slopes may err, over half the image, by as much as positions do.
+    // The error of a slope over half of the image may be as large as that of a position.
     const View& view = reading.view;
     const double slope = 2 * tolerance / view.image_px.y;
     const PlaneFromImage flat = core::tangent(found, fixed(pixel, 8));
@@ -35,7 +35,7 @@ inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec
     EXPECT_NEAR(real(flat.dv_q24, 24).y, view.dv().y, slope);
 }
 
-/// Returns exact dots of any code variant with a grid that is off a little, which must not matter.
+/// Returns exact dots of any code variant, with a slightly inaccurate grid, which must not matter.
 inline Reading reading_off_grid(int i, Rng& rng) {
     View view = random_view(rng);
     view.spacing_px = rng.uniform(6, 11);
@@ -46,7 +46,7 @@ inline Reading reading_off_grid(int i, Rng& rng) {
     return reading;
 }
 
-/// Returns dots of which every eighth is moved, by `min_px` to 2 px.
+/// Returns dots of which every eighth is displaced by `min_px` to 2 px.
 inline std::vector<DetectedDot> dots_with_outliers(const View& view, double min_px, Rng& rng) {
     auto dots = dots_of(pattern_dots(view));
     for (std::size_t d = 0; d < dots.size(); d += 8) {
@@ -58,7 +58,7 @@ inline std::vector<DetectedDot> dots_with_outliers(const View& view, double min_
     return dots;
 }
 
-/// Returns dots whose displacement is not a sixth of the spacing.
+/// Returns dots whose displacement differs from a sixth of the spacing.
 inline std::vector<DetectedDot> dots_displaced_by(double displacement, const View& view) {
     std::vector<DetectedDot> dots;
     for (const PlacedDot& d : pattern_dots(view)) {

@@ -1,4 +1,4 @@
-// Dots of sheets that are not one plane, placed by a plane in double precision and a known
+// Dots on sheets that are not one plane, placed by a plane in double precision and a known
 // displacement.
 #include "core/pose/uneven.hpp"
 
@@ -24,10 +24,10 @@ constexpr int kReach_px = 95;
 constexpr double kJitter = 0.02;
 constexpr double kMaxSigmas = 4.5;
 
-/// Displacement, in spacings, of a place that is counted from the image centre.
+/// Displacement, in spacings, of a place relative to the image centre.
 using Shift = std::function<Vec2(Vec2)>;
 
-/// What an image of 188 x 120 px shows of a printed sheet.
+/// A printed sheet in an image of 188 x 120 px.
 struct Sheet {
     FloatPlane truth;
     OwnedDots owned;
@@ -64,14 +64,14 @@ struct Sheet {
         return std::equal(columns.begin(), columns.end(), owned.dots.column.begin());
     }
     Vec2 off() const { return formula(plane, {}) - formula(truth, {}); }
-    /// Returns the larger of the errors of x and y, in units of their sigmas.
+    /// Returns the maximum of the errors of x and y, in units of their standard deviations.
     double sigmas_off() const {
         return std::max(std::abs(off().x) / std::sqrt(double{fix.covariance[0][0]}),
                         std::abs(off().y) / std::sqrt(double{fix.covariance[1][1]}));
     }
 };
 
-/// Returns a shift by `by` of all places farther than `distance` along a direction.
+/// Returns a displacement by `by` of all places farther than `distance` along a direction.
 Shift slip(double distance, double direction_rad, Vec2 by) {
     return [=](Vec2 place) {
         const double t = std::cos(direction_rad) * place.x + std::sin(direction_rad) * place.y;
@@ -111,7 +111,8 @@ TEST(FitUneven, FitsTheSideOfTheReferencePoint) {
         EXPECT_LT(length(sheet.off()), 0.02);
         EXPECT_LT(sheet.fix.dots_used, sheet.owned.dots.count * 9 / 10);
     }
-    // Some lines are found a little beside the true one; then more is uneven than a line explains.
+    // Some lines are found slightly beside the true line. The sheet is then classified as uneven,
+    // because a line does not explain all residuals.
     EXPECT_GE(divided, 55);
 }
 
@@ -128,8 +129,9 @@ TEST(FitUneven, LeavesOpenWhichSideAReferencePointAtTheLineIsOn) {
     }
 }
 
-// A plane takes up most of a small step in the middle, and runs of a row that the step crosses have
-// a mean of 0. With the two, errors were up to 24 sigma, and the sheet even.
+// A plane absorbs most of a small step in the middle, and the residuals of rows that the step
+// crosses have a mean of 0. Both together caused errors of up to 24 sigma on a sheet classified as
+// even.
 TEST(FitUneven, SeesASmallStepInTheMiddle) {
     Rng rng(kSeed);
     int claim_too_much = 0;
@@ -145,13 +147,13 @@ TEST(FitUneven, SeesASmallStepInTheMiddle) {
         ASSERT_TRUE(sheet.is_fitted);
         claim_too_much += sheet.sigmas_off() > 4 ? 1 : 0;
     }
-    // The fast attempts do not search for a line when the blocks scatter little, so a few small
-    // steps are missed.
+    // The fast attempts do not search for a line if the blocks scatter little, so they miss a few
+    // small steps.
     EXPECT_LE(claim_too_much, 2);
 }
 
-// Words hide dots and leave dirt beside others, in rows; more at one end of the view than at the
-// other. Such sheets were called divided, with the pose of a part of their dots.
+// Words hide dots, and dirt of letters disturbs others, in rows, and more at one end of the view
+// than at the other. Such sheets were classified as divided, with the pose of a part of their dots.
 TEST(FitUneven, WordsDivideNoSheet) {
     Rng rng(kSeed);
     for (int trial = 0; trial < 40; ++trial) {

@@ -1,6 +1,6 @@
 """Starts the node: ros2 launch dotpose_ros locator.launch.py sheets:=table.json camera:=camera.yaml
 
-Two robots: namespace:=anna frame_prefix:=anna/, and the same with another name.
+For each of several robots, set namespace:=anna frame_prefix:=anna/ with another name.
 """
 
 from launch import LaunchDescription
@@ -9,7 +9,7 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
-# Texts, even where they look like numbers.
+# Arguments that are strings even if they look like numbers.
 TEXTS = {"sheets": "", "camera": "", "frame_prefix": ""}
 TOPICS = {"image": "image_raw", "camera_info": "camera_info"}
 

@@ -1,5 +1,5 @@
-// A component of ROS 2: images and camera_info in; poses, odometry, transforms and diagnostics out.
-// It only subscribes and publishes; parameters.hpp and robot_locator.hpp do the rest.
+// A ROS 2 component that subscribes to images and camera_info, and publishes poses, odometry,
+// transforms and diagnostics. Everything else is in parameters.hpp and robot_locator.hpp.
 #include "locator_node.hpp"
 
 #include <algorithm>
@@ -26,8 +26,9 @@ namespace {
 using sensor_msgs::msg::CameraInfo;
 using sensor_msgs::msg::Image;
 
-/// Declares a parameter and returns its value. `ros2 param set` refuses parameters that are read
-/// only. With dynamic typing, a number may be written without a point: settings_of checks types.
+/// Declares a parameter and returns its value. The parameters are read-only, so `ros2 param set`
+/// refuses them. Dynamic typing allows numbers without a decimal point; settings_of checks the
+/// types.
 Value declare(rclcpp::Node& node, const Parameter& parameter) {
     rcl_interfaces::msg::ParameterDescriptor descriptor;
     descriptor.description = parameter.description;
@@ -68,7 +69,8 @@ Settings declared_settings(rclcpp::Node& node) {
     return settings_of(values);
 }
 
-/// Sensor data is sent best effort, unless the parameter `reliable` says otherwise.
+/// Returns the quality of service of sensor data: best effort, unless the parameter `reliable` is
+/// set.
 rclcpp::QoS sensor_quality(const Settings& settings) {
     rclcpp::QoS quality = rclcpp::SensorDataQoS();
     if (settings.is_reliable) quality.reliable();
@@ -97,7 +99,8 @@ class LocatorNode : public rclcpp::Node {
             tf_ = create_publisher<tf2_msgs::msg::TFMessage>("/tf", rclcpp::QoS(100));
         status_ = create_publisher<diagnostic_msgs::msg::DiagnosticArray>("/diagnostics",
                                                                           rclcpp::QoS(10));
-        // With intra-process communication, processes that come later would not get it.
+        // With intra-process communication, processes that start later would not receive the
+        // message.
         rclcpp::PublisherOptions kept;
         kept.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
         tf_static_ = create_publisher<tf2_msgs::msg::TFMessage>(
@@ -109,8 +112,8 @@ class LocatorNode : public rclcpp::Node {
         image_ = create_subscription<Image>("image", quality,
                                             [this](Image::ConstSharedPtr image) { take(*image); });
         if (settings.has_camera_file) return;
-        // It lasts as long as the node: a subscription that ends in its own callback leaves the
-        // executor of Jazzy without any callback.
+        // The subscription lasts as long as the node. If a subscription is destroyed in its own
+        // callback, the executor of Jazzy calls no further callbacks.
         camera_info_ = create_subscription<CameraInfo>(
             "camera_info", quality, [this](CameraInfo::ConstSharedPtr info) { take(*info); });
     }

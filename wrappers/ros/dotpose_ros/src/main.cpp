@@ -1,4 +1,4 @@
-// The node as a program. What it cannot use becomes a message and an exit status.
+// The node as a program. Errors at the start are printed and give a non-zero exit status.
 #include <cstdio>
 #include <exception>
 

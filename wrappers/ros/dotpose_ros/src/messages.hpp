@@ -1,4 +1,4 @@
-// Messages of dotpose, which need no ROS, as those of ROS. They have the same members.
+// Converts messages of dotpose, which do not depend on ROS, to ROS messages with the same members.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ inline std_msgs::msg::Header to_ros(const dotpose::ros::Header& header) {
     return result;
 }
 
-/// Copies x, y and z; points and vectors have them.
+/// Copies x, y and z of points and vectors.
 template <typename Xyz>
 void copy_xyz(const dotpose::ros::Vector3& from, Xyz& to) {
     to.x = from.x;

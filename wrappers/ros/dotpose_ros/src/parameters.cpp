@@ -11,17 +11,17 @@
 namespace dotpose_ros {
 namespace {
 
-/// The values of parameters, by their types.
+/// Returns the values of parameters by type.
 class Values {
   public:
     explicit Values(const std::map<std::string, Value>& values) : values_(values) {}
 
     const std::string& text(const std::string& name) const {
-        return get<std::string>(name, "a text");
+        return get<std::string>(name, "a string");
     }
     bool flag(const std::string& name) const { return get<bool>(name, "true or false"); }
 
-    /// Returns none if the parameter is not set.
+    /// Returns a number in [least, most], or none if the parameter is not set.
     std::optional<double> number(const std::string& name, double least, double most) const {
         const Value& value = values_.at(name);
         if (std::holds_alternative<std::monostate>(value)) return std::nullopt;
@@ -54,7 +54,7 @@ dotpose::ros::RobotFrames frames_of(const Values& values) {
     for (const std::string* name : {&frames.map, &frames.odom, &frames.base, &frames.camera}) {
         if (name->empty() || name->starts_with('/')) {
             throw dotpose::Error("the frame '" + *name +
-                                 "' is not allowed: names of frames are not empty and do not begin "
+                                 "' is not allowed; names of frames must not be empty or begin "
                                  "with a slash");
         }
     }
@@ -67,23 +67,25 @@ std::span<const Parameter> parameters() {
     const dotpose::TrackOptions track;
     const dotpose::ros::RobotFrames frames;
     static const std::vector<Parameter> all = {
-        {"sheets", "", "sheet file; without it, poses are given in the pattern"},
-        {"camera", "", "camera file of dotpose calibrate; without it, camera_info has the lens"},
+        {"sheets", "", "sheet file; without it, poses are in the pattern frame"},
+        {"camera", "",
+         "camera file of dotpose calibrate; without it, the lens is taken from camera_info"},
         {"spacing_mm", dotpose::kDefaultSpacing_mm, "spacing of the pattern without a sheet file"},
-        {"flip", false, "whether images are flipped left to right first, as the camera mirrors"},
-        {"max_speed_m_s", double{track.max_speed_mm_s} / 1000, "of the robot"},
-        {"acceleration_m_s2", double{track.acceleration_mm_s2} / 1000, "of the robot, usually"},
+        {"flip", false, "flip images left to right, for a camera that mirrors them"},
+        {"max_speed_m_s", double{track.max_speed_mm_s} / 1000, "maximum speed of the robot"},
+        {"acceleration_m_s2", double{track.acceleration_mm_s2} / 1000,
+         "usual acceleration of the robot"},
         {"exposure_us",
          {},
-         "half of it is subtracted from stamps; not set: that of the camera file"},
-        {"map_frame", frames.map, "the world of the sheets"},
-        {"odom_frame", frames.odom, "where the robot was seen first"},
-        {"base_frame", frames.base, "the robot"},
-        {"camera_frame", frames.camera, "the camera, z towards the paper"},
-        {"frame_prefix", "", "before all of these but the map, such as anna/: for several robots"},
+         "half of it is subtracted from stamps; default: the exposure of the camera file"},
+        {"map_frame", frames.map, "frame of the world of the sheets"},
+        {"odom_frame", frames.odom, "frame of the first position of the robot"},
+        {"base_frame", frames.base, "frame of the robot"},
+        {"camera_frame", frames.camera, "frame of the camera, z towards the paper"},
+        {"frame_prefix", "", "prefix of all frames except map, such as anna/, for several robots"},
         {"reliable", false,
-         "reliable instead of best effort: poses, odometry, images, camera_info"},
-        {"publish_tf", true, "whether map, odom and robot are published on /tf"},
+         "reliable quality of service for poses, odometry, images and camera_info"},
+        {"publish_tf", true, "publish map, odom and robot on /tf"},
     };
     return all;
 }

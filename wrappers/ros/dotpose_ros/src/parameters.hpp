@@ -1,4 +1,4 @@
-/// Parameters: those of the node, with defaults, ranges and what they are for.
+/// Parameters of the node, with defaults, ranges and descriptions.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace dotpose_ros {
 
-/// The value of a parameter. The first alternative is a parameter that is not set.
+/// The value of a parameter. The first alternative is a parameter without a value.
 using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 
 struct Parameter {
@@ -22,10 +22,10 @@ struct Parameter {
     const char* description;
 };
 
-/// Returns all parameters of the node, which are read once, at its start.
+/// Returns all parameters of the node. They are read once, at its start.
 std::span<const Parameter> parameters();
 
-/// The values of the parameters.
+/// The options that result from the parameters.
 struct Settings {
     dotpose::FollowerOptions follower;
     dotpose::ros::RobotFrames frames;
@@ -35,8 +35,8 @@ struct Settings {
     bool publishes_tf = true;
 };
 
-/// Reads sheet file and camera file, and checks all values; a whole number is a number too. Throws
-/// dotpose::Error, which names the parameter and what is allowed.
+/// Reads the sheet file and the camera file, and checks all values. Integers are also accepted as
+/// numbers. Throws dotpose::Error with the name of the parameter and its valid values.
 Settings settings_of(const std::map<std::string, Value>& values);
 
 }  // namespace dotpose_ros

@@ -10,12 +10,12 @@
 namespace dotpose_ros {
 namespace {
 
-/// How the samples of a pixel become its grey level.
+/// Conversion of the samples of a pixel to its grey level.
 struct Encoding {
     const char* name;
-    std::size_t samples;                   ///< number per pixel
-    std::size_t bytes;                     ///< per sample
-    std::array<std::uint32_t, 4> weights;  ///< of the samples, in thousandths
+    std::size_t samples;                   ///< number of samples per pixel
+    std::size_t bytes;                     ///< bytes per sample
+    std::array<std::uint32_t, 4> weights;  ///< weights of the samples, in thousandths
     bool is_bayer = false;
 };
 
@@ -82,7 +82,7 @@ void require_size(const RawImage& image, const Encoding& encoding) {
                          " bytes: correct width, height, step or encoding in the camera's driver");
 }
 
-/// The grey levels of an image, of up to 16 bits.
+/// The grey levels of an image, with up to 16 bits.
 class Levels {
   public:
     Levels(const RawImage& image, const Encoding& encoding)
@@ -94,8 +94,9 @@ class Levels {
         }
     }
 
-    /// Takes the mean over 3 x 3 pixels with the weights 1 2 1 along both axes. Around a pixel of
-    /// any colour, half of the weight is green, a quarter red and a quarter blue.
+    /// Replaces each pixel by the mean over 3 x 3 pixels with the weights 1 2 1 along both axes.
+    /// Around every pixel of a mosaic, green then has half of the weight, red and blue a quarter
+    /// each.
     void mix_colours() {
         std::vector<std::uint16_t> mixed(levels_.size());
         for (std::size_t v = 0; v < height_; ++v) {
@@ -125,7 +126,7 @@ class Levels {
     }
 
   private:
-    /// Reads one pixel and moves on to the next.
+    /// Reads one pixel and advances to the next.
     static std::uint16_t level(const std::uint8_t*& sample, const Encoding& encoding,
                                bool is_bigendian) {
         std::uint32_t sum = kWhole / 2;
@@ -138,8 +139,8 @@ class Levels {
         return static_cast<std::uint16_t>(sum / kWhole);
     }
 
-    /// Returns the neighbour of `place`. Beyond an edge it is that on the other side, which has the
-    /// same colour in a mosaic.
+    /// Returns the index of a neighbour of `place`. Beyond an edge, returns the neighbour on the
+    /// opposite side, which has the same colour in a mosaic.
     static std::size_t beside(std::size_t place, std::size_t size, int step) {
         if (size < 2) return place;
         const bool is_beyond = step < 0 ? place == 0 : place + 1 == size;

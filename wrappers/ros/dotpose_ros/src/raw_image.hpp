@@ -1,4 +1,4 @@
-/// Raw images: the encodings of sensor_msgs/Image, as grey images.
+/// Converts raw images in the encodings of sensor_msgs/Image to grey images.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@ struct RawImage {
     std::string encoding;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::uint32_t step = 0;  ///< bytes from one row to the next
+    std::uint32_t step = 0;  ///< distance of the beginnings of rows, in bytes
     bool is_bigendian = false;
     std::span<const std::uint8_t> data;
 };
 
-/// Returns the grey levels of an image: a view of its data where these are grey levels of 8 bits,
-/// otherwise of `buffer`. Colours become their luma (Rec. 601). Levels of more than 8 bits are
-/// reduced by the power of two that the brightest pixel needs, because cameras of 10 and 12 bits
-/// send theirs in 16. In a Bayer mosaic each pixel becomes the weighted mean of 3 x 3, to which
-/// every colour contributes the same share everywhere.
-/// Throws dotpose::Error with the remedy if the encoding is not known, or if the data are fewer
+/// Returns the grey levels of an image: a view of its data if the encoding has 8-bit grey levels,
+/// otherwise a view of `buffer`. Colours are converted to luma (Rec. 601). Levels with more than 8
+/// bits are divided by the power of two that the brightest pixel requires, because cameras with 10
+/// and 12 bits use 16-bit encodings. In a Bayer mosaic each pixel becomes the weighted mean of 3 x
+/// 3 pixels, in which every colour has the same weight everywhere.
+/// Throws dotpose::Error with a remedy if the encoding is not supported, or if there are fewer data
 /// than the size requires.
 dotpose::ImageView grey_view(const RawImage& image, dotpose::GreyImage& buffer);
 

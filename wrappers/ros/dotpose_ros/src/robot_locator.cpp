@@ -14,10 +14,10 @@ namespace ros = dotpose::ros;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-/// Number of images with stamps that do not increase, from which on it is said.
+/// Number of consecutive images without increasing stamps that causes an error message.
 constexpr int kStandstill = 3;
 
-/// Writes a lens as the text of a camera_info file, which is read with all checks.
+/// Writes a lens as the text of a camera_info file, which is then read with all checks.
 std::string camera_info_text(const Lens& lens) {
     std::ostringstream text;
     text.precision(17);
@@ -45,7 +45,7 @@ RobotLocator::RobotLocator(const Settings& settings, std::string robot)
       half_exposure_ns_(settings.half_exposure_ns),
       has_lens_(settings.follower.camera.has_value()),
       messenger_(std::move(robot), settings.frames) {
-    begin_anew();
+    restart();
 }
 
 RobotLocator::Answer RobotLocator::take(const RawImage& image, std::int64_t stamp_ns,
@@ -58,12 +58,12 @@ RobotLocator::Answer RobotLocator::take(const RawImage& image, std::int64_t stam
     if (order == Order::left_out) {
         if (left_out_ < kStandstill) return answer;
         problem =
-            "images are left out, because their stamps do not increase: correct the clock of "
-            "the camera's driver";
+            "images are skipped because their stamps do not increase; correct the clock of the "
+            "camera driver";
     } else {
         if (order == Order::set_back) {
-            begin_anew();
-            answer.warning = "the stamps of images went back: the robot is looked for anew";
+            restart();
+            answer.warning = "the stamps of images went back; tracking restarts";
         }
         try {
             answer.messages = locate(image, time_ns);
@@ -79,7 +79,7 @@ RobotLocator::Answer RobotLocator::take(const RawImage& image, std::int64_t stam
     return answer;
 }
 
-/// Diagnostics are for people: at a change, and once a second.
+/// Returns true if the status is to be published: when it changes, and once per second.
 bool RobotLocator::is_status_due(const std::string& status, std::int64_t arrival_ns) {
     if (status == told_status_ && arrival_ns < told_ns_ + kSecond_ns) return false;
     told_status_ = status;
@@ -87,7 +87,7 @@ bool RobotLocator::is_status_due(const std::string& status, std::int64_t arrival
     return true;
 }
 
-/// Compares the time of an image with those before.
+/// Compares the time of an image with the times of previous images.
 RobotLocator::Order RobotLocator::order_of(std::int64_t time_us) {
     const bool is_newer_than_last = time_us > std::exchange(last_us_, time_us);
     if (time_us <= newest_us_ && !is_newer_than_last) return Order::left_out;
@@ -108,7 +108,7 @@ ros::RobotMessages RobotLocator::locate(const RawImage& image, std::int64_t time
     return messages;
 }
 
-/// Returns the status of an image that cannot be used.
+/// Returns the status message for an image that cannot be used.
 ros::RobotMessages RobotLocator::without_image(std::int64_t time_ns, const std::string& problem) {
     ros::RobotUpdate update;
     update.time_ns = time_ns;
@@ -142,7 +142,7 @@ std::string RobotLocator::take(const Lens& lens) {
     try {
         options_.camera = dotpose::parse_camera(camera_info_text(lens), "camera_info");
         has_lens_ = true;
-        begin_anew();
+        restart();
     } catch (const dotpose::Error& error) {
         lens_problem_ = std::string("images are located without a lens: ") + error.what();
     }

@@ -1,5 +1,5 @@
-/// Robot locator: from the images of a camera to the messages of a robot. All that the node does
-/// between its subscriptions and its publishers.
+/// RobotLocator computes the messages of a robot from the images of its camera. It contains
+/// everything that the node does between its subscriptions and its publishers.
 ///
 ///     RobotLocator locator(settings_of(values), "anna");
 ///     const RobotLocator::Answer answer = locator.take(image, stamp_ns, arrival_ns);
@@ -21,8 +21,8 @@
 
 namespace dotpose_ros {
 
-/// Returns the nanoseconds of a stamp, which may be before the start of its clock: rclcpp::Time
-/// throws there.
+/// Returns the nanoseconds of a stamp. Negative stamps are allowed, unlike in rclcpp::Time, which
+/// throws an exception.
 std::int64_t nanoseconds(std::int32_t sec, std::uint32_t nanosec);
 
 /// The members of a sensor_msgs/CameraInfo that describe the lens.
@@ -39,25 +39,27 @@ struct Lens {
 class RobotLocator {
   public:
     struct Answer {
-        /// The status is empty unless it is to be published: when it changes, and once a second.
+        /// The messages to publish. The status is empty unless it is due: when it changes, and once
+        /// per second.
         dotpose::ros::RobotMessages messages;
-        /// For the log: what is wrong with the images. Empty unless that is new.
+        /// Warning for the log about the images. Empty unless it is new.
         std::string warning;
     };
 
     RobotLocator(const Settings& settings, std::string robot);
 
-    /// Takes the next image, which has a stamp of its camera and came at `arrival_ns` by a clock
-    /// that is never set. An image that is not newer than those before is left out. If the stamps
-    /// after it increase from there, time was set back (a bag that begins again, a simulation), and
-    /// tracking starts again.
+    /// Processes the next image, with the stamp of its camera and the arrival time by a steady
+    /// clock. An image that is not newer than previous images is skipped. If the stamps of the
+    /// following images increase from there, the time was set back (a restarted bag or simulation),
+    /// and tracking restarts.
     Answer take(const RawImage& image, std::int64_t stamp_ns, std::int64_t arrival_ns);
 
-    /// Takes the lens of the camera, unless a camera file or an earlier call gave it. Returns, for
-    /// the log, why it cannot be used; empty if it can, or if that was returned before.
+    /// Uses the lens of a camera_info message, unless a camera file or an earlier message contained
+    /// a lens. Returns the reason for the log if the lens cannot be used. The result is empty if
+    /// the lens can be used, or if the reason was already returned.
     std::string take(const Lens& lens);
 
-    /// Returns where the camera sits, or none if there is no camera file that says it.
+    /// Returns the mount of the camera, or none if the camera file does not contain it.
     std::optional<dotpose::ros::TransformStamped> mount(std::int64_t time_ns) const;
 
   private:
@@ -68,20 +70,20 @@ class RobotLocator {
     dotpose::ros::RobotMessages without_image(std::int64_t time_ns, const std::string& problem);
     bool is_status_due(const std::string& status, std::int64_t arrival_ns);
     void require_size_of_lens(const RawImage& image) const;
-    void begin_anew() { follower_.emplace(options_); }
+    void restart() { follower_.emplace(options_); }
 
     dotpose::FollowerOptions options_;
     std::int64_t half_exposure_ns_;
     bool has_lens_;
     std::optional<Lens> refused_lens_;
-    std::string lens_problem_;  ///< part of each status
+    std::string lens_problem_;  ///< appended to each status
     std::optional<dotpose::Follower> follower_;
     dotpose::ros::RobotMessenger messenger_;
     dotpose::GreyImage grey_;
-    // Times of images: the newest that was taken, and the last that came.
+    // Times of images: the newest one processed, and the last one received.
     std::int64_t newest_us_ = std::numeric_limits<std::int64_t>::min();
     std::int64_t last_us_ = std::numeric_limits<std::int64_t>::max();
-    int left_out_ = 0;  ///< number of images left out since the newest
+    int left_out_ = 0;  ///< number of images skipped since the newest one
     std::string told_status_;
     std::int64_t told_ns_ = 0;
     std::string told_problem_;

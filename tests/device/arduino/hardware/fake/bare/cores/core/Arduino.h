@@ -1,4 +1,4 @@
-/* The part of Arduino that the examples call. */
+/* The part of the Arduino interface that the examples use. */
 #pragma once
 
 #include <stddef.h>
