@@ -102,31 +102,32 @@ TEST_F(Completions, OfFish) {
 
 TEST_F(Completions, OfZsh) {
     if (!has("zsh")) GTEST_SKIP() << "no zsh; scripts/setup packaging installs it";
-    // The typed and completed text is read back from a terminal.
+    // Types the first of each pair of arguments and a tab into a terminal, and waits for the
+    // second.
     std::ofstream(directory_ / "try.zsh") << R"(
         zmodload zsh/zpty
         zpty -b typed zsh -f -i
         zpty -w typed 'PS1= zle_highlight=(none) fpath=($PWD $fpath)'
         zpty -w typed 'autoload -U compinit; compinit -u -d $PWD/dump; echo rea""dy'
         zpty -r typed answer '*ready*'
-        zpty -w -n typed "$1"$'\t'
-        zpty -r typed answer "*$2*"
+        for typed completed in "$@"; do
+            zpty -w -n typed $'\025'"$typed"$'\t'
+            zpty -r typed answer "*$completed*"
+            print -r -- "$completed"
+        done
     )";
-    const auto expect_becomes = [this](const std::string& typed, const std::string& completed) {
-        EXPECT_EQ(shell("PATH=$(dirname $T):$PATH TERM=xterm timeout 240 zsh -f try.zsh '" + typed +
-                        "' '" + completed + "'"),
-                  0)
-            << typed;
-    };
     fs::copy_file(folder_ + "/dotpose.zsh", directory_ / "_dotpose");
     ASSERT_EQ(shell("zsh -f -n _dotpose"), 0) << errors_;
     fs::create_directory(directory_ / "frames");
-    expect_becomes("dotpose wat", "dotpose watch ");
-    expect_becomes("dotpose help wat", "dotpose help watch ");
-    expect_becomes("dotpose sheets pl", "dotpose sheets place ");
-    expect_becomes("dotpose sheets map --ou", "dotpose sheets map --out ");
-    expect_becomes("dotpose locate --format js", "dotpose locate --format json ");
-    expect_becomes("dotpose locate fra", "dotpose locate frames/");
+    EXPECT_EQ(shell("PATH=$(dirname $T):$PATH TERM=xterm timeout 240 zsh -f try.zsh "
+                    "'dotpose wat' 'dotpose watch ' "
+                    "'dotpose help wat' 'dotpose help watch ' "
+                    "'dotpose sheets pl' 'dotpose sheets place ' "
+                    "'dotpose sheets map --ou' 'dotpose sheets map --out ' "
+                    "'dotpose locate --format js' 'dotpose locate --format json ' "
+                    "'dotpose locate fra' 'dotpose locate frames/'"),
+              0)
+        << "completed: " << output_;
 }
 
 TEST_F(Manuals, PagesAreWithoutFaultAndHaveAllThatTheHelpHas) {
