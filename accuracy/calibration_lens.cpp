@@ -173,11 +173,11 @@ void measure_parameters(const Series& series, const LensCalibration& found,
 
 void measure_residual(const LensCalibration& found, const std::vector<Shot>& shots,
                       const std::vector<TrueDot>& dots, LensTally& tally) {
-    Locator locator{Options{}};
+    Locator locator{DeviceOptions{}};
     // In the unit of the calibration: px at the middle of each frame.
     std::vector<double> mm_per_px(shots.size(), NAN);
     for (std::size_t i = 0; i < shots.size(); ++i) {
-        Options options;
+        DeviceOptions options;
         use_camera(found.camera, shots[i].camera.width_px, shots[i].camera.height_px, options);
         locator.set_options(options);
         const Fix fix = locator.locate(render(shots[i]).view());
@@ -196,8 +196,8 @@ void measure_residual(const LensCalibration& found, const std::vector<Shot>& sho
 
 /// Locates more frames with the calibrated camera, and frames of a lens without distortion.
 void measure_positions(const Series& series, const Camera& camera, LensTally& tally) {
-    Locator locator{Options{}};
-    Locator undistorted{Options{}};
+    Locator locator{DeviceOptions{}};
+    Locator undistorted{DeviceOptions{}};
     for (int i = kLensFrames; i < 2 * kLensFrames; ++i) {
         Shot shot = series.shot(i);
         const Truth truth = truth_of(shot);
@@ -208,7 +208,7 @@ void measure_positions(const Series& series, const Camera& camera, LensTally& ta
             errors.add(1000 * kDefaultSpacing_mm * off.y_grid, 1);
             return true;
         };
-        Options options;
+        DeviceOptions options;
         use_camera(camera, shot.camera.width_px, shot.camera.height_px, options);
         locator.set_options(options);
         const Fix fix = locator.locate(render(shot).view());

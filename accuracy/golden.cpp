@@ -74,7 +74,7 @@ void add(Checksum& sum, const Fix& fix) {
 struct FramePair {
     GreyImage image;
     GreyImage next;
-    Options options;
+    DeviceOptions options;
 };
 
 /// A way to locate a frame.
@@ -152,7 +152,7 @@ std::function<FramePair(std::uint64_t)> frames_of(Preset preset, int width_px, i
 
 auto with_effort(Effort effort) {
     return [effort](const FramePair& frames, LargeMemory& memory) {
-        Options options = frames.options;
+        DeviceOptions options = frames.options;
         options.effort = effort;
         return Locator(memory, options).locate(frames.image.view());
     };
@@ -160,7 +160,7 @@ auto with_effort(Effort effort) {
 
 auto tracked(Effort effort) {
     return [effort](const FramePair& frames, LargeMemory& memory) {
-        Options options = frames.options;
+        DeviceOptions options = frames.options;
         const Fix fix = Locator(memory, options).locate(frames.image.view());
         options.effort = effort;
         if (fix.status != Status::ok) return fix;

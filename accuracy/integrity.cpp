@@ -44,7 +44,7 @@ void try_flipped_frame(std::uint64_t seed, std::uint64_t index, IntegrityTally& 
     const GreyImage image = test::render_dots(shot, [&](Cell cell) {
         return test::displacement_of(test::flipped_symbol(pattern, rate, shot.seed, cell));
     });
-    Options options;
+    DeviceOptions options;
     options.integrity = kAcceptAll;
     const Fix fix = Locator(thread_memory(), options).locate(image.view());
     if (fix.status != Status::ok) {

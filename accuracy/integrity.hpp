@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 
 namespace dotpose::tables {
 

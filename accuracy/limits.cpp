@@ -39,7 +39,7 @@ std::string micrometres(double value) {
 /// Locates all frames with the first attempt only, and with both attempts. Throws Error if
 /// interrupted.
 std::array<Score, 2> score_once_and_twice(const std::string& what, FrameRun frames,
-                                          const Options& options, const TableRun& run) {
+                                          const DeviceOptions& options, const TableRun& run) {
     frames.options.assign(2, options);
     frames.options[0].effort = Effort::once;
     frames.options[1].effort = Effort::twice;

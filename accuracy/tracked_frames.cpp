@@ -47,7 +47,7 @@ Setup nominal(std::uint64_t seed) {
 /// prediction.
 void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     const GreyImage image = render(shot);
-    const Fix fresh = Locator(thread_memory(), Options{}).locate(image.view());
+    const Fix fresh = Locator(thread_memory(), DeviceOptions{}).locate(image.view());
     if (fresh.status != Status::ok) return;
     const TrueView truth = TrueView::of(shot);
     ++tallies[0].afresh;
@@ -55,8 +55,8 @@ void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     Rng rng(shot.seed, 77);
     for (std::size_t i = 0; i < kOffsets.size(); ++i) {
         const Prediction prediction = displaced(fresh, kOffsets[i], rng);
-        tallies[i + 1].count(Locator(thread_memory(), Options{}).locate(image.view(), prediction),
-                             truth);
+        tallies[i + 1].count(
+            Locator(thread_memory(), DeviceOptions{}).locate(image.view(), prediction), truth);
     }
 }
 
@@ -116,7 +116,7 @@ GreyImage nothing_in_focus(const Shot& shot, Rng& rng) {
 void try_changes(const Setup& setup, std::uint64_t index, TrackedTallies& tallies) {
     const Shot first = draw_shot(setup, 2 * index);
     const Shot other = draw_shot(setup, 2 * index + 1);
-    const Fix seen = Locator(thread_memory(), Options{}).locate(render(first).view());
+    const Fix seen = Locator(thread_memory(), DeviceOptions{}).locate(render(first).view());
     if (seen.status != Status::ok) return;
     Rng rng(first.seed, 78);
     for (std::size_t i = 0; i < kChanges.size(); ++i) {
@@ -127,7 +127,7 @@ void try_changes(const Setup& setup, std::uint64_t index, TrackedTallies& tallie
         if (!is_lifted) kChanges[i].apply(shot, other, rng);
         const GreyImage next = is_lifted ? nothing_in_focus(shot, rng) : render(shot);
         tallies[i].count(
-            Locator(thread_memory(), Options{}).locate(next.view(), Prediction::like(seen)),
+            Locator(thread_memory(), DeviceOptions{}).locate(next.view(), Prediction::like(seen)),
             is_lifted ? std::nullopt : std::optional(TrueView::of(shot)));
     }
 }

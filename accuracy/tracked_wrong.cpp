@@ -136,15 +136,15 @@ void try_all(std::uint64_t seed, std::uint64_t index, TrackedTallies& tallies) {
     const Shot other = draw_shot(setup, 2 * index + 1);
     views.image = render(views.shot);
     const GreyImage other_image = render(other);
-    views.fix = Locator(thread_memory(), Options{}).locate(views.image.view());
-    views.other_fix = Locator(thread_memory(), Options{}).locate(other_image.view());
+    views.fix = Locator(thread_memory(), DeviceOptions{}).locate(views.image.view());
+    views.other_fix = Locator(thread_memory(), DeviceOptions{}).locate(other_image.view());
     if (views.fix.status != Status::ok || views.other_fix.status != Status::ok) return;
     Rng rng(views.shot.seed, 79);
     for (std::size_t i = 0; i < kWrongClasses.size(); ++i) {
         const auto& [name, predict, draw] = kWrongClasses[i];
         const Prediction prediction = predict(views, rng);
         const GreyImage image = draw == nullptr ? views.image : draw(views.shot, rng);
-        tallies[i].count(Locator(thread_memory(), Options{}).locate(image.view(), prediction),
+        tallies[i].count(Locator(thread_memory(), DeviceOptions{}).locate(image.view(), prediction),
                          draw == nullptr ? std::optional(TrueView::of(views.shot)) : std::nullopt);
     }
 }

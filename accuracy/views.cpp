@@ -188,16 +188,16 @@ class ViewReader {
     Locator& given() { return given_; }
 
   private:
-    static Options options_of(CodeVariant code) {
-        Options options;
+    static DeviceOptions options_of(CodeVariant code) {
+        DeviceOptions options;
         options.code = code;
         return options;
     }
 
     const CodeVariant code_;
-    Locator given_{Options{}};
-    Locator any_{Options{}};
-    Locator stream_{Options{}};
+    Locator given_{DeviceOptions{}};
+    Locator any_{DeviceOptions{}};
+    Locator stream_{DeviceOptions{}};
     CodeEvidence evidence_;
 };
 

@@ -28,7 +28,7 @@ int count_of(const CameraModel& camera) {
 bool is_located_by_first_attempt(const KnownFrame& frame) {
     const auto memory = std::make_unique<LargeMemory>();
     const auto locates = [&](Effort effort) {
-        Options options;
+        DeviceOptions options;
         options.effort = effort;
         return Locator(*memory, options).locate(frame.image.view()).status == Status::ok;
     };

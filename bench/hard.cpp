@@ -25,9 +25,11 @@ HardTimes time_hard_frames(int frames) {
     std::vector<double> us;
     for (int first = 0; first < frames; first += kMaxRendered) {
         const int count = std::min(kMaxRendered, frames - first);
-        const TimedFrames part = time_frames(
-            render_frames(count, [&](int i) { return frame_at(first + i); }), kPasses,
-            [&](const ImageView& image) { return Locator(*memory, Options{}).locate(image); });
+        const TimedFrames part =
+            time_frames(render_frames(count, [&](int i) { return frame_at(first + i); }), kPasses,
+                        [&](const ImageView& image) {
+                            return Locator(*memory, DeviceOptions{}).locate(image);
+                        });
         times.located += part.located;
         times.by_first_attempt += part.by_first_attempt;
         us.insert(us.end(), part.fastest_us.begin(), part.fastest_us.end());

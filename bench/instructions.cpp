@@ -51,7 +51,7 @@ bool compare_codes(const ImageView& image, Locator& locator) {
         count_frame_in_any_code(image, locator);
         count_frame_in_code(image, locator);
     }
-    Options options = locator.options();
+    DeviceOptions options = locator.options();
     options.code = CodeVariant::anoto;
     locator.set_options(options);
     return is_ordinary;
@@ -63,7 +63,7 @@ int main() {
     Setup setup;
     setup.seed = kSeed;
     const auto memory = std::make_unique<SmallMemory>();
-    Locator locator(*memory, Options{});
+    Locator locator(*memory, DeviceOptions{});
     int in_any_code = 0;
     for (int i = 0; i < kFrames; ++i) {
         const GreyImage image = render(draw_shot(setup, static_cast<std::uint64_t>(i)));

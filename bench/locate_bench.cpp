@@ -64,11 +64,11 @@ std::string name_of(const char* what, const CameraModel& camera) {
 Locator& locator_for(const CameraModel& camera, Effort effort) {
     static const auto small = std::make_unique<SmallMemory>();
     static const auto large = std::make_unique<LargeMemory>();
-    static Locator for_small(*small, Options{});
-    static Locator for_large(*large, Options{});
+    static Locator for_small(*small, DeviceOptions{});
+    static Locator for_large(*large, DeviceOptions{});
     constexpr int kSmall_px = 188;
     Locator& locator = camera.width_px <= kSmall_px ? for_small : for_large;
-    Options options;
+    DeviceOptions options;
     options.effort = effort;
     locator.set_options(options);
     return locator;
@@ -95,7 +95,7 @@ void locate_frames(benchmark::State& state, const CameraModel& camera, Effort ef
 
 /// Tracks each frame from the prediction made from its own fix.
 void track_frames(benchmark::State& state, const CameraModel& camera) {
-    Locator& locator = locator_for(camera, Options{}.effort);
+    Locator& locator = locator_for(camera, DeviceOptions{}.effort);
     const std::vector<KnownFrame>& frames = nominal_frames(camera);
     std::vector<Prediction> predictions;
     for (const KnownFrame& frame : frames) {

@@ -30,7 +30,7 @@
 namespace dotpose::bench {
 namespace {
 
-constexpr Options kOptions;
+constexpr DeviceOptions kOptions;
 constexpr CodeVariant kCode = kOptions.code;
 
 /// A located frame with the results of all stages.

@@ -31,7 +31,7 @@ TiltTimes time_tilt(const CameraModel& camera, int tilt_deg, int count, int pass
     const auto memory = std::make_unique<LargeMemory>();
     TimedFrames timed = time_frames(
         render_frames(count, [&](int i) { return tilted_frame(setup, tilt_deg, i); }), passes,
-        [&](const ImageView& image) { return Locator(*memory, Options{}).locate(image); });
+        [&](const ImageView& image) { return Locator(*memory, DeviceOptions{}).locate(image); });
     std::ranges::nth_element(timed.fastest_us, timed.fastest_us.begin() + count / 2);
     return {camera, tilt_deg, count, timed.by_first_attempt,
             timed.fastest_us[static_cast<std::size_t>(count / 2)]};

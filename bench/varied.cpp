@@ -44,7 +44,7 @@ Subject subject_on(const std::vector<Frame>& frames,
 }
 
 Subject locating(const std::vector<KnownFrame>& frames, Effort effort, SmallMemory& memory) {
-    Options options;
+    DeviceOptions options;
     options.effort = effort;
     Subject subject = subject_on(frames, [options, &memory](std::size_t, GreyImage& image) {
         benchmark::DoNotOptimize(Locator(memory, options).locate(image.view()));
@@ -75,7 +75,7 @@ Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
 
 /// Returns the prediction from the frame's own fix, displaced by a random offset.
 Prediction prediction_for(const KnownFrame& frame, Rng& rng, SmallMemory& memory) {
-    const Fix fix = Locator(memory, Options{}).locate(frame.image.view());
+    const Fix fix = Locator(memory, DeviceOptions{}).locate(frame.image.view());
     const double direction_rad = rng.uniform(0, 2 * std::numbers::pi);
     const double way = rng.uniform(0, 0.35);
     constexpr double kTurn = 4294967296.0;
@@ -92,10 +92,12 @@ Subject tracking(const std::vector<KnownFrame>& frames, SmallMemory& memory) {
     for (const KnownFrame& frame : frames)
         predictions.push_back(prediction_for(frame, rng, memory));
     Subject subject = subject_on(frames, [predictions, &memory](std::size_t i, GreyImage& image) {
-        benchmark::DoNotOptimize(Locator(memory, Options{}).locate(image.view(), predictions[i]));
+        benchmark::DoNotOptimize(
+            Locator(memory, DeviceOptions{}).locate(image.view(), predictions[i]));
     });
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        const Fix fix = Locator(memory, Options{}).locate(frames[i].image.view(), predictions[i]);
+        const Fix fix =
+            Locator(memory, DeviceOptions{}).locate(frames[i].image.view(), predictions[i]);
         if (fix.status != Status::ok) continue;
         if (!is_right(fix, frames[i].truth)) throw Error("a frame was located wrongly");
         subject.found += fix.attempt == Attempt::tracked ? 1 : 0;

@@ -18,7 +18,7 @@
 
 class PoseSender {
   public:
-    explicit PoseSender(const dotpose::Options& options = {},
+    explicit PoseSender(const dotpose::DeviceOptions& options = {},
                         const dotpose::PacerOptions& pacing = {})
         : locator_(memory_, options), tracker_(device_tracking()), pacer_(pacing) {}
 

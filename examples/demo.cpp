@@ -165,7 +165,7 @@ void print_table(const Drive& drive) {
 /// Runs the demo. Returns true if nearly all frames were located and no fix is wrong.
 bool run(const fs::path& folder) {
     fs::create_directories(folder);
-    Options options;
+    DeviceOptions options;
     options.show_stages = true;
     Locator locator(options);
     const Sheet sheet = print_sheet(folder);

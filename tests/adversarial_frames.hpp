@@ -11,8 +11,8 @@
 
 #include "adversarial_textures.hpp"
 #include "altered_pattern.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/options.hpp"
 
 namespace dotpose::test {
 
@@ -62,7 +62,7 @@ struct Answer {
 
 struct AdversarialFrame {
     GreyImage image;
-    Options options;
+    DeviceOptions options;
     std::vector<Answer>
         answers;  ///< empty if every fix is wrong; the first is the place at the centre
     Pattern printed;

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::test {
@@ -304,8 +304,8 @@ inline GreyImage picture_of(const Limit& limit, const Shot& shot) {
     return image;
 }
 
-inline Options options_of(const Limit& limit) {
-    Options options;
+inline DeviceOptions options_of(const Limit& limit) {
+    DeviceOptions options;
     options.lens = limit.lens;
     return options;
 }

@@ -18,7 +18,7 @@ constexpr std::size_t kMinFrames = 3;
 /// Maximum number of frames that are remembered, in case the times of a source do not advance.
 constexpr std::size_t kMaxFrames = 2000;
 
-std::string reason_with_advice(Record record, ImageView image, const Options& options,
+std::string reason_with_advice(Record record, ImageView image, const DeviceOptions& options,
                                double bits_per_px) {
     const auto scratch = std::make_unique<LargeMemory>();
     record.advice =
@@ -38,7 +38,7 @@ GreyImage copy_of(ImageView image) {
 /// Keeps a copy of the first frame with a status, then of the second, fourth, eighth and so on. At
 /// the end of the run, the copy is from the last half of these frames, and only few copies were
 /// made.
-void FailureHint::remember(const Record& record, ImageView image, const Options& options,
+void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;
     if (record.fix.status == Status::ok) return;
@@ -63,8 +63,8 @@ std::string FailureHint::at_end() const {
         reason_with_advice(failures.record, failures.image.view(), options_, bits_per_px_));
 }
 
-std::string FailureHint::after(const Reading& reading, ImageView image, const Options& options,
-                               double bits_per_px) {
+std::string FailureHint::after(const Reading& reading, ImageView image,
+                               const DeviceOptions& options, double bits_per_px) {
     const Record& record = reading.record;
     remember(record, image, options, bits_per_px);
     last_second_.push_back({reading.time_us, record.fix.status != Status::ok});

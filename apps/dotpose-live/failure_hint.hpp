@@ -18,7 +18,7 @@ class FailureHint {
     /// frames of the last second failed, otherwise an empty text. The sentence is returned again
     /// only after most frames of a second were located. `bits_per_px` describes the source of the
     /// frame.
-    std::string after(const Reading& reading, ImageView image, const Options& options,
+    std::string after(const Reading& reading, ImageView image, const DeviceOptions& options,
                       double bits_per_px);
 
     /// Returns a sentence if most frames of the whole run failed, otherwise an empty text.
@@ -36,7 +36,7 @@ class FailureHint {
         GreyImage image;
     };
 
-    void remember(const Record& record, ImageView image, const Options& options,
+    void remember(const Record& record, ImageView image, const DeviceOptions& options,
                   double bits_per_px);
 
     std::deque<Frame> last_second_;
@@ -44,7 +44,7 @@ class FailureHint {
     std::int64_t frames_ = 0;
     std::int64_t failed_ = 0;
     std::map<Status, Failures> failures_;
-    Options options_;  ///< options of the newest frame that failed
+    DeviceOptions options_;  ///< options of the newest frame that failed
     double bits_per_px_ = 0;
 };
 

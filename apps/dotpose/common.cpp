@@ -172,7 +172,7 @@ Option* add_camera_option(Command& command, CameraArgument& camera, const std::s
         ->type_name("FILE");
 }
 
-void add_attempt_options(Command& command, Options& options) {
+void add_attempt_options(Command& command, DeviceOptions& options) {
     add_named(command, "--decoder", kDecoders, name(options.decoder),
               "Dots from which the position is read",
               [&options](Decoder decoder) { options.decoder = decoder; });

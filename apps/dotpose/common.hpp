@@ -10,9 +10,9 @@
 
 #include "choices.hpp"
 #include "command_line.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/files/sheet.hpp"
-#include "dotpose/options.hpp"
 #include "dotpose/tools/print.hpp"
 #include "dotpose/tools/simulate.hpp"
 
@@ -55,7 +55,7 @@ struct CameraArgument {
 Option* add_camera_option(Command& command, CameraArgument& camera, const std::string& help);
 
 /// Adds --decoder and --effort. `options` must outlive the command.
-void add_attempt_options(Command& command, Options& options);
+void add_attempt_options(Command& command, DeviceOptions& options);
 
 /// Adds --size WxH, the size of a simulated frame.
 void add_size_option(Command& command, CameraModel& camera);

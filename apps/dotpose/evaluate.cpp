@@ -70,7 +70,7 @@ struct EvaluateArguments {
     ReportArguments report;  ///< `out` is a folder for --sweep and --protocol
     std::optional<int> frames;
     Setup setup;
-    Options options;
+    DeviceOptions options;
     CameraArgument camera;
     MeasuredArguments measured;
     TruthOf truth_of = TruthOf::image;
@@ -178,7 +178,7 @@ void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameR
         KnownFrame frame = read(index);
         if (!frame.problem.empty()) return frame;
         try {
-            Options unused;
+            DeviceOptions unused;
             use_camera(camera, frame.image.width_px, frame.image.height_px, unused);
         } catch (const BadArgument& error) {
             const std::string& file = rows[static_cast<std::size_t>(index)].file;

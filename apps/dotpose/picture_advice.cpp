@@ -70,11 +70,11 @@ GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
 
 /// Returns the spacing of the dots in px if the pattern can be read only after the image is
 /// enlarged.
-std::optional<double> too_small_spacing_px(ImageView image, const Options& options,
+std::optional<double> too_small_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr int kMiddle_px = 320;
     constexpr double kMinSpacing_px = 6;
-    Options once;
+    DeviceOptions once;
     once.code = options.code;
     once.effort = Effort::once;
     for (const int by : {2, 3, 4}) {
@@ -116,11 +116,11 @@ GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& s
 
 /// Returns the tilt of the sheet in degrees if the pattern can be read after the image is
 /// stretched.
-std::optional<double> large_tilt_degrees(ImageView image, const Options& options,
+std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& options,
                                          LargeMemory& scratch) {
     constexpr int kMiddle_px = 480;
     constexpr int kDirections = 8;
-    Options once;
+    DeviceOptions once;
     once.code = options.code;
     once.effort = Effort::once;
     for (const double by : {2.0, 3.0}) {
@@ -201,12 +201,12 @@ GreyImage reduced_by(ImageView image, int by) {
 
 /// Returns the spacing of the dots in px if the dots of the reduced image lie on a grid and the
 /// spacing is too large.
-std::optional<double> too_large_spacing_px(ImageView image, const Options& options,
+std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr double kMaxSpacing_px = 60;
     // A camera that is too near shows only a few dots.
     constexpr int kMinDots = 16;
-    Options blobs;
+    DeviceOptions blobs;
     blobs.code = options.code;
     blobs.effort = Effort::device;  // stores the grid of its blobs in the trace
     blobs.lattice.min_dots = kMinDots;
@@ -229,21 +229,21 @@ std::optional<double> too_large_spacing_px(ImageView image, const Options& optio
 }
 
 /// Returns true if the dots are white on black.
-bool is_inverted(ImageView image, const Options& options, LargeMemory& scratch) {
+bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     GreyImage inverted = reduced_by(image, 1);
     for (std::uint8_t& grey : inverted.pixels)
         grey = static_cast<std::uint8_t>(255 - grey);
-    Options once = options;
+    DeviceOptions once = options;
     once.effort = Effort::once;
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
 /// Advises on a position that is not certain only because the code is not given: without the places
 /// in the other codes, the position is certain.
-std::string advice_on_code(ImageView image, const Options& options, LargeMemory& scratch) {
+std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     for (const CodeVariant code :
          {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {
-        Options given = options;
+        DeviceOptions given = options;
         given.code = code;
         const Fix fix = Locator(scratch, given).locate(image);
         if (fix.status != Status::ok) continue;
@@ -256,7 +256,8 @@ std::string advice_on_code(ImageView image, const Options& options, LargeMemory&
 }
 
 /// Advises on the distance of the camera.
-std::string advice_on_distance(ImageView image, const Options& options, LargeMemory& scratch) {
+std::string advice_on_distance(ImageView image, const DeviceOptions& options,
+                               LargeMemory& scratch) {
     if (const auto spacing_px = too_small_spacing_px(image, options, scratch)) {
         return fmt::format(
             "the picture is too coarse, its dots are {:.1f} px apart and at least 6 "
@@ -303,7 +304,7 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
 
 std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& scratch) {
     const Status status = facts.status;
-    const Options& options = facts.options;
+    const DeviceOptions& options = facts.options;
     if (status == Status::ok || status == Status::image_too_small ||
         status == Status::image_too_large || status == Status::ambiguous_code) {
         return {};

@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "dotpose/device_options.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/memory.hpp"
-#include "dotpose/options.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::cli {
@@ -13,7 +13,7 @@ namespace dotpose::cli {
 /// The result for a picture, and the settings on which the advice depends.
 struct PictureFacts {
     Status status = Status::ok;  ///< result of `locate` with `options`
-    Options options;
+    DeviceOptions options;
     bool code_is_given = true;  ///< true if only one code was tried
     /// Bits per pixel of a compressed video (capture/frame_source.hpp); 0 if unknown.
     double bits_per_px = 0;

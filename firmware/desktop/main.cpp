@@ -45,7 +45,7 @@ class Predictor {
     /// Locates `image` and writes a prediction whose error is up to half a spacing and 4 degrees.
     void write(const dotpose::GreyImage& image) {
         using namespace dotpose;
-        const Options options;
+        const DeviceOptions options;
         const Fix fix = DeviceLocator(memory_, options).locate(image.view());
         if (fix.status != Status::ok) return;
         const double shift_q16 = 32768 * std::sqrt(rng_.uniform());

@@ -3,6 +3,7 @@
 
 #include "dotpose/code.hpp"
 #include "dotpose/code_evidence.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/frame_pacer.hpp"
 #include "dotpose/geometry.hpp"
@@ -11,7 +12,6 @@
 #include "dotpose/locator_options.hpp"
 #include "dotpose/memory.hpp"
 #include "dotpose/option_fault.hpp"
-#include "dotpose/options.hpp"
 #include "dotpose/pose_packet.hpp"
 #include "dotpose/prediction.hpp"
 #include "dotpose/status.hpp"

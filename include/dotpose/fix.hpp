@@ -46,13 +46,14 @@ struct Fix {
     Attempt attempt = Attempt::first;
     Surface surface = Surface::even;  ///< always `even` from a DeviceLocator
 
-    Cell cell;                          ///< intersection to the upper left of the reference point
-    std::uint16_t fraction_x_q16 = 0;   ///< from `cell` to the right, in 1/65536 spacing
-    std::uint16_t fraction_y_q16 = 0;   ///< from `cell` down, in 1/65536 spacing
-    std::int32_t theta_bam = 0;         ///< binary angle: 2^31 is half a turn, in [-2^31, 2^31)
-    Section section;                    ///< section in which `cell` was read
-    std::int32_t spacing_px_q16 = 0;    ///< grid spacing in the image, in 2^-16 px
-    std::int32_t spacing_nm = 508'000;  ///< spacing of the printed grid, from Options; 0 if unknown
+    Cell cell;                         ///< intersection to the upper left of the reference point
+    std::uint16_t fraction_x_q16 = 0;  ///< from `cell` to the right, in 1/65536 spacing
+    std::uint16_t fraction_y_q16 = 0;  ///< from `cell` down, in 1/65536 spacing
+    std::int32_t theta_bam = 0;        ///< binary angle: 2^31 is half a turn, in [-2^31, 2^31)
+    Section section;                   ///< section in which `cell` was read
+    std::int32_t spacing_px_q16 = 0;   ///< grid spacing in the image, in 2^-16 px
+    std::int32_t spacing_nm =
+        508'000;  ///< spacing of the printed grid, from the options; 0 if unknown
 
     int dots_seen = 0;  ///< blobs of the size of a dot
     int dots_used = 0;  ///< dots to which the pose was fitted

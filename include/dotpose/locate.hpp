@@ -18,11 +18,11 @@
 #include <concepts>
 
 #include "dotpose/code_evidence.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/locator_options.hpp"
 #include "dotpose/memory.hpp"
-#include "dotpose/options.hpp"
 #include "dotpose/prediction.hpp"
 #include "dotpose/trace.hpp"
 
@@ -42,16 +42,16 @@ class RowLocator {
     RowLocator& operator=(const RowLocator&) = delete;
 
     /// Returns the options in use.
-    const Options& options() const { return options_; }
+    const DeviceOptions& options() const { return options_; }
     /// Sets the options of the following frames. Drops a frame that was begun and not finished.
-    void set_options(const Options& options);
+    void set_options(const DeviceOptions& options);
 
     /// Returns the results of each stage for the last frame. The stages of a DeviceLocator reuse
     /// the same memory. Only the results of the last stage that ran are then complete.
     Trace trace() const;
 
   protected:
-    RowLocator(core::Workspace* workspace, const Options& options)
+    RowLocator(core::Workspace* workspace, const DeviceOptions& options)
         : workspace_(workspace), options_(options) {}
     ~RowLocator() = default;
 
@@ -65,7 +65,7 @@ class RowLocator {
     Fix finished();
 
     core::Workspace* workspace_;
-    Options options_;
+    DeviceOptions options_;
 
   private:
     Status begun_ = Status::bad_argument;  ///< status of the frame whose rows are pushed
@@ -90,11 +90,11 @@ class Locator : public RowLocator {
     }
     // Overloads for fixed-point options, in which the code is always given. They are templates to
     // make `Locator(memory, {...})` select LocatorOptions.
-    template <std::same_as<Options> Fixed>
+    template <std::same_as<DeviceOptions> Fixed>
     explicit Locator(const Fixed& options) : Locator(new LargeMemory, options) {}
-    template <std::same_as<Options> Fixed>
+    template <std::same_as<DeviceOptions> Fixed>
     Locator(SmallMemory& memory, const Fixed& options) : Locator(memory.workspace_, options) {}
-    template <std::same_as<Options> Fixed>
+    template <std::same_as<DeviceOptions> Fixed>
     Locator(LargeMemory& memory, const Fixed& options) : Locator(memory.workspace_, options) {}
     ~Locator() { delete owned_; }
 
@@ -104,7 +104,7 @@ class Locator : public RowLocator {
         set_fixed_options(options);
         detects_code_ = !options.code;
     }
-    template <std::same_as<Options> Fixed>
+    template <std::same_as<DeviceOptions> Fixed>
     void set_options(const Fixed& options) {
         set_fixed_options(options);
     }
@@ -147,12 +147,12 @@ class Locator : public RowLocator {
     Fix finish();
 
   private:
-    Locator(core::DesktopWorkspace* workspace, const Options& options);
+    Locator(core::DesktopWorkspace* workspace, const DeviceOptions& options);
     template <typename AnyOptions>
     Locator(LargeMemory* owned, const AnyOptions& options) : Locator(*owned, options) {
         owned_ = owned;
     }
-    void set_fixed_options(const Options& options);
+    void set_fixed_options(const DeviceOptions& options);
     core::DesktopWorkspace& workspace();
     CodeReading finished(CodeReading reading);
     /// Stores the evidence of a reading and returns its fix.
@@ -172,7 +172,7 @@ class Locator : public RowLocator {
 class DeviceLocator : public RowLocator {
   public:
     /// The same rules for memory and options hold as for Locator.
-    explicit DeviceLocator(AnyDeviceMemory& memory, const Options& options = {});
+    explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
     /// Locate an image as the functions of Locator with the same names do.
     Fix locate(const ImageView& image);

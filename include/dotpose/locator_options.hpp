@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "dotpose/code.hpp"
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 
 #pragma GCC visibility push(default)
 
@@ -56,7 +56,7 @@ struct LocatorOptions {
 
     /// Returns the same options in fixed point. If any option is outside its range, one of the
     /// returned options is outside its range too.
-    operator Options() const;
+    operator DeviceOptions() const;
 };
 
 /// Returns the name of the first option outside of its range; null if all are in range.
@@ -89,8 +89,8 @@ inline const char* bad_option(const LocatorOptions& options) {
 }
 
 // Double precision is used only in headers, which are not part of the core's object code.
-inline LocatorOptions::operator Options() const {
-    Options fixed;
+inline LocatorOptions::operator DeviceOptions() const {
+    DeviceOptions fixed;
     if (bad_option(*this) != nullptr) {
         fixed.min_contrast = -1;
         return fixed;

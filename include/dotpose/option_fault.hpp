@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 
 #pragma GCC visibility push(default)
 
@@ -18,7 +18,7 @@ struct OptionFault {
 };
 
 /// Returns the first option outside its range, which causes Status::bad_argument.
-OptionFault option_fault(const Options& options) noexcept;
+OptionFault option_fault(const DeviceOptions& options) noexcept;
 
 }  // namespace dotpose
 

@@ -2,7 +2,7 @@
 /// evaluation and calibration. It is read-only and not a stable interface: it changes with the
 /// stages.
 ///
-///     Options options;
+///     DeviceOptions options;
 ///     options.show_stages = true;  // otherwise the first and the tracked attempt store little
 ///     Locator locator(memory, options);
 ///     const Fix fix = locator.locate(image);
@@ -17,9 +17,9 @@
 #include <span>
 
 #include "dotpose/code.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/geometry.hpp"
-#include "dotpose/options.hpp"
 
 #pragma GCC visibility push(default)
 
@@ -127,7 +127,7 @@ struct GridView {
 /// The results of the stages for the last frame, in order. The spans are valid until the next frame
 /// begins.
 struct Trace {
-    Options options;  ///< options of the Locator, with the code variant of the fix
+    DeviceOptions options;  ///< options of the Locator, with the code variant of the fix
     std::span<const DetectedDot> dots;
     std::span<const std::uint16_t> seeds;  ///< indices of the dots from which the lattice was found
     std::span<const SeedEdge> edges;       ///< edges between seeds

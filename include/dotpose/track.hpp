@@ -25,8 +25,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include "dotpose/device_options.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/options.hpp"
 #include "dotpose/prediction.hpp"
 
 #pragma GCC visibility push(default)
@@ -201,7 +201,7 @@ class Tracker {
     /// with it. Returns Prediction::like(newest) if there is no expected pose, because the filter
     /// has not followed `seen` or will be lost at that time. `options` are those of the Locator.
     Prediction predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
-                       const Options& options) const;
+                       const DeviceOptions& options) const;
 
     /// Returns true if a weak sighting of the next frame could be accepted. In this case, it is
     /// worthwhile to locate the frame with a relaxed IntegrityOptions::max_p_wrong_log2.

@@ -70,7 +70,7 @@ std::vector<LocatedDot> dots_read(const Trace& trace) {
 }
 
 FrameReader::FrameReader(std::optional<CodeVariant> code) : reader_(code) {
-    Options options;
+    DeviceOptions options;
     options.show_stages = true;
     locator_.set_options(options);
 }
@@ -89,7 +89,7 @@ std::optional<LocatedFrame> FrameReader::read(const ImageView& image) {
 }
 
 bool FrameReader::locate_with(const ImageView& image, const FixedLens& lens) {
-    Options options = locator_.options();
+    DeviceOptions options = locator_.options();
     options.lens = lens;
     locator_.set_options(options);
     return reader_.locate(image, locator_).status == Status::ok;

@@ -57,7 +57,7 @@ class FrameReader {
     CodeReader reader_;
     FixedLens lens_;
     bool is_known_ = false;
-    Locator locator_{Options{}};
+    Locator locator_{DeviceOptions{}};
 };
 
 }  // namespace dotpose::calibrate

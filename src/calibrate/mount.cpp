@@ -86,7 +86,7 @@ void require_spacing(const std::vector<double>& measured_mm, double spacing_mm) 
 Stations locate_stations(int frames, const FrameAt& frame_at, const std::optional<Camera>& camera,
                          const CalibrateOptions& options) {
     Stations result;
-    Locator locator{Options{}};
+    Locator locator{DeviceOptions{}};
     CodeReader reader(given_code(options));
     std::vector<Fix> fixes;
     std::vector<Place> places;
@@ -96,7 +96,7 @@ Stations locate_stations(int frames, const FrameAt& frame_at, const std::optiona
         if (i == 0) result.camera = camera ? *camera : without_distortion(image);
         result.camera.reference_px.reset();
         result.camera.theta_offset_rad = 0;
-        Options how;
+        DeviceOptions how;
         use_camera(result.camera, image.width_px, image.height_px, how);
         locator.set_options(how);
         const Fix seen = reader.locate(image.view(), locator);

@@ -28,13 +28,13 @@ constexpr std::array kProbes = {Probe{256, 1}, Probe{160, 2}, Probe{768, 1}, Pro
 
 TileLocator::TileLocator(const ImageView& scan, std::optional<CodeVariant> code, TileDone done)
     : scan_(scan), reader_(code), done_(std::move(done)) {
-    Options options;
+    DeviceOptions options;
     options.show_stages = true;
     locator_.set_options(options);
 }
 
 void TileLocator::use_effort(Effort effort) {
-    Options options = locator_.options();
+    DeviceOptions options = locator_.options();
     options.effort = effort;
     locator_.set_options(options);
 }

@@ -61,7 +61,7 @@ class TileLocator {
     TileDone done_;
     bool is_mirrored_ = false;
     int zoom_ = 1;
-    Locator locator_{Options{}};
+    Locator locator_{DeviceOptions{}};
     std::vector<std::uint8_t> magnified_;
 };
 

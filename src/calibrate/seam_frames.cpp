@@ -200,7 +200,7 @@ Camera SeamLocator::camera_of(const GreyImage& image, const Part& part) const {
     if (camera_) {
         camera = *camera_;
         if (camera.width_px != image.width_px || camera.height_px != image.height_px) {
-            Options unused;
+            DeviceOptions unused;
             use_camera(camera, image.width_px, image.height_px, unused);  // throws the error
         }
     } else {
@@ -219,7 +219,7 @@ std::optional<SheetView> SeamLocator::view_in(const GreyImage& image, const Part
     const ImageView pixels{image.view().row(part.v) + part.u, part.width, part.height,
                            image.view().stride_bytes};
     const Camera camera = camera_of(image, part);
-    Options options;
+    DeviceOptions options;
     options.effort = effort;
     options.show_stages = true;
     use_camera(camera, part.width, part.height, options);

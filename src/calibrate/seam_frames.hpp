@@ -64,7 +64,7 @@ class SeamLocator {
     const std::vector<SheetEntry>& sheets_;
     std::optional<Camera> camera_;
     std::vector<CodeVariant> codes_;
-    Locator locator_{Options{}};
+    Locator locator_{DeviceOptions{}};
 };
 
 }  // namespace dotpose::calibrate

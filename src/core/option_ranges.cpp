@@ -5,7 +5,7 @@
 
 namespace dotpose {
 
-OptionFault option_fault(const Options& options) noexcept {
+OptionFault option_fault(const DeviceOptions& options) noexcept {
     OptionFault fault;
     core::all_options(options, [&fault](const char* name, std::int32_t value, std::int32_t low,
                                         std::int32_t high) {

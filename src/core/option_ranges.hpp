@@ -4,14 +4,14 @@
 
 #include <cstdint>
 
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 
 namespace dotpose::core {
 
 /// Calls `is_good(name, value, low, high)` for each option until it returns false. Returns true if
 /// it never returned false.
 template <typename IsGood>
-constexpr bool all_options(const Options& options, IsGood is_good) {
+constexpr bool all_options(const DeviceOptions& options, IsGood is_good) {
     constexpr std::int32_t kFarthestReference_q8 = 16384 * 256;
     constexpr std::int32_t kFarthestLens_q8 = 1024 * 256;
     constexpr std::int32_t kMax = 1 << 20;  // 256 times this value fits in 32 bits

@@ -13,7 +13,7 @@ std::span<const T> first(std::span<T> all, int count) {
     return all.first(static_cast<std::size_t>(count));
 }
 
-Trace trace_of(const core::Workspace& w, const Options& options) {
+Trace trace_of(const core::Workspace& w, const DeviceOptions& options) {
     const core::Grid& grid = w.grid;
     return {
         .options = options,
@@ -32,7 +32,7 @@ Trace trace_of(const core::Workspace& w, const Options& options) {
 
 }  // namespace
 
-void RowLocator::set_options(const Options& options) {
+void RowLocator::set_options(const DeviceOptions& options) {
     options_ = options;
     static_cast<void>(note_begin(Status::bad_argument, 0));
 }

@@ -15,14 +15,14 @@ DotList dot_list(Workspace& w) {
     return {w.dots, w.dot_count, w.dots_kept_within_px};
 }
 
-bool are_valid(const Options& options) {
+bool are_valid(const DeviceOptions& options) {
     return all_options(options, [](const char*, std::int32_t value, std::int32_t low,
                                    std::int32_t high) { return value >= low && value <= high; });
 }
 
 }  // namespace
 
-Status check(int width_px, int height_px, const Options& options, const Workspace& w) {
+Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w) {
     if (!are_valid(options)) return Status::bad_argument;
     if (width_px < kMinFrameSide_px || height_px < kMinFrameSide_px) {
         return Status::image_too_small;
@@ -31,7 +31,7 @@ Status check(int width_px, int height_px, const Options& options, const Workspac
     return Status::ok;
 }
 
-Status check(const ImageView& image, const Options& options, const Workspace& w) {
+Status check(const ImageView& image, const DeviceOptions& options, const Workspace& w) {
     const Status status = check(image.width_px, image.height_px, options, w);
     return status == Status::ok && image.pixels == nullptr ? Status::bad_argument : status;
 }
@@ -46,7 +46,7 @@ FixedVec image_centre_q8(const AdaptiveThreshold& threshold) {
     return {(threshold.width_px - 1) * 128, (threshold.height_px - 1) * 128};
 }
 
-FixedVec reference_q8(FixedVec centre_q8, const Options& options) {
+FixedVec reference_q8(FixedVec centre_q8, const DeviceOptions& options) {
     return centre_q8 + FixedVec{options.reference_dx_q8, options.reference_dy_q8};
 }
 
@@ -64,7 +64,7 @@ void begin_frame(int width_px, int height_px, Workspace& w) {
     begin_blobs(w.threshold, w.open, dot_list(w));
 }
 
-void threshold_bands(int ready, const Options& options, Workspace& w) {
+void threshold_bands(int ready, const DeviceOptions& options, Workspace& w) {
     ThresholdOptions threshold = options.threshold;
     threshold.min_contrast = std::max(threshold.min_contrast, options.min_contrast);
     const int newest = (w.threshold.rows_taken - 1) >> w.threshold.band_shift;
@@ -80,13 +80,13 @@ void threshold_bands(int ready, const Options& options, Workspace& w) {
     }
 }
 
-void detect_image(const ImageView& image, const Options& options, Workspace& w) {
+void detect_image(const ImageView& image, const DeviceOptions& options, Workspace& w) {
     begin_frame(image.width_px, image.height_px, w);
     for (int v = 0; v < image.height_px; ++v)
         detect_row(image.row(v), options, w);
 }
 
-Status find_dots(const Options& options, Workspace& w) {
+Status find_dots(const DeviceOptions& options, Workspace& w) {
     sift_dots(options.blobs, dot_list(w));
     w.fix.dots_seen = w.dot_count;
     if (!w.threshold.has_contrast) return Status::no_contrast;

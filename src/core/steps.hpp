@@ -5,8 +5,8 @@
 #include "core/detect/adaptive_threshold.hpp"
 #include "core/detect/blobs.hpp"
 #include "core/workspace.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
 
 namespace dotpose::core {
 
@@ -18,11 +18,11 @@ std::span<T> first(std::span<T, Extent> all, int count) {
 FixedVec image_centre_q8(const AdaptiveThreshold& threshold);
 
 /// Returns the image point whose pose is reported. `centre_q8` is the image centre.
-FixedVec reference_q8(FixedVec centre_q8, const Options& options);
+FixedVec reference_q8(FixedVec centre_q8, const DeviceOptions& options);
 
 /// Returns ok if a frame can be started, or an image can be located. Otherwise returns the reason.
-Status check(int width_px, int height_px, const Options& options, const Workspace& w);
-Status check(const ImageView& image, const Options& options, const Workspace& w);
+Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w);
+Status check(const ImageView& image, const DeviceOptions& options, const Workspace& w);
 
 /// Refuses a frame before any stage: clears the results of the previous frame, and sets and returns
 /// the fix with the status `reason`.
@@ -35,20 +35,20 @@ void forget_frame(Workspace& w);
 void begin_frame(int width_px, int height_px, Workspace& w);
 
 /// Detects the blobs in `ready` bands of rows.
-void threshold_bands(int ready, const Options& options, Workspace& w);  // II-B.1
+void threshold_bands(int ready, const DeviceOptions& options, Workspace& w);  // II-B.1
 
 /// Processes the next row of pixels, and detects the blobs of the bands that the row completes.
 /// Most rows complete no band.
-inline void detect_row(const std::uint8_t* pixels, const Options& options, Workspace& w) {
+inline void detect_row(const std::uint8_t* pixels, const DeviceOptions& options, Workspace& w) {
     const int ready = take_row(pixels, w.threshold);
     if (ready > 0) threshold_bands(ready, options, w);
 }
 
 /// Detects the blobs of a whole image.
-void detect_image(const ImageView& image, const Options& options, Workspace& w);
+void detect_image(const ImageView& image, const DeviceOptions& options, Workspace& w);
 
 /// Selects the dots among the blobs and undistorts them. Errors: no_contrast, too_few_dots.
-Status find_dots(const Options& options, Workspace& w);
+Status find_dots(const DeviceOptions& options, Workspace& w);
 
 /// Finds the directions and spacings of the grid from connections between the dots nearest to a
 /// point.

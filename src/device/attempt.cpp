@@ -36,7 +36,7 @@ FixedVec start_q8(const Workspace& w) {
 
 /// Finds the grid of the dots, for a camera that looks straight at the paper. Errors: no_grid,
 /// no_displacement.
-Status find_grid(const Options& options, Workspace& w) {
+Status find_grid(const DeviceOptions& options, Workspace& w) {
     const FixedVec start = start_q8(w);
     const Status status = find_axes(start, kSeeds, w);
     if (status != Status::ok) return status;
@@ -49,7 +49,7 @@ Status find_grid(const Options& options, Workspace& w) {
 }
 
 /// Finds the position in the code from the bits.
-Status read_position(const Options& options, Workspace& w) {
+Status read_position(const DeviceOptions& options, Workspace& w) {
     // The decoder does not need the 8 x 8 window of the paper's method. It is computed for display
     // only.
     if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
@@ -60,14 +60,14 @@ Status read_position(const Options& options, Workspace& w) {
 }
 
 /// Checks the position against all dots in view.
-Status verify_position(const Options& options, Workspace& w) {
+Status verify_position(const DeviceOptions& options, Workspace& w) {
     const Status status =
         verify_quickly(w.grid, options.code, w.decoding, options.integrity, w.line_scores, w.fix);
     return status == Status::ok ? status : refused(status, w);
 }
 
 /// Fits the pose to the dots, whose positions in the code are known.
-Status measure_pose(const Options& options, Workspace& w) {
+Status measure_pose(const DeviceOptions& options, Workspace& w) {
     const Nominal nominal(w.grid, options.code, w.decoding);
     w.pattern_from_image =
         upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
@@ -82,7 +82,7 @@ Status measure_pose(const Options& options, Workspace& w) {
 
 }  // namespace
 
-const Fix& finish_device_attempt(const Options& options, Workspace& w) {
+const Fix& finish_device_attempt(const DeviceOptions& options, Workspace& w) {
     Status status = find_dots(options, w);                     // II-B.1
     if (status == Status::ok) status = find_grid(options, w);  // II-B.2-3
     if (status == Status::ok) {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "core/workspace.hpp"
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 
 namespace dotpose::core {
 
 /// Locates a frame from its blobs. Sets and returns the fix of the workspace.
-const Fix& finish_device_attempt(const Options& options, Workspace& w);
+const Fix& finish_device_attempt(const DeviceOptions& options, Workspace& w);
 
 }  // namespace dotpose::core

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "device/tracking.hpp"
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {

@@ -10,15 +10,15 @@
 
 namespace dotpose::core {
 
-Fix locate_as_device(const ImageView& image, const Options& options, DeviceWorkspace& w) {
+Fix locate_as_device(const ImageView& image, const DeviceOptions& options, DeviceWorkspace& w) {
     const Status status = check(image, options, w);
     if (status != Status::ok) return refuse(status, w);
     detect_image(image, options, w);
     return finish_device_attempt(options, w);
 }
 
-Fix locate_as_device(const ImageView& image, const Options& options, const Prediction& prediction,
-                     DeviceWorkspace& w) {
+Fix locate_as_device(const ImageView& image, const DeviceOptions& options,
+                     const Prediction& prediction, DeviceWorkspace& w) {
     Status status = check(image, options, w);
     if (status != Status::ok) return refuse(status, w);
     status = begin_device_tracked(image.width_px, image.height_px, options, prediction, w);
@@ -29,7 +29,7 @@ Fix locate_as_device(const ImageView& image, const Options& options, const Predi
     return is_tracked ? w.fix : locate_as_device(image, options, w);
 }
 
-Status begin(int width_px, int height_px, const Options& options, DeviceWorkspace& w) {
+Status begin(int width_px, int height_px, const DeviceOptions& options, DeviceWorkspace& w) {
     const Status status = check(width_px, height_px, options, w);
     if (status != Status::ok) return refuse(status, w).status;
     w.is_tracking = false;
@@ -37,15 +37,15 @@ Status begin(int width_px, int height_px, const Options& options, DeviceWorkspac
     return Status::ok;
 }
 
-Status begin(int width_px, int height_px, const Options& options, const Prediction& prediction,
-             DeviceWorkspace& w) {
+Status begin(int width_px, int height_px, const DeviceOptions& options,
+             const Prediction& prediction, DeviceWorkspace& w) {
     const Status status = check(width_px, height_px, options, w);
     if (status != Status::ok) return refuse(status, w).status;
     w.is_tracking = true;
     return begin_device_tracked(width_px, height_px, options, prediction, w);
 }
 
-void push_row(const std::uint8_t* pixels, const Options& options, DeviceWorkspace& w) {
+void push_row(const std::uint8_t* pixels, const DeviceOptions& options, DeviceWorkspace& w) {
     if (w.is_tracking) {
         static_cast<void>(push_tracked_row(pixels, w));
     } else {
@@ -53,7 +53,7 @@ void push_row(const std::uint8_t* pixels, const Options& options, DeviceWorkspac
     }
 }
 
-const Fix& finish_as_device(const Options& options, DeviceWorkspace& w) {
+const Fix& finish_as_device(const DeviceOptions& options, DeviceWorkspace& w) {
     return w.is_tracking ? finish_device_tracked(options, w) : finish_device_attempt(options, w);
 }
 
@@ -69,7 +69,7 @@ template class DeviceMemoryFor<160, 120>;
 template class DeviceMemoryFor<188, 120>;
 template class DeviceMemoryFor<320, 240>;
 
-DeviceLocator::DeviceLocator(AnyDeviceMemory& memory, const Options& options)
+DeviceLocator::DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options)
     : RowLocator(memory.workspace_, options) {}
 
 core::DeviceWorkspace& DeviceLocator::workspace() {

@@ -3,7 +3,7 @@
 
 #include "core/math/fixed.hpp"
 #include "device/tracking.hpp"
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/prediction.hpp"
 #include "dotpose/status.hpp"
 

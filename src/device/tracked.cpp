@@ -57,7 +57,7 @@ Status read_rows(DeviceWorkspace& w) {
 
 /// Decides from the bits of the dots whether the place is certain, and fits the pose. Errors:
 /// not_tracked.
-Status confirm(const Options& options, DeviceWorkspace& w) {
+Status confirm(const DeviceOptions& options, DeviceWorkspace& w) {
     Tracking& t = w.tracking;
     if (t.status != Status::ok) return t.status;
     w.fix.dots_seen = dots_seen(t);
@@ -75,7 +75,7 @@ Status confirm(const Options& options, DeviceWorkspace& w) {
 
 }  // namespace
 
-Status begin_device_tracked(int width_px, int height_px, const Options& options,
+Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& options,
                             const Prediction& prediction, DeviceWorkspace& w) {
     forget_frame(w);
     w.fix.attempt = Attempt::tracked;
@@ -110,7 +110,7 @@ Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w) {
     return t.status = read_rows(w);
 }
 
-const Fix& finish_device_tracked(const Options& options, DeviceWorkspace& w) {
+const Fix& finish_device_tracked(const DeviceOptions& options, DeviceWorkspace& w) {
     w.fix.status = confirm(options, w);
     return w.fix;
 }

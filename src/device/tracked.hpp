@@ -3,13 +3,13 @@
 #pragma once
 
 #include "device/workspace.hpp"
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/prediction.hpp"
 
 namespace dotpose::core {
 
 /// Starts a frame. Its size must be within the capacity of the workspace. Errors: not_tracked.
-Status begin_device_tracked(int width_px, int height_px, const Options& options,
+Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& options,
                             const Prediction& prediction, DeviceWorkspace& w);
 
 /// Takes the next row. Errors: not_tracked. After an error, further rows are ignored.
@@ -17,6 +17,6 @@ Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w);
 
 /// Ends the frame. Sets and returns the fix of the workspace. Its status is not_tracked if any row
 /// returned this status.
-const Fix& finish_device_tracked(const Options& options, DeviceWorkspace& w);
+const Fix& finish_device_tracked(const DeviceOptions& options, DeviceWorkspace& w);
 
 }  // namespace dotpose::core

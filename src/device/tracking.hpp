@@ -52,7 +52,7 @@ struct TrackedView {
 /// too many cells, only its middle is tracked, and counts as the image.
 struct Tracking {
     Status status = Status::not_tracked;
-    std::uint8_t min_contrast = 0;  ///< see Options
+    std::uint8_t min_contrast = 0;  ///< see DeviceOptions
     // Small processors access the first members fastest, so the members that are used for every dot
     // come first.
     int width_px = 0;

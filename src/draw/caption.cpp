@@ -170,7 +170,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t max_bytes)
 }
 
 /// Returns the message of the status with its counts.
-std::string message_of(const Fix& fix, const Options& options) {
+std::string message_of(const Fix& fix, const DeviceOptions& options) {
     std::string text = fmt::format("{}; dots seen: {}", message(fix.status), fix.dots_seen);
     if (fix.status == Status::too_few_dots) {
         text += fmt::format(", at least {} are needed", options.lattice.min_dots);

@@ -23,7 +23,7 @@ class Crew {
         : run_(run), outcomes_(outcomes), errors_(static_cast<std::size_t>(run.frames)) {}
 
     void work(bool reports) {
-        Locator locator{Options{}};
+        Locator locator{DeviceOptions{}};
         for (int index = next_++; index < run_.frames && !stopped_; index = next_++) {
             try {
                 locate_frame(index, locator);
@@ -54,7 +54,7 @@ class Crew {
             outcome.truth = frame.truth;
             outcome.problem = frame.problem;
             if (!frame.problem.empty()) continue;
-            Options options = run_.options[k];
+            DeviceOptions options = run_.options[k];
             options.code = frame.code.value_or(options.code);
             locator.set_options(options);
             const auto start = std::chrono::steady_clock::now();

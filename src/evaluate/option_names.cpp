@@ -22,7 +22,7 @@ const char* name(Effort effort) {
     return "twice";
 }
 
-std::string fault_text(const Options& options) {
+std::string fault_text(const DeviceOptions& options) {
     const OptionFault fault = option_fault(options);
     if (fault.name == nullptr) return {};
     return fmt::format("the option {} is {}; it must be {} to {}", fault.name, fault.value,

@@ -187,7 +187,7 @@ Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int 
     return part;
 }
 
-void use_camera(const Camera& camera, int width_px, int height_px, Options& options) {
+void use_camera(const Camera& camera, int width_px, int height_px, DeviceOptions& options) {
     if (camera.width_px != width_px || camera.height_px != height_px) {
         throw BadArgument(fmt::format("the camera file is for images of {} x {} px, not {} x {} px",
                                       camera.width_px, camera.height_px, width_px, height_px));

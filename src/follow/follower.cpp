@@ -54,7 +54,7 @@ ImageView Follower::as_located(ImageView image) {
     return flipped_.view();
 }
 
-Locator& Follower::locator(const Options& options) {
+Locator& Follower::locator(const DeviceOptions& options) {
     locator_.set_options(options);
     return locator_;
 }

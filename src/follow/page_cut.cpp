@@ -14,7 +14,8 @@ namespace {
 /// pixels.
 class PixelsOnPage {
   public:
-    PixelsOnPage(ImageView image, const Options& options, const Fix& fix, const SheetPlace& place)
+    PixelsOnPage(ImageView image, const DeviceOptions& options, const Fix& fix,
+                 const SheetPlace& place)
         : place_(place),
           u_((image.width_px - 1) / 2.0 + options.reference_dx_q8 / 256.0),
           v_((image.height_px - 1) / 2.0 + options.reference_dy_q8 / 256.0) {
@@ -76,7 +77,8 @@ std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
 /// Maps pixels to the cells of a sheet, with the map of the fix.
 class PixelsAmongDots {
   public:
-    PixelsAmongDots(ImageView image, const Options& options, const Fix& fix, const Sheet& sheet)
+    PixelsAmongDots(ImageView image, const DeviceOptions& options, const Fix& fix,
+                    const Sheet& sheet)
         : plane_(fix.pattern_from_image),
           left_(cells(fix.place.cell.x, sheet.origin.x)),
           top_(cells(fix.place.cell.y, sheet.origin.y)),
@@ -123,12 +125,12 @@ class PixelsAmongDots {
 
 }  // namespace
 
-std::optional<GreyImage> cut_to_page(ImageView image, const Options& options, const Fix& fix,
+std::optional<GreyImage> cut_to_page(ImageView image, const DeviceOptions& options, const Fix& fix,
                                      const SheetPlace& place) {
     return cut_to(image, PixelsOnPage(image, options, fix, place));
 }
 
-std::optional<GreyImage> cut_to_dots(ImageView image, const Options& options, const Fix& fix,
+std::optional<GreyImage> cut_to_dots(ImageView image, const DeviceOptions& options, const Fix& fix,
                                      const Sheet& sheet) {
     return cut_to(image, PixelsAmongDots(image, options, fix, sheet));
 }

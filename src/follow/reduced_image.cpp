@@ -32,7 +32,7 @@ GreyImage reduced(ImageView image, int by) {
     return result;
 }
 
-Options reduced(const Options& options, ImageView image, int by) {
+DeviceOptions reduced(const DeviceOptions& options, ImageView image, int by) {
     // Positions are converted relative to the corner of the image instead of the centre of its
     // first pixel, because such positions scale by a division alone. The image centre moves by half
     // of the dropped pixels.
@@ -41,7 +41,7 @@ Options reduced(const Options& options, ImageView image, int by) {
         return static_cast<std::int32_t>(
             std::lround((from_corner_px / by - (side_px / by) / 2.0) * 256));
     };
-    Options result = options;
+    DeviceOptions result = options;
     result.reference_dx_q8 = offset_q8(options.reference_dx_q8, image.width_px);
     result.reference_dy_q8 = offset_q8(options.reference_dy_q8, image.height_px);
     result.lens.centre_dx_q8 = offset_q8(options.lens.centre_dx_q8, image.width_px);

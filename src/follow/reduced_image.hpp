@@ -2,8 +2,8 @@
 /// factor.
 #pragma once
 
+#include "dotpose/device_options.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/options.hpp"
 #include "dotpose/tools/grey_image.hpp"
 
 namespace dotpose::follow_detail {
@@ -18,7 +18,7 @@ GreyImage reduced(ImageView image, int by);
 
 /// Converts options for `image` to options for the image reduced by `by`. Lens and reference point
 /// refer to the same points of the scene.
-Options reduced(const Options& options, ImageView image, int by);
+DeviceOptions reduced(const DeviceOptions& options, ImageView image, int by);
 
 /// Converts the fix of an image reduced by `by` to pixels of the original image.
 Fix in_whole_pixels(const Fix& fix, int by);

@@ -83,7 +83,7 @@ Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Predict
     return best;
 }
 
-Follower::Found Follower::look(ImageView image, const Options& options,
+Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
                                const std::optional<Prediction>& expected) {
     // The given code may be wrong. Without a prediction, the other codes are therefore tried as
     // well, which allows a warning.
@@ -117,7 +117,7 @@ Follower::Found Follower::without_neighbours(const Found& found) {
     if (found.seen.status == Status::not_certain) {
         // If the image shows two patterns, a fix of the better one is sufficient here, because it
         // only determines the edge of the page.
-        Options any = used_;
+        DeviceOptions any = used_;
         any.integrity = {.max_p_wrong_log2 = 0, .max_bit_error_q8 = 128};
         guess = look(image_, any, {});
     }

@@ -79,7 +79,7 @@ void CodeEvidence::add(Cell cell, const LogOdds& log2_q8) {
 Fix CodeReader::locate(const ImageView& image, Locator& locator) {
     if (given_) {
         if (locator.options().code != *given_) {
-            Options options = locator.options();
+            DeviceOptions options = locator.options();
             options.code = *given_;
             locator.set_options(options);
         }

@@ -28,7 +28,7 @@ float half_side_px(const ImageView& image) {
 }
 
 /// Returns true if most measured dots agree with the expected bits.
-bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options& options,
+bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOptions& options,
                   bool is_partial_view) {
     const bool is_full = 4 * bits.seen >= dots.count || is_partial_view;
     const auto exceeds_error_rate = [&](int wrong) {
@@ -59,7 +59,7 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
 }
 
 /// Judges the place by the bits of all dots near the centre. Returns ok or uncertain.
-Confirmation confirm_place(const Kernels& kernels, const Options& options,
+Confirmation confirm_place(const Kernels& kernels, const DeviceOptions& options,
                            const Hypothesis& hypothesis, const CellsInView& view,
                            const BitBlock& block, const BitsRead& bits, DesktopWorkspace& w) {
     w.decoding.bits = 2 * bits.read;
@@ -173,7 +173,7 @@ void add_variance(FloatVec px2, const FloatPlane& plane, PoseFit& fit) {
     }
 }
 
-void write_fix(const ImageView& image, const Options& options, const Hypothesis& hypothesis,
+void write_fix(const ImageView& image, const DeviceOptions& options, const Hypothesis& hypothesis,
                const BitsRead& bits, const PoseFit& fit, DesktopWorkspace& w) {
     w.fix.dots_seen = bits.seen;
     w.fix.bit_errors = bits.wrong_x + bits.wrong_y;
@@ -212,7 +212,7 @@ bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageVie
 }
 
 /// Returns the reference point, in px relative to `from_centre` of the hypothesis.
-FloatVec reference_px(const Options& options, const Hypothesis& hypothesis) {
+FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis) {
     return {static_cast<float>(options.reference_dx_q8) / 256 - hypothesis.from_centre.x,
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
 }
@@ -256,7 +256,7 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane) {
 namespace {
 
 /// Corrects biases, tests for uneven paper, and writes the fix.
-Confirmation finish(const Kernels& kernels, const ImageView& image, const Options& options,
+Confirmation finish(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                     const DotReader& reader, const CellsInView& view, const BitsRead& bits,
                     Hypothesis& hypothesis, PoseFit& fit, DesktopWorkspace& w) {
     FloatPlane& plane = hypothesis.pattern_from_image;
@@ -275,7 +275,7 @@ Confirmation finish(const Kernels& kernels, const ImageView& image, const Option
 /// exact hypothesis is implausible if its bits are not clean, or if it is still far from its dots
 /// after kMaxLooks rounds.
 Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
-                                 const Options& options, Hypothesis hypothesis,
+                                 const DeviceOptions& options, Hypothesis hypothesis,
                                  DesktopWorkspace& w) {
     FloatPlane& plane = hypothesis.pattern_from_image;
     MeasuredDots& dots = w.measured;
@@ -330,7 +330,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
 
 }  // namespace
 
-Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
+Confirmation confirm(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      Hypothesis hypothesis, DesktopWorkspace& w) {
     if (hypothesis.is_predicted && can_sample_directly(hypothesis)) {
         OtherCodes* const codes = wanted_codes(w);

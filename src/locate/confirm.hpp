@@ -4,8 +4,8 @@
 
 #include "core/kernels/select.hpp"
 #include "core/math/float_plane.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
 #include "locate/hypothesis.hpp"
 #include "locate/workspace.hpp"
 
@@ -23,7 +23,7 @@ enum class Confirmation : std::uint8_t {
 
 /// Measures, compares and fits. If the hypothesis is predicted and its dots are suitable, samples
 /// them directly first. Sets the fix of the workspace and, if requested, its trace.
-Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
+Confirmation confirm(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      Hypothesis hypothesis, DesktopWorkspace& w);
 
 /// Returns true if the residuals of a fix are so large that a second attempt may be better.

@@ -40,7 +40,7 @@ FloatVec middle_of(const Patch& patch, const ImageView& image) {
 
 /// Finds the dots of the patch. Returns false if the patch has no contrast. Sets the status of a
 /// frame whose patches contain no grid.
-bool find_patch_dots(const Kernels& kernels, const ImageView& image, const Options& options,
+bool find_patch_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      DesktopWorkspace& w) {
     Patch& patch = *w.patch;
     patch.dots.count = 0;
@@ -56,7 +56,7 @@ bool find_patch_dots(const Kernels& kernels, const ImageView& image, const Optio
 
 /// Finds a place in the code from the dots of a patch. The dots and the hypothesis are relative to
 /// `from_centre`. Returns false if no place is found.
-bool read_hypothesis(const Kernels& kernels, const Options& options, const PatchView& view,
+bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const PatchView& view,
                      FloatVec from_centre, DesktopWorkspace& w, Hypothesis& hypothesis) {
     Patch& patch = *w.patch;
     PatchGrid grid;
@@ -79,7 +79,7 @@ bool read_hypothesis(const Kernels& kernels, const Options& options, const Patch
 
 /// Searches for the mirrored code in the dots of a patch around the image centre. The code counts
 /// as mirrored only if adjacent lines have no wrong bits. The dots remain mirrored.
-void find_mirror_image(const Kernels& kernels, const Options& options, DesktopWorkspace& w) {
+void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, DesktopWorkspace& w) {
     if (w.is_mirrored) return;
     Patch& patch = *w.patch;
     for (std::size_t i = 0; i < static_cast<std::size_t>(patch.dots.count); ++i)
@@ -103,7 +103,7 @@ bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane&
 
 /// Finds a hypothesis in the patch at the image centre. Returns false if the dots of the patch have
 /// no place in the code.
-bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Options& options,
+bool find_hypothesis(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      DesktopWorkspace& w, Hypothesis& hypothesis) {
     Patch& patch = *w.patch;
     if (!find_patch_dots(kernels, image, options, w)) return false;
@@ -120,9 +120,9 @@ bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Optio
 /// Finds a hypothesis in a patch around a point of the image, in px. Its origin is the point where
 /// the dots are densest, which is returned in `densest_px`. Returns false if the dots of the patch
 /// have no place in the code.
-bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, const Options& options,
-                            FixedVec around_px, int scale, DesktopWorkspace& w,
-                            FixedVec& densest_px, Hypothesis& hypothesis) {
+bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
+                            const DeviceOptions& options, FixedVec around_px, int scale,
+                            DesktopWorkspace& w, FixedVec& densest_px, Hypothesis& hypothesis) {
     Patch& patch = *w.patch;
     PatchView view;
     FloatVec from_middle;
@@ -152,8 +152,9 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, cons
 /// then searches a patch around that point. Each hypothesis that its bits contradict increases the
 /// probability of a wrong fix. `tries_left` is the number of such hypotheses that are still
 /// allowed.
-Confirmation locate_around(const Kernels& kernels, const ImageView& image, const Options& options,
-                           FixedVec around_px, int scale, int& tries_left, DesktopWorkspace& w) {
+Confirmation locate_around(const Kernels& kernels, const ImageView& image,
+                           const DeviceOptions& options, FixedVec around_px, int scale,
+                           int& tries_left, DesktopWorkspace& w) {
     for (int round = 0; round < 2 && tries_left > 0; ++round) {
         Hypothesis hypothesis;
         FixedVec densest_px = around_px;
@@ -174,7 +175,7 @@ Confirmation locate_around(const Kernels& kernels, const ImageView& image, const
 
 /// Searches the whole image in patches, whose size increases from round to round.
 Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
-                              const Options& options, DesktopWorkspace& w) {
+                              const DeviceOptions& options, DesktopWorkspace& w) {
     int tries_left = tuned::kMaxTries;
     for (const int scale : {1, 2, 4}) {
         const int width = kPatchWidth_px * scale;
@@ -191,8 +192,8 @@ Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
 }
 
 /// Searches patches of increasing size around the image centre, and then the whole image.
-Confirmation locate_outwards(const Kernels& kernels, const ImageView& image, const Options& options,
-                             DesktopWorkspace& w) {
+Confirmation locate_outwards(const Kernels& kernels, const ImageView& image,
+                             const DeviceOptions& options, DesktopWorkspace& w) {
     for (const int scale : {1, 2, 4}) {
         if (!place_patch(image, image.width_px / 2, image.height_px / 2, kPatchWidth_px * scale,
                          kPatchHeight_px * scale, scale, *w.patch)) {
@@ -212,7 +213,7 @@ Confirmation locate_outwards(const Kernels& kernels, const ImageView& image, con
 
 }  // namespace
 
-bool locate_first(const Kernels& kernels, const ImageView& image, const Options& options,
+bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                   DesktopWorkspace& w) {
     forget_frame(w);
     w.fix.status = Status::no_contrast;

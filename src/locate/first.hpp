@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/kernels/select.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
 #include "locate/workspace.hpp"
 
 namespace dotpose::core {
@@ -12,7 +12,7 @@ namespace dotpose::core {
 /// Finds the grid in a part of the image, then measures the dots of the whole image. Returns true
 /// if a fix was found, which is in the workspace. Otherwise the status in the workspace is
 /// no_contrast, too_few_dots, no_grid or, if the bits leave doubts, not_certain.
-bool locate_first(const Kernels& kernels, const ImageView& image, const Options& options,
+bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                   DesktopWorkspace& w);
 
 }  // namespace dotpose::core

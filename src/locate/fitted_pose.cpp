@@ -21,7 +21,7 @@ bool is_implausible(const PoseFit& fit, int bits, int bit_errors) {
     return scatter + contradicted > tuning::confirm::kMaxImplausible;
 }
 
-bool fit_pattern(const Options& options, const ImageView& image, DesktopWorkspace& w,
+bool fit_pattern(const DeviceOptions& options, const ImageView& image, DesktopWorkspace& w,
                  PoseFit& fit) {
     const Nominal nominal(w.grid, options.code, w.decoding);
     w.pattern_from_image =
@@ -33,7 +33,7 @@ bool fit_pattern(const Options& options, const ImageView& image, DesktopWorkspac
     return refine_pose(observations, w.pattern_from_image, fit);
 }
 
-Status measure_pose(const Options& options, const ImageView& image, DesktopWorkspace& w) {
+Status measure_pose(const DeviceOptions& options, const ImageView& image, DesktopWorkspace& w) {
     PoseFit fit;
     if (!fit_pattern(options, image, w, fit)) return Status::no_grid;
     const FixedVec reference = reference_q8(image_centre_q8(w.threshold), options);

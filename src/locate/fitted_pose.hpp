@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/pose/refine_pose.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
 #include "locate/workspace.hpp"
 
 namespace dotpose::core {
@@ -17,10 +17,11 @@ bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
 /// Measures the dots of the position and fits the map from the image to the pattern. Returns false
 /// if the dots do not determine the map.
-bool fit_pattern(const Options& options, const ImageView& image, DesktopWorkspace& w, PoseFit& fit);
+bool fit_pattern(const DeviceOptions& options, const ImageView& image, DesktopWorkspace& w,
+                 PoseFit& fit);
 
 /// Fits the map as `fit_pattern` does, and writes the pose into the fix. Errors: no_grid,
 /// not_certain.
-Status measure_pose(const Options& options, const ImageView& image, DesktopWorkspace& w);
+Status measure_pose(const DeviceOptions& options, const ImageView& image, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

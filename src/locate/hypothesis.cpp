@@ -51,7 +51,7 @@ FloatLens float_lens(const FixedLens& lens) {
             static_cast<float>(lens.centre_dy_q8) / 256};
 }
 
-CellsInView cells_in_view(const ImageView& image, const Options& options,
+CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
                           const Hypothesis& hypothesis, float reach_px, int max_cells,
                           DesktopWorkspace& w) {
     const FloatVec centre = centre_px(image);

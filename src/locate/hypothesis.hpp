@@ -4,8 +4,8 @@
 
 #include "core/kernels/kernels.hpp"
 #include "core/math/float_plane.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
 #include "locate/workspace.hpp"
 
 namespace dotpose::core {
@@ -41,7 +41,7 @@ FloatLens float_lens(const FixedLens& lens);
 
 /// Returns the input of `list_cells`: the cells in view within `reach_px` of `from_centre`,
 /// subsampled to about `max_cells`. Writes the rolls into the workspace.
-CellsInView cells_in_view(const ImageView& image, const Options& options,
+CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
                           const Hypothesis& hypothesis, float reach_px, int max_cells,
                           DesktopWorkspace& w);
 

@@ -47,7 +47,7 @@ bool leaves_code_open(Status status) {
 /// Locates one frame in one of the possible codes.
 class Cascade {
   public:
-    Cascade(const ImageView& image, const Options& options, const PossibleCodes& codes,
+    Cascade(const ImageView& image, const DeviceOptions& options, const PossibleCodes& codes,
             const CodeEvidence& evidence, DesktopWorkspace& w)
         : image_(image),
           options_(options),
@@ -212,7 +212,7 @@ class Cascade {
     static constexpr int kMaxErrors = std::numeric_limits<int>::max();
 
     const ImageView& image_;
-    Options options_;
+    DeviceOptions options_;
     PossibleCodes codes_;
     const CodeEvidence& evidence_;
     DesktopWorkspace& w_;
@@ -223,7 +223,7 @@ class Cascade {
 };
 
 /// Locates a frame whose arguments were checked.
-CodeReading locate_checked(const ImageView& image, const Options& options,
+CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
                            const Prediction* prediction, const PossibleCodes& codes,
                            const CodeEvidence& evidence, DesktopWorkspace& w) {
     w.is_mirrored = false;
@@ -254,7 +254,7 @@ void note_other_reading(const CodeReading& any, CodeReading& reading) {
 
 }  // namespace
 
-Fix locate(const ImageView& image, const Options& options, const Prediction* prediction,
+Fix locate(const ImageView& image, const DeviceOptions& options, const Prediction* prediction,
            DesktopWorkspace& w) {
     const Status status = check(image, options, w);
     if (status != Status::ok) return refuse(status, w);
@@ -266,14 +266,14 @@ Fix locate(const ImageView& image, const Options& options, const Prediction* pre
     return locate_checked(image, options, prediction, PossibleCodes(options.code), {}, w).fix;
 }
 
-Status begin_image(int width_px, int height_px, const Options& options, DesktopWorkspace& w) {
+Status begin_image(int width_px, int height_px, const DeviceOptions& options, DesktopWorkspace& w) {
     Status status = check(width_px, height_px, options, w);
     if (status == Status::ok && !w.pushed.begin(width_px, height_px))
         status = Status::image_too_large;
     return status == Status::ok ? status : refuse(status, w).status;
 }
 
-CodeReading locate_in_any_code(const ImageView& image, const Options& options,
+CodeReading locate_in_any_code(const ImageView& image, const DeviceOptions& options,
                                const Prediction* prediction, const CodeEvidence& evidence,
                                DesktopWorkspace& w) {
     const Status status = check(image, options, w);
@@ -282,7 +282,8 @@ CodeReading locate_in_any_code(const ImageView& image, const Options& options,
     return locate_checked(image, options, prediction, PossibleCodes(evidence), evidence, w);
 }
 
-CodeReading locate_in_code(const ImageView& image, const Options& options, DesktopWorkspace& w) {
+CodeReading locate_in_code(const ImageView& image, const DeviceOptions& options,
+                           DesktopWorkspace& w) {
     const Status status = check(image, options, w);
     if (status != Status::ok) return {refuse(status, w), options.code, {}};
     const PossibleCodes given(options.code);
@@ -305,10 +306,10 @@ namespace dotpose {
 SmallMemory::SmallMemory() : workspace_(core::make_workspace<core::SmallWorkspace>(bytes_)) {}
 LargeMemory::LargeMemory() : workspace_(core::make_workspace<core::LargeWorkspace>(bytes_)) {}
 
-Locator::Locator(core::DesktopWorkspace* workspace, const Options& options)
+Locator::Locator(core::DesktopWorkspace* workspace, const DeviceOptions& options)
     : RowLocator(workspace, options) {}
 
-void Locator::set_fixed_options(const Options& options) {
+void Locator::set_fixed_options(const DeviceOptions& options) {
     RowLocator::set_options(options);
     detects_code_ = false;
     evidence_ = {};

@@ -2,26 +2,27 @@
 #pragma once
 
 #include "dotpose/code_evidence.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
 #include "dotpose/prediction.hpp"
 #include "locate/workspace.hpp"
 
 namespace dotpose::core {
 
 /// See Locator::locate; `prediction` may be null.
-Fix locate(const ImageView& image, const Options& options, const Prediction* prediction,
+Fix locate(const ImageView& image, const DeviceOptions& options, const Prediction* prediction,
            DesktopWorkspace& w);
 
 /// See Locator::begin.
-Status begin_image(int width_px, int height_px, const Options& options, DesktopWorkspace& w);
+Status begin_image(int width_px, int height_px, const DeviceOptions& options, DesktopWorkspace& w);
 
 /// See Locator::locate_in_any_code; `prediction` may be null.
-CodeReading locate_in_any_code(const ImageView& image, const Options& options,
+CodeReading locate_in_any_code(const ImageView& image, const DeviceOptions& options,
                                const Prediction* prediction, const CodeEvidence& evidence,
                                DesktopWorkspace& w);
 
 /// See Locator::locate_in_code.
-CodeReading locate_in_code(const ImageView& image, const Options& options, DesktopWorkspace& w);
+CodeReading locate_in_code(const ImageView& image, const DeviceOptions& options,
+                           DesktopWorkspace& w);
 
 }  // namespace dotpose::core

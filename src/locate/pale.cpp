@@ -18,7 +18,8 @@ int level_at(const ImageView& image, const FixedLens& lens, const PlaneFromImage
 
 }  // namespace
 
-bool is_pale(const ImageView& image, const Options& options, CodeVariant code, const Fix& fix) {
+bool is_pale(const ImageView& image, const DeviceOptions& options, CodeVariant code,
+             const Fix& fix) {
     constexpr std::int32_t kReach_cells = 10;
     constexpr std::int32_t kSpacing_q16 = 1 << 16;
     if (options.min_contrast == 0) return false;

@@ -1,14 +1,15 @@
 // Pale: tests whether the dots of a fix have less contrast than the options require.
 #pragma once
 
+#include "dotpose/device_options.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
 
 namespace dotpose::core {
 
 /// Returns true if the mean contrast between the paper and the dots around the image centre is less
 /// than `options.min_contrast` grey levels. `code` is the code in which the fix was read.
-bool is_pale(const ImageView& image, const Options& options, CodeVariant code, const Fix& fix);
+bool is_pale(const ImageView& image, const DeviceOptions& options, CodeVariant code,
+             const Fix& fix);
 
 }  // namespace dotpose::core

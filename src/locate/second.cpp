@@ -23,7 +23,7 @@ namespace {
 namespace tuned = tuning::second;
 
 /// Returns the options with the thresholds for a filtered image.
-Options for_filtered(Options options) {
+DeviceOptions for_filtered(DeviceOptions options) {
     options.min_contrast = 0;  // this limit is for the original image; `is_pale` applies it
     ThresholdOptions& threshold = options.threshold;
     threshold.min_contrast = threshold.min_contrast / 2 + 1;
@@ -33,7 +33,7 @@ Options for_filtered(Options options) {
 }
 
 /// Filters the image and detects its blobs.
-void detect_filtered(const ImageView& image, const Options& filtered, DesktopWorkspace& w) {
+void detect_filtered(const ImageView& image, const DeviceOptions& filtered, DesktopWorkspace& w) {
     begin_frame(image.width_px, image.height_px, w);
     begin_smoothing(image, w.smoothing);
     for (int v = 0; v < image.height_px; ++v)
@@ -41,7 +41,7 @@ void detect_filtered(const ImageView& image, const Options& filtered, DesktopWor
 }
 
 /// Finds the grid of the dots, including tilt and lens distortion. Slower than `find_grid`.
-Status find_grid_thoroughly(const Options& options, DesktopWorkspace& w) {
+Status find_grid_thoroughly(const DeviceOptions& options, DesktopWorkspace& w) {
     const FixedVec centre_q8 = image_centre_q8(w.threshold);
     Status status = find_axes(centre_q8, kMaxSeeds, w);
     if (status != Status::ok) return status;
@@ -59,12 +59,12 @@ Status find_grid_thoroughly(const Options& options, DesktopWorkspace& w) {
 
 /// Samples the bits at the cells of the grid. Returns false if the image has two overlapping
 /// patterns.
-bool shows_one_pattern(const ImageView& image, const Options& options, DesktopWorkspace& w) {
+bool shows_one_pattern(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     return sample_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
 }
 
 /// Decodes with the decoder that the options name.
-Status decode(const Options& options, DesktopWorkspace& w) {
+Status decode(const DeviceOptions& options, DesktopWorkspace& w) {
     if (options.decoder == Decoder::window) {
         return decode_window(w.grid, options.code, w.line_scores, w.decoding);
     }
@@ -72,7 +72,7 @@ Status decode(const Options& options, DesktopWorkspace& w) {
 }
 
 /// Finds the position in the code from the bits, and verifies that all dots agree with it.
-Status read_position(const Options& options, DesktopWorkspace& w) {
+Status read_position(const DeviceOptions& options, DesktopWorkspace& w) {
     w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
     choose_region(w);
     Status status = decode(options, w);  // II-B.6-7
@@ -85,7 +85,7 @@ Status read_position(const Options& options, DesktopWorkspace& w) {
 
 /// Reads the bits again through a grid that is fitted to the dots of the doubtful position. If the
 /// position is correct, the bits become clearer.
-Status resample(const ImageView& image, const Options& options, DesktopWorkspace& w) {
+Status resample(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     PoseFit fit;
     if (!fit_pattern(options, image, w, fit)) return Status::not_certain;
     w.grid_from_image = w.pattern_from_image;
@@ -96,7 +96,8 @@ Status resample(const ImageView& image, const Options& options, DesktopWorkspace
 
 /// If all dots have the same sub-pixel phase, measures them again as the first attempt does, which
 /// corrects the pixel bias.
-void measure_again_if_biased(const ImageView& image, const Options& options, DesktopWorkspace& w) {
+void measure_again_if_biased(const ImageView& image, const DeviceOptions& options,
+                             DesktopWorkspace& w) {
     const float variance_px2 =
         w.fix.residual_px * w.fix.residual_px / static_cast<float>(w.fix.dots_used);
     if (may_be_biased(float_plane(w.pattern_from_image), variance_px2,
@@ -106,7 +107,8 @@ void measure_again_if_biased(const ImageView& image, const Options& options, Des
 }
 
 /// Finds dots and grid in the filtered image, and reads the bits.
-Status read_filtered_with(const Options& filtered, const ImageView& image, DesktopWorkspace& w) {
+Status read_filtered_with(const DeviceOptions& filtered, const ImageView& image,
+                          DesktopWorkspace& w) {
     detect_filtered(image, filtered, w);
     Status status = find_dots(filtered, w);                                // II-B.1
     if (status == Status::ok) status = find_grid_thoroughly(filtered, w);  // II-B.2-3
@@ -119,8 +121,8 @@ Status read_filtered_with(const Options& filtered, const ImageView& image, Deskt
 
 /// Finds dots and grid and reads the bits. If the dots may be pale, tries again with a lower
 /// threshold.
-Status read_filtered(const ImageView& image, const Options& options, DesktopWorkspace& w) {
-    Options filtered = for_filtered(options);
+Status read_filtered(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
+    DeviceOptions filtered = for_filtered(options);
     const Status status = read_filtered_with(filtered, image, w);
     const int pale = (options.threshold.min_contrast + tuned::kPaleParts - 1) / tuned::kPaleParts;
     const bool may_be_pale = (status == Status::no_contrast || status == Status::too_few_dots) &&
@@ -136,7 +138,8 @@ Status read_filtered(const ImageView& image, const Options& options, DesktopWork
 }
 
 /// Measures the pose at the position found, and computes the odds of the other codes.
-Status measure_and_weigh(const ImageView& image, const Options& options, DesktopWorkspace& w) {
+Status measure_and_weigh(const ImageView& image, const DeviceOptions& options,
+                         DesktopWorkspace& w) {
     const Status status = measure_pose(options, image, w);  // II-B.8
     w.fix.attempt = Attempt::second;
     if (status == Status::ok) {
@@ -149,7 +152,7 @@ Status measure_and_weigh(const ImageView& image, const Options& options, Desktop
 
 }  // namespace
 
-bool SecondAttempt::read(const Options& options, Resampling resampling) {
+bool SecondAttempt::read(const DeviceOptions& options, Resampling resampling) {
     if (!is_seen_) {
         w_.fix.status = read_filtered(image_, options, w_);
         w_.fix.attempt = Attempt::second;

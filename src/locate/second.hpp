@@ -2,8 +2,8 @@
 // all its dots thoroughly, and reads the bits at each cell of the image.
 #pragma once
 
+#include "dotpose/device_options.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
 #include "locate/workspace.hpp"
 
 namespace dotpose::core {
@@ -19,7 +19,7 @@ class SecondAttempt {
     /// Locates the image in the code of the options. Returns true if there is a fix; the workspace
     /// then contains the fix, and otherwise the status. With `Resampling::if_doubtful`, a position
     /// that is not certain is read again through a grid that is fitted to its dots.
-    bool read(const Options& options, Resampling resampling);
+    bool read(const DeviceOptions& options, Resampling resampling);
 
   private:
     const ImageView& image_;

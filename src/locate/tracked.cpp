@@ -72,7 +72,7 @@ bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsI
 
 /// Corrects the hypothesis by the dots near its `from_centre`. Returns false if the dots are not
 /// found.
-bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Options& options,
+bool correct_by_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
     FloatPlane& plane = hypothesis.pattern_from_image;
     MeasuredDots& dots = w.measured;
@@ -112,8 +112,8 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
 
 /// Corrects the hypothesis by the dots near `from`, in px relative to the image centre. Returns
 /// false if the dots are not found.
-bool correct(const Kernels& kernels, const ImageView& image, const Options& options, FloatVec from,
-             int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
+bool correct(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
+             FloatVec from, int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
     hypothesis.from_centre = from;
     hypothesis.pattern_from_image = recentred(hypothesis.pattern_from_image, from);
     count_from_centre(options.code, hypothesis);
@@ -131,7 +131,7 @@ bool is_in_code(const Place& place) {
 /// Makes a hypothesis from the prediction, relative to the image centre. Returns nullopt if the
 /// prediction is not plausible.
 std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const ImageView& image,
-                                          const Options& options) {
+                                          const DeviceOptions& options) {
     Hypothesis hypothesis;
     const PlaneFromImage& plane = prediction.pattern_from_image;
     const auto from_q8 = [](int side_px, std::int32_t centre_q8) {
@@ -156,7 +156,7 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Im
 
 /// Corrects the hypothesis by the dots near several points of the image in turn, until the bits
 /// confirm a corrected hypothesis.
-bool confirm_corrected(const Kernels& kernels, const ImageView& image, const Options& options,
+bool confirm_corrected(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                        const Hypothesis& hypothesis, int max_px, DesktopWorkspace& w) {
     for (const FloatVec fraction : tuned::kPoints) {
         const FloatVec from{fraction.x * static_cast<float>(image.width_px),
@@ -170,7 +170,7 @@ bool confirm_corrected(const Kernels& kernels, const ImageView& image, const Opt
 
 }  // namespace
 
-bool locate_tracked(const Kernels& kernels, const ImageView& image, const Options& options,
+bool locate_tracked(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                     const Prediction& prediction, DesktopWorkspace& w) {
     forget_frame(w);
     const auto hypothesis = hypothesis_from(prediction, image, options);
@@ -181,7 +181,7 @@ bool locate_tracked(const Kernels& kernels, const ImageView& image, const Option
     return true;
 }
 
-void measure_again(const Kernels& kernels, const ImageView& image, const Options& options,
+void measure_again(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                    DesktopWorkspace& w) {
     auto hypothesis = hypothesis_from(Prediction::like(w.fix), image, options);
     if (!hypothesis) return;

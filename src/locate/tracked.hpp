@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/kernels/select.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
 #include "dotpose/prediction.hpp"
 #include "locate/workspace.hpp"
 
@@ -11,12 +11,12 @@ namespace dotpose::core {
 
 /// Measures the dots at their predicted places. Returns false if the image does not confirm the
 /// prediction.
-bool locate_tracked(const Kernels& kernels, const ImageView& image, const Options& options,
+bool locate_tracked(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                     const Prediction& prediction, DesktopWorkspace& w);
 
 /// Measures the dots of the fix in the workspace again, as exactly as the dots of a prediction. The
 /// place of the fix must be certain. If the dots do not confirm the fix, it remains unchanged.
-void measure_again(const Kernels& kernels, const ImageView& image, const Options& options,
+void measure_again(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                    DesktopWorkspace& w);
 
 }  // namespace dotpose::core

@@ -61,7 +61,7 @@ const MotionEstimate* Tracker::following(const Sighting& seen) const {
 }
 
 Prediction Tracker::predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
-                            const Options& options) const {
+                            const DeviceOptions& options) const {
     const Prediction as_seen = Prediction::like(newest);
     const MotionEstimate* followed = following(seen);
     const std::int64_t last_us = seen.time_us;

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/device_options.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
 #include "dotpose/tools/calibration_coverage.hpp"
 #include "dotpose/trace.hpp"
 #include "draw/track_map.hpp"

@@ -58,7 +58,7 @@ TEST(Adversarial, WhatASeamExplainsBetterIsNoFix) {
         const test::AdversarialFrame frame =
             test::make_adversarial(Adversary::seam, seam.seed, seam.index);
         for (const Effort effort : {Effort::device, Effort::once, Effort::twice}) {
-            Options options = frame.options;
+            DeviceOptions options = frame.options;
             options.effort = effort;
             const Fix fix = Locator(*memory, options).locate(frame.image.view());
             EXPECT_NE(test::judge(fix, frame), test::Verdict::wrong)

@@ -32,7 +32,7 @@ class DotsAlike : public testing::TestWithParam<AlikeCase> {};
 TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed);
     const auto memory = std::make_unique<LargeMemory>();
-    Options options;
+    DeviceOptions options;
     options.effort = Effort::once;
     std::vector<Outcome> outcomes(kFramesOfCase);
     for (int i = 0; i < kFramesOfCase; ++i) {

@@ -64,7 +64,7 @@ TEST(MirroredFrames, AreRefusedAsSuch) {
         dotpose::Setup setup;
         setup.seed = kSeed;
         const GreyImage image = render_scene(Scene::mirrored, draw_shot(setup, i));
-        EXPECT_EQ(Locator(*memory, Options{}).locate(image.view()).status, Status::mirrored)
+        EXPECT_EQ(Locator(*memory, DeviceOptions{}).locate(image.view()).status, Status::mirrored)
             << "seed " << kSeed << ", frame " << i;
     }
 }

@@ -47,7 +47,7 @@ TEST_P(RealPhoto, is_located_whatever_way_it_is_turned) {
         image = turned(image);
 
     const auto memory = std::make_unique<LargeMemory>();
-    const Fix fix = Locator(*memory, Options{}).locate(image.view());
+    const Fix fix = Locator(*memory, DeviceOptions{}).locate(image.view());
     ASSERT_EQ(fix.status, Status::ok) << message(fix.status);
     EXPECT_NEAR(fix.x_grid(), kX_grid, 0.1);
     EXPECT_NEAR(fix.y_grid(), kY_grid, 0.1);

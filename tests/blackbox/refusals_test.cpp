@@ -27,7 +27,7 @@ Shot shot_of(Preset preset, Size size, std::uint64_t index) {
 
 /// Expects a refusal. A fix is wrong, and so is a status about the caller instead of the frame.
 void expect_refusal(const GreyImage& image, LargeMemory& memory, const std::string& what) {
-    const Fix fix = Locator(memory, Options{}).locate(image.view());
+    const Fix fix = Locator(memory, DeviceOptions{}).locate(image.view());
     switch (fix.status) {
         case Status::ok:
         case Status::bad_argument:
@@ -86,7 +86,8 @@ TEST(Refusals, TheSmallestImages) {
         image.pixels.assign(
             static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px),
             128);
-        EXPECT_EQ(Locator(*memory, Options{}).locate(image.view()).status, Status::image_too_small);
+        EXPECT_EQ(Locator(*memory, DeviceOptions{}).locate(image.view()).status,
+                  Status::image_too_small);
     }
 }
 

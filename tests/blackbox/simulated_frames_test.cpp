@@ -62,7 +62,7 @@ void judge(const Fix& fix, const Shot& shot, Tally& tally) {
     tally.errors_mrad.push_back(std::abs(theta) * 1000);
 }
 
-Tally run(const Setup& setup, std::uint64_t frames, const Options& options = {}) {
+Tally run(const Setup& setup, std::uint64_t frames, const DeviceOptions& options = {}) {
     const auto memory = std::make_unique<LargeMemory>();
     Tally tally;
     for (std::uint64_t i = 0; i < frames; ++i) {
@@ -111,7 +111,7 @@ TEST(SimulatedFrames, FramesInDoubtAreLookedAtOnceMore) {
     for (const std::uint64_t index :
          {599u, 2270u, 3006u, 3468u, 4166u, 5006u, 5317u, 5590u, 5840u}) {
         const Shot shot = draw_shot(setup_of(Preset::hard, 777), index);
-        judge(Locator(*memory, Options{}).locate(render(shot).view()), shot, tally);
+        judge(Locator(*memory, DeviceOptions{}).locate(render(shot).view()), shot, tally);
     }
     EXPECT_EQ(tally.located, tally.frames);
 }
@@ -120,7 +120,7 @@ TEST(SimulatedFrames, AllProfilesAreRead) {
     for (const CodeVariant code : {CodeVariant::libdots, CodeVariant::microdots}) {
         dotpose::Setup setup = setup_of(Preset::nominal, kFramesSeed + 1);
         setup.pattern.code = code;
-        Options options;
+        DeviceOptions options;
         options.code = code;
         const Tally tally = run(setup, frames_of(100, 1000), options);
         EXPECT_GE(tally.located_share(), 0.99) << static_cast<int>(code);
@@ -132,7 +132,7 @@ TEST(SimulatedFrames, OtherProfilesAreNotTakenForOnesOwn) {
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::microdots}) {
         dotpose::Setup setup = setup_of(Preset::nominal, kFramesSeed + 2);
         setup.pattern.code = code;
-        Options options;
+        DeviceOptions options;
         options.code = code == CodeVariant::anoto ? CodeVariant::microdots : CodeVariant::anoto;
         const Tally tally = run(setup, frames_of(50, 1000), options);
         EXPECT_EQ(tally.located, 0u) << static_cast<int>(code);
@@ -152,7 +152,7 @@ TEST(SimulatedFrames, BothEndsOfTheCodeAreReadAsTheMiddle) {
                                 Cell{kFar, kFar}, Cell{kFar, kPositionsPerAxis / 2}}) {
             Shot shot = draw_shot(setup_of(Preset::nominal, kFramesSeed + 3), index++);
             shot.pose.cell = cell;
-            judge(Locator(*memory, Options{}).locate(render(shot).view()), shot, tally);
+            judge(Locator(*memory, DeviceOptions{}).locate(render(shot).view()), shot, tally);
         }
     }
     EXPECT_GE(tally.located_share(), 0.98) << "seed " << kFramesSeed + 3;
@@ -166,7 +166,7 @@ TEST(SimulatedFrames, EveryDirectionIsRead) {
         Shot shot = draw_shot(setup_of(Preset::clean, kFramesSeed + 4),
                               static_cast<std::uint64_t>(degrees + 180));
         shot.pose.theta_rad = degrees * std::numbers::pi / 180;
-        judge(Locator(*memory, Options{}).locate(render(shot).view()), shot, tally);
+        judge(Locator(*memory, DeviceOptions{}).locate(render(shot).view()), shot, tally);
     }
     EXPECT_EQ(tally.located, tally.frames) << "seed " << kFramesSeed + 4;
     EXPECT_EQ(tally.wrong, 0u);

@@ -49,7 +49,7 @@ TEST(SeamedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     for (std::uint64_t i = 0; i < kFrames; ++i) {
         const SeamShot shot = draw_seam_shot(188, 120, kAnywhere_px, kSeed, i);
         const GreyImage image = render(shot);
-        const Fix fix = Locator(*memory, Options{}).locate(image.view());
+        const Fix fix = Locator(*memory, DeviceOptions{}).locate(image.view());
         if (fix.status != Status::ok) continue;
         ++fixes;
         claim_too_much += sigmas_off(fix, shot.truth()) > 4 ? 1 : 0;
@@ -71,7 +71,7 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         const GreyImage image = render(shot);
         Outcome outcome;
         outcome.truth = truth_of(shot);
-        outcome.fix = Locator(*memory, Options{}).locate(image.view());
+        outcome.fix = Locator(*memory, DeviceOptions{}).locate(image.view());
         if (!outcome.is_fix()) continue;
         ++fixes;
         EXPECT_FALSE(outcome.is_wrong());
@@ -99,7 +99,7 @@ struct Claims {
         for (std::uint64_t i = 0; i < kFrames; ++i) {
             Shot shot = nominal_shot(i);
             if (wrinkled_by > 0) wrinkle(wrinkled_by, shot);
-            const Fix fix = Locator(*memory, Options{}).locate(render(shot).view());
+            const Fix fix = Locator(*memory, DeviceOptions{}).locate(render(shot).view());
             if (fix.status != Status::ok) continue;
             ++fixes;
             within_4_sigmas += sigmas_off(fix, shot) <= 4 ? 1 : 0;
@@ -140,9 +140,10 @@ TEST(SlippedSheet, PredictionsAreNoHelpToTheOtherSide) {
     const auto memory = std::make_unique<LargeMemory>();
     const Shot shot = slipped_shot();
     const GreyImage image = render(shot);
-    const Fix fix = Locator(*memory, Options{}).locate(image.view());
+    const Fix fix = Locator(*memory, DeviceOptions{}).locate(image.view());
     ASSERT_EQ(fix.status, Status::ok);
-    const Fix tracked = Locator(*memory, Options{}).locate(image.view(), Prediction::like(fix));
+    const Fix tracked =
+        Locator(*memory, DeviceOptions{}).locate(image.view(), Prediction::like(fix));
     ASSERT_EQ(tracked.status, Status::ok);
     EXPECT_EQ(tracked.attempt, Attempt::tracked);
     EXPECT_EQ(tracked.surface, Surface::divided);
@@ -161,7 +162,7 @@ TEST(BlurredFrames, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         Shot shot = nominal_shot(i);
         shot.imperfections.blur_sigma_px = 1.75;
         shot.imperfections.jitter_mm = 0;
-        const Fix fix = Locator(*memory, Options{}).locate(render(shot).view());
+        const Fix fix = Locator(*memory, DeviceOptions{}).locate(render(shot).view());
         if (fix.status != Status::ok) continue;
         ++fixes;
         const Deviation off = deviation_of(fix, truth_of(shot));

@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return fuzz::reads_or_refuses(data, size, [](const std::string& path) {
         const Camera camera = read_camera(path);
         if (camera.width_px < 1 || camera.height_px < 1) std::abort();
-        Options options;
+        DeviceOptions options;
         use_camera(camera, camera.width_px, camera.height_px, options);
     });
 }

@@ -20,7 +20,7 @@ struct Values {
     Section section;
     Cell cell;
     FixedLens lens;
-    Options options;
+    DeviceOptions options;
     CameraModel camera;
     cli::PatternArguments pattern;
     double number = 0;

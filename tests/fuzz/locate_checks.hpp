@@ -15,7 +15,7 @@ inline void require(bool holds, const char* what) {
     std::abort();
 }
 
-inline void check(const Fix& fix, const Options& options) {
+inline void check(const Fix& fix, const DeviceOptions& options) {
     require(static_cast<int>(fix.status) < kStatusCount, "status");
     require(message(fix.status)[0] != '\0', "message");
     if (fix.status != Status::ok) return;

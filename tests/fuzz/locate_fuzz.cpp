@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::LocateHeader header;
     if (size < sizeof header) return -1;
     std::memcpy(&header, data, sizeof header);
-    const Options options = fuzz::options_of(header);
+    const DeviceOptions options = fuzz::options_of(header);
     const std::span<const std::uint8_t> rest{data + sizeof header, size - sizeof header};
     const fuzz::Pixels image = fuzz::pixels_of(header, rest);
 

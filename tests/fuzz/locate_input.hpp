@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "dotpose/code.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
 #include "dotpose/prediction.hpp"
 
 namespace dotpose::fuzz {
@@ -50,9 +50,9 @@ struct LocateHeader {
 };
 static_assert(sizeof(LocateHeader) == 44 && std::is_trivially_copyable_v<LocateHeader>);
 
-inline Options options_of(const LocateHeader& header) {
+inline DeviceOptions options_of(const LocateHeader& header) {
     constexpr std::int32_t kFarthest_q8 = 1 << 20;
-    Options options;
+    DeviceOptions options;
     options.code = static_cast<CodeVariant>(header.code % 3);
     if ((header.flags & LocateHeader::one_attempt) != 0) options.effort = Effort::once;
     if ((header.flags & LocateHeader::window_decoder) != 0) options.decoder = Decoder::window;

@@ -19,7 +19,7 @@ struct Change {
 };
 constexpr std::size_t kChangeBytes = 5;
 
-void apply(const Change& change, Options& options) {
+void apply(const Change& change, DeviceOptions& options) {
     const std::array<std::int32_t*, 16> numbers = {&options.lens.k_q40,
                                                    &options.lens.centre_dx_q8,
                                                    &options.lens.centre_dy_q8,
@@ -70,13 +70,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::array<GreyImage, 3> kFrames = make_frames();
     if (size < 1) return -1;
     const ImageView image = kFrames[data[0] % kFrames.size()].view();
-    Options options;
+    DeviceOptions options;
     for (std::size_t at = 1; at + kChangeBytes <= size; at += kChangeBytes) {
         Change change{data[at]};
         std::memcpy(&change.value, data + at + 1, sizeof change.value);
         apply(change, options);
     }
-    const Fix usual = Locator(*kMemory, Options{}).locate(image);
+    const Fix usual = Locator(*kMemory, DeviceOptions{}).locate(image);
     Locator locator(*kMemory, options);
     fuzz::check(locator.locate(image), options);
     fuzz::check(locator.locate(image, Prediction::like(usual)), options);

@@ -24,8 +24,9 @@ inline bool is_code(std::int32_t code) {
 
 /// Reads options: overwrites the defaults in `options` with the members that the caller's version
 /// of the struct has. `first_bytes` is the size of the struct in its first version.
-template <typename Options>
-dotpose_status read_sized(const Options* given, std::size_t first_bytes, Options& options) {
+template <typename DeviceOptions>
+dotpose_status read_sized(const DeviceOptions* given, std::size_t first_bytes,
+                          DeviceOptions& options) {
     if (given == nullptr) return DOTPOSE_OK;
     const std::size_t bytes = given->size;
     if (bytes < first_bytes || bytes > sizeof options || bytes % 4 != 0) return DOTPOSE_BAD_SIZE;
@@ -34,8 +35,8 @@ dotpose_status read_sized(const Options* given, std::size_t first_bytes, Options
 }
 
 /// Writes the default options, limited to the members that the caller's version of the struct has.
-template <typename Options>
-dotpose_status write_sized(Options defaults, std::size_t first_bytes, Options* options,
+template <typename DeviceOptions>
+dotpose_status write_sized(DeviceOptions defaults, std::size_t first_bytes, DeviceOptions* options,
                            std::size_t bytes) {
     if (options == nullptr) return DOTPOSE_NULL_POINTER;
     if (bytes < first_bytes || bytes > sizeof defaults || bytes % 4 != 0) return DOTPOSE_BAD_SIZE;

@@ -140,7 +140,7 @@ class Lines {
 /// Locates a frame in every way, and the next frame with the prediction of the first.
 void locate(const GreyImage& image, const GreyImage& next, Lines lines) {
     const auto memory = std::make_unique<LargeMemory>();
-    Locator locator(*memory, Options{});
+    Locator locator(*memory, DeviceOptions{});
     const Fix fix = locator.locate(image.view());
     lines.add("locate", fix);
     if (fix.status == Status::ok)

@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "dotpose/device_options.hpp"
 #include "dotpose/files/error.hpp"
-#include "dotpose/options.hpp"
 
 #pragma GCC visibility push(default)
 
@@ -117,7 +117,7 @@ Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int 
 /// Sets lens and reference point for images of this size. If the view of the camera is known, the
 /// trace keeps the dots for `with_camera`. Throws BadArgument if the images of the camera have
 /// another size.
-void use_camera(const Camera& camera, int width_px, int height_px, Options& options);
+void use_camera(const Camera& camera, int width_px, int height_px, DeviceOptions& options);
 
 }  // namespace dotpose
 

@@ -1,7 +1,7 @@
 /// Camera files: a `Camera` as YAML.
 ///
 ///     const Camera camera = read_camera("camera.yaml");
-///     Options options;
+///     DeviceOptions options;
 ///     use_camera(camera, image.width_px, image.height_px, options);
 ///
 /// `read_camera` also reads the `camera_info` files of ROS (`plumb_bob`) and converts their lens.

@@ -20,9 +20,9 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/device_options.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/options.hpp"
 #include "dotpose/tools/grey_image.hpp"
 #include "dotpose/tools/outcome.hpp"
 #include "dotpose/tools/simulate.hpp"
@@ -60,7 +60,7 @@ struct FrameRun {
     int frames = 0;
     FrameSource frame_at;
     /// Every frame is located with each of these options.
-    std::vector<Options> options = {Options{}};
+    std::vector<DeviceOptions> options = {DeviceOptions{}};
     /// True to detect the code variant of frames without a known code variant, independently for
     /// each frame.
     bool any_code = false;

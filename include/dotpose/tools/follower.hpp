@@ -29,7 +29,7 @@ namespace dotpose {
 
 /// Sheets, code and camera of a Follower.
 struct FollowerOptions {
-    Options locate;
+    DeviceOptions locate;
     /// The sheets that may be in view. If empty, poses are in the pattern frame.
     std::vector<SheetEntry> sheets;
     /// The code variant; none to detect it from all images together. Not used if there are sheets,
@@ -94,7 +94,7 @@ class Follower {
     /// Return data of the latest image: the image as located (possibly flipped and reduced), the
     /// options used, and the trace of the stages.
     ImageView image() const { return image_; }
-    const Options& used_options() const { return used_; }
+    const DeviceOptions& used_options() const { return used_; }
     Trace trace() const { return locator_.trace(); }
 
   private:
@@ -114,7 +114,7 @@ class Follower {
     void use_sheets();
     void use_options_for(int width_px, int height_px);
     ImageView as_located(ImageView image);
-    Locator& locator(const Options& options);
+    Locator& locator(const DeviceOptions& options);
     Fix by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place) const;
     double spacing_mm(const std::optional<SheetPlace>& place) const;
     Located located(const Found& found, const Fix& fix) const;
@@ -127,7 +127,8 @@ class Follower {
     // Functions for sequences of images.
     std::optional<Prediction> predict(std::int64_t time_us) const;
     Found find(int max_p_wrong_log2, const std::optional<Prediction>& expected);
-    Found look(ImageView image, const Options& options, const std::optional<Prediction>& expected);
+    Found look(ImageView image, const DeviceOptions& options,
+               const std::optional<Prediction>& expected);
     Found look_in_any_code(const std::optional<Prediction>& expected);
     Found without_neighbours(const Found& found);
     std::optional<Sighting> sighting_of(const Found& found, std::int64_t time_us) const;
@@ -140,11 +141,11 @@ class Follower {
     CodeEvidence evidence_;       ///< evidence of the previous images
     double unplaced_spacing_mm_;  ///< spacing for a fix on no sheet
     bool is_in_world_ = false;
-    Options used_;
+    DeviceOptions used_;
     ImageView image_;
     GreyImage flipped_;
     GreyImage reduced_;
-    Locator locator_{Options{}};
+    Locator locator_{DeviceOptions{}};
     Tracker tracker_;
     std::optional<Seen> seen_;  ///< none if it is too old for a prediction
 };

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 
 #pragma GCC visibility push(default)
 
@@ -19,7 +19,7 @@ const char* name(Effort effort);
 
 /// Returns a sentence that names the option outside its range, and the range. Returns an empty text
 /// if all options are valid.
-std::string fault_text(const Options& options);
+std::string fault_text(const DeviceOptions& options);
 
 }  // namespace dotpose
 

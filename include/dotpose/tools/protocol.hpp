@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/tools/evaluate.hpp"
 #include "dotpose/tools/print_model.hpp"
 #include "dotpose/tools/simulate.hpp"
@@ -22,7 +22,7 @@ struct ProtocolOptions {
     /// Light, blur and noise of the device, which are drawn once. The positions of the dots come
     /// from the page of the experiment.
     Setup setup;
-    Options locate;
+    DeviceOptions locate;
     int threads = 0;
     Progress progress;
 };

@@ -7,7 +7,7 @@
 #include <iosfwd>
 #include <vector>
 
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/tools/evaluate.hpp"
 #include "dotpose/tools/score.hpp"
 #include "dotpose/tools/simulate.hpp"
@@ -37,7 +37,7 @@ struct SweepOptions {
     Setup setup;                 ///< all other conditions
     int frames_per_value = 200;  ///< number of frames, which are the same for each value
     /// Options of `locate`; `decoder` is ignored, because both decoders are run.
-    Options locate;
+    DeviceOptions locate;
     int threads = 0;
     /// Called with the progress. If it returns false, the sweep ends with the values completed so
     /// far.

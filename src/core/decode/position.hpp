@@ -3,7 +3,7 @@
 
 #include "core/decode/grid.hpp"
 #include "core/kernels/scores.hpp"
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {

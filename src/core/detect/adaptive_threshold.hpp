@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 
 namespace dotpose::core {
 

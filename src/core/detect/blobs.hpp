@@ -8,7 +8,7 @@
 
 #include "core/detect/adaptive_threshold.hpp"
 #include "core/detect/runs.hpp"
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/trace.hpp"
 
 namespace dotpose::core {

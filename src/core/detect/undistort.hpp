@@ -1,7 +1,7 @@
 // Undistort: converts image points to those of a lens without distortion, and back. Paper eq. 1-2.
 #pragma once
 
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/trace.hpp"
 
 namespace dotpose::core {

@@ -11,8 +11,8 @@
 #include "core/integrity/confidence.hpp"
 #include "core/kernels/kernels.hpp"
 #include "core/other_codes.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/options.hpp"
 
 namespace dotpose::core {
 

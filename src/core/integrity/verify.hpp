@@ -7,8 +7,8 @@
 #include "core/integrity/compared_line.hpp"
 #include "core/kernels/kernels.hpp"
 #include "core/other_codes.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/options.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {

@@ -2,7 +2,7 @@
 // section II-B.3, eq. 6.
 #pragma once
 
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/status.hpp"
 #include "dotpose/trace.hpp"
 

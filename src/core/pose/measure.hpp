@@ -5,8 +5,8 @@
 
 #include "core/decode/grid.hpp"
 #include "core/decode/nominal.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
 
 namespace dotpose::core {
 

@@ -91,14 +91,14 @@ struct RobotError {
 };
 inline constexpr int kRobotStands = 24;
 inline RobotError robot_error(const Camera& camera, const CameraModel& model, std::uint64_t seed) {
-    Locator locator{Options{}};
+    Locator locator{DeviceOptions{}};
     constexpr double kStand_x_mm = kPivot_x_mm + 500;
     constexpr double kStand_y_mm = kPivot_y_mm + 300;
     RobotError sum;
     for (int i = 0; i < kRobotStands; ++i) {
         const double theta_rad = (360.0 / kRobotStands * i + 7) * kDegree_rad;
         const GreyImage image = robot_frame(model, seed, i, kStand_x_mm, kStand_y_mm, theta_rad);
-        Options options;
+        DeviceOptions options;
         use_camera(camera, image.width_px, image.height_px, options);
         locator.set_options(options);
         const Fix seen = locator.locate(image.view());

@@ -66,11 +66,11 @@ TEST(CalibrateSpin, TheReferenceStaysPutAfterwards) {
         return robot_frame(model, 55, i, kPivot_x_mm, kPivot_y_mm, 30 * i * kDegree_rad);
     };
     const Camera camera = calibrate_spin(12, frame_at, true_camera(model), {}).camera;
-    Locator locator{Options{}};
+    Locator locator{DeviceOptions{}};
     for (int i = 20; i < 26; ++i) {
         const GreyImage image =
             robot_frame(model, 55, i, kPivot_x_mm, kPivot_y_mm, 55 * i * kDegree_rad);
-        Options options;
+        DeviceOptions options;
         use_camera(camera, image.width_px, image.height_px, options);
         locator.set_options(options);
         const Fix seen = locator.locate(image.view());
@@ -152,9 +152,9 @@ TEST(CalibrateDrive, FindsTheHeading) {
     EXPECT_NEAR(drive.camera.theta_offset_rad, kOffset_rad, 4 * drive.sigma_rad);
     EXPECT_NEAR(drive.length_mm, 45, 0.01);
 
-    Locator locator{Options{}};
+    Locator locator{DeviceOptions{}};
     const GreyImage image = frame_at(30);
-    Options options;
+    DeviceOptions options;
     use_camera(drive.camera, image.width_px, image.height_px, options);
     locator.set_options(options);
     const Fix seen = locator.locate(image.view());

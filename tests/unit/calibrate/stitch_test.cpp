@@ -72,7 +72,7 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
         EXPECT_LT(seam.residual_mm, 0.02) << seam.first << seam.second;
 
     // All places are in one world, both across a seam and as far from the seam as possible.
-    Locator locator{Options{}};
+    Locator locator{DeviceOptions{}};
     Camera camera = true_camera(model);
     // The reference is 20 mm to the right of the image, to make a wrong scale visible.
     camera.reference_px =
@@ -80,7 +80,7 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     for (const auto& [x_mm, y_mm] : {std::pair(20.0, 40.0), std::pair(90.0, 110.0)}) {
         constexpr double kTheta_rad = 0.4;
         const GreyImage image = table_frame(table, model, 61, 300, x_mm, y_mm, kTheta_rad);
-        Options options;
+        DeviceOptions options;
         use_camera(camera, image.width_px, image.height_px, options);
         locator.set_options(options);
         const Fix fix = locator.locate(image.view());

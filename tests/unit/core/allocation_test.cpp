@@ -76,7 +76,7 @@ int allocations_of(const std::vector<GreyImage>& frames, Locator& locator, int& 
     for (const GreyImage& frame : frames) {
         for (const Effort effort : {Effort::device, Effort::once, Effort::twice}) {
             for (const Decoder decoder : {Decoder::window, Decoder::all}) {
-                Options options;
+                DeviceOptions options;
                 options.effort = effort;
                 options.decoder = decoder;
                 const int before = allocations;
@@ -100,7 +100,7 @@ TEST(Allocation, IsSeenWhereItHappens) {
 
 TEST(Allocation, NoneInSmallFrames) {
     const auto memory = std::make_unique<SmallMemory>();
-    Locator locator(*memory, Options{});
+    Locator locator(*memory, DeviceOptions{});
     int fixes = 0;
     EXPECT_EQ(allocations_of(frames_of(188, 120), locator, fixes), 0);
     EXPECT_GT(fixes, 50);
@@ -108,7 +108,7 @@ TEST(Allocation, NoneInSmallFrames) {
 
 TEST(Allocation, NoneInLargeFrames) {
     const auto memory = std::make_unique<LargeMemory>();
-    Locator locator(*memory, Options{});
+    Locator locator(*memory, DeviceOptions{});
     int fixes = 0;
     EXPECT_EQ(allocations_of(frames_of(320, 240), locator, fixes), 0);
     EXPECT_GT(fixes, 50);

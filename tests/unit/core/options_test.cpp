@@ -21,15 +21,15 @@ GreyImage a_frame() {
     return render(draw_shot(setup, 0));
 }
 
-/// A field, and the ends of its range as documented in options.hpp.
+/// A field, and the ends of its range as documented in device_options.hpp.
 struct Range {
     const char* field;
-    std::function<void(Options&, int)> set;
+    std::function<void(DeviceOptions&, int)> set;
     std::int64_t low;
     std::int64_t high;
 };
 
-#define FIELD(path) #path, [](Options & options, int value) { options.path = value; }
+#define FIELD(path) #path, [](DeviceOptions & options, int value) { options.path = value; }
 
 const Range kRanges[] = {
     {FIELD(lens.k_q40), INT_MIN, INT_MAX},
@@ -54,8 +54,8 @@ const Range kRanges[] = {
 
 #undef FIELD
 
-/// Fails to compile if Options has a new field, which must then be added to the tests below.
-[[maybe_unused]] void has_all_fields(const Options& o) {
+/// Fails to compile if DeviceOptions has a new field, which must then be added to the tests below.
+[[maybe_unused]] void has_all_fields(const DeviceOptions& o) {
     [[maybe_unused]] const auto& [code, effort, decoder, lens, threshold, blobs, lattice, integrity,
                                   contrast, max_dots, spacing, show_stages, dx, dy] = o;
     [[maybe_unused]] const auto& [k, centre_dx, centre_dy] = lens;
@@ -66,7 +66,7 @@ const Range kRanges[] = {
 }
 
 /// Expects that every way to locate refuses the options, or that every way accepts them.
-void expect_refusal(const Options& options, bool is_refused, const char* field, int value) {
+void expect_refusal(const DeviceOptions& options, bool is_refused, const char* field, int value) {
     static const auto kMemory = std::make_unique<LargeMemory>();
     static const GreyImage kFrame = a_frame();
     const auto expect = [&](Status status, const char* way) {
@@ -77,7 +77,7 @@ void expect_refusal(const Options& options, bool is_refused, const char* field, 
     EXPECT_STREQ(fault.name, is_refused ? field : nullptr) << value;
     EXPECT_EQ(fault.value, is_refused ? value : 0) << field;
     const Prediction prediction =
-        Prediction::like(Locator(*kMemory, Options{}).locate(kFrame.view()));
+        Prediction::like(Locator(*kMemory, DeviceOptions{}).locate(kFrame.view()));
     expect(Locator(*kMemory, options).locate(kFrame.view()).status, "locate");
     expect(Locator(*kMemory, options).locate(kFrame.view(), prediction).status, "tracked");
     expect(Locator(*kMemory, options).begin(kFrame.width_px, kFrame.height_px), "begin");
@@ -85,13 +85,13 @@ void expect_refusal(const Options& options, bool is_refused, const char* field, 
            "tracked");
 }
 
-TEST(Options, EveryNumberIsTakenInItsRangeAndRefusedOutside) {
+TEST(DeviceOptions, EveryNumberIsTakenInItsRangeAndRefusedOutside) {
     for (const Effort effort : kEfforts) {
         for (const auto& [field, set, low, high] : kRanges) {
             for (const std::int64_t value :
                  {low - 1, low, high, high + 1, std::int64_t{INT_MIN}, std::int64_t{INT_MAX}}) {
                 if (value < INT_MIN || value > INT_MAX) continue;
-                Options options;
+                DeviceOptions options;
                 options.effort = effort;
                 set(options, static_cast<int>(value));
                 expect_refusal(options, value < low || value > high, field,
@@ -101,23 +101,23 @@ TEST(Options, EveryNumberIsTakenInItsRangeAndRefusedOutside) {
     }
 }
 
-TEST(Options, AFaultIsToldWithItsRange) {
-    Options options;
+TEST(DeviceOptions, AFaultIsToldWithItsRange) {
+    DeviceOptions options;
     EXPECT_EQ(fault_text(options), "");
     options.threshold.low_q8 = 300;
     EXPECT_EQ(fault_text(options), "the option threshold.low_q8 is 300; it must be 1 to 256");
 }
 
-TEST(Options, EnumerationsAreTakenAsFarAsTheyHaveNames) {
+TEST(DeviceOptions, EnumerationsAreTakenAsFarAsTheyHaveNames) {
     for (int value = 0; value < 256; ++value) {
         const auto byte = static_cast<std::uint8_t>(value);
-        Options code;
+        DeviceOptions code;
         code.code = static_cast<CodeVariant>(byte);
         expect_refusal(code, value >= 3, "code", value);
-        Options effort;
+        DeviceOptions effort;
         effort.effort = static_cast<Effort>(byte);
         expect_refusal(effort, value >= static_cast<int>(kEfforts.size()), "effort", value);
-        Options decoder;
+        DeviceOptions decoder;
         decoder.decoder = static_cast<Decoder>(byte);
         expect_refusal(decoder, value >= static_cast<int>(kDecoders.size()), "decoder", value);
     }

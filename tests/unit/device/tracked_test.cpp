@@ -255,7 +255,7 @@ TEST_F(DeviceTracked, RefusesFramesThatEndTooSoonOrHaveNoRoom) {
     for (int v = 0; v < 120; ++v)
         locator_.push_row(image.view().row(v));
     EXPECT_EQ(locator_.finish().attempt, Attempt::device);
-    Options bent;
+    DeviceOptions bent;
     bent.lens = FixedLens::from_k(-1e-6);
     locator_.set_options(bent);
     EXPECT_EQ(locator_.begin(188, 120, prediction), Status::not_tracked);

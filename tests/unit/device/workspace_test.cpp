@@ -68,8 +68,8 @@ class DeviceWorkspace : public testing::Test {
                      {(Frame::kWidth_px - 1) * 128, (Frame::kHeight_px - 1) * 128});
     }
 
-    static Options limited() {
-        Options options;
+    static DeviceOptions limited() {
+        DeviceOptions options;
         options.integrity.max_p_wrong_log2 = Frame::kLimit_log2;
         return options;
     }

@@ -26,7 +26,7 @@ using testing::Not;
 
 /// A located frame.
 struct Located {
-    explicit Located(const GreyImage& frame, const Options& with = {})
+    explicit Located(const GreyImage& frame, const DeviceOptions& with = {})
         : image(frame), locator(std::make_unique<Locator>(showing(with))) {
         fix = locator->locate(image.view());
         trace = locator->trace();
@@ -43,7 +43,7 @@ struct Located {
     Trace trace;
 
   private:
-    static Options showing(Options options) {
+    static DeviceOptions showing(DeviceOptions options) {
         options.show_stages = true;
         return options;
     }
@@ -136,7 +136,7 @@ TEST(DrawFrame, shows_every_dot_where_it_is) {
 
 TEST(DrawFrame, connects_only_the_dots_that_were_connected) {
     // The first attempt connects no dots, because its grid comes from waves.
-    Options device;
+    DeviceOptions device;
     device.effort = Effort::device;
     const Located at_once(render(clean_shot()), device);
     EXPECT_GT(count(group(at_once.drawn(), "connections"), "<line "), 100u);
@@ -146,7 +146,7 @@ TEST(DrawFrame, connects_only_the_dots_that_were_connected) {
     for (std::uint64_t i = 0;; ++i) {
         ASSERT_LT(i, 50u) << "all frames were located at once";
         const GreyImage frame = render(draw_shot(setup, i));
-        Options once;
+        DeviceOptions once;
         once.effort = Effort::once;
         if (Located(frame, once).fix.status == Status::ok) continue;
         const Located located(frame);
@@ -163,7 +163,7 @@ TEST(DrawFrame, draws_dots_where_the_lens_shows_them) {
     shot.camera.width_px = 376;
     shot.camera.height_px = 240;
     shot.camera.k = -4e-6;
-    Options options;
+    DeviceOptions options;
     options.lens = FixedLens::from_k(shot.camera.k);
     const Located located(render(shot), options);
     ASSERT_EQ(located.fix.status, Status::ok);

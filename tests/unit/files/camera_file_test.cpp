@@ -312,7 +312,7 @@ TEST(UseCamera, SetsLensAndReferenceForItsOwnSizeOnly) {
     camera.k_per_px2 = -8.7e-6;
     camera.centre_px = {94, 58.5};
     camera.reference_px = PixelPoint{-6.5, 61.5};
-    Options options;
+    DeviceOptions options;
     use_camera(camera, 188, 120, options);
     EXPECT_NEAR(options.lens.k_q40 * 0x1p-40, -8.7e-6, 1e-12);
     EXPECT_EQ(options.lens.centre_dx_q8, 128);

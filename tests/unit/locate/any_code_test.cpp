@@ -39,9 +39,10 @@ TEST_F(AnyCodeTest, GivenAProfileAllIsAsItWas) {
             SCOPED_TRACE(i);
             const GreyImage image = render(draw_shot(setup_of(preset), i));
             // The content of the memory has no effect.
-            static_cast<void>(Locator(*memory_, Options{}).locate_in_any_code(image.view(), {}));
-            const Fix fix = Locator(*memory_, Options{}).locate_in_code(image.view()).fix;
-            expect_equal(fix, Locator(*memory_, Options{}).locate(image.view()));
+            static_cast<void>(
+                Locator(*memory_, DeviceOptions{}).locate_in_any_code(image.view(), {}));
+            const Fix fix = Locator(*memory_, DeviceOptions{}).locate_in_code(image.view()).fix;
+            expect_equal(fix, Locator(*memory_, DeviceOptions{}).locate(image.view()));
         }
     }
 }
@@ -54,9 +55,9 @@ TEST_F(AnyCodeTest, OnceTheProfileIsKnownNothingIsLost) {
         for (std::uint64_t i = 20; i < 32; ++i) {
             SCOPED_TRACE(i);
             const GreyImage image = render(draw_shot(setup_of(preset), i));
-            const Fix fix = Locator(*memory_, Options{}).locate(image.view());
+            const Fix fix = Locator(*memory_, DeviceOptions{}).locate(image.view());
             const CodeReading reading =
-                Locator(*memory_, Options{}).locate_in_any_code(image.view(), evidence);
+                Locator(*memory_, DeviceOptions{}).locate_in_any_code(image.view(), evidence);
             EXPECT_EQ(reading.fix.status, fix.status);
             EXPECT_EQ(reading.fix.cell, fix.cell);
             EXPECT_EQ(reading.code, CodeVariant::anoto);
@@ -71,7 +72,7 @@ TEST_F(AnyCodeTest, FramesThatBothProfilesExplainSayNothing) {
         // The place is in the middle of a region in which anoto and libdots agree.
         shot.pose.cell = {241 * (1000 + i) + 100, 241 * 2000 + 100};
         const CodeReading reading =
-            Locator(*memory_, Options{}).locate_in_any_code(render(shot).view(), evidence);
+            Locator(*memory_, DeviceOptions{}).locate_in_any_code(render(shot).view(), evidence);
         ASSERT_EQ(reading.fix.status, Status::ok);
         evidence = reading.evidence;
     }
@@ -80,14 +81,15 @@ TEST_F(AnyCodeTest, FramesThatBothProfilesExplainSayNothing) {
 }
 
 TEST_F(AnyCodeTest, RefusesWhatLocateRefuses) {
-    Options options;
+    DeviceOptions options;
     options.threshold.low_q8 = 0;
     const GreyImage image = render(draw_shot(setup_of(Preset::nominal), 0));
     EXPECT_EQ(Locator(*memory_, options).locate_in_any_code(image.view(), {}).fix.status,
               Status::bad_argument);
-    EXPECT_EQ(
-        Locator(*memory_, Options{}).locate_in_any_code({nullptr, 188, 120, 188}, {}).fix.status,
-        Status::bad_argument);
+    EXPECT_EQ(Locator(*memory_, DeviceOptions{})
+                  .locate_in_any_code({nullptr, 188, 120, 188}, {})
+                  .fix.status,
+              Status::bad_argument);
 }
 
 }  // namespace

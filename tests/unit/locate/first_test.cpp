@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 81;
 
-Fix outwards(const GreyImage& image, const Options& options = {},
+Fix outwards(const GreyImage& image, const DeviceOptions& options = {},
              const core::Kernels& kernels = core::kernels()) {
     core::DesktopWorkspace& w = large_workspace();
     w.fix = {};
@@ -53,7 +53,7 @@ TEST(LocateFirst, FindsAllProfilesAtEveryTurn) {
     constexpr int kFrames = 36;
     for (int i = 0; i < kFrames; ++i) {
         SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
-        Options options;
+        DeviceOptions options;
         options.code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         Shot shot = shot_of({.code = options.code}, kSeed, static_cast<std::uint64_t>(i));
         shot.pose.theta_rad = radians(10 * i);
@@ -70,7 +70,7 @@ TEST(LocateFirst, LooksThroughTheLensThatItIsTold) {
         SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
         Shot shot = shot_of({}, kSeed, i);
         shot.camera.k = i % 2 == 0 ? -8e-6 : 8e-6;
-        Options options;
+        DeviceOptions options;
         options.lens = FixedLens::from_k(shot.camera.k);
         const Fix fix = outwards(render(shot), options);
         ASSERT_EQ(fix.status, Status::ok);
@@ -92,7 +92,7 @@ TEST(LocateFirst, FindsFramesAcrossTheEndsOfThePlane) {
         GreyImage image = blank(188, 120);
         for (const PlacedDot& dot : pattern_dots(view))
             darken(image, dot.centre_px, 1.4, 0.7);
-        Options options;
+        DeviceOptions options;
         options.code = view.code;
         const Fix fix = outwards(image, options);
         if (fix.status != Status::ok) continue;
@@ -129,7 +129,7 @@ TEST(LocateFirst, UsesAsManyDotsAsItMay) {
     const int all = outwards(image).dots_used;
     EXPECT_GT(all, 1500);
     for (const int most : {100, 300, 1000}) {
-        Options options;
+        DeviceOptions options;
         options.max_dots = most;
         const Fix fix = outwards(image, options);
         ASSERT_EQ(fix.status, Status::ok);
@@ -145,7 +145,7 @@ TEST(LocateFirst, ShowsItsDotsAndCellsWhenAsked) {
         SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
         const Shot shot = shot_of({11, 188, 120, Preset::clean}, kSeed, i);
         const GreyImage image = render(shot);
-        Options options;
+        DeviceOptions options;
         options.show_stages = true;
         const Fix fix = outwards(image, options);
         ASSERT_EQ(fix.status, Status::ok);
@@ -204,7 +204,7 @@ TEST(LocateFirst, ALensThatFoldsTheImageBreaksNothing) {
     const Shot shot = shot_of({}, kSeed, 3);
     const GreyImage image = render(shot);
     for (const std::int32_t k_q40 : {INT32_MIN, INT32_MIN / 16, INT32_MAX / 16, INT32_MAX}) {
-        Options options;
+        DeviceOptions options;
         options.lens.k_q40 = k_q40;
         options.show_stages = true;
         const Fix fix = outwards(image, options);

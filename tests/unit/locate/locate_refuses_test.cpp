@@ -21,17 +21,17 @@ TEST(LocateRefuses, SizesOutOfRangeAreRefused) {
     const auto large = std::make_unique<LargeMemory>();
     const auto status_of = [](int width, int height, auto& memory) {
         const GreyImage image = blank(width, height);
-        return Locator(memory, Options{}).locate(image.view()).status;
+        return Locator(memory, DeviceOptions{}).locate(image.view()).status;
     };
     EXPECT_EQ(status_of(63, 120, small), Status::image_too_small);
     EXPECT_EQ(status_of(120, 63, small), Status::image_too_small);
     EXPECT_EQ(status_of(1, 1, small), Status::image_too_small);
-    EXPECT_EQ(Locator(small, Options{}).locate({}).status, Status::image_too_small);
-    EXPECT_EQ(Locator(small, Options{}).locate({nullptr, -5, -5, 0}).status,
+    EXPECT_EQ(Locator(small, DeviceOptions{}).locate({}).status, Status::image_too_small);
+    EXPECT_EQ(Locator(small, DeviceOptions{}).locate({nullptr, -5, -5, 0}).status,
               Status::image_too_small);
     EXPECT_EQ(status_of(189, 120, small), Status::image_too_large);
     EXPECT_EQ(status_of(64, 4097, *large), Status::image_too_large);
-    EXPECT_EQ(Locator(*large, Options{}).begin(4097, 64), Status::image_too_large);
+    EXPECT_EQ(Locator(*large, DeviceOptions{}).begin(4097, 64), Status::image_too_large);
     for (const auto& [width, height] :
          {std::pair{64, 64}, std::pair{188, 120}, std::pair{64, 4096}}) {
         EXPECT_EQ(status_of(width, height, small), Status::no_contrast) << width;
@@ -58,7 +58,7 @@ TEST(LocateRefuses, AFrameWithoutAPositionTellsWhy) {
         for (std::uint64_t i = 0; i < 20; ++i) {
             const GreyImage frame =
                 render_scene(scene, shot_of({.preset = Preset::clean}, kSeed, i), 0.8);
-            const Status status = Locator(memory, Options{}).locate(frame.view()).status;
+            const Status status = Locator(memory, DeviceOptions{}).locate(frame.view()).status;
             EXPECT_TRUE(allowed.at(scene).contains(status))
                 << name(scene) << " gave " << name(status) << ", shot " << i << ", seed " << kSeed;
         }
@@ -70,9 +70,9 @@ TEST(LocateRefuses, AFrameWithoutDotsIsNotNamedByTheDotsOfTheFrameBefore) {
     dotpose::Setup setup;
     setup.seed = kSeed;
     const GreyImage frame = render(draw_shot(setup, 1));
-    ASSERT_EQ(Locator(*memory, Options{}).locate(frame.view()).status, Status::ok);
+    ASSERT_EQ(Locator(*memory, DeviceOptions{}).locate(frame.view()).status, Status::ok);
     const GreyImage black = blank(188, 120);
-    EXPECT_EQ(Locator(*memory, Options{}).locate(black.view()).status, Status::no_contrast);
+    EXPECT_EQ(Locator(*memory, DeviceOptions{}).locate(black.view()).status, Status::no_contrast);
 }
 
 // With these displacements, the grid of a mirror image is outside of the range of the final steps.
@@ -87,12 +87,14 @@ TEST(LocateRefuses, AMirrorImageIsNamedWhateverTheDisplacement) {
         for (std::uint64_t i = 0; i < 5; ++i) {
             const GreyImage frame = render(draw_shot(setup, i));
             SCOPED_TRACE(testing::Message() << displacement << ", shot " << i);
-            EXPECT_EQ(Locator(*memory, Options{}).locate(frame.view()).status, Status::ok);
+            EXPECT_EQ(Locator(*memory, DeviceOptions{}).locate(frame.view()).status, Status::ok);
             const GreyImage mirrored = flipped(frame.view());
-            EXPECT_EQ(Locator(*memory, Options{}).locate(mirrored.view()).status, Status::mirrored);
-            EXPECT_EQ(
-                Locator(*memory, Options{}).locate_in_any_code(mirrored.view(), {}).fix.status,
-                Status::mirrored);
+            EXPECT_EQ(Locator(*memory, DeviceOptions{}).locate(mirrored.view()).status,
+                      Status::mirrored);
+            EXPECT_EQ(Locator(*memory, DeviceOptions{})
+                          .locate_in_any_code(mirrored.view(), {})
+                          .fix.status,
+                      Status::mirrored);
         }
     }
 }
@@ -104,7 +106,7 @@ TEST(LocateRefuses, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
         std::fill_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(64 * v), 32,
                     std::uint8_t{0});
     SmallMemory memory;
-    Options options;
+    DeviceOptions options;
     options.lattice.min_dots = 0;
     options.blobs.min_area_px = 1 << 20;
     for (const Effort effort : {Effort::device, Effort::twice}) {
@@ -121,7 +123,7 @@ TEST(LocateRefuses, EveryStageCanRefuse) {
     SmallMemory memory;
     Shot shot = shot_of({.preset = Preset::clean}, kSeed, 0);
     const GreyImage frame = render(shot);
-    Options options;
+    DeviceOptions options;
     options.integrity.max_p_wrong_log2 = -100000;
     EXPECT_EQ(Locator(memory, options).locate(frame.view()).status, Status::not_certain);
     options = {};
@@ -137,7 +139,7 @@ TEST(LocateRefuses, EveryStageCanRefuse) {
     shot.page.columns = 5;
     shot.page.rows = 60;
     shot.pose.theta_rad = radians(90);
-    const Status narrow = Locator(memory, Options{}).locate(render(shot).view()).status;
+    const Status narrow = Locator(memory, DeviceOptions{}).locate(render(shot).view()).status;
     EXPECT_EQ(narrow, Status::grid_too_small) << name(narrow);
 }
 

@@ -91,7 +91,7 @@ TEST(Locate, RowsThatAreMissingAreWhite) {
     SmallMemory memory;
     GreyImage frame = render(shot_of({.preset = Preset::nominal}, kSeed, 3));
     const int half = frame.height_px / 2;
-    Locator locator(memory, Options{});
+    Locator locator(memory, DeviceOptions{});
     ASSERT_EQ(locator.begin(frame.width_px, frame.height_px), Status::ok);
     for (int v = 0; v < half; ++v)
         locator.push_row(frame.view().row(v));
@@ -103,7 +103,7 @@ TEST(Locate, RowsThatAreMissingAreWhite) {
 
 TEST(Locate, RowsThatTheMemoryCannotKeepAreRefused) {
     SmallMemory memory;
-    Locator locator(memory, Options{});
+    Locator locator(memory, DeviceOptions{});
     EXPECT_EQ(locator.begin(188, 188), Status::ok);
     EXPECT_EQ(locator.begin(188, 189), Status::image_too_large);
     EXPECT_EQ(locator.finish().status, Status::image_too_large);
@@ -113,7 +113,7 @@ TEST(Locate, ADeviceGetsTheSameFromRowsAndImage) {
     SmallMemory by_rows;
     SmallMemory at_once;
     DeviceMemory little;
-    Options device;
+    DeviceOptions device;
     device.effort = Effort::device;
     int found = 0;
     for (const GreyImage& frame : mixed_frames()) {
@@ -129,7 +129,7 @@ TEST(Locate, ADeviceGetsTheSameFromRowsAndImage) {
 
 TEST(Locate, ADeviceLocatesNominalFrames) {
     SmallMemory memory;
-    Options device;
+    DeviceOptions device;
     device.effort = Effort::device;
     std::vector<double> errors_um;
     constexpr std::uint64_t kFrames = 200;
@@ -163,7 +163,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
 TEST(Locate, LittleMemoryIsEnoughForADevice) {
     DeviceMemory little;
     SmallMemory small;
-    Options device;
+    DeviceOptions device;
     device.effort = Effort::device;
     int found = 0;
     for (std::uint64_t i = 0; i < 60; ++i) {
@@ -189,7 +189,7 @@ TEST(Locate, LittleMemoryIsEnoughForADevice) {
 
 TEST(Locate, ADeviceRefusesWhatHasNoPosition) {
     SmallMemory memory;
-    Options device;
+    DeviceOptions device;
     device.effort = Effort::device;
     for (const Scene scene : kScenes) {
         for (std::uint64_t i = 0; i < 20; ++i) {
@@ -205,20 +205,20 @@ TEST(Locate, SmallAndLargeMemoryGiveTheSameFix) {
     SmallMemory small;
     const auto large = std::make_unique<LargeMemory>();
     for (const GreyImage& frame : mixed_frames()) {
-        expect_same(Locator(small, Options{}).locate(frame.view()),
-                    Locator(*large, Options{}).locate(frame.view()));
+        expect_same(Locator(small, DeviceOptions{}).locate(frame.view()),
+                    Locator(*large, DeviceOptions{}).locate(frame.view()));
     }
 }
 
 TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
     // Frames of other sizes and failures in between have no effect.
     const auto used_memory = std::make_unique<LargeMemory>();
-    Locator used(*used_memory, Options{});
+    Locator used(*used_memory, DeviceOptions{});
     const GreyImage big = render(shot_of({.width_px = 640, .height_px = 480}, kSeed, 3));
     const GreyImage tiny = blank(10, 10);
     for (const GreyImage& frame : mixed_frames()) {
         const auto fresh_memory = std::make_unique<LargeMemory>();
-        const Fix fresh = Locator(*fresh_memory, Options{}).locate(frame.view());
+        const Fix fresh = Locator(*fresh_memory, DeviceOptions{}).locate(frame.view());
         expect_same(used.locate(frame.view()), fresh);
         EXPECT_EQ(used.locate(big.view()).status, Status::ok);
         expect_same(used.locate(frame.view()), fresh);
@@ -233,7 +233,7 @@ TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
 TEST(Locate, TheTraceKeepsTheFix) {
     SmallMemory memory;
     const GreyImage frame = render(shot_of({.preset = Preset::nominal}, kSeed, 0));
-    Options options;
+    DeviceOptions options;
     options.show_stages = true;
     Locator locator(memory, options);
     const Fix fix = locator.locate(frame.view());
@@ -248,7 +248,7 @@ TEST(Locate, TheTraceKeepsTheFix) {
 TEST(Locate, RowsCountOnlyInAFrameThatWasBegun) {
     SmallMemory memory;
     const GreyImage frame = render(shot_of({.preset = Preset::nominal}, kSeed, 0));
-    Locator locator(memory, Options{});
+    Locator locator(memory, DeviceOptions{});
     locator.push_row(frame.pixels.data());
     EXPECT_EQ(locator.finish().status, Status::bad_argument);
     EXPECT_EQ(locator.begin(63, 120), Status::image_too_small);
@@ -270,7 +270,7 @@ TEST(Locate, RowsCountOnlyInAFrameThatWasBegun) {
 TEST(Locate, MillimetresComeFromTheSpacingInTheOptions) {
     SmallMemory memory;
     const GreyImage frame = render(shot_of({.preset = Preset::nominal}, kSeed, 0));
-    Options options;
+    DeviceOptions options;
     options.spacing_nm = 300'000;
     const Fix fix = Locator(memory, options).locate(frame.view());
     ASSERT_EQ(fix.status, Status::ok);
@@ -283,7 +283,7 @@ TEST(Locate, MillimetresComeFromTheSpacingInTheOptions) {
 TEST(Locate, RowsMayLieApartOrUpsideDown) {
     SmallMemory memory;
     const GreyImage frame = render(shot_of({.preset = Preset::nominal}, kSeed, 1));
-    const Fix fix = Locator(memory, Options{}).locate(frame.view());
+    const Fix fix = Locator(memory, DeviceOptions{}).locate(frame.view());
     ASSERT_EQ(fix.status, Status::ok);
     for (const int stride : {188, 189, 256, 1000, -188, -300}) {
         const int step = std::abs(stride);
@@ -291,7 +291,7 @@ TEST(Locate, RowsMayLieApartOrUpsideDown) {
         const auto row = [&](int v) { return pixels.data() + (stride > 0 ? v : 119 - v) * step; };
         for (int v = 0; v < 120; ++v)
             std::copy_n(frame.view().row(v), 188, row(v));
-        expect_same(Locator(memory, Options{}).locate({row(0), 188, 120, stride}), fix);
+        expect_same(Locator(memory, DeviceOptions{}).locate({row(0), 188, 120, stride}), fix);
     }
 }
 
@@ -300,13 +300,13 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
     for (std::uint64_t i = 0; i < 10; ++i) {
         const Shot shot = shot_of({.preset = Preset::clean}, kSeed, i);
         const GreyImage frame = render(shot);
-        const Fix at_centre = Locator(memory, Options{}).locate(frame.view());
+        const Fix at_centre = Locator(memory, DeviceOptions{}).locate(frame.view());
         ASSERT_EQ(at_centre.status, Status::ok);
         for (const Vec2 offset :
              {Vec2{0, 0}, Vec2{40.5, -20.25}, Vec2{-93.5, 59.5}, Vec2{500, 300}}) {
             SCOPED_TRACE(testing::Message()
                          << "shot " << i << ", seed " << kSeed << ", offset " << offset.x);
-            Options options;
+            DeviceOptions options;
             options.reference_dx_q8 = static_cast<std::int32_t>(offset.x * 256);
             options.reference_dy_q8 = static_cast<std::int32_t>(offset.y * 256);
             const Fix fix = Locator(memory, options).locate(frame.view());
@@ -337,7 +337,7 @@ TEST(Locate, ALensIsUndone) {
         Shot shot = shot_of({.preset = Preset::clean}, kSeed, i);
         shot.camera.k = -1.5e-5;
         const GreyImage frame = render(shot);
-        Options options;
+        DeviceOptions options;
         options.lens = FixedLens::from_k(shot.camera.k);
         const Fix fix = Locator(memory, options).locate(frame.view());
         ASSERT_EQ(fix.status, Status::ok) << "shot " << i << ", seed " << kSeed;
@@ -354,7 +354,7 @@ TEST(Locate, UsesNoMoreDotsThanItSaw) {
     SmallMemory memory;
     int by_second = 0;
     for (std::uint64_t i = 0; i < 20; ++i) {
-        const Fix fix = Locator(memory, Options{})
+        const Fix fix = Locator(memory, DeviceOptions{})
                             .locate(render(shot_of({.preset = Preset::hard}, kSeed, i)).view());
         if (fix.status != Status::ok) continue;
         by_second += fix.attempt == Attempt::second;

@@ -44,7 +44,7 @@ LargeMemory& memory() {
 }
 
 TEST(LocatorOptions, AreConvertedToFixedPoint) {
-    const Options defaults = LocatorOptions{};
+    const DeviceOptions defaults = LocatorOptions{};
     EXPECT_EQ(defaults.spacing_nm, 508'000);
     EXPECT_EQ(defaults.integrity.max_p_wrong_log2, -30) << "2^-30 is the largest power below 1e-9";
     EXPECT_EQ(defaults.integrity.max_bit_error_q8, 46);
@@ -64,7 +64,7 @@ TEST(LocatorOptions, AreConvertedToFixedPoint) {
     given.min_contrast = 12;
     given.min_dots = 50;
     given.show_stages = true;
-    const Options fixed = given;
+    const DeviceOptions fixed = given;
     EXPECT_EQ(fixed.code, CodeVariant::microdots);
     EXPECT_EQ(fixed.spacing_nm, 600'000);
     EXPECT_EQ(fixed.lens.k_q40, -(1 << 20));
@@ -261,7 +261,7 @@ TEST(MinContrast, RefusesPaleFramesOnDevices) {
     for (std::uint64_t i = 0; i < 20 && frames < 5; ++i) {
         // Devices track dots that are darker than three quarters of the paper level.
         const GreyImage image = paled(frame(i), 0.7);
-        Options options;
+        DeviceOptions options;
         const Fix fix = DeviceLocator(*device, options).locate(image.view());
         if (fix.status != Status::ok) continue;
         const Prediction prediction = Prediction::like(fix);

@@ -23,7 +23,7 @@ Shot partial_shot(std::uint64_t index, const PartialView& view) {
 
 void expect_located_at_once(const PartialView& view) {
     const auto memory = std::make_unique<LargeMemory>();
-    Options options;
+    DeviceOptions options;
     options.effort = Effort::once;
     for (std::uint64_t i = 0; i < 8; ++i) {
         const Shot shot = partial_shot(i, view);
@@ -61,7 +61,7 @@ TEST(PartialViews, IslandsAreLocatedAtOnce) {
 /// it.
 TEST(PartialViews, BordersAndCornersAreLocatedByDevices) {
     const auto memory = std::make_unique<LargeMemory>();
-    Options options;
+    DeviceOptions options;
     options.effort = Effort::device;
     constexpr int kFrames = 30;
     for (const bool on_table : {false, true}) {

@@ -44,7 +44,7 @@ TEST(SecondAttempt, NoiseWithoutDotsIsRefusedAsThat) {
         shot.page.pattern.dot_mm = 1e-4;
         const Fix fix = core::locate(render(shot).view(), {}, nullptr, large_workspace());
         EXPECT_TRUE(fix.status == Status::no_contrast || fix.status == Status::too_few_dots);
-        EXPECT_LT(fix.dots_seen, Options{}.lattice.min_dots);
+        EXPECT_LT(fix.dots_seen, DeviceOptions{}.lattice.min_dots);
     }
 }
 

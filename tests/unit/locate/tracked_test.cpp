@@ -51,7 +51,7 @@ Prediction turned_and_moved(const Shot& shot, const Prediction& prediction, Vec2
                  prediction.pattern_from_image.centre_q8);
 }
 
-Fix tracked(const GreyImage& image, const Prediction& prediction, const Options& options = {},
+Fix tracked(const GreyImage& image, const Prediction& prediction, const DeviceOptions& options = {},
             const core::Kernels& kernels = core::kernels()) {
     core::DesktopWorkspace& w = large_workspace();
     if (core::locate_tracked(kernels, image.view(), options, prediction, w)) {
@@ -64,8 +64,8 @@ Fix tracked(const GreyImage& image, const Prediction& prediction, const Options&
     return none;
 }
 
-Options options_for(const Shot& shot) {
-    Options options;
+DeviceOptions options_for(const Shot& shot) {
+    DeviceOptions options;
     options.code = shot.page.pattern.code;
     return options;
 }
@@ -134,7 +134,7 @@ TEST(LocateTracked, FollowsTheFixOfTheFrameBefore) {
     for (std::uint64_t i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
         Shot shot = shot_of({}, kSeed, i);
-        Fix fix = Locator(large_memory(), Options{}).locate(render(shot).view());
+        Fix fix = Locator(large_memory(), DeviceOptions{}).locate(render(shot).view());
         ASSERT_EQ(fix.status, Status::ok);
         // The light is halved, and the camera moves a little.
         shot.imperfections.paper_level *= 0.5;
@@ -174,7 +174,7 @@ TEST(LocateTracked, AWrongPredictionGivesNoWrongFix) {
         Shot shot = shot_of({.code = kCodeVariants[static_cast<std::size_t>(i % 3)]}, kSeed,
                             static_cast<std::uint64_t>(i));
         const GreyImage image = render(shot);
-        const Options options = options_for(shot);
+        const DeviceOptions options = options_for(shot);
         int number = 0;
         for (const Prediction& wrong : wrong_predictions(shot, rng)) {
             SCOPED_TRACE(testing::Message() << "shot " << i << ", prediction " << number++);
@@ -195,8 +195,8 @@ TEST(LocateTracked, WhatShowsNoPatternGivesNoFix) {
             const Shot shot = shot_of({}, kSeed, i);
             const GreyImage image = render_scene(scene, shot, 0.3 + 0.1 * static_cast<double>(i));
             EXPECT_EQ(tracked(image, true_prediction(shot)).status, Status::not_tracked);
-            const Fix fix =
-                Locator(large_memory(), Options{}).locate(image.view(), true_prediction(shot));
+            const Fix fix = Locator(large_memory(), DeviceOptions{})
+                                .locate(image.view(), true_prediction(shot));
             EXPECT_NE(fix.status, Status::ok);
         }
     }
@@ -284,12 +284,13 @@ TEST(LocateTracked, NonsenseNeitherBreaksNorDeceives) {
         for (int k = 0; k < 400; ++k) {
             SCOPED_TRACE(testing::Message() << "shot " << i << ", prediction " << k);
             const Prediction nonsense = garbled(truth, rng);
-            Options options;
+            DeviceOptions options;
             options.show_stages = k % 4 == 0;
             const Fix fix = tracked(image, nonsense, options);
             ASSERT_TRUE(fix.status != Status::ok || is_right(fix, shot));
             if (k % 40 != 0) continue;
-            const Fix located = Locator(large_memory(), Options{}).locate(image.view(), nonsense);
+            const Fix located =
+                Locator(large_memory(), DeviceOptions{}).locate(image.view(), nonsense);
             ASSERT_TRUE(located.status != Status::ok || is_right(located, shot));
         }
     }

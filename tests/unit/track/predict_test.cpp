@@ -99,7 +99,7 @@ struct Followed {
         sighting = is_world ? in_world(pose, time_us) : sighting_of(fix, time_us);
         tracker.update(time_us, &sighting);
     }
-    Prediction predict(std::int64_t time_us, const Options& options = {}) const {
+    Prediction predict(std::int64_t time_us, const DeviceOptions& options = {}) const {
         return tracker.predict(time_us, fix, sighting, options);
     }
 };
@@ -144,7 +144,7 @@ TEST(TrackerPredict, TurnsTheMotionOfAWorldIntoThePattern) {
 }
 
 TEST(TrackerPredict, TheReferencePointMovesAsTheFilterSays) {
-    Options options;
+    DeviceOptions options;
     options.reference_dx_q8 = 60 * 256;
     options.reference_dy_q8 = -20 * 256;
     Followed robot;

@@ -213,7 +213,7 @@ TEST(C, TellsMillimetres) {
 TEST(C, KeepsAFixWhole) {
     const auto memory = std::make_unique<LargeMemory>();
     for (const GreyImage& image : drive(4)) {
-        const dotpose_fix fix = as_c(Locator(*memory, Options{}).locate(image.view()));
+        const dotpose_fix fix = as_c(Locator(*memory, DeviceOptions{}).locate(image.view()));
         Fix back;
         ASSERT_EQ(c::to_core(&fix, back), DOTPOSE_OK);
         EXPECT_TRUE(same(as_c(back), fix) || fix.status != DOTPOSE_OK);
@@ -222,7 +222,7 @@ TEST(C, KeepsAFixWhole) {
 
 TEST(C, FollowsARobotAsTheTrackerDoes) {
     const auto memory = std::make_unique<LargeMemory>();
-    Locator core(*memory, Options{});
+    Locator core(*memory, DeviceOptions{});
     Tracker core_tracker;
     const CLocator locator = make_locator();
     dotpose_tracker tracker;
@@ -277,7 +277,7 @@ TEST(C, FollowsARobotAsTheTrackerDoes) {
 
 TEST(C, MovesPredictions) {
     const auto memory = std::make_unique<LargeMemory>();
-    const Fix fix = Locator(*memory, Options{}).locate(drive(3)[0].view());
+    const Fix fix = Locator(*memory, DeviceOptions{}).locate(drive(3)[0].view());
     const Prediction expected = moved(Prediction::like(fix), CodeVariant::libdots,
                                       {70'000, -90'000}, 1 << 24, {24'000, 15'000});
     const dotpose_fix given = as_c(fix);
@@ -299,7 +299,7 @@ TEST(C, SendsAndReadsPackets) {
     std::uint16_t sequence = 65534;
     int completed = 0;
     for (const GreyImage& image : drive(5)) {
-        const Fix fix = Locator(*memory, Options{}).locate(image.view());
+        const Fix fix = Locator(*memory, DeviceOptions{}).locate(image.view());
         const PacketBytes expected =
             encode(make_packet(fix, CodeVariant::microdots, ++sequence, 99));
         const dotpose_fix given = as_c(fix);
@@ -325,7 +325,7 @@ TEST(C, SendsAndReadsPackets) {
 TEST(C, PacesFramesAsThePacerDoes) {
     const auto memory = std::make_unique<LargeMemory>();
     const GreyImage image = drive(3)[0];
-    const Fix fix = Locator(*memory, Options{}).locate(image.view());
+    const Fix fix = Locator(*memory, DeviceOptions{}).locate(image.view());
     const dotpose_fix given = as_c(fix);
     dotpose_pacer_options options;
     dotpose_pacer_options_init(&options, sizeof options);
@@ -348,7 +348,7 @@ TEST(C, PacesFramesAsThePacerDoes) {
 
 TEST(C, FindsTheCodeOfASheet) {
     const auto memory = std::make_unique<LargeMemory>();
-    Locator core(*memory, Options{});
+    Locator core(*memory, DeviceOptions{});
     CodeEvidence core_evidence;
     const CLocator locator = make_locator();
     dotpose_code_evidence evidence = {{0}};
@@ -387,7 +387,7 @@ TEST(C, DetectsTheCodeByDefault) {
     ASSERT_EQ(dotpose_locator_create(DOTPOSE_KIND_LARGE, nullptr, &created), DOTPOSE_OK);
     const CLocator locator(created);
     const auto memory = std::make_unique<LargeMemory>();
-    Locator core(*memory, Options{});
+    Locator core(*memory, DeviceOptions{});
     CodeEvidence evidence;
     for (const GreyImage& image : libdots_frames(12)) {
         const CodeReading expected = core.locate_in_any_code(image.view(), evidence);

@@ -26,7 +26,7 @@ Stream::Stream(const Settings& settings)
     : options_(options_of(settings)), is_tracked_(settings.is_tracked), follower_(options_) {}
 
 void Stream::require_size(int width_px, int height_px) const {
-    Options unused;
+    DeviceOptions unused;
     if (options_.camera) use_camera(*options_.camera, width_px, height_px, unused);
 }
 

@@ -35,7 +35,7 @@ void define_simulate(py::module_& module);
 void define_protocol(py::module_& module);
 
 /// Returns options in fixed point. Throws BadArgument if an option is out of range.
-Options checked(const LocatorOptions& options);
+DeviceOptions checked(const LocatorOptions& options);
 
 /// Returns the code with the given name, or none for "auto". Throws BadArgument for any other text.
 std::optional<CodeVariant> code_or_auto(const std::string& name);

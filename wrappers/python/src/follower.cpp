@@ -54,7 +54,7 @@ class FollowerOfPython {
         result.fix.fix = located.fix;
         result.place = seen_place(located.place);
         result.reduced_by = located.reduced_by;
-        const Options& used = follower_.used_options();
+        const DeviceOptions& used = follower_.used_options();
         result.fix.reference_q8 = {used.reference_dx_q8, used.reference_dy_q8};
         if (keep_stages_) {
             result.fix.stages = std::make_shared<Stages>(follower_.image(), follower_.trace());

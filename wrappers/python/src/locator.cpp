@@ -34,7 +34,7 @@ LocatorOfPython::LocatorOfPython(const LocatorSetup& setup)
 
 void LocatorOfPython::use_options_for(int width_px, int height_px) {
     if (width_px == width_px_ && height_px == height_px_) return;
-    Options options = setup_.options;
+    DeviceOptions options = setup_.options;
     options.code = options_.code;
     if (setup_.camera) use_camera(*setup_.camera, width_px, height_px, options);
     if (setup_.reference_px) {
@@ -49,7 +49,7 @@ void LocatorOfPython::use_options_for(int width_px, int height_px) {
 }
 
 void LocatorOfPython::set_options(CodeVariant code, bool show_stages) {
-    Options options = options_;
+    DeviceOptions options = options_;
     options.code = code;
     options.show_stages |= show_stages;
     locator_.set_options(options);

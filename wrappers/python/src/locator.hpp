@@ -18,7 +18,7 @@ struct LocatorSetup {
     std::optional<CodeVariant> code;  ///< none: found from all frames
     std::optional<Camera> camera;
     std::optional<PixelPoint> reference_px;
-    Options options;
+    DeviceOptions options;
     bool keep_stages = false;
 };
 
@@ -59,7 +59,7 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
     LocatorSetup setup_;
     std::mutex mutex_;  ///< guards all members below except the image
     Locator locator_;
-    Options options_;  ///< options for images of the newest size
+    DeviceOptions options_;  ///< options for images of the newest size
     int width_px_ = 0;
     int height_px_ = 0;
     CodeEvidence evidence_;

@@ -76,7 +76,7 @@ void define_options(py::module_& module) {
             "Centre of the distortion, from the image centre, in px.");
 }
 
-Options checked(const LocatorOptions& options) {
+DeviceOptions checked(const LocatorOptions& options) {
     if (const char* bad = bad_option(options)) {
         throw BadArgument(std::string("Options: ") + bad + " is out of range");
     }

@@ -86,7 +86,7 @@ class TrackerOfPython {
 
     std::optional<SeenPrediction> predict(std::int64_t time_us) const {
         if (!newest_ || !tracker_.has_prior()) return std::nullopt;
-        Options options;
+        DeviceOptions options;
         options.code = newest_->code;
         options.reference_dx_q8 = newest_->reference_q8.x;
         options.reference_dy_q8 = newest_->reference_q8.y;

@@ -72,7 +72,7 @@ void measure(Locator& locator, const std::vector<GreyImage>& images, bool prints
 }  // namespace
 
 int main(int argc, char** argv) {
-    Locator locator{Options{}};
+    Locator locator{DeviceOptions{}};
     for (int i = 1; i < argc; ++i) {
         const std::vector<GreyImage> images = images_of(argv[i]);
         if (images.empty()) return 1;

@@ -5,12 +5,12 @@
 
 namespace dotpose::core {
 
-const Fix& finish_device_attempt(const Options&, Workspace& w) {
+const Fix& finish_device_attempt(const DeviceOptions&, Workspace& w) {
     w.fix.status = Status::bad_argument;
     return w.fix;
 }
 
-Status begin_device_tracked(int, int, const Options&, const Prediction&, Workspace&) {
+Status begin_device_tracked(int, int, const DeviceOptions&, const Prediction&, Workspace&) {
     return Status::not_tracked;
 }
 
@@ -18,7 +18,7 @@ Status push_tracked_row(const std::uint8_t*, Workspace&) {
     return Status::not_tracked;
 }
 
-const Fix& finish_device_tracked(const Options& options, Workspace& w) {
+const Fix& finish_device_tracked(const DeviceOptions& options, Workspace& w) {
     return finish_device_attempt(options, w);
 }
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "../planes.hpp"
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 
 namespace dotpose::core_test::plane_test {
 namespace {

@@ -1,6 +1,6 @@
-/// Options: options in fixed point, as a DeviceLocator takes them. On desktops, LocatorOptions
-/// provides them in millimetres, pixels and ratios. Ranges are in [brackets]. If a value is outside
-/// its range, every frame gets Status::bad_argument.
+/// Device options: options in fixed point, as a DeviceLocator takes them. On desktops,
+/// LocatorOptions provides them in millimetres, pixels and ratios. Ranges are in [brackets]. If a
+/// value is outside its range, every frame gets Status::bad_argument.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ struct ThresholdOptions {
     /// High threshold: minimum contrast of the darkest pixel of a blob to the paper, as a fraction
     /// of the local contrast, in 1/256. Larger values reject more noise. [1 to 256]
     int high_q8 = 155;
-    /// Contrast, in grey levels, below which an area counts as blank. `Options::min_contrast`
+    /// Contrast, in grey levels, below which an area counts as blank. `DeviceOptions::min_contrast`
     /// raises it. [1 to 255]
     int min_contrast = 8;
 };
@@ -90,7 +90,7 @@ enum class Decoder : std::uint8_t {
 };
 
 /// All options of a Locator.
-struct Options {
+struct DeviceOptions {
     CodeVariant code = CodeVariant::anoto;
     Effort effort = Effort::twice;
     Decoder decoder = Decoder::all;
