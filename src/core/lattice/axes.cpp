@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 
+#include "core/lattice/neighbours.hpp"
 #include "core/math/fixed.hpp"
 #include "core/noinline.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/lattice/neighbours.hpp"
 #include "core/lattice/tuning.hpp"
 #include "core/math/fixed.hpp"
 
