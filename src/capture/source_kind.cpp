@@ -18,8 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 10> kImageEndings = {
-    ".pgm", ".ppm", ".pbm", ".pnm", ".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"};
+constexpr std::array<std::string_view, 14> kImageEndings = {
+    ".pgm", ".ppm", ".pbm",  ".pnm",  ".png",  ".jpg",  ".jpeg",
+    ".bmp", ".tif", ".tiff", ".webp", ".heic", ".heif", ".avif"};
 constexpr std::array<std::string_view, 24> kVideoEndings = {
     ".mp4",  ".m4v", ".mov",  ".mkv",  ".webm", ".avi",  ".ts",  ".mts",
     ".m2ts", ".mpg", ".mpeg", ".m2v",  ".wmv",  ".flv",  ".ogv", ".3gp",
@@ -47,9 +48,9 @@ bool begins_like_video(const std::string& name) {
     std::ifstream file(name, std::ios::binary);
     if (!file.read(head.data(), static_cast<std::streamsize>(head.size()))) return false;
     const std::string_view bytes = head;
-    const bool is_mp4 =
-        bytes.substr(4, 4) == "ftyp" &&
-        !sniff_other({reinterpret_cast<const std::uint8_t*>(head.data()), head.size()});
+    const Bytes numbers(reinterpret_cast<const std::uint8_t*>(head.data()), head.size());
+    const bool is_mp4 = bytes.substr(4, 4) == "ftyp" && format_of(numbers) == nullptr &&
+                        other_format_of(numbers) == nullptr;
     return is_mp4 || bytes.starts_with("\x1a\x45\xdf\xa3") ||
            (bytes.starts_with("RIFF") && bytes.substr(8, 4) == "AVI ");
 }
