@@ -12,8 +12,8 @@
 
 #include "../../jpeg.hpp"
 #include "../../temporary_directory.hpp"
-#include "capture/image_format.hpp"
 #include "encoders.hpp"
+#include "images/image_format.hpp"
 
 namespace dotpose::test {
 namespace {
@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 Bytes pixels_of(const Bytes& file) {
     std::string note;
-    return capture::format_of(file)->decode({file}, note).pixels;
+    return images::format_of(file)->decode({file}, note).pixels;
 }
 
 std::string error_of(const Bytes& file) {
@@ -85,7 +85,7 @@ TEST(BmpKinds, SayWhatIsNotRead) {
 
 TEST(BmpKinds, StateTheirResolution) {
     const Bytes file = bmp_with_masks(32, 0, {0, 0, 0, 0}, {0, 0});
-    const auto resolution = capture::format_of(file)->origin({file}).resolution;
+    const auto resolution = images::format_of(file)->origin({file}).resolution;
     ASSERT_TRUE(resolution);
     EXPECT_NEAR(resolution->x_dpi, 300, 0.01);
 }

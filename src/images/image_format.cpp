@@ -1,10 +1,10 @@
-#include "capture/image_format.hpp"
+#include "images/image_format.hpp"
 
 #include <algorithm>
 
 #include <fmt/core.h>
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 using namespace std::string_view_literals;
@@ -93,4 +93,4 @@ void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixel
         static_cast<int>(width_px), static_cast<int>(height_px));
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

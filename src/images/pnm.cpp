@@ -3,12 +3,12 @@
 #include <cstddef>
 #include <string>
 
-#include "capture/image_format.hpp"
-#include "capture/samples.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/tools/image_file.hpp"
+#include "images/image_format.hpp"
+#include "images/samples.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 constexpr std::uint32_t kMaxLevel = 65'535;
@@ -203,4 +203,4 @@ std::vector<std::uint8_t> encode_pgm(ImageView image) {
     return bytes;
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

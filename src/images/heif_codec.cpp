@@ -8,10 +8,10 @@
 
 #include <libheif/heif.h>
 
-#include "capture/image_format.hpp"
-#include "capture/samples.hpp"
+#include "images/image_format.hpp"
+#include "images/samples.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 [[noreturn]] void refuse(const char* reason) {
@@ -115,4 +115,4 @@ ImageOrigin heif_origin(const ImageInput& input) {
     return {is_of_camera(HeifReader(input.file).exif()), std::nullopt};
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

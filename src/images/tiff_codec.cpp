@@ -15,10 +15,10 @@
 
 #include <tiffio.h>
 
-#include "capture/image_format.hpp"
-#include "capture/samples.hpp"
+#include "images/image_format.hpp"
+#include "images/samples.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 /// A file in memory, and the first error of libtiff.
@@ -300,4 +300,4 @@ int tiff_pages(Bytes file) {
     return TiffReader(file).pages();
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

@@ -9,10 +9,10 @@
 
 #include <png.h>
 
-#include "capture/image_format.hpp"
-#include "capture/samples.hpp"
+#include "images/image_format.hpp"
+#include "images/samples.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 /// Reads a PNG file. libpng reports errors with longjmp. Only `guarded` calls its functions, and no
@@ -135,4 +135,4 @@ ImageOrigin png_origin(const ImageInput& input) {
     return {is_of_camera(png.exif()), png.resolution()};
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

@@ -10,10 +10,10 @@
 
 #include <jpeglib.h>
 
-#include "capture/image_format.hpp"
-#include "capture/samples.hpp"
+#include "images/image_format.hpp"
+#include "images/samples.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 constexpr int kQuality = 95;
@@ -243,4 +243,4 @@ std::vector<std::uint8_t> encode_jpeg(ImageView image) {
     return {encoded.bytes, encoded.bytes + encoded.count};
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

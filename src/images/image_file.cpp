@@ -11,13 +11,13 @@
 #include <string_view>
 #include <utility>
 
-#include "capture/image_format.hpp"
+#include "images/image_format.hpp"
 #include "png/png.hpp"
 
 namespace dotpose {
 namespace {
 
-using capture::ImageFormat;
+using images::ImageFormat;
 using Bytes = std::vector<std::uint8_t>;
 
 /// Returns the maximum size of a file in bytes: more than any image with 16 bits and four channels
@@ -74,10 +74,10 @@ Content read_file(const std::filesystem::path& path, int max_pixels) {
     const File file(std::fopen(path.c_str(), "rb"));
     if (!file) throw Error(system_reason());
     Bytes bytes;
-    append(file.get(), capture::kMagicBytes, bytes);
+    append(file.get(), images::kMagicBytes, bytes);
     if (bytes.empty()) throw Error("the file is empty");
-    const ImageFormat* format = capture::format_of(bytes);
-    const auto* other = format != nullptr ? nullptr : capture::other_format_of(bytes);
+    const ImageFormat* format = images::format_of(bytes);
+    const auto* other = format != nullptr ? nullptr : images::other_format_of(bytes);
     if (other != nullptr) {
         throw Error(std::string(other->name) +
                     ", which is not read: convert it first, for example with " + other->remedy);
@@ -195,11 +195,11 @@ std::vector<std::uint8_t> encode_image(ImageEncoding encoding, ImageView image) 
         case ImageEncoding::png:
             return png::encode(image);
         case ImageEncoding::jpeg:
-            return capture::encode_jpeg(image);
+            return images::encode_jpeg(image);
         case ImageEncoding::pgm:
             break;
     }
-    return capture::encode_pgm(image);
+    return images::encode_pgm(image);
 }
 
 void write_pgm(const std::filesystem::path& path, ImageView image) {

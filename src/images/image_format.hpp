@@ -14,7 +14,7 @@
 #include "dotpose/tools/grey_image.hpp"
 #include "dotpose/tools/image_file.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 
 using Bytes = std::span<const std::uint8_t>;
 
@@ -90,4 +90,4 @@ inline constexpr std::array<std::uint16_t, 4> kCameraTags{0x829A, 0x829D, 0x8827
 /// cameras. Truncated or damaged data count as missing.
 bool is_of_camera(Bytes exif);
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

@@ -5,9 +5,9 @@
 
 #include <libexif/exif-data.h>
 
-#include "capture/image_format.hpp"
+#include "images/image_format.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 
 bool is_of_camera(Bytes exif) {
     constexpr std::size_t kMaxBytes = 65'535;  // libexif reads no more
@@ -27,4 +27,4 @@ bool is_of_camera(Bytes exif) {
     });
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <utility>
 
-#include "capture/image_format.hpp"
-#include "capture/samples.hpp"
+#include "images/image_format.hpp"
+#include "images/samples.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 constexpr std::size_t kFileHeader = 14;
@@ -204,4 +204,4 @@ ImageOrigin bmp_origin(const ImageInput& input) {
                                    kMetresPerInch)};
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

@@ -6,10 +6,10 @@
 #include <webp/decode.h>
 #include <webp/demux.h>
 
-#include "capture/image_format.hpp"
-#include "capture/samples.hpp"
+#include "images/image_format.hpp"
+#include "images/samples.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 void require_ok(VP8StatusCode status) {
@@ -52,4 +52,4 @@ ImageOrigin webp_origin(const ImageInput& input) {
     return {is_photo, std::nullopt};
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images
