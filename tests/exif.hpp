@@ -18,7 +18,8 @@ enum ExifTag : std::uint16_t {
 };
 
 /// Returns a TIFF structure whose first directory contains a maker, and refers to another directory
-/// with these tags.
+/// with these tags. The first directory also describes an image of one pixel, so the structure is a
+/// TIFF file.
 inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endian) {
     std::string bytes = big_endian ? "MM" : "II";
     const auto add = [&](std::uint32_t value, int size) {
@@ -32,18 +33,25 @@ inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endi
         add(value, 4);
     };
     constexpr std::uint16_t kByte = 1;
+    constexpr std::uint16_t kShort = 3;
     constexpr std::uint16_t kLong = 4;
+    constexpr std::uint16_t kRational = 5;
     constexpr std::uint32_t kHeader = 8;
-    constexpr std::uint32_t kFirst = 2 + 2 * 12 + 4;
+    constexpr std::uint32_t kEntries = 5;
+    constexpr std::uint32_t kFirst = 2 + kEntries * 12 + 4;
     add(42, 2);
     add(kHeader, 4);
-    add(2, 2);
+    add(kEntries, 2);
+    add_entry(256, kLong, 1);  // width
+    add_entry(257, kLong, 1);
     add_entry(271, kByte, 0);  // maker
+    add_entry(273, kLong, 0);  // offset of the pixels
     add_entry(34665, kLong, kHeader + kFirst);
     add(0, 4);
     add(static_cast<std::uint32_t>(tags.size()), 2);
+    // The eight bytes after the header serve as the two numbers of a ratio.
     for (const std::uint16_t tag : tags)
-        add_entry(tag, kLong, 0);
+        add_entry(tag, tag == sensitivity ? kShort : kRational, kHeader);
     add(0, 4);
     return bytes;
 }

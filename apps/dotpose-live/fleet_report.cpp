@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "base/degrees.hpp"
+#include "dotpose/files/degrees.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {

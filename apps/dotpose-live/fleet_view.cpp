@@ -7,9 +7,9 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include "base/output_file.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/sheet_file.hpp"
+#include "dotpose/files/write_file.hpp"
 #include "path_memory.hpp"
 #include "terminal_text.hpp"
 
@@ -17,7 +17,7 @@ namespace dotpose::cli {
 
 FleetView::FleetView(const std::string& sheets, std::string map, Delivery delivery)
     : map_path_(std::move(map)), delivery_(delivery), on_terminal_(isatty(STDOUT_FILENO) == 1) {
-    if (!map_path_.empty()) base::require_writable(map_path_);
+    if (!map_path_.empty()) require_writable(map_path_);
     if (sheets.empty()) return;
     map_id_ = std::filesystem::path(sheets).stem().string();
     sheets_ = map_sheets(read_sheets(sheets), Plane::sheet_world);
@@ -51,9 +51,7 @@ void FleetView::show_table(const FleetState& fleet) const {
 }
 
 void FleetView::draw(const FleetState& fleet) {
-    base::OutputFile file(map_path_);
-    file.write(draw::draw_map(map_of(fleet, map_shown(fleet), sheets_)));
-    file.commit();
+    write_file(map_path_, draw::draw_map(map_of(fleet, map_shown(fleet), sheets_)));
 }
 
 /// Returns the name of the map to draw: the world of the sheets, or without sheets the plane of the

@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-#include "base/degrees.hpp"
+#include "dotpose/files/degrees.hpp"
 #include "dotpose/tools/track_names.hpp"
 
 namespace dotpose::cli {

@@ -9,8 +9,8 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include "base/output_file.hpp"
 #include "dotpose/files/error.hpp"
+#include "dotpose/files/write_file.hpp"
 #include "dotpose/pose_packet.hpp"
 #include "panel_text.hpp"
 #include "reading_fields.hpp"
@@ -96,7 +96,7 @@ WatchOutputs::WatchOutputs(const OutputOptions& options, const Follower& followe
       screen_(options.screen),
       begun_(std::chrono::steady_clock::now()) {
     for (const std::string& late : {options.map, options.screen.record}) {
-        if (!late.empty()) base::require_writable(late);
+        if (!late.empty()) require_writable(late);
     }
     const bool has_sheets = !follower.sheets().empty();
     if (options.lines.format == RecordFormat::csv) {
@@ -189,9 +189,7 @@ void WatchOutputs::draw_path() const {
              newest_.is_lost ? std::nullopt : std::optional(newest_.pose.theta_rad()),
              newest_.is_lost});
     }
-    base::OutputFile file(options_.map);
-    file.write(draw::draw_map(map));
-    file.commit();
+    write_file(options_.map, draw::draw_map(map));
 }
 
 }  // namespace dotpose::cli

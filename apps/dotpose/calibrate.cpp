@@ -11,12 +11,12 @@
 
 #include <fmt/core.h>
 
-#include "base/output_file.hpp"
 #include "calibrate_report.hpp"
 #include "calibration_frames.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/camera_file.hpp"
+#include "dotpose/files/write_file.hpp"
 #include "dotpose/tools/draw.hpp"
 #include "live_calibration.hpp"
 #include "output_arguments.hpp"
@@ -289,7 +289,7 @@ int run(CalibrateArguments& arguments) {
     keep_camera_of(arguments.out, arguments.camera);
     use_sheets(arguments);
     // Checks the output before the user spends minutes moving the camera.
-    if (arguments.is_live && !arguments.out.empty()) base::require_writable(arguments.out);
+    if (arguments.is_live && !arguments.out.empty()) require_writable(arguments.out);
     catch_interrupts();
     const std::string report =
         arguments.stitch ? stitch(arguments, *series.lens) : calibrate_camera(arguments, series);

@@ -5,8 +5,8 @@
 
 #include <fmt/core.h>
 
-#include "base/degrees.hpp"
 #include "dotpose/files/code_names.hpp"
+#include "dotpose/files/degrees.hpp"
 #include "dotpose/tools/calibration_coverage.hpp"
 #include "draw/deviation.hpp"
 

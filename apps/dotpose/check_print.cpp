@@ -259,7 +259,7 @@ void add_check_print(Command& app, int& exit_code) {
     Command* command =
         app.add_subcommand("check-print", "Check a printed sheet with a scan or photo of it");
     command->footer(kCheckPrintExamples);
-    command->add_option("scan", arguments->scan, "PNG, TIFF, JPEG, BMP or PGM file")
+    command->add_option("scan", arguments->scan, "PNG, TIFF, JPEG, WebP, HEIC, BMP or PGM file")
         ->type_name("SCAN")
         ->required();
     command->add_option("--dpi", arguments->dpi, "Resolution of the scan")

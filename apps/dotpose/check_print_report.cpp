@@ -9,8 +9,8 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "base/degrees.hpp"
 #include "dotpose/files/code_names.hpp"
+#include "dotpose/files/degrees.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <ostream>
+#include <sstream>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "choices.hpp"
-#include "draw/svg.hpp"
+#include "dotpose/files/write_file.hpp"
 #include "exit_codes.hpp"
 #include "progress.hpp"
 #include "terminal_text.hpp"
@@ -173,8 +173,9 @@ int evaluate_measured(const MeasuredArguments& arguments, const FollowerOptions&
     const Measurement measurement = compare(std::move(frames), alignment);
     write_report(report, report_of(measurement, report.as_json));
     if (!arguments.residuals.empty()) {
-        draw::write_file(arguments.residuals,
-                         [&](std::ostream& out) { write_errors_csv(out, measurement); });
+        std::ostringstream table;
+        write_errors_csv(table, measurement);
+        write_file(arguments.residuals, table.view());
     }
     if (!arguments.draw.empty()) write_measurement(arguments.draw, measurement);
     known.finish();

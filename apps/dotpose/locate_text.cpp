@@ -4,7 +4,7 @@
 
 #include <fmt/core.h>
 
-#include "base/degrees.hpp"
+#include "dotpose/files/degrees.hpp"
 #include "locate_record.hpp"
 #include "terminal_text.hpp"
 

@@ -7,9 +7,9 @@
 
 #include <fmt/core.h>
 
-#include "base/degrees.hpp"
 #include "commands.hpp"
 #include "common.hpp"
+#include "dotpose/files/degrees.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {

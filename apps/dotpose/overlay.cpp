@@ -8,9 +8,9 @@
 
 #include <fmt/core.h>
 
-#include "base/output_file.hpp"
 #include "commands.hpp"
 #include "common.hpp"
+#include "dotpose/files/write_file.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
@@ -74,7 +74,7 @@ void run(OverlayArguments& arguments) {
     catch_interrupts();
     std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
-        if (arguments.out != kStandardOutput) base::require_writable(arguments.out);
+        if (arguments.out != kStandardOutput) require_writable(arguments.out);
         options.place = [&](std::span<OverlaidPage> pages) {
             const auto enter_all = [&](SheetFile& file) {
                 for (auto& [number, sheet, document_page] : pages)

@@ -8,7 +8,7 @@
 
 #include <fmt/core.h>
 
-#include "base/degrees.hpp"
+#include "dotpose/files/degrees.hpp"
 
 namespace dotpose::cli {
 namespace {

@@ -10,9 +10,9 @@
 
 #include <fmt/core.h>
 
-#include "base/output_file.hpp"
 #include "commands.hpp"
 #include "common.hpp"
+#include "dotpose/files/write_file.hpp"
 #include "dotpose/tools/test_page.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
@@ -155,7 +155,7 @@ void run(const PrintArguments& arguments) {
     const SheetPrint print = print_of(arguments);
     std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
-        if (arguments.out != kStandardOutput) base::require_writable(arguments.out);
+        if (arguments.out != kStandardOutput) require_writable(arguments.out);
         catch_interrupts();
         const auto enter_all = [&](SheetFile& file) {
             for (std::size_t i = 0; i < sheets.size(); ++i)

@@ -5,9 +5,9 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "base/output_file.hpp"
 #include "commands.hpp"
 #include "dotpose/files/error.hpp"
+#include "dotpose/files/write_file.hpp"
 #include "log_updates.hpp"
 #include "output_arguments.hpp"
 #include "print/lower_case.hpp"
@@ -122,7 +122,7 @@ void run(const ReplayArguments& arguments) {
     files.writes("-o", arguments.report.out,
                  is_recording(arguments.report.out) ? Content::mcap : content_of(arguments.report));
     files.writes("--draw", arguments.picture, Content::svg);
-    if (!arguments.picture.empty()) base::require_writable(arguments.picture);
+    if (!arguments.picture.empty()) require_writable(arguments.picture);
     const auto rows = read_log(arguments.log);
     const RunStatistics statistics = statistics_of(rows);
     ReportArguments report = arguments.report;
@@ -132,9 +132,8 @@ void run(const ReplayArguments& arguments) {
     }
     write_report(report, report.as_json ? json_report(statistics) : text_report(statistics));
     if (arguments.picture.empty()) return;
-    base::OutputFile file(arguments.picture);
-    file.write(draw_run(rows, std::filesystem::path(arguments.log).filename().string()));
-    file.commit();
+    write_file(arguments.picture,
+               draw_run(rows, std::filesystem::path(arguments.log).filename().string()));
 }
 
 }  // namespace

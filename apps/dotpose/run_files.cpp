@@ -8,8 +8,8 @@
 #include <fmt/core.h>
 #include <sys/stat.h>
 
-#include "base/output_file.hpp"
 #include "dotpose/files/error.hpp"
+#include "dotpose/files/write_file.hpp"
 #include "print/lower_case.hpp"
 
 namespace dotpose::cli {
@@ -87,7 +87,7 @@ std::optional<FileIdentity> identity_of(const std::string& path) {
         if (!S_ISREG(found.st_mode)) return std::nullopt;
         return FileIdentity{found.st_dev, found.st_ino, ""};
     }
-    const fs::path target = base::without_links(path);
+    const fs::path target = without_links(path);
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     if (stat(folder.c_str(), &found) != 0) return std::nullopt;
     return FileIdentity{found.st_dev, found.st_ino, print::lower_case(target.filename().string())};

@@ -7,10 +7,10 @@
 
 #include <fmt/core.h>
 
-#include "base/output_file.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/sheet_file.hpp"
+#include "dotpose/files/write_file.hpp"
 #include "dotpose/tools/draw.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
@@ -159,7 +159,7 @@ void draw_map(const SheetsArguments& arguments) {
     files.writes("-o", arguments.out, Content::svg);
     const std::vector<SheetEntry> sheets = sheets_of(arguments);
     const DocumentOutput output(arguments.out, ".svg");
-    base::require_writable(output.path());
+    require_writable(output.path());
     draw_sheets(output.path(), sheets);
     output.finish();
 }

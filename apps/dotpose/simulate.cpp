@@ -13,9 +13,9 @@
 
 #include <fmt/core.h>
 
-#include "base/degrees.hpp"
 #include "commands.hpp"
 #include "common.hpp"
+#include "dotpose/files/degrees.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "live_sources.hpp"
 #include "output_arguments.hpp"

@@ -11,6 +11,7 @@
 
 #include "base/system_error.hpp"
 #include "dotpose/files/error.hpp"
+#include "dotpose/files/write_file.hpp"
 
 namespace dotpose::base {
 namespace fs = std::filesystem;
@@ -19,17 +20,6 @@ namespace {
 constexpr int kNameAttempts = 100;
 
 }  // namespace
-
-fs::path without_links(fs::path path) {
-    constexpr int kMaxLinks = 40;  // same limit as Linux
-    std::error_code error;
-    for (int i = 0; i < kMaxLinks && fs::is_symlink(path, error); ++i) {
-        const fs::path target = fs::read_symlink(path, error);
-        if (error) break;
-        path = path.parent_path() / target;
-    }
-    return path;
-}
 
 OutputFile::OutputFile(const fs::path& target) : target_(without_links(target)) {
     std::error_code error;
@@ -106,8 +96,30 @@ void OutputFile::commit() {
     }
 }
 
-void require_writable(const fs::path& target) {
-    const OutputFile never_committed(target);
+}  // namespace dotpose::base
+
+namespace dotpose {
+namespace fs = std::filesystem;
+
+void write_file(const fs::path& target, std::string_view contents) {
+    base::OutputFile file(target);
+    file.write(contents);
+    file.commit();
 }
 
-}  // namespace dotpose::base
+void require_writable(const fs::path& target) {
+    const base::OutputFile never_committed(target);
+}
+
+fs::path without_links(fs::path path) {
+    constexpr int kMaxLinks = 40;  // same limit as Linux
+    std::error_code error;
+    for (int i = 0; i < kMaxLinks && fs::is_symlink(path, error); ++i) {
+        const fs::path target = fs::read_symlink(path, error);
+        if (error) break;
+        path = path.parent_path() / target;
+    }
+    return path;
+}
+
+}  // namespace dotpose

@@ -1,4 +1,4 @@
-/// Writes files that appear completely or not at all.
+/// Writes files piece by piece that appear completely or not at all. write_file.hpp is for texts.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,6 @@
 #pragma GCC visibility push(default)
 
 namespace dotpose::base {
-
-/// Resolves symbolic links and returns the path of their target, which need not exist.
-std::filesystem::path without_links(std::filesystem::path path);
 
 /// Writes to a temporary file beside the target. `commit` renames it to the target. The destructor
 /// removes an uncommitted file. Symbolic links are followed, and an existing target keeps its mode.
@@ -47,10 +44,6 @@ class OutputFile : public ByteSink {
     std::FILE* stream_ = nullptr;
     int error_number_ = 0;
 };
-
-/// Throws Error, as OutputFile does, if the file cannot be created. Intended to be called before a
-/// long computation whose result is written to the file.
-void require_writable(const std::filesystem::path& target);
 
 }  // namespace dotpose::base
 

@@ -10,16 +10,17 @@
 
 #include <glob.h>
 
-#include "capture/image_format.hpp"
 #include "dotpose/files/error.hpp"
+#include "images/image_format.hpp"
 
 namespace dotpose::capture {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 10> kImageEndings = {
-    ".pgm", ".ppm", ".pbm", ".pnm", ".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"};
+constexpr std::array<std::string_view, 14> kImageEndings = {
+    ".pgm", ".ppm", ".pbm",  ".pnm",  ".png",  ".jpg",  ".jpeg",
+    ".bmp", ".tif", ".tiff", ".webp", ".heic", ".heif", ".avif"};
 constexpr std::array<std::string_view, 24> kVideoEndings = {
     ".mp4",  ".m4v", ".mov",  ".mkv",  ".webm", ".avi",  ".ts",  ".mts",
     ".m2ts", ".mpg", ".mpeg", ".m2v",  ".wmv",  ".flv",  ".ogv", ".3gp",
@@ -43,13 +44,13 @@ bool has_ending(const fs::path& path, const Endings& endings) {
 bool begins_like_video(const std::string& name) {
     std::error_code failed;
     if (!fs::is_regular_file(name, failed)) return false;
-    std::string head(kMagicBytes, '\0');
+    std::string head(images::kMagicBytes, '\0');
     std::ifstream file(name, std::ios::binary);
     if (!file.read(head.data(), static_cast<std::streamsize>(head.size()))) return false;
     const std::string_view bytes = head;
-    const bool is_mp4 =
-        bytes.substr(4, 4) == "ftyp" &&
-        !sniff_other({reinterpret_cast<const std::uint8_t*>(head.data()), head.size()});
+    const images::Bytes numbers(reinterpret_cast<const std::uint8_t*>(head.data()), head.size());
+    const bool is_mp4 = bytes.substr(4, 4) == "ftyp" && images::format_of(numbers) == nullptr &&
+                        images::other_format_of(numbers) == nullptr;
     return is_mp4 || bytes.starts_with("\x1a\x45\xdf\xa3") ||
            (bytes.starts_with("RIFF") && bytes.substr(8, 4) == "AVI ");
 }

@@ -7,32 +7,11 @@
 #include <span>
 #include <vector>
 
-#include <png.h>
-
-#include "dotpose/files/error.hpp"
 #include "dotpose/tools/grey_image.hpp"
+#include "png/png.hpp"
 
 namespace dotpose::draw {
 namespace {
-
-/// Encodes an image as PNG with the simplified interface of libpng, which returns errors instead of
-/// using longjmp.
-std::vector<std::uint8_t> encode_png(ImageView image) {
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    png.width = static_cast<png_uint_32>(image.width_px);
-    png.height = static_cast<png_uint_32>(image.height_px);
-    png.format = PNG_FORMAT_GRAY;
-    png_alloc_size_t size_bytes = PNG_IMAGE_PNG_SIZE_MAX(png);
-    std::vector<std::uint8_t> bytes(size_bytes);
-    const auto stride_bytes = static_cast<png_int_32>(image.stride_bytes);
-    if (png_image_write_to_memory(&png, bytes.data(), &size_bytes, 0, image.pixels, stride_bytes,
-                                  nullptr) == 0) {
-        throw Error(std::string("cannot embed the image: ") + png.message);
-    }
-    bytes.resize(size_bytes);
-    return bytes;
-}
 
 /// Returns the means of blocks of `by` x `by` pixels. Blocks at the right and lower edge are
 /// smaller. The grey levels are multiples of 4, because noise in the lowest bits is not
@@ -77,8 +56,8 @@ std::string data_uri(ImageView image, int max_side_px) {
     if (image.pixels == nullptr || image.width_px <= 0 || image.height_px <= 0) return {};
     const int side_px = std::max(image.width_px, image.height_px);
     const int by = (side_px + max_side_px - 1) / max_side_px;
-    if (by == 1) return "data:image/png;base64," + base64(encode_png(image));
-    return "data:image/png;base64," + base64(encode_png(reduced(image, by).view()));
+    if (by == 1) return "data:image/png;base64," + base64(png::encode(image));
+    return "data:image/png;base64," + base64(png::encode(reduced(image, by).view()));
 }
 
 }  // namespace dotpose::draw

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/degrees.hpp"
+#include "dotpose/files/degrees.hpp"
 #include "evaluate/protocol.hpp"
 
 namespace dotpose {

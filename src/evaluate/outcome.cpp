@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/degrees.hpp"
+#include "dotpose/files/degrees.hpp"
 
 namespace dotpose {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/degrees.hpp"
+#include "dotpose/files/degrees.hpp"
 
 namespace dotpose {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "base/output_file.hpp"
+#include "dotpose/files/write_file.hpp"
 #include "files/ros_camera.hpp"
 #include "files/yaml_reader.hpp"
 
@@ -150,10 +150,7 @@ bool is_camera_info(const std::filesystem::path& path) {
 
 void write_camera(const std::filesystem::path& path, const Camera& camera) {
     validate(camera);
-    base::OutputFile file(path);
-    file.write(yaml_of(camera));
-    file.require_good();
-    file.commit();
+    write_file(path, yaml_of(camera));
 }
 
 }  // namespace dotpose

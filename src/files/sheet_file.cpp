@@ -12,8 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/output_file.hpp"
 #include "base/system_error.hpp"
+#include "dotpose/files/write_file.hpp"
 #include "files/input_file.hpp"
 #include "files/sheet_json.hpp"
 #include "files/sheet_list.hpp"
@@ -112,7 +112,7 @@ SheetFile::Lock::~Lock() {
 
 // Symbolic links are resolved first, because all names of a file must use the same lock.
 SheetFile::SheetFile(const fs::path& path, const SheetFileWait& wait)
-    : path_(base::without_links(path)), lock_(path_, wait), text_(text_of(path_)) {
+    : path_(without_links(path)), lock_(path_, wait), text_(text_of(path_)) {
     if (text_) sheets_ = files::sheets_from_json(*text_, path_.string());
 }
 
@@ -177,9 +177,7 @@ void SheetFile::save() {
                         path_.string()));
     }
     std::string text = files::json_from_sheets(sheets_, text_, names_in_text_);
-    base::OutputFile file(path_);
-    file.write(text);
-    file.commit();
+    write_file(path_, text);
     text_ = std::move(text);
     names_in_text_.clear();
 }

@@ -4,8 +4,8 @@
 
 #include <fmt/core.h>
 
-#include "base/output_file.hpp"
 #include "dotpose/files/sheet_file.hpp"
+#include "dotpose/files/write_file.hpp"
 
 namespace dotpose {
 namespace fs = std::filesystem;
@@ -86,9 +86,7 @@ void SheetReservation::release() {
             fs::remove(file.path_);
             return;
         }
-        base::OutputFile old(file.path_);
-        old.write(*text_before_);
-        old.commit();
+        write_file(file.path_, *text_before_);
         return;
     }
     for (const SheetEntry& entry : entries_) {

@@ -73,7 +73,7 @@ class Bitmap {
         }
     }
 
-    void hand_out(const print::RowSink& sink) const {
+    void hand_out(const png::RowSink& sink) const {
         for (auto row = bits_.begin(); row != bits_.end();
              row += static_cast<std::ptrdiff_t>(stride_bytes_)) {
             sink(std::span(row, stride_bytes_));
@@ -108,7 +108,7 @@ void write_raster(const PrintPage& page, PrintFormat format, const PrintOptions&
     }
     for (const InkRectangle& mark : page.marks)
         bitmap.add(mark, options.dpi);
-    const auto rows = [&](const print::RowSink& sink) { bitmap.hand_out(sink); };
+    const auto rows = [&](const png::RowSink& sink) { bitmap.hand_out(sink); };
     const auto write = format == PrintFormat::png ? print::write_png : print::write_tiff;
     write(size, options.dpi, rows, file);
 }

@@ -113,7 +113,7 @@ RasterSize raster_size(const Sheet& sheet, double dpi) {
             static_cast<int>(std::lround(sheet.height_mm * dpi / kInch_mm))};
 }
 
-void rasterize(const Sheet& sheet, double dpi, const Progress& progress, const RowSink& sink) {
+void rasterize(const Sheet& sheet, double dpi, const Progress& progress, const png::RowSink& sink) {
     const RasterSize size = raster_size(sheet, dpi);
     SymbolRows symbols(sheet);
     Band band(sheet, dpi, size);

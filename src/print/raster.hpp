@@ -1,11 +1,8 @@
 /// Renders a sheet at a printer's resolution, one pixel row at a time.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <span>
-
 #include "dotpose/tools/print.hpp"
+#include "png/png.hpp"
 
 namespace dotpose::print {
 
@@ -17,12 +14,8 @@ struct RasterSize {
 /// Returns the size of the page in printer pixels, rounded to whole pixels.
 RasterSize raster_size(const Sheet& sheet, double dpi);
 
-/// Receives one pixel row: 8 pixels per byte, with the leftmost pixel in the highest bit. A set bit
-/// is ink.
-using RowSink = std::function<void(std::span<const std::uint8_t>)>;
-
 /// Calls `sink` for all pixel rows from top to bottom. The sheet and the resolution must be valid.
 /// Only the pixel rows of one row of dots are in memory at a time.
-void rasterize(const Sheet& sheet, double dpi, const Progress& progress, const RowSink& sink);
+void rasterize(const Sheet& sheet, double dpi, const Progress& progress, const png::RowSink& sink);
 
 }  // namespace dotpose::print

@@ -55,7 +55,7 @@ Tiff open_tiff(RasterSize size, double dpi, base::OutputFile& file) {
 
 }  // namespace
 
-void write_tiff(RasterSize size, double dpi, const RowSource& rows, base::OutputFile& file) {
+void write_tiff(RasterSize size, double dpi, const png::RowSource& rows, base::OutputFile& file) {
     const Tiff tiff = open_tiff(size, dpi, file);
     std::vector<std::uint8_t> row;
     std::uint32_t row_index = 0;

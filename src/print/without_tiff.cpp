@@ -3,7 +3,7 @@
 
 namespace dotpose::print {
 
-void write_tiff(RasterSize, double, const RowSource&, base::OutputFile&) {
+void write_tiff(RasterSize, double, const png::RowSource&, base::OutputFile&) {
     throw Error("cannot write TIFF: dotpose was built without libtiff");
 }
 

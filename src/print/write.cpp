@@ -10,6 +10,11 @@
 
 namespace dotpose {
 
+void print::write_png(RasterSize size, double dpi, const png::RowSource& rows,
+                      base::OutputFile& file) {
+    png::write({size.width_px, size.height_px, 1, dpi}, rows, file);
+}
+
 PrintFormat print_format(const std::filesystem::path& path) {
     const std::string ending = print::lower_case(path.extension().string());
     if (ending == ".txt") return PrintFormat::text;
@@ -41,7 +46,7 @@ void write_sheets(std::span<const Sheet> sheets, const std::filesystem::path& pa
     }
     const Sheet& sheet = sheets.front();
     base::OutputFile file(path);
-    const auto rows = [&](const print::RowSink& sink) {
+    const auto rows = [&](const png::RowSink& sink) {
         print::rasterize(sheet, options.dpi, options.progress, sink);
     };
     switch (format) {

@@ -7,6 +7,7 @@
 
 #include "base/output_file.hpp"
 #include "dotpose/tools/print.hpp"
+#include "png/png.hpp"
 #include "raster.hpp"
 
 namespace dotpose::print {
@@ -14,10 +15,8 @@ namespace dotpose::print {
 void write_text(const Sheet& sheet, const Progress& progress, base::OutputFile& file);
 void write_svg(const Sheet& sheet, const Progress& progress, base::ByteSink& file);
 
-/// Calls a sink for all pixel rows of an image, from top to bottom.
-using RowSource = std::function<void(const RowSink&)>;
-void write_png(RasterSize size, double dpi, const RowSource& rows, base::OutputFile& file);
-void write_tiff(RasterSize size, double dpi, const RowSource& rows, base::OutputFile& file);
+void write_png(RasterSize size, double dpi, const png::RowSource& rows, base::OutputFile& file);
+void write_tiff(RasterSize size, double dpi, const png::RowSource& rows, base::OutputFile& file);
 
 void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, base::OutputFile& file);
 void write_pdf_page(const PrintPage& page, const PrintOptions& options, base::OutputFile& file);

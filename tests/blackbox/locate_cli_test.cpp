@@ -157,6 +157,23 @@ TEST_F(LocateCommand, sixteen_bits_and_transparency_change_nothing) {
     EXPECT_EQ(found[0]["status"], "ok");
 }
 
+TEST_F(LocateCommand, reads_the_formats_of_phones) {
+    const Shot truth = shot(1);
+    write_png(directory_ / "frame.png", render(truth).view());
+    fs::create_directory(directory_ / "photos");
+    if (shell("cwebp -quiet -q 90 frame.png -o photos/photo.webp && "
+              "heif-enc -q 90 frame.png -o photos/photo.heic") != 0)
+        GTEST_SKIP() << errors_ << "scripts/setup tests installs cwebp and heif-enc";
+    run("photos");
+    if (errors_.find("which is not read") != std::string::npos) GTEST_SKIP() << errors_;
+    EXPECT_EQ(exit_code_, 0) << errors_;
+    EXPECT_THAT(files(), ElementsAre("photos/photo.heic", "photos/photo.webp"));
+    for (const json& record : records()) {
+        EXPECT_NEAR(record["x_grid"], x_grid(truth.pose), 0.03);
+        EXPECT_NEAR(record["y_grid"], y_grid(truth.pose), 0.03);
+    }
+}
+
 TEST_F(LocateCommand, names_may_come_from_a_list) {
     write_frame("a b.pgm", 0);
     write_frame("c.pgm", 1);

@@ -1,9 +1,10 @@
 /// Reads images from files as 8-bit grey, and writes grey images.
 ///
-/// Formats: PNM (PBM, PGM and PPM, text and binary), PNG, JPEG, BMP, TIFF. The format is detected
-/// from the first bytes of a file, never from its name. A truncated or damaged file is an Error,
-/// even if part of the picture could be decoded, because interpolated pixels are not measurements.
-/// A JPEG that lacks only its end marker is read.
+/// Formats: PNM (PBM, PGM and PPM, text and binary), PNG, JPEG, BMP, TIFF; WebP, HEIC and AVIF if
+/// dotpose was built with libwebp and libheif. The format is detected from the first bytes of a
+/// file, never from its name. A truncated or damaged file is an Error, even if part of the picture
+/// could be decoded, because interpolated pixels are not measurements. A JPEG that lacks only its
+/// end marker is read.
 ///
 /// Every pixel is converted to one grey level, from 0 (black) to 255 (white). Colour is converted
 /// to luma 0.299 R + 0.587 G + 0.114 B (Rec. 601) of the stored values. Palettes are expanded. CMYK
@@ -13,8 +14,8 @@
 /// deliver them. Transparent pixels are composited on white. Of a TIFF file with several pages, the
 /// first page or the requested page is read.
 ///
-/// EXIF orientation is ignored, because the calibration and mount of a camera refer to the pixels
-/// of the sensor.
+/// The orientation in EXIF data and in HEIC is ignored, because the calibration and mount of a
+/// camera refer to the pixels of the sensor.
 #pragma once
 
 #include <cstdint>
@@ -70,8 +71,8 @@ struct Resolution {
 
 /// Origin of an image according to its file.
 struct ImageOrigin {
-    /// True if the image is from a camera: its EXIF data (JPEG, PNG, TIFF) contain exposure time,
-    /// f-number, sensitivity or focal length.
+    /// True if the image is from a camera: its EXIF data (JPEG, PNG, TIFF, WebP, HEIC) contain
+    /// exposure time, f-number, sensitivity or focal length.
     bool is_photo = false;
     /// Resolution of a scan: PNG pHYs, JPEG density, TIFF and BMP resolution. None if it is
     /// missing, for photos, and for 72 and 96 dpi, the defaults of programs without a resolution.

@@ -1,5 +1,6 @@
 // Generates the seeds of the fuzz targets: dotpose_fuzz_corpus DIRECTORY
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -108,6 +109,14 @@ void make_images(const fs::path& folder) {
         write(folder / (stem + ".pnm"), test::encode_pnm(raster, false, 255));
         write(folder / (stem + "-text.pnm"), test::encode_pnm(small, true, 255));
         if (channels == 3) write(folder / (stem + ".bmp"), test::encode_bmp(raster));
+    }
+    const std::string stem = (folder / "image-3").string();
+    for (const std::string& command :
+         {"cwebp -quiet " + stem + ".png -o " + stem + ".webp",
+          "cwebp -quiet -lossless " + stem + ".png -o " + stem + "-lossless.webp",
+          "heif-enc " + stem + ".png -o " + stem + ".heic",
+          "heif-enc " + stem + ".png -o " + stem + ".avif"}) {
+        if (std::system(command.c_str()) != 0) throw Error("cannot run " + command);
     }
 }
 

@@ -182,7 +182,7 @@ Bytes encode_pnm(const Raster& raster, bool as_text, int max_value) {
     return pnm.data;
 }
 
-Bytes encode_png(const Raster& raster, const Bytes& palette) {
+Bytes encode_png(const Raster& raster, const Bytes& palette, const Bytes& exif) {
     constexpr std::array<std::uint64_t, 5> kColourTypes{0, 0, 4, 2, 6};
     const std::uint64_t colour_type =
         palette.empty() ? kColourTypes.at(static_cast<std::size_t>(raster.channels)) : 3;
@@ -200,6 +200,7 @@ Bytes encode_png(const Raster& raster, const Bytes& palette) {
                      .integers(1, {number(raster.bits), colour_type, 0, 0, 0})
                      .data);
     if (!palette.empty()) append_chunk(png, "PLTE", palette);
+    if (!exif.empty()) append_chunk(png, "eXIf", exif);
     append_chunk(png, "IDAT", stored(filtered));
     append_chunk(png, "IEND", {});
     return png.data;

@@ -42,7 +42,7 @@ Bytes encode_pnm(const Raster& raster, bool as_text, int max_value);
 
 /// Encodes 1 to 4 channels: grey, grey and opacity, RGB, RGBA. With a palette (RGB triples), 1
 /// channel.
-Bytes encode_png(const Raster& raster, const Bytes& palette = {});
+Bytes encode_png(const Raster& raster, const Bytes& palette = {}, const Bytes& exif = {});
 
 /// Encodes 8-bit samples. 1 channel needs a palette (RGB triples), 3 channels are RGB.
 Bytes encode_bmp(const Raster& raster, const Bytes& palette = {});

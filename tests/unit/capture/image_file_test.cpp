@@ -241,15 +241,15 @@ TEST_F(ImageFileTest, names_what_is_no_image_file) {
         const std::string error = error_of(text(other));
         EXPECT_THAT(error, StartsWith("cannot read ")) << other;
     }
-    EXPECT_THAT(error_of(text("%!PS-Adobe")), HasSubstr("not a PNM, PNG, JPEG, BMP or TIFF image"));
+    EXPECT_THAT(error_of(text("%!PS-Adobe")),
+                HasSubstr("not a PNM, PNG, JPEG, BMP, TIFF, WebP or HEIC image"));
 }
 
 TEST_F(ImageFileTest, names_formats_that_are_not_read_and_a_converter) {
     using namespace std::string_literals;
     EXPECT_THAT(
-        error_of(text("RIFF\x1a\0\0\0WEBPVP8 "s)),
-        HasSubstr("a WebP image, which is not read: convert it first, for example with dwebp"));
-    EXPECT_THAT(error_of(text("GIF89a")), HasSubstr("a GIF image"));
+        error_of(text("GIF89a")),
+        HasSubstr("a GIF image, which is not read: convert it first, for example with ffmpeg"));
     EXPECT_THAT(error_of(text("\0\0\0\x0cJXL \r\n\x87\n"s)), HasSubstr("a JPEG XL image"));
     EXPECT_THAT(error_of(text("\0\0\0\x0cjP  \r\n\x87\n"s)), HasSubstr("a JPEG 2000 image"));
     EXPECT_THAT(error_of(text("RIFF\x1a\0\0\0WAVE"s)), HasSubstr("not a PNM, PNG, JPEG"));

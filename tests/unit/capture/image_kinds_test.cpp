@@ -12,24 +12,23 @@
 
 #include "../../jpeg.hpp"
 #include "../../temporary_directory.hpp"
-#include "capture/image_codec.hpp"
 #include "encoders.hpp"
+#include "images/image_format.hpp"
 
 namespace dotpose::test {
 namespace {
 
-using capture::ImageFormat;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Bytes pixels_of(ImageFormat format, const Bytes& file) {
+Bytes pixels_of(const Bytes& file) {
     std::string note;
-    return capture::decode_image(format, file, kDefaultImagePixels, note).pixels;
+    return images::format_of(file)->decode({file}, note).pixels;
 }
 
-std::string error_of(ImageFormat format, const Bytes& file) {
+std::string error_of(const Bytes& file) {
     try {
-        pixels_of(format, file);
+        pixels_of(file);
     } catch (const Error& error) {
         return error.what();
     }
@@ -50,23 +49,20 @@ Bytes bmp_with_masks(std::uint64_t bits, std::uint64_t compression,
 TEST(BmpKinds, HaveFieldsOfBits) {
     // Pictures with transparency as written by GIMP and ImageMagick: opaque red, and
     // half-transparent black.
-    EXPECT_THAT(
-        pixels_of(ImageFormat::bmp, bmp_with_masks(32, 3, {0xFF0000, 0xFF00, 0xFF, 0xFF000000},
-                                                   {0xFFFF0000, 0x80000000})),
-        ElementsAre(76, 127));
+    EXPECT_THAT(pixels_of(bmp_with_masks(32, 3, {0xFF0000, 0xFF00, 0xFF, 0xFF000000},
+                                         {0xFFFF0000, 0x80000000})),
+                ElementsAre(76, 127));
     // Five, six and five bits: white, and pure green.
-    EXPECT_THAT(pixels_of(ImageFormat::bmp,
-                          bmp_with_masks(16, 3, {0xF800, 0x07E0, 0x001F, 0}, {0xFFFF, 0x07E0})),
+    EXPECT_THAT(pixels_of(bmp_with_masks(16, 3, {0xF800, 0x07E0, 0x001F, 0}, {0xFFFF, 0x07E0})),
                 ElementsAre(255, 150));
     // Without masks, the fourth byte has no meaning.
-    EXPECT_THAT(
-        pixels_of(ImageFormat::bmp, bmp_with_masks(32, 0, {0, 0, 0, 0}, {0x00FFFFFF, 0x000000FF})),
-        ElementsAre(255, 29));
+    EXPECT_THAT(pixels_of(bmp_with_masks(32, 0, {0, 0, 0, 0}, {0x00FFFFFF, 0x000000FF})),
+                ElementsAre(255, 29));
 }
 
 TEST(BmpKinds, StartAtTheTopWhenTheHeightIsNegative) {
     const Bytes file = bmp_with_masks(32, 0, {0, 0, 0, 0}, {0, 0x010101, 0x020202, 0x030303}, -2);
-    EXPECT_THAT(pixels_of(ImageFormat::bmp, file), ElementsAre(0, 1, 2, 3));
+    EXPECT_THAT(pixels_of(file), ElementsAre(0, 1, 2, 3));
 }
 
 TEST(BmpKinds, HaveFewBitsAndTheHeaderOfOs2) {
@@ -78,19 +74,18 @@ TEST(BmpKinds, HaveFewBitsAndTheHeaderOfOs2) {
                            .integers(1, {255, 0, 0, 255, 255, 255})
                            .integers(1, {0xA0, 0, 0, 0})
                            .data;
-    EXPECT_THAT(pixels_of(ImageFormat::bmp, file), ElementsAre(255, 29, 255));
+    EXPECT_THAT(pixels_of(file), ElementsAre(255, 29, 255));
 }
 
 TEST(BmpKinds, SayWhatIsNotRead) {
-    EXPECT_THAT(error_of(ImageFormat::bmp, bmp_with_masks(8, 1, {0, 0, 0, 0}, {0, 0, 0, 0})),
+    EXPECT_THAT(error_of(bmp_with_masks(8, 1, {0, 0, 0, 0}, {0, 0, 0, 0})),
                 HasSubstr("compressed pixels are not supported"));
-    EXPECT_THAT(error_of(ImageFormat::bmp, bmp_with_masks(24, 0, {0, 0, 0, 0}, {0})),
-                HasSubstr("cut short"));
+    EXPECT_THAT(error_of(bmp_with_masks(24, 0, {0, 0, 0, 0}, {0})), HasSubstr("cut short"));
 }
 
 TEST(BmpKinds, StateTheirResolution) {
-    const auto resolution =
-        capture::decode_resolution(ImageFormat::bmp, bmp_with_masks(32, 0, {0, 0, 0, 0}, {0, 0}));
+    const Bytes file = bmp_with_masks(32, 0, {0, 0, 0, 0}, {0, 0});
+    const auto resolution = images::format_of(file)->origin({file}).resolution;
     ASSERT_TRUE(resolution);
     EXPECT_NEAR(resolution->x_dpi, 300, 0.01);
 }
@@ -161,13 +156,13 @@ TEST_F(TiffKinds, HaveTilesAndStripsOf16BitsAndCompression) {
         TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_BOTRIGHT);  // is ignored
     };
     for (const Bytes& file : {file_of(tiles, levels), file_of(strips, levels)}) {
-        const Bytes pixels = pixels_of(ImageFormat::tiff, file);
+        const Bytes pixels = pixels_of(file);
         ASSERT_EQ(pixels.size(), expected.size());
         for (std::size_t i = 0; i < pixels.size(); ++i)
             ASSERT_NEAR(pixels[i], expected[i], 1) << i;
         Bytes cut = file;
         cut.resize(file.size() / 2);
-        EXPECT_NE(error_of(ImageFormat::tiff, cut), "");
+        EXPECT_NE(error_of(cut), "");
     }
 }
 
@@ -182,7 +177,7 @@ TEST_F(TiffKinds, HaveColoursThatAreMultipliedByTheirOpacity) {
         TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 2);
         TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &kind);
     };
-    const Bytes pixels = pixels_of(ImageFormat::tiff, file_of(opacity, levels));
+    const Bytes pixels = pixels_of(file_of(opacity, levels));
     EXPECT_THAT(pixels, testing::Each(204));  // a fifth, plus three fifths of the white paper
 }
 
@@ -194,7 +189,7 @@ TEST_F(TiffKinds, HaveFewBits) {
         TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISWHITE);
         TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_CCITTFAX4);
     };
-    const Bytes pixels = pixels_of(ImageFormat::tiff, file_of(fax, bits));
+    const Bytes pixels = pixels_of(file_of(fax, bits));
     ASSERT_EQ(pixels.size(), kWidth * kHeight);
     EXPECT_EQ(pixels[0], 255);
     EXPECT_EQ(pixels[8], 0);
@@ -213,7 +208,7 @@ Bytes progressive_jpeg() {
 
 TEST(JpegKinds, AreProgressive) {
     const Bytes file = progressive_jpeg();
-    EXPECT_EQ(pixels_of(ImageFormat::jpeg, file).size(), 64U * 64U);
+    EXPECT_EQ(pixels_of(file).size(), 64U * 64U);
 }
 
 // Missing scans that refine the pixels leave no trace in the file.
@@ -222,7 +217,7 @@ TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
     int refused = 0;
     for (std::size_t size = file.size() / 4; size < file.size(); ++size) {
         const Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size));
-        refused += error_of(ImageFormat::jpeg, cut).find("cut short") != std::string::npos ? 1 : 0;
+        refused += error_of(cut).find("cut short") != std::string::npos ? 1 : 0;
     }
     EXPECT_EQ(refused, static_cast<int>(file.size() - file.size() / 4));
 }
@@ -235,7 +230,7 @@ TEST(JpegKinds, AreRefusedWithTooManyScans) {
     const Bytes scan(last, file.end() - 2);
     for (int i = 0; i < 200; ++i)
         file.insert(file.end() - 2, scan.begin(), scan.end());
-    EXPECT_THAT(error_of(ImageFormat::jpeg, file), HasSubstr("too many scans"));
+    EXPECT_THAT(error_of(file), HasSubstr("too many scans"));
 }
 
 }  // namespace

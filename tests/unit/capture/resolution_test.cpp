@@ -8,7 +8,6 @@
 
 #include "../../exif.hpp"
 #include "../../jpeg.hpp"
-#include "capture/exif.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/print.hpp"
 #include "encoders.hpp"
@@ -37,8 +36,13 @@ class ResolutionTest : public testing::Test {
         return resolution_of(std::string(content.begin(), content.end()));
     }
 
-    static test::Bytes bytes_of(const std::string& content) {
-        return {content.begin(), content.end()};
+    /// Whether a file that can be read is a photo.
+    bool is_photo(const test::Bytes& content) const {
+        try {
+            return origin_of(std::string(content.begin(), content.end())).is_photo;
+        } catch (const Error&) {
+            return false;
+        }
     }
 
     std::filesystem::path directory_;
@@ -113,42 +117,32 @@ TEST_F(ResolutionTest, is_that_of_a_scan_whose_exif_data_have_no_exposure) {
 TEST_F(ResolutionTest, finds_a_camera_in_png_and_tiff) {
     test::Raster raster{4, 4, 1, 8, std::vector<std::uint16_t>(16, 100)};
     const std::string exif = test::exif_of({test::f_number}, true);
-    // After the signature and the header there are length, type, data and a checksum, which only
-    // readers of the data check.
-    const test::Bytes png = test::encode_png(raster);
-    std::string content(png.begin(), png.end());
-    constexpr std::size_t kHeader = 8 + 25;
-    const std::string length{0, 0, 0, static_cast<char>(exif.size())};
-    content.insert(kHeader, length + "eXIf" + exif + "\0\0\0\0");
-    EXPECT_TRUE(capture::is_from_camera(capture::ImageFormat::png, bytes_of(content)));
-    EXPECT_FALSE(capture::is_from_camera(capture::ImageFormat::png, png));
-    EXPECT_TRUE(capture::is_from_camera(capture::ImageFormat::tiff, bytes_of(exif)));
-    EXPECT_FALSE(
-        capture::is_from_camera(capture::ImageFormat::tiff, test::encode_tiff(raster, true)));
+    EXPECT_TRUE(is_photo(test::encode_png(raster, {}, {exif.begin(), exif.end()})));
+    EXPECT_FALSE(is_photo(test::encode_png(raster)));
+    EXPECT_TRUE(is_photo({exif.begin(), exif.end()}));
+    EXPECT_FALSE(is_photo(test::encode_tiff(raster, true)));
 }
 
 // EXIF data that are cut off or invalid are not read beyond their end, which a sanitizer would
 // report. The remaining part may still contain a camera tag.
 TEST_F(ResolutionTest, survives_exif_data_that_are_damaged) {
     const std::string exif = test::exif_of({test::date_taken, test::focal_length}, false);
-    const std::string jpeg = test::with_exif("\xFF\xD8\xFF\xDA", exif, 2);
+    const std::string jpeg = test::jpeg_of(image_, 90);
     for (std::size_t size = 0; size < exif.size(); ++size) {
-        const test::Bytes cut = bytes_of(exif.substr(0, size));
         // The last entry is complete. Only the offset of the next directory is missing.
-        EXPECT_EQ(capture::is_from_camera(capture::ImageFormat::tiff, cut), size + 4 >= exif.size())
+        const bool is_whole = size + 4 >= exif.size();
+        EXPECT_EQ(is_photo({exif.begin(), exif.begin() + static_cast<std::ptrdiff_t>(size)}),
+                  is_whole)
+            << size;
+        EXPECT_EQ(origin_of(test::with_exif(jpeg, exif.substr(0, size))).is_photo, is_whole)
             << size;
     }
-    for (std::size_t size = 2; size < jpeg.size(); ++size) {
-        const test::Bytes cut = bytes_of(jpeg.substr(0, size));
-        EXPECT_EQ(capture::is_from_camera(capture::ImageFormat::jpeg, cut), size + 2 >= jpeg.size())
-            << size;
-    }
-    for (std::size_t at = 0; at < jpeg.size(); ++at) {
+    const std::string photo = test::with_exif(jpeg, exif, 2);
+    for (std::size_t at = 0; at < exif.size() + 12; ++at) {
         for (const int value : {0, 1, 127, 255}) {
-            std::string damaged = jpeg;
-            damaged[at] = static_cast<char>(value);
-            static_cast<void>(
-                capture::is_from_camera(capture::ImageFormat::jpeg, bytes_of(damaged)));
+            test::Bytes damaged(photo.begin(), photo.end());
+            damaged[at] = static_cast<std::uint8_t>(value);
+            static_cast<void>(is_photo(damaged));
         }
     }
 }

@@ -13,8 +13,8 @@ void define_files(py::module_& module) {
             return array_of(without_lock([&] { return read_image(path); }));
         },
         "path"_a,
-        "Read a PNM, PNG, JPEG, BMP or TIFF file. Return an array of uint8, height x width, 0 is "
-        "black. Colours are converted to grey.");
+        "Read a PNM, PNG, JPEG, BMP, TIFF, WebP or HEIC file. Return an array of uint8, height x "
+        "width, 0 is black. Colours are converted to grey.");
     module.def(
         "write_image",
         [](const std::filesystem::path& path, const py::object& image) {

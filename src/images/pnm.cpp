@@ -1,15 +1,14 @@
-#include "capture/pnm.hpp"
-
+// Reads PBM, PGM and PPM, text and binary (P1 to P6), as specified by netpbm. Writes PGM.
 #include <algorithm>
 #include <cstddef>
 #include <string>
 
-#include "capture/image_format.hpp"
-#include "capture/samples.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/tools/image_file.hpp"
+#include "images/image_format.hpp"
+#include "images/samples.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 constexpr std::uint32_t kMaxLevel = 65'535;
@@ -178,9 +177,9 @@ void read_levels(Reader& reader, const Header& header, GreyImage& image) {
 
 }  // namespace
 
-GreyImage decode_pnm(std::span<const std::uint8_t> bytes, int max_pixels) {
-    Reader reader(bytes);
-    const Header header = read_header(reader, max_pixels);
+GreyImage decode_pnm(const ImageInput& input, std::string&) {
+    Reader reader(input.file);
+    const Header header = read_header(reader, input.max_pixels);
     if (reader.bytes_left() < min_bytes(header)) throw Error("the PNM image is cut short");
     if (!header.is_text) reader.finish_line_break(min_bytes(header));
     GreyImage image;
@@ -204,4 +203,4 @@ std::vector<std::uint8_t> encode_pgm(ImageView image) {
     return bytes;
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

@@ -6,7 +6,7 @@
 
 #include "dotpose/tools/grey_image.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 
 /// Samples of an image as stored in its file, row by row, with 8 or 16 bits.
 template <typename Sample>
@@ -25,4 +25,4 @@ GreyImage to_grey(Samples<std::uint16_t> samples);
 /// 8 to 12 bits in the lower bits of 16. White is then the maximum value of these bits.
 std::uint32_t white_level(std::uint32_t max_level);
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

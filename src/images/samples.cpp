@@ -1,4 +1,4 @@
-#include "capture/samples.hpp"
+#include "images/samples.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 /// Returns the grey level of a pixel with `Channels` samples.
@@ -75,4 +75,4 @@ std::uint32_t white_level(std::uint32_t max_level) {
     return (1U << (bits > kMaxBits ? 16 : bits)) - 1;
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

@@ -1,5 +1,4 @@
-#include "capture/tiff_codec.hpp"
-
+// Reads TIFF with libtiff.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -16,10 +15,10 @@
 
 #include <tiffio.h>
 
-#include "capture/image_format.hpp"
-#include "capture/samples.hpp"
+#include "images/image_format.hpp"
+#include "images/samples.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 /// A file in memory, and the first error of libtiff.
@@ -98,6 +97,20 @@ class TiffReader {
         if (unit != RESUNIT_INCH && unit != RESUNIT_CENTIMETER) return std::nullopt;
         return resolution_from(double{x}, double{y},
                                unit == RESUNIT_CENTIMETER ? kCentimetresPerInch : 1);
+    }
+
+    /// Whether the page has EXIF data of a camera. Its directory then replaces that of the page.
+    bool read_is_of_camera() {
+        toff_t exif = 0;
+        if (TIFFGetField(tiff_.get(), TIFFTAG_EXIFIFD, &exif) == 0 ||
+            TIFFReadEXIFDirectory(tiff_.get(), exif) == 0)
+            return false;
+        return std::ranges::any_of(kCameraTags, [&](std::uint16_t tag) {
+            // The value, or the number of values and the first one.
+            std::uint64_t value = 0;
+            const void* values = nullptr;
+            return TIFFGetField(tiff_.get(), tag, &value, &values) != 0;
+        });
     }
 
     GreyImage read_pixels(int max_pixels) {
@@ -270,20 +283,21 @@ class TiffReader {
 
 }  // namespace
 
-GreyImage decode_tiff(Bytes file, int max_pixels, int page) {
-    TiffReader tiff(file);
-    tiff.go_to(page);
-    return tiff.read_pixels(max_pixels);
+GreyImage decode_tiff(const ImageInput& input, std::string&) {
+    TiffReader tiff(input.file);
+    tiff.go_to(input.page);
+    return tiff.read_pixels(input.max_pixels);
 }
 
-std::optional<Resolution> tiff_resolution(Bytes file, int page) {
-    TiffReader tiff(file);
-    tiff.go_to(page);
-    return tiff.resolution();
+ImageOrigin tiff_origin(const ImageInput& input) {
+    TiffReader tiff(input.file);
+    tiff.go_to(input.page);
+    const auto resolution = tiff.resolution();
+    return {tiff.read_is_of_camera(), resolution};
 }
 
 int tiff_pages(Bytes file) {
     return TiffReader(file).pages();
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

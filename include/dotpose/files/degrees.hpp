@@ -1,3 +1,4 @@
+/// Conversion of angles.
 #pragma once
 
 #include <numbers>

@@ -1,5 +1,4 @@
-#include "capture/png_codec.hpp"
-
+// Reads PNG with libpng.
 #include <bit>
 #include <csetjmp>
 #include <cstddef>
@@ -10,10 +9,10 @@
 
 #include <png.h>
 
-#include "capture/image_format.hpp"
-#include "capture/samples.hpp"
+#include "images/image_format.hpp"
+#include "images/samples.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 /// Reads a PNG file. libpng reports errors with longjmp. Only `guarded` calls its functions, and no
@@ -45,6 +44,14 @@ class PngReader {
         png_get_pHYs(png_, info_, &x_per_metre, &y_per_metre, &unit);
         if (unit != PNG_RESOLUTION_METER) return std::nullopt;
         return resolution_from(x_per_metre, y_per_metre, kMetresPerInch);
+    }
+
+    /// Returns the EXIF data before the pixels; empty if there are none.
+    Bytes exif() const {
+        png_uint_32 size_bytes = 0;
+        png_bytep bytes = nullptr;
+        if (png_get_eXIf_1(png_, info_, &size_bytes, &bytes) == 0) return {};
+        return {bytes, size_bytes};
     }
 
     GreyImage read_pixels(int max_pixels) {
@@ -116,35 +123,16 @@ class PngReader {
 
 }  // namespace
 
-GreyImage decode_png(Bytes file, int max_pixels) {
-    PngReader png(file);
+GreyImage decode_png(const ImageInput& input, std::string&) {
+    PngReader png(input.file);
     png.read_header();
-    return png.read_pixels(max_pixels);
+    return png.read_pixels(input.max_pixels);
 }
 
-std::optional<Resolution> png_resolution(Bytes file) {
-    PngReader png(file);
+ImageOrigin png_origin(const ImageInput& input) {
+    PngReader png(input.file);
     png.read_header();
-    return png.resolution();
+    return {is_of_camera(png.exif()), png.resolution()};
 }
 
-std::vector<std::uint8_t> encode_png(ImageView image) {
-    // The simplified interface of libpng returns error codes and does not use longjmp.
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    png.width = static_cast<png_uint_32>(image.width_px);
-    png.height = static_cast<png_uint_32>(image.height_px);
-    png.format = PNG_FORMAT_GRAY;
-    png.flags = PNG_IMAGE_FLAG_FAST;  // slower compression hardly makes noisy frames smaller
-    png_alloc_size_t size_bytes = PNG_IMAGE_PNG_SIZE_MAX(png);
-    std::vector<std::uint8_t> bytes(size_bytes);
-    const auto stride_bytes = static_cast<png_int_32>(image.stride_bytes);
-    if (png_image_write_to_memory(&png, bytes.data(), &size_bytes, 0, image.pixels, stride_bytes,
-                                  nullptr) == 0) {
-        throw Error(std::string("the PNG encoder failed: ") + png.message);
-    }
-    bytes.resize(size_bytes);
-    return bytes;
-}
-
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

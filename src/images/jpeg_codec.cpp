@@ -1,22 +1,23 @@
-#include "capture/jpeg_codec.hpp"
-
+// Reads and writes JPEG with libjpeg.
 #include <array>
 #include <csetjmp>
 #include <cstddef>
 #include <cstdio>  // required by jpeglib.h
 #include <cstdlib>
-#include <memory>
+#include <cstring>
+#include <string_view>
 #include <utility>
 
 #include <jpeglib.h>
 
-#include "capture/image_format.hpp"
-#include "capture/samples.hpp"
+#include "images/image_format.hpp"
+#include "images/samples.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 constexpr int kQuality = 95;
+constexpr int kExifMarker = JPEG_APP0 + 1;
 // Maximum number of scans. Progressive images of cameras have about ten. Each scan processes all
 // pixels, so without a limit a small file could occupy the decoder for hours.
 constexpr int kMaxScans = 100;
@@ -96,6 +97,7 @@ class JpegReader {
             jpeg_create_decompress(&jpeg_);
             jpeg_.src = &source_;
             jpeg_.progress = &progress_;
+            jpeg_save_markers(&jpeg_, kExifMarker, 0xFFFF);
             jpeg_read_header(&jpeg_, TRUE);
         });
     }
@@ -105,6 +107,17 @@ class JpegReader {
         if (jpeg_.saw_JFIF_marker == FALSE || jpeg_.density_unit == 0) return std::nullopt;
         return resolution_from(jpeg_.X_density, jpeg_.Y_density,
                                jpeg_.density_unit == kPerCentimetre ? kCentimetresPerInch : 1);
+    }
+
+    /// Returns the EXIF data; empty if there are none.
+    Bytes exif() const {
+        constexpr std::string_view kName = "Exif";
+        for (auto* marker = jpeg_.marker_list; marker != nullptr; marker = marker->next) {
+            if (marker->data_length > kName.size() &&
+                std::memcmp(marker->data, kName.data(), kName.size()) == 0)
+                return {marker->data, marker->data_length};
+        }
+        return {};
     }
 
     GreyImage read_pixels(int max_pixels, std::string& note) {
@@ -207,16 +220,16 @@ void compress(ImageView image, jpeg_compress_struct& jpeg, Freed& encoded) {
 
 }  // namespace
 
-GreyImage decode_jpeg(Bytes file, int max_pixels, std::string& note) {
-    JpegReader jpeg(file);
+GreyImage decode_jpeg(const ImageInput& input, std::string& note) {
+    JpegReader jpeg(input.file);
     jpeg.read_header();
-    return jpeg.read_pixels(max_pixels, note);
+    return jpeg.read_pixels(input.max_pixels, note);
 }
 
-std::optional<Resolution> jpeg_resolution(Bytes file) {
-    JpegReader jpeg(file);
+ImageOrigin jpeg_origin(const ImageInput& input) {
+    JpegReader jpeg(input.file);
     jpeg.read_header();
-    return jpeg.resolution();
+    return {is_of_camera(jpeg.exif()), jpeg.resolution()};
 }
 
 std::vector<std::uint8_t> encode_jpeg(ImageView image) {
@@ -230,4 +243,4 @@ std::vector<std::uint8_t> encode_jpeg(ImageView image) {
     return {encoded.bytes, encoded.bytes + encoded.count};
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

@@ -11,17 +11,13 @@
 #include <string_view>
 #include <utility>
 
-#include "capture/exif.hpp"
-#include "capture/image_codec.hpp"
-#include "capture/image_format.hpp"
-#include "capture/jpeg_codec.hpp"
-#include "capture/png_codec.hpp"
-#include "capture/pnm.hpp"
+#include "images/image_format.hpp"
+#include "png/png.hpp"
 
 namespace dotpose {
 namespace {
 
-using capture::ImageFormat;
+using images::ImageFormat;
 using Bytes = std::vector<std::uint8_t>;
 
 /// Returns the maximum size of a file in bytes: more than any image with 16 bits and four channels
@@ -59,7 +55,7 @@ void append(std::FILE* file, std::size_t count, Bytes& bytes) {
 }
 
 struct Content {
-    ImageFormat format;
+    const ImageFormat& format;
     Bytes bytes;
 };
 
@@ -78,15 +74,17 @@ Content read_file(const std::filesystem::path& path, int max_pixels) {
     const File file(std::fopen(path.c_str(), "rb"));
     if (!file) throw Error(system_reason());
     Bytes bytes;
-    append(file.get(), capture::kMagicBytes, bytes);
+    append(file.get(), images::kMagicBytes, bytes);
     if (bytes.empty()) throw Error("the file is empty");
-    const auto format = capture::sniff(bytes);
-    const auto other = format ? std::nullopt : capture::sniff_other(bytes);
-    if (other) {
+    const ImageFormat* format = images::format_of(bytes);
+    const auto* other = format != nullptr ? nullptr : images::other_format_of(bytes);
+    if (other != nullptr) {
         throw Error(std::string(other->name) +
                     ", which is not read: convert it first, for example with " + other->remedy);
     }
-    if (!format) throw Error("not a PNM, PNG, JPEG, BMP or TIFF image" + advice_for(bytes));
+    if (format == nullptr) {
+        throw Error("not a PNM, PNG, JPEG, BMP, TIFF, WebP or HEIC image" + advice_for(bytes));
+    }
     // Reads to the end of the file instead of using its size, because pipes have no size.
     const std::size_t max_bytes = max_file_bytes(max_pixels);
     std::size_t chunk = std::size_t{1} << 16;
@@ -132,10 +130,15 @@ auto with_name(const char* verb, const std::filesystem::path& path, Action actio
     }
 }
 
+int pages_of(const Content& content) {
+    const auto count = content.format.count_pages;
+    return count == nullptr ? 1 : std::max(count(content.bytes), 1);
+}
+
 /// Throws Error with only the reason if the file has no page with this number.
 void require_page(const Content& content, int page) {
     if (page == 1) return;
-    const int pages = capture::pages_of(content.format, content.bytes);
+    const int pages = pages_of(content);
     if (page >= 1 && page <= pages) return;
     throw Error("it has " + std::to_string(pages) + (pages == 1 ? " page" : " pages") +
                 ", and no page " + std::to_string(page));
@@ -163,7 +166,7 @@ GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::str
     GreyImage image = with_name("read", path, [&] {
         const Content content = read_file(path, max_pixels);
         require_page(content, page);
-        return capture::decode_image(content.format, content.bytes, max_pixels, note, page);
+        return content.format.decode({content.bytes, page, max_pixels}, note);
     });
     if (!note.empty()) note = path.string() + ": " + note;
     return image;
@@ -172,19 +175,17 @@ GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::str
 int count_pages(const std::filesystem::path& path) {
     std::error_code failed;
     if (!std::filesystem::is_regular_file(path, failed)) return 1;
-    return with_name("read", path, [&] {
-        const Content content = read_file(path, kMaxImagePixels);
-        return capture::pages_of(content.format, content.bytes);
-    });
+    return with_name("read", path, [&] { return pages_of(read_file(path, kMaxImagePixels)); });
 }
 
 ImageOrigin read_origin(const std::filesystem::path& path, int page) {
-    return with_name("read", path, [&]() -> ImageOrigin {
+    return with_name("read", path, [&] {
         const Content content = read_file(path, kMaxImagePixels);
         require_page(content, page);
-        const auto stated = capture::decode_resolution(content.format, content.bytes, page);
-        if (capture::is_from_camera(content.format, content.bytes)) return {true, std::nullopt};
-        return {false, stated && is_of_screen(*stated) ? std::nullopt : stated};
+        ImageOrigin origin = content.format.origin({content.bytes, page});
+        const auto& resolution = origin.resolution;
+        if (resolution && (origin.is_photo || is_of_screen(*resolution))) origin.resolution.reset();
+        return origin;
     });
 }
 
@@ -192,13 +193,13 @@ std::vector<std::uint8_t> encode_image(ImageEncoding encoding, ImageView image) 
     require_pixels(image);
     switch (encoding) {
         case ImageEncoding::png:
-            return capture::encode_png(image);
+            return png::encode(image);
         case ImageEncoding::jpeg:
-            return capture::encode_jpeg(image);
+            return images::encode_jpeg(image);
         case ImageEncoding::pgm:
             break;
     }
-    return capture::encode_pgm(image);
+    return images::encode_pgm(image);
 }
 
 void write_pgm(const std::filesystem::path& path, ImageView image) {

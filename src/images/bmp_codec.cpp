@@ -1,5 +1,5 @@
-#include "capture/bmp_codec.hpp"
-
+// Reads BMP: the headers of Windows 3 to 5 and of OS/2; palettes of 1, 4 and 8 bits; 16, 24 and 32
+// bits without compression. Microsoft documents the layout under BITMAPV5HEADER.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <utility>
 
-#include "capture/image_format.hpp"
-#include "capture/samples.hpp"
+#include "images/image_format.hpp"
+#include "images/samples.hpp"
 
-namespace dotpose::capture {
+namespace dotpose::images {
 namespace {
 
 constexpr std::size_t kFileHeader = 14;
@@ -50,6 +50,14 @@ struct BmpHeader {
         masks;  ///< of red, green, blue and opacity, for 16 or 32 bits per pixel; 0 if missing
 };
 
+/// Reads an unsigned little-endian integer; `bytes` must be long enough.
+std::uint32_t integer(Bytes bytes, std::size_t offset, std::size_t size) {
+    std::uint32_t value = 0;
+    for (std::size_t i = size; i > 0; --i)
+        value = value << 8 | bytes[offset + i - 1];
+    return value;
+}
+
 [[noreturn]] void fail_short() {
     throw Error("the BMP image is cut short");
 }
@@ -59,7 +67,7 @@ struct BmpHeader {
 
 std::uint32_t number(Bytes file, std::size_t offset, std::size_t size) {
     if (file.size() < offset + size) fail_short();
-    return static_cast<std::uint32_t>(integer(file, offset, size, false));
+    return integer(file, offset, size);
 }
 std::int64_t signed_number(Bytes file, std::size_t offset) {
     return static_cast<std::int32_t>(number(file, offset, 4));
@@ -150,7 +158,7 @@ class Pixels {
         const std::size_t bytes = bits_per_pixel / 8;
         const std::size_t offset = u * bytes;
         if (bytes == 3) return {row[offset + 2], row[offset + 1], row[offset], 255};
-        const auto pixel = static_cast<std::uint32_t>(integer(row, offset, bytes, false));
+        const std::uint32_t pixel = integer(row, offset, bytes);
         const auto& masks = header_.masks;
         return {level_of(pixel, masks[0]), level_of(pixel, masks[1]), level_of(pixel, masks[2]),
                 masks[3] == 0 ? std::uint8_t{255} : level_of(pixel, masks[3])};
@@ -163,10 +171,11 @@ class Pixels {
 
 }  // namespace
 
-GreyImage decode_bmp(Bytes file, int max_pixels) {
+GreyImage decode_bmp(const ImageInput& input, std::string&) {
+    const Bytes file = input.file;
     const BmpHeader header = read_header(file);
     require_size(static_cast<std::uint64_t>(header.width_px),
-                 static_cast<std::uint64_t>(header.height_px), max_pixels);
+                 static_cast<std::uint64_t>(header.height_px), input.max_pixels);
     const auto height = static_cast<std::size_t>(header.height_px);
     const auto width = static_cast<std::size_t>(header.width_px);
     const Pixels pixels(file, header);
@@ -187,11 +196,12 @@ GreyImage decode_bmp(Bytes file, int max_pixels) {
     return to_grey(std::move(samples));
 }
 
-std::optional<Resolution> bmp_resolution(Bytes file) {
-    if (number(file, Offset::header_size, 4) < 40) return std::nullopt;
-    return resolution_from(static_cast<double>(signed_number(file, Offset::x_per_metre)),
-                           static_cast<double>(signed_number(file, Offset::y_per_metre)),
-                           kMetresPerInch);
+ImageOrigin bmp_origin(const ImageInput& input) {
+    const Bytes file = input.file;
+    if (number(file, Offset::header_size, 4) < 40) return {};
+    return {false, resolution_from(static_cast<double>(signed_number(file, Offset::x_per_metre)),
+                                   static_cast<double>(signed_number(file, Offset::y_per_metre)),
+                                   kMetresPerInch)};
 }
 
-}  // namespace dotpose::capture
+}  // namespace dotpose::images

@@ -1,0 +1,25 @@
+/// Writes files that appear completely or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+/// Writes a temporary file beside the target and renames it to the target. Symbolic links are
+/// followed, and an existing target keeps its mode. Throws Error if the target is not a regular
+/// file or cannot be written.
+void write_file(const std::filesystem::path& target, std::string_view contents);
+
+/// Throws Error, as `write_file` does, if the file cannot be created. Intended to be called before
+/// a long computation whose result is written to the file.
+void require_writable(const std::filesystem::path& target);
+
+/// Resolves symbolic links and returns the path of their target, which need not exist.
+std::filesystem::path without_links(std::filesystem::path path);
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop

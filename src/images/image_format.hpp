@@ -1,0 +1,93 @@
+/// The formats of image files: how a file is recognized and decoded. image_file.hpp describes the
+/// conversions and limits. These functions throw Error with only the reason; the caller adds the
+/// name of the file.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "dotpose/tools/grey_image.hpp"
+#include "dotpose/tools/image_file.hpp"
+
+namespace dotpose::images {
+
+using Bytes = std::span<const std::uint8_t>;
+
+/// A file in memory, and what is wanted of it.
+struct ImageInput {
+    Bytes file;
+    int page = 1;  ///< of a TIFF file
+    int max_pixels = kDefaultImagePixels;
+};
+
+struct ImageFormat {
+    /// Whether a file begins like this format.
+    bool (*matches)(std::string_view head);
+    /// Decodes an image. `note` is set as in `read_image`, without the name of the file.
+    GreyImage (*decode)(const ImageInput& input, std::string& note);
+    /// Returns the origin and the resolution in the file, without decoding the pixels. The
+    /// resolution may be one that does not describe the page.
+    ImageOrigin (*origin)(const ImageInput& input);
+    /// Returns the number of pages; null for formats with one page.
+    int (*count_pages)(Bytes file) = nullptr;
+};
+
+/// Number of bytes by which formats are recognized.
+inline constexpr std::size_t kMagicBytes = 12;
+
+/// Detects the format from the first bytes of a file. Returns null for unknown bytes.
+const ImageFormat* format_of(Bytes head);
+
+/// A format that is not read, in this build or at all.
+struct OtherFormat {
+    bool (*matches)(std::string_view head);
+    const char* name;    ///< for example "a GIF image"
+    const char* remedy;  ///< instructions for converting it to a supported format
+};
+/// Detects a format that is not read from the first bytes of a file. Returns null for other files.
+const OtherFormat* other_format_of(Bytes head);
+
+// One source for each format.
+GreyImage decode_bmp(const ImageInput& input, std::string& note);
+ImageOrigin bmp_origin(const ImageInput& input);
+GreyImage decode_heif(const ImageInput& input, std::string& note);
+ImageOrigin heif_origin(const ImageInput& input);
+GreyImage decode_jpeg(const ImageInput& input, std::string& note);
+ImageOrigin jpeg_origin(const ImageInput& input);
+GreyImage decode_png(const ImageInput& input, std::string& note);
+ImageOrigin png_origin(const ImageInput& input);
+GreyImage decode_pnm(const ImageInput& input, std::string& note);
+GreyImage decode_tiff(const ImageInput& input, std::string& note);
+ImageOrigin tiff_origin(const ImageInput& input);
+int tiff_pages(Bytes file);
+GreyImage decode_webp(const ImageInput& input, std::string& note);
+ImageOrigin webp_origin(const ImageInput& input);
+
+/// Encodes an image, which must not be empty, as grey JPEG with a quality of 95, or as binary PGM.
+std::vector<std::uint8_t> encode_jpeg(ImageView image);
+std::vector<std::uint8_t> encode_pgm(ImageView image);
+
+/// Throws Error if a side exceeds the limit, and ImageTooLarge if the image has too many pixels.
+void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixels);
+
+inline constexpr double kMetresPerInch = 0.0254;
+inline constexpr double kCentimetresPerInch = 2.54;
+
+/// Converts a resolution to dots per inch. Returns none for values of 0 or less, which mean an
+/// unknown resolution.
+std::optional<Resolution> resolution_from(double x, double y, double units_per_inch);
+
+/// EXIF tags of cameras, which scanners do not write: exposure time, f-number, sensitivity, focal
+/// length (CIPA DC-008).
+inline constexpr std::array<std::uint16_t, 4> kCameraTags{0x829A, 0x829D, 0x8827, 0x920A};
+
+/// Whether EXIF data, with or without the name "Exif" before their TIFF header, have a tag of
+/// cameras. Truncated or damaged data count as missing.
+bool is_of_camera(Bytes exif);
+
+}  // namespace dotpose::images

@@ -1,0 +1,38 @@
+/// Writes grey PNG images by libpng, for all libraries that write images.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/byte_sink.hpp"
+#include "dotpose/image.hpp"
+
+// Visible outside of the library because the other tools libraries call them.
+#pragma GCC visibility push(default)
+
+namespace dotpose::png {
+
+struct Header {
+    int width_px = 0;
+    int height_px = 0;
+    int bits_per_px = 8;  ///< 8, with 0 for black; or 1, with 1 for black, 8 pixels per byte
+    double dpi = 0;       ///< resolution in dots per inch; 0 if not known
+};
+
+/// Receives one row of pixels.
+using RowSink = std::function<void(std::span<const std::uint8_t>)>;
+/// Calls a sink for all rows of an image, from top to bottom.
+using RowSource = std::function<void(const RowSink&)>;
+
+/// Writes an image. Throws Error if libpng fails or the file cannot be written.
+void write(const Header& header, const RowSource& rows, base::ByteSink& file);
+
+/// Returns the contents of the file of an image, which must not be empty. Equal images give equal
+/// bytes. Throws Error.
+std::vector<std::uint8_t> encode(ImageView image);
+
+}  // namespace dotpose::png
+
+#pragma GCC visibility pop
