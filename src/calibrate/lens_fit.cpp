@@ -205,7 +205,7 @@ class Fitter {
         for (int round = 0; round < kLensRounds; ++round) {
             ceres::Problem problem;
             build(problem, round == 0, sigma_px);
-            ceres::Solver::DeviceOptions options;
+            ceres::Solver::Options options;
             options.logging_type = ceres::SILENT;
             options.linear_solver_type = ceres::DENSE_SCHUR;
             options.max_num_iterations = 50;

@@ -133,7 +133,7 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
     ceres::Problem problem;
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<TiltResidual, 5, 4>(residual), nullptr,
                              tilt.data());
-    ceres::Solver::DeviceOptions options;
+    ceres::Solver::Options options;
     options.logging_type = ceres::SILENT;
     options.max_num_iterations = 200;
     options.function_tolerance = 1e-12;

@@ -257,7 +257,7 @@ void SheetGraph::fit() {
     add_views(problem);
     pin_sheets(problem);
     pin_camera(problem);
-    ceres::Solver::DeviceOptions options;
+    ceres::Solver::Options options;
     options.logging_type = ceres::SILENT;
     options.linear_solver_type = ceres::DENSE_SCHUR;
     options.function_tolerance = 1e-12;
