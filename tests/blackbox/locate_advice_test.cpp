@@ -138,14 +138,16 @@ TEST_F(LocateCommand, an_image_beyond_the_limit_is_reduced_and_that_is_told) {
                 y_grid(wide.pose) + along * std::sin(wide.pose.theta_rad), 0.01);
 }
 
-TEST_F(LocateCommand, names_a_converter_for_photos_of_phones) {
+// Builds without libheif name a converter.
+TEST_F(LocateCommand, names_the_format_of_a_damaged_photo_of_a_phone) {
     write("photo.heic", std::string("\0\0\0\x18"
                                     "ftypheic\0\0\0\0",
                                     16));
     run("photo.heic");
     EXPECT_EQ(exit_code_, 1);
-    EXPECT_THAT(errors_, HasSubstr("cannot read photo.heic: a photo in HEIC or AVIF format"));
-    EXPECT_THAT(errors_, HasSubstr("heif-convert"));
+    EXPECT_THAT(errors_, HasSubstr("cannot read photo.heic: "));
+    EXPECT_THAT(errors_, HasSubstr("HEIC or AVIF"));
+    EXPECT_THAT(errors_, testing::AnyOf(HasSubstr("heif-convert"), HasSubstr("damaged")));
 }
 
 TEST_F(LocateCommand, a_mirrored_view_says_how_to_go_on_and_is_located_flipped) {

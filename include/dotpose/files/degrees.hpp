@@ -1,11 +1,9 @@
 /// Conversion of angles.
 #pragma once
 
-#include <numbers>
-
 namespace dotpose {
 
 /// Number of degrees per radian.
-inline constexpr double kDegrees = 180 / std::numbers::pi;
+inline constexpr double kDegrees = 180 / 3.14159265358979323846;
 
 }  // namespace dotpose
