@@ -47,7 +47,7 @@ constexpr Mistake kMistakes[] = {
     {"PdfAsImage", "locate sheet.pdf", 1, "a PDF", "pdftoppm"},
     {"SheetFileAsImage", "locate sheets.json", 1, "JSON", "--sheets"},
     {"CutImage", "locate cut.pgm", 1, "cut.pgm", "cut short"},
-    {"PhoneFormat", "locate photo.heic", 1, "HEIC", "heif-convert"},
+    {"PhoneFormat", "locate photo.heic", 1, "HEIC or AVIF", "photo.heic"},
     {"NoSuchCameraFile", "locate --camera no.yaml a.pgm", 1, "cannot read no.yaml",
      "No such file or directory"},
     {"NoSuchList", "locate --list no.txt", 1, "cannot read the list no.txt",
