@@ -122,7 +122,7 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
     const auto widths = widen(run, length, max_readings);
     std::array<int, kMaxRunLength> choice{};
     while (true) {
-        // Counts up the choices. The choice of the last line changes fastest.
+        // Advances to the next combination. The choice of the last line changes fastest.
         std::size_t n = rolls.size();
         while (n > 0 && choice[n - 1] + 1 == widths[n - 1]) {
             choice[--n] = 0;
@@ -134,8 +134,8 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
     }
 }
 
-/// Returns the first line of the run with the largest sum of margins among the runs that are not
-/// taken yet, or -1 if all runs are taken.
+/// Returns the first line of the run with the largest sum of margins among the runs not taken yet,
+/// or -1 if all runs are taken.
 int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int largest = INT32_MIN;

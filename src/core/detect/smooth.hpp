@@ -27,7 +27,7 @@ struct Smoothing {
 /// Grey level to which the mean of the surroundings is scaled.
 inline constexpr int kNormalLevel = 192;
 
-/// Starts an image and discards the rows of the previous one.
+/// Starts an image and discards the rows of the previous image.
 void begin_smoothing(const ImageView& image, Smoothing& smoothing);
 
 /// Returns the next row, from the top, of the filtered image. Each pixel is clamped to the range of

@@ -13,14 +13,15 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of adjacent lines that two distinct positions share. With one more shared line,
-/// five digits would be equal, which determine the position.
+/// Maximum number of adjacent lines that two distinct positions share. One more shared line would
+/// make five adjacent digits equal, and five digits determine the position.
 constexpr int kMaxSharedInARow = code::kOrder;
-/// Expected odds above which counting more alternatives one by one cannot make the fix certain.
+/// Expected odds above which the fix cannot become certain, even if more alternatives are counted
+/// one by one.
 constexpr float kBeyondHelp = 1e-4F;
 
-/// Returns the expected odds of the alternatives that differ in at least `min_different` sequences
-/// and share fewer than `shared_lines` adjacent lines.
+/// Returns the expected odds of the far alternatives that differ in at least `min_different`
+/// sequences and share fewer than `shared_lines` adjacent lines.
 float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int min_different) {
     ExpectedAlternatives expected(lines.ratios.basis, lines.ratios.position, shared_lines - 1,
                                   min_different);

@@ -8,7 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of the first line and of the first cell of the middle, and their index in the block.
+/// Number of the first line and of the first cell of the middle block. Lines and cells are numbered
+/// from cell (0, 0).
 constexpr int kFirst = -kMaxComparedLines / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 
