@@ -17,8 +17,8 @@
 
 namespace dotpose {
 
-/// Number of positions per axis: the common period of the four difference sequences, 236 * 233 * 31
-/// * 241.
+/// Number of positions per axis: 236 * 233 * 31 * 241, the common period of the four difference
+/// sequences.
 inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
 /// Length of the main sequence, which is the number of sections per axis.
 inline constexpr int kSections = 63;

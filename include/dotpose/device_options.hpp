@@ -1,6 +1,6 @@
-/// Options: the options of a DeviceLocator, in fixed point. On desktops, LocatorOptions provides
-/// the same options in millimetres, pixels and ratios. Ranges are in [brackets]. If a value is
-/// outside its range, every frame gets Status::bad_argument.
+/// Device options: the options of a DeviceLocator, in fixed point. On desktops, LocatorOptions
+/// provides the same options in millimetres, pixels and ratios. Ranges are in [brackets]. If a value
+/// is outside its range, every frame gets Status::bad_argument.
 #pragma once
 
 #include <cstdint>

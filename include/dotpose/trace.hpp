@@ -2,9 +2,11 @@
 /// evaluation and calibration. The trace is read-only and not a stable interface, because it
 /// changes with the stages.
 ///
-/// Options options; options.show_stages = true; // otherwise the first and the tracked attempt
-/// store little Locator locator(memory, options); const Fix fix = locator.locate(image); for (const
-/// DetectedDot& dot : locator.trace().dots) ...
+///     DeviceOptions options;
+///     options.show_stages = true;  // otherwise the first and the tracked attempt store little
+///     Locator locator(memory, options);
+///     const Fix fix = locator.locate(image);
+///     for (const DetectedDot& dot : locator.trace().dots) ...
 ///
 /// Fixed point: a suffix _qN marks a value in units of 2^-N.
 #pragma once
