@@ -32,7 +32,7 @@ const Fix& refuse(Status reason, Workspace& w);
 /// Clears the results of the previous frame.
 void forget_frame(Workspace& w);
 
-/// Starts a frame. Its size must be within the capacity of the workspace.
+/// Starts a frame. The size of the frame must be within the capacity of the workspace.
 void begin_frame(int width_px, int height_px, Workspace& w);
 
 /// Detects the blobs in `ready` bands of rows.

@@ -57,7 +57,7 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
 }
 
 /// Returns the score of a line read backwards minus its score read forwards. By chance, a line of
-/// six bits almost always agrees exactly in the wrong direction, too. Each additional bit halves
+/// six bits almost always also agrees exactly in the wrong direction. Each additional bit halves
 /// this probability.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);

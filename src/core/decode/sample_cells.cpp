@@ -91,7 +91,8 @@ class CellSampler {
     const PlaneFromImage& plane_;
 };
 
-/// Returns the distance between sampled pixels, in px. It is larger than 1 for large squares.
+/// Returns the distance between sampled pixels, in px. The distance is larger than 1 for large
+/// squares.
 int step_px(int half_px) {
     return std::max(half_px / 3, 1);
 }
@@ -270,7 +271,7 @@ class Ink {
         return sample;
     }
 
-    /// Returns true if two of the places of the cell look like dots.
+    /// Returns true if two places of the cell look like dots.
     bool is_crowded(const Sample& sample) const {
         std::array<int, 4> sorted = sample.darkness_q8;
         std::sort(sorted.begin(), sorted.end());

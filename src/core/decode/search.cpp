@@ -53,8 +53,8 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Returns the reading for which line `line` is at `position` with `roll`. Its score is the sum
-/// over all lines.
+/// Returns the reading for which line `line` is at `position` with `roll`. The score of the reading
+/// is the sum over all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     std::array<std::uint8_t, kMaxLines> storage;
@@ -95,8 +95,8 @@ std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     }
 }
 
-/// Reads the lines from `first` on with the given rolls, and replaces `best` if the reading has a
-/// higher score over all lines. Returns true if the new reading is clear.
+/// Reads the lines that start at `first` with the given rolls, and replaces `best` if the reading
+/// has a higher score over all lines. Returns true if the new reading is clear.
 bool improve(CodeVariant code, const Lines& lines, int first, std::span<const std::uint8_t> rolls,
              AxisReading& best) {
     std::uint32_t position = 0;

@@ -74,8 +74,8 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
     return places;
 }
 
-/// Returns the reading with the first line at `position` and the best roll. Its score is the sum
-/// over all lines.
+/// Returns the reading with the first line at `position` and the best roll. The score of the
+/// reading is the sum over all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;
     code::follow_rolls(code, position, 0, std::span(rolls).first(lines.all.size()));

@@ -31,7 +31,7 @@ inline constexpr int kSolidInk_q8 = 230;
 inline constexpr std::array<int, 5> kReliabilityBySeen_q4{0, 6, 8, 10, 16};
 /// Reliability, in 1/16, of the bits of a cell with a place under graphics.
 inline constexpr int kReliabilityCovered_q4 = 10;
-/// Minimum shade beside a place, in fifths of the shade of graphics, at which a cell is near
+/// Minimum shade next to a place, in fifths of the shade of graphics, at which a cell is near
 /// graphics.
 inline constexpr int kNearGraphics_5ths = 3;
 /// Reliability, in 1/16, of the bits of a cell near graphics. With 3: 1,993; with 14: 1,994.

@@ -12,10 +12,10 @@
 
 namespace dotpose::core {
 
-/// Signed weights of the bits of a line; positive for bit 1.
+/// Signed weights of the bits of a line. Positive weights mean bit 1.
 using Line = std::array<std::int8_t, kMaxGridSide>;
 
-/// Weights of the two bits of a symbol; positive for bit 1.
+/// Weights of the two bits of a symbol. Positive weights mean bit 1.
 struct Bits {
     std::int8_t x = 0;
     std::int8_t y = 0;

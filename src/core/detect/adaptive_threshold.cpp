@@ -12,8 +12,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Half of a low threshold for which every pixel is dark. Used as a sentinel after the last pixel
-/// of a row, it ends the search for dark pixels.
+/// Half of a low threshold for which every pixel is dark. It serves as a sentinel after the last
+/// pixel of a row, and ends the search for dark pixels.
 constexpr std::uint8_t kAlwaysDark = 128;
 
 constexpr int kBandsKept = 4;  // three are needed; a power of two is faster

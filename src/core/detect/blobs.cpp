@@ -18,7 +18,7 @@ constexpr std::uint32_t kMaxMass = 65535;
 /// Marks a merged blob, in place of its last row.
 constexpr std::uint16_t kNoRow = UINT16_MAX;
 
-/// Returns an upper bound on the distance of a dot from the image centre, per axis.
+/// Returns an upper bound on the distance of a dot from the image centre, along either axis.
 int all_within_px(const AdaptiveThreshold& threshold) {
     return std::max(threshold.width_px, threshold.height_px);
 }
@@ -156,8 +156,8 @@ void end_row(Run& after_last) {
     after_last.begin = after_last.end = UINT16_MAX;
 }
 
-/// Adds each run of row `v` to the blob of a touching run in the row above. Runs touch at corners,
-/// too. Opens a new blob for a run that touches no other run.
+/// Adds each run of row `v` to the blob of a touching run in the row above. Runs that meet at a
+/// corner touch. Opens a new blob for a run that touches no other run.
 void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
     bool some_united = false;
     for (Run& run : below) {

@@ -1,5 +1,5 @@
-// Smooth: the filter of the second attempt. It normalises the light, filters pixel noise at the
-// size of a blurred dot, and removes single defect pixels. differs: not in the paper;
+// Smooth: the filter of the second attempt. The filter normalises the light, filters pixel noise at
+// the size of a blurred dot, and removes single defect pixels. differs: not in the paper;
 // docs/differs-from-paper.md.
 #pragma once
 

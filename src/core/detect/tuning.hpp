@@ -15,18 +15,18 @@ inline constexpr int kBlockPart = 10;
 /// Number of pixels sampled along each side of a block.
 inline constexpr int kSamplesPerSide = 12;
 /// Fraction of the pixels of a block, in thirds, that are darker than its paper level. Dots cover a
-/// smaller fraction, and noise is on both sides of the level.
+/// smaller fraction, and noise is symmetric about the level.
 inline constexpr int kDarker_3rds = 2;
 /// Minimum level of a block, in fourths of the level of the brightest block around it. A darker
-/// block is covered by graphics, because the light changes less than this from block to block. It
-/// gets the brightest level instead.
+/// block is covered by graphics, because the light changes less from block to block. The brightest
+/// level replaces the level of such a block.
 inline constexpr int kCovered_4ths = 3;
 }  // namespace paper
 
 /// Normalisation of the light in the second attempt (detect/smooth).
 namespace smooth {
-/// Minimum half side of the surroundings, in px: half the width of a dot. It applies at the border
-/// of the image.
+/// Minimum half side of the surroundings, in px: half the width of a dot. The minimum applies at
+/// the border of the image.
 inline constexpr int kMinHalf_px = 4;
 /// Maximum level of a stroke, in tenths of the brightest paper level nearby. Darker pixels count as
 /// paper in the mean of the surroundings, because a stroke of graphics is not a shadow. With 4:

@@ -47,7 +47,7 @@ class NormalEquations {
             minima[i] = min_determined * columns_[i].at(i);
         for (std::size_t i = 0; i < N; ++i) {
             Column& column = columns_[i];
-            // Parameters that no equation contains have the element 0 and are left out as well.
+            // A parameter that no equation contains has the element 0 and is also left out.
             if (!(column.at(i) > minima[i])) {
                 if (i < required) return false;
                 leave_out(i);

@@ -61,8 +61,8 @@ int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2) {
         // Skips the slowest sums if the other sums already exceed the limit.
         if (sum < limit) sum += sum_of_near_alternatives(lines, kMaxSharedInARow - 1);
         if (sum < limit) {
-            // At most an eighth of the remaining margin to the limit, because this part alone must
-            // not refuse a fix.
+            // At most an eighth of the remaining margin to the limit, because the estimated odds
+            // alone must not cause a refusal.
             const float negligible = std::min(std::max(sum, far_below_doubt), limit - sum) / 8;
             sum += sum_of_double_alternatives(lines, negligible, limit - sum);
         }

@@ -28,7 +28,7 @@ constexpr float kSkippedOdds = 2.3e-16F;
 /// Number of places of all four sequences.
 constexpr float kSingles = 741;
 
-/// Returns 2^(n / 256), rounded up by at most 2 %; at least 2^-100.
+/// Returns 2^(n / 256), rounded up by at most 2 %, and at least 2^-100.
 constexpr float power_of_two_rounded_up(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;

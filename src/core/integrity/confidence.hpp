@@ -56,10 +56,10 @@ class Confidence {
 /// regression, maximum likelihood). Returns 0 if the bits carry no information.
 int odds_per_bit_q8(const Confidence& confidence);
 
-/// Returns log2 of an upper bound on the probability that random bits of these weights agree as
-/// well with any position, section and turn of one axis. There are L * 63 * 4 hypotheses. The
-/// probability of each is bounded by the Chernoff bound, with weights scaled to log odds. The bound
-/// holds for any odds and is smallest near the true odds.
+/// Returns log2 of an upper bound on the probability that random bits of these weights agree
+/// equally well with any position, section and turn of one axis. There are L * 63 * 4 hypotheses.
+/// The probability of each hypothesis is bounded by the Chernoff bound, with weights scaled to log
+/// odds. The bound holds for any odds and is smallest near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
 /// Returns the bound computed by `chance_log2` in units of 2^-8, for 2^(log2_times_q8 / 256) times

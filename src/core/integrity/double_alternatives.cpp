@@ -16,7 +16,7 @@ namespace {
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
 /// Safety factor of expectations. The odds at a given position can be larger than the mean over all
-/// positions. On 5,630 axes of hard frames, they were at most 21 times as large.
+/// positions. On 5,630 axes of hard frames, the odds were at most 21 times the mean.
 constexpr float kMargin = 32;
 
 /// Set of anchors, one bit per anchor, by rank.

@@ -7,7 +7,7 @@
 namespace dotpose::core {
 
 /// Returns the summed odds of the 190,027 pairs of places at all shifts, at least 2^-41. Pairs that
-/// share several of the lines with the most information are counted one by one; all other pairs
+/// share several of the lines with the most information are counted one by one. All other pairs
 /// contribute their expectation. The required number of shared lines is chosen such that this
 /// expectation is about `negligible`, or at most `max_odds` if `negligible` takes too long. If the
 /// expectation still exceeds `max_odds`, returns the expectation without counting pairs, because

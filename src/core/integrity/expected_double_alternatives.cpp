@@ -8,9 +8,9 @@ namespace {
 
 /// Safety factor per step, as `kUnevenness` in expected_alternatives.cpp.
 constexpr float kUnevenness = 1.03F;
-/// Lower bounds on odds and sums. They avoid denormal numbers, which are slow. Sums start at the
-/// large number kStart, so the lower bounds contribute little even if other rolls fit some lines
-/// much better.
+/// Lower bounds on odds and sums. The bounds avoid denormal numbers, which are slow. Sums start at
+/// the large number kStart, so the lower bounds contribute little even if other rolls fit some
+/// lines much better.
 constexpr float kMinOdds = 0x1p-40F;
 constexpr float kMinSum = 0x1p-80F;
 constexpr float kStart = 0x1p40F;

@@ -25,7 +25,7 @@ inline constexpr float kNegligible = 5.5e-20F;
 
 /// Losses and odds of alternatives, line by line. The loss of an alternative in a line is the score
 /// of the reading minus the score of the alternative. A line is shared if reading and alternative
-/// have the same roll in this line; the loss in a shared line is 0.
+/// have the same roll in this line. The loss in a shared line is 0.
 class LikelihoodRatios {
   public:
     /// Computes the ratios of scored lines. Requires odds_per_bit_q8 > 0.
@@ -156,8 +156,8 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
 }
 
 /// Returns the loss of an alternative at the shift at which it shares the line `shared`. Stops
-/// adding as soon as the alternative is hopeless. Returns nullopt if the alternative shares an
-/// earlier line too, because it was counted at that line.
+/// adding as soon as the alternative is hopeless. Returns nullopt if the alternative also shares an
+/// earlier line, because it was counted at that line.
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
                                    int shared);
 

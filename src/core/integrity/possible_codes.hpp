@@ -18,7 +18,7 @@ struct Judgement {
     bool is_ambiguous = false;  ///< true if a place in another code is about as likely as the fix
     /// log2 of an upper bound on the probability that the fix is wrong, over all codes.
     int p_wrong_log2 = 0;
-    CodeVariant other = CodeVariant::anoto;  ///< likeliest code other than the one read
+    CodeVariant other = CodeVariant::anoto;  ///< likeliest code other than the code read
     float other_odds = 0;                    ///< odds of that code relative to the code read
 };
 

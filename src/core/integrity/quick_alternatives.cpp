@@ -44,7 +44,8 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
         const auto half_bits = static_cast<std::size_t>(-ratios.log2_odds_q8(best - score) >> 7);
         return kPowers[std::min(half_bits, kPowers.size() - 1)];
     };
-    // Most rolls lose at least 12 bits. Their power is the smallest in the table.
+    // Most rolls lose at least 12 bits. The power of such a roll is the smallest power in the
+    // table.
     const int min_power_score = best - ratios.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
     for (int roll = 0; roll < kSections; ++roll)
@@ -55,8 +56,9 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
 
 /// Returns an upper bound on the sum that `ExpectedAlternatives` computes for one set. All shifts
 /// at which a line is not shared are merged into one state. The probability of a step to any one of
-/// these shifts is at most p, the probability that the next line is shared too. The contribution of
-/// a line therefore has two bounds: p times the sum of its odds over all rolls, and its best odds.
+/// these shifts is at most p, the probability that the next line is also shared. The contribution
+/// of a line therefore has two bounds: p times the sum of its odds over all rolls, and its best
+/// odds.
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
@@ -89,8 +91,9 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
 }
 
 /// Returns an upper bound on the odds, over all sets, of the alternatives that share at most seven
-/// lines. They lose at least the minimum loss of each other line. Their roll in the first line is
-/// arbitrary, and there are fewer than 2^lines subsets of shared lines.
+/// lines. Such an alternative loses at least the minimum loss of each line that it does not share.
+/// Its roll in the first line is arbitrary, and there are fewer than 2^lines subsets of shared
+/// lines.
 int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
     constexpr std::size_t kFew = 7;
     std::array<int, kFew> largest{};  // the largest losses
@@ -174,8 +177,8 @@ class ByShift {
     std::size_t count_ = 0;               ///< number of lines with a loss
     std::array<Loss, kMaxLines> losses_;  ///< in decreasing order
     std::uint32_t in_all_ = 0;            ///< sum of all losses
-    /// Number and sum of the first losses. Their sum stays below the limit even without the largest
-    /// loss, which may be kept.
+    /// Number and sum of the first losses. The sum of the first losses stays below the limit even
+    /// without the largest loss, which an alternative may keep.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
     /// Sum of the losses of the lines kept at each shift, plus `none_`. Smaller values are left

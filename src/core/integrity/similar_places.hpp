@@ -12,8 +12,8 @@ inline constexpr int kMaxSteps = 18;
 /// Number of parts into which the loss limit is divided.
 inline constexpr unsigned kLimitParts = 15;
 
-/// Steps at which an alternative is excused. It loses nothing in an excused step, regardless of its
-/// digit.
+/// Steps at which an alternative is excused. The alternative loses nothing in an excused step,
+/// regardless of its digit.
 enum class Excused : std::uint8_t { none, any_one };
 
 /// Lower bound on the loss of an alternative in each step where its digit differs from the digit of

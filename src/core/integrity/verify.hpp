@@ -16,7 +16,7 @@ namespace dotpose::core {
 
 /// Sets `bit_errors` and `p_wrong_log2` of the fix, and `p_wrong_log2_q8` of the decoding, from
 /// chance and alternatives. Uses quick_alternatives.hpp, and alternatives.hpp if the quick bound
-/// exceeds the limit. `others` contains the number of possible codes; it is null if the code is
+/// exceeds the limit. `others` contains the number of possible codes, and is null if the code is
 /// given. Errors: not_certain.
 Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);

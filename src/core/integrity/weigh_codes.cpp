@@ -153,8 +153,8 @@ class OtherPlaces {
         return static_cast<float>(theirs_.length * (kSections - 1)) * ratios_.odds(losses_.at_best);
     }
 
-    /// Adds the places at shifts that share no line. If their bound is not negligible, they are
-    /// counted one by one.
+    /// Adds the places at shifts that share no line. If the bound on the odds of these places is
+    /// not negligible, the places are counted one by one.
     void add_sharing_none() {
         const float all = sharing_none();
         if (all <= kNegligibleOdds) {
@@ -251,8 +251,8 @@ class AxisWeigher {
         return others;
     }
 
-    /// Counts all other places one by one if their bound is not negligible. `across` contains the
-    /// odds of the other axis.
+    /// Counts all other places one by one if the bound on their odds is not negligible. `across`
+    /// contains the odds of the other axis.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
         others.begin_count();

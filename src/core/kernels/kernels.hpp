@@ -18,7 +18,8 @@ namespace dotpose::core {
 
 /// Two plane waves of the same length at right angles: cos(2 pi (kx x + ky y) - phase).
 struct Waves {
-    /// Frequency of the first wave, in turns per px; the second wave is perpendicular to it.
+    /// Frequency of the first wave, in turns per px. The second wave is perpendicular to the first
+    /// wave.
     float kx = 0;
     float ky = 0;
     float power = 0;  ///< power of both waves; at most 2 for a grid without displacements
@@ -32,8 +33,8 @@ struct CellPass {
     float reach_px = 0;  ///< maximum distance of a dot from the centre along each axis
     /// Maximum distance of a dot from the nearest place of its cell, in spacings.
     float max_off = 0;
-    /// Distance of the four places of a cell from its centre, in spacings; 0 for one place at the
-    /// centre.
+    /// Distance of the four places of a cell from its centre, in spacings, or 0 for one place at
+    /// the centre.
     float displacement = 0;
     bool with_perspective = false;
 };
@@ -127,7 +128,7 @@ struct DotOffsets {
     /// it (across).
     float along = 0;
     float across = 0;
-    /// Sums of offsets times the direction of the displacement along x; `of_y` contains the sums
+    /// Sums of offsets times the direction of the displacement along x. `of_y` contains the sums
     /// along y.
     std::array<float, 2> of_x{};
     std::array<float, 2> of_y{};
@@ -214,9 +215,9 @@ struct Kernels {
     /// Smooths the patch by 1-2-1 along both axes, and finds the brightest and the darkest pixel of
     /// each tile.
     void (*smooth_patch)(Patch& patch);
-    /// Lists the dots: minima of the smoothed patch that are darker than its thresholds. Their
-    /// places are the vertices of parabolas through the neighbouring pixels, relative to the middle
-    /// of the patch.
+    /// Lists the dots: minima of the smoothed patch that are darker than its thresholds. The place
+    /// of a dot is the vertex of the parabolas through the neighbouring pixels, relative to the
+    /// middle of the patch.
     void (*find_minima)(Patch& patch);
     /// Returns the strongest waves of 12 directions, with about `per_px` turns per px.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
@@ -241,7 +242,7 @@ struct Kernels {
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowOptions& options, MeasuredDots& dots);
     /// Sets the centres to weighted centroids in centroid windows, without a threshold, which would
-    /// bias the centres. `radius_px` is at most kMaxCentroidRadius_px; windows at the border of the
+    /// bias the centres. `radius_px` is at most kMaxCentroidRadius_px. Windows at the border of the
     /// image are smaller.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float reach_px,
                            MeasuredDots& dots);
@@ -258,7 +259,7 @@ struct Kernels {
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`
-    /// and `rows`, unless these are null; cell (-32, -32) is the first cell. The lines must be
+    /// and `rows`, unless these are null. Cell (-32, -32) is the first cell. The lines must be
     /// empty, and no cell may have two dots.
     BitsRead (*read_bits)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                           BitLines* columns, BitLines* rows);
@@ -281,9 +282,9 @@ struct Kernels {
     float (*sum_far_alternatives)(std::span<const float> best, int max_shared,
                                   const FarAlternatives& sets);
     /// Lists the places other than the place of the reading, in the sequences whose bit is set,
-    /// that may lose less than `loss_limit` over the given lines, which are sorted by decreasing
-    /// loss. Returns false if there are too many places, or if places that share none of the first
-    /// lines may lose less than the limit.
+    /// that may lose less than `loss_limit` over the given lines. The lines are sorted by
+    /// decreasing loss. Returns false if there are too many places, or if places that share none of
+    /// the first lines may lose less than the limit.
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 unsigned sequences, std::span<const LineLoss> lines, int loss_limit,
                                 SimilarPlaceList& list);

@@ -28,9 +28,9 @@ struct Regularity {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
     }
 
-    /// Returns the status for the mean square of all offsets, in spacings^2. Half of the dots at
-    /// random places are near an intersection; their mean square is 1/6. Displaced dots are always
-    /// near an intersection; their mean square is 1/36. Dots of a plain grid have a mean square of
+    /// Returns the status for the mean square of all offsets, in spacings^2. Of dots at random
+    /// places, half are near an intersection, with a mean square of 1/6. Displaced dots are always
+    /// near an intersection, with a mean square of 1/36. Dots of a plain grid have a mean square of
     /// 0.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
@@ -44,8 +44,8 @@ struct Regularity {
 };
 
 /// Extends a fit from the first reach to the farthest dot. `fit(reach_cells)` fits the grid to the
-/// dots within the reach and sets `found`. It is called at most `max_rounds` times for each reach,
-/// until enough dots are near an intersection, because a better fit assigns more dots to the
+/// dots within the reach and sets `found`. `fit` is called at most `max_rounds` times for each
+/// reach, until enough dots are near an intersection, because a better fit assigns more dots to the
 /// correct cells. Returns false if a fit fails.
 template <typename Fit>
 bool fit_outwards(int max_rounds, const Regularity& found, Fit fit) {

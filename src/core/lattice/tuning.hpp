@@ -98,8 +98,8 @@ inline constexpr float kMaxOffset = 0.18F;
 inline constexpr float kMinUsed = 12;
 inline constexpr float kMinFraction = 0.4F;
 inline constexpr int kMaxRounds = 16;
-/// Factors on the reach for the next round, by the fraction of dots near a place of their cells. If
-/// a plane has large errors, it is first improved near the middle.
+/// Factors on the reach for the next round, by the fraction of dots near a place of their cells. A
+/// plane with large errors is thus first improved near the middle.
 inline constexpr float kGoodFraction = 0.9F;
 inline constexpr float kGoodGrowth = 1.8F;
 inline constexpr float kFairFraction = 0.8F;

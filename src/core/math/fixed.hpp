@@ -158,7 +158,7 @@ constexpr std::int32_t rough_cosine(std::int32_t phase_q16) {
     return rough_sine(phase_q16 + 16384);
 }
 
-/// Returns the angle of a vector from +x towards +y, with an error of about 1e-9 turns; the angle
+/// Returns the angle of a vector from +x towards +y, with an error of about 1e-9 turns. The angle
 /// of (0, 0) is 0. Requires |x|, |y| < 2^29.
 std::int32_t angle_bam(FixedVec direction);
 

@@ -21,7 +21,7 @@ struct FloatPlane {
     float bend = 0;
 };
 
-/// The lens of eq. 1-2. Its distortion centre is relative to the centre of the plane, in px.
+/// The lens of eq. 1-2. The distortion centre is relative to the centre of the plane, in px.
 struct FloatLens {
     float k = 0;  ///< per px^2
     float centre_x = 0;

@@ -10,8 +10,8 @@ namespace dotpose::core {
 /// The model dot of a frame, with its uncertainty.
 class DotShape {
   public:
-    /// Terms of the fit: common offset of all dots along u and v; squared half axes and blur of the
-    /// model dot; its total darkness; and the darkness of the paper.
+    /// Terms of the fit: common offset of all dots along u and v; squared half axes, blur and total
+    /// darkness of the model dot; darkness of the paper.
     enum Term : std::size_t {
         offset_u,
         offset_v,

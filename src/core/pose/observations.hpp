@@ -22,8 +22,8 @@ inline FixedVec nominal_place_q16(const Observation& o, std::int32_t displacemen
 /// Dots that belong to a cell of a grid, with their nominal places.
 class Observations {
   public:
-    /// `paper` is the paper level of the image in which all dots were measured. It is null if the
-    /// dots were not measured.
+    /// `paper` is the paper level of the image in which all dots were measured. `paper` is null if
+    /// the dots were not measured.
     Observations(std::span<const DetectedDot> dots, const Grid& grid, const Nominal& nominal,
                  const PaperMap* paper = nullptr)
         : dots_(dots), grid_(grid), nominal_(nominal), paper_(paper) {}

@@ -138,8 +138,9 @@ inline constexpr int kFewAlong = 6;
 /// residual of a block. docs/integrity.md compares the result with the errors on bent sheets.
 inline constexpr float kOfPlace = 2;
 inline constexpr float kOfTurn = 8;
-/// Standard deviation of the common residuals of blocks that is not attributed to the sheet. This
-/// is the pixel bias of dots whose phase drifts slowly. It averages out over the view.
+/// Standard deviation of the common residuals of blocks that is not attributed to the sheet. The
+/// cause of these residuals is the pixel bias of dots whose phase drifts slowly. This bias averages
+/// out over the view.
 inline constexpr float kPixelBias_px = 0.004F;
 /// Distance from the line, in spacings, within which the reference point may be on either side of
 /// the line.

@@ -1,5 +1,5 @@
-// Headers that the loops need. They must be included before the namespace of an implementation
-// begins.
+// Headers that the loops need. The headers must be included before the namespace of an
+// implementation begins.
 #pragma once
 
 #include <algorithm>
