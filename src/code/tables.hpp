@@ -68,7 +68,7 @@ struct Secondary {
         return rest;
     }
     /// Returns the places at which the next `count` digits equal the digits at `place`. The result
-    /// is a bit set of places 32 * word to 32 * word + 31. It includes `place`. Bits beyond the end
+    /// is a bit set of places 32 * word to 32 * word + 31, including `place`. Bits beyond the end
     /// of the sequence are 0.
     constexpr std::uint32_t equal_places(std::uint32_t place, int count, std::uint32_t word) const {
         const std::uint32_t rest = length - 32 * word;
