@@ -34,7 +34,7 @@ namespace {
 namespace tuned = tuning::cascade;
 
 /// The steps of the cascade. `resampled` is the second attempt with a second sampling of doubtful
-/// bits. It takes three times as long as `second`.
+/// bits. This step takes three times as long as `second`.
 enum class Step : std::uint8_t { tracked, first, second, resampled, device };
 
 /// Returns true if the dots are on a grid that could not be read in this code. Another code may be

@@ -69,8 +69,9 @@ inline OtherCodes* wanted_codes(DesktopWorkspace& w) {
     return w.other_codes.are_wanted ? &w.other_codes : nullptr;
 }
 
-/// A workspace with its memory, for images up to `MaxWidth` px wide. It stores the `MaxDots` dots
-/// nearest to the image centre and the middle `GridSide` x `GridSide` cells of the grid.
+/// A workspace with its memory, for images up to `MaxWidth` px wide. The workspace stores the
+/// `MaxDots` dots nearest to the image centre and the middle `GridSide` x `GridSide` cells of the
+/// grid.
 template <int MaxWidth, int MaxDots, int GridSide>
 class WorkspaceOf : public DesktopWorkspace {
   public:
