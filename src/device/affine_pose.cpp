@@ -75,7 +75,7 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
                                    }) +
                                    1;
 
-    // Targets are the printed places of the dots, in units of 1/64 cell. They are within 2^15.
+    // Targets are the printed places of the dots, in units of 1/64 cell, and are within 2^15.
     constexpr int kTargetBits = 6;
     const auto targets = displacements(shift_rounded(displacement_q16, 16 - kTargetBits));
     AffineFitInt32 fit;

@@ -50,8 +50,8 @@ Status find_grid(const DeviceOptions& options, Workspace& w) {
 
 /// Finds the position in the code from the bits.
 Status read_position(const DeviceOptions& options, Workspace& w) {
-    // The decoder does not need the 8 x 8 window of the paper's method. It is computed for display
-    // only.
+    // The decoder does not need the 8 x 8 window of the method of the paper. The window is computed
+    // for display only.
     if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
     choose_region(w);
     const Status status =
@@ -66,7 +66,7 @@ Status verify_position(const DeviceOptions& options, Workspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Fits the pose to the dots. Their positions in the code are known.
+/// Fits the pose to the dots, with the known positions of the dots in the code.
 Status measure_pose(const DeviceOptions& options, Workspace& w) {
     const Nominal nominal(w.grid, options.code, w.decoding);
     w.pattern_from_image =

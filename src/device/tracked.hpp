@@ -8,7 +8,8 @@
 
 namespace dotpose::core {
 
-/// Starts a frame. Its size must be within the capacity of the workspace. Errors: not_tracked.
+/// Starts a frame. The size of the frame must be within the capacity of the workspace. Errors:
+/// not_tracked.
 Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& options,
                             const Prediction& prediction, DeviceWorkspace& w);
 
