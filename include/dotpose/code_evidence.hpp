@@ -1,7 +1,7 @@
-/// Code evidence: the probability that a sheet is printed with each code variant, given frames of
-/// the sheet. The code variants agree on most of the plane. A frame can therefore often be read in
-/// several code variants, usually at the same place, sometimes at distant places. If one frame is
-/// ambiguous, further frames of the sheet decide:
+/// Code evidence: the probability of each code variant of a sheet, given frames of the sheet. The
+/// code variants agree on most of the plane. A frame can therefore often be read in several code
+/// variants, usually at the same place, sometimes at distant places. If one frame is ambiguous,
+/// further frames of the sheet decide:
 ///
 ///     CodeEvidence evidence;
 ///     for (;;) {
@@ -72,7 +72,7 @@ struct CodeReading {
     Fix fix;
     CodeVariant code = CodeVariant::anoto;  ///< code variant of `fix`
     CodeEvidence evidence;                  ///< evidence with this frame added
-    /// True if a place in another code variant explains the frame as well. If the fix is ok,
+    /// True if a place in another code variant explains the frame equally well. If the fix is ok,
     /// `p_wrong_log2` includes the odds of this other place relative to the fix.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;

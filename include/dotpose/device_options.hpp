@@ -1,6 +1,6 @@
 /// Device options: the options of a DeviceLocator, in fixed point. On desktops, LocatorOptions
-/// provides the same options in millimetres, pixels and ratios. Ranges are in [brackets]. If a value
-/// is outside its range, every frame gets Status::bad_argument.
+/// provides the same options in millimetres, pixels and ratios. Ranges are in [brackets]. If a
+/// value is outside its range, every frame gets Status::bad_argument.
 #pragma once
 
 #include <cstdint>
@@ -112,7 +112,7 @@ struct DeviceOptions {
     int max_dots = 4096;
 
     /// Spacing of the printed grid in nm, which converts a fix to millimetres. Default: 0.508 mm,
-    /// as in the paper. 0: not known. [any]
+    /// as in the paper. 0 means that the spacing is not known. [any]
     std::int32_t spacing_nm = 508'000;
 
     /// True if the first and the tracked attempt store dots, grid and bits in the trace, for

@@ -22,7 +22,7 @@ namespace dotpose {
 /// Criteria for movement, and the periods of frames.
 struct PacerOptions {
     /// Time without movement after which the device counts as stationary. A longer time costs
-    /// energy; a shorter time delays the start after each short stop.
+    /// energy. A shorter time delays the start after each short stop.
     std::int64_t stationary_after_us = 5'000'000;
     /// Period of frames while stationary. A longer period saves energy and delays the detection of
     /// movement.

@@ -166,7 +166,7 @@ class Locator : public RowLocator {
 };
 
 /// A locator for microcontrollers, for a camera that looks straight at the paper. Uses integers
-/// only and takes a short, bounded time; the options `effort` and `decoder` have no effect.
+/// only and takes a short, bounded time. The options `effort` and `decoder` have no effect.
 /// Provides neither covariance nor residual. Refuses a position as not_certain if a quickly
 /// computed upper bound on the probability that the position is wrong exceeds the limit. A program
 /// that uses only this class links none of the desktop attempts.

@@ -21,7 +21,7 @@ struct LocatorOptions {
     /// explain a frame about equally well, the status is ambiguous_code.
     std::optional<CodeVariant> code;
     /// Spacing of the printed grid, which converts a fix to millimetres. Default: 0.508 mm, as in
-    /// the paper. 0: not known. [0 to 1000 mm]
+    /// the paper. 0 means that the spacing is not known. [0 to 1000 mm]
     double spacing_mm = 0.508;
 
     /// Radial distortion k in p_u = m + r_d / (1 + k |r_d|^2) (paper eq. 1-2), per px^2. Negative

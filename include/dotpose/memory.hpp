@@ -1,6 +1,6 @@
 /// Memory of a Locator. The memory has a fixed size, belongs to the caller, and serves any number
-/// of frames, one at a time. It may be static, on the heap or, if it fits, on the stack. Its
-/// content is private to the core.
+/// of frames, one at a time. The memory may be static, on the heap or, if small enough, on the
+/// stack. The content is private to the core.
 #pragma once
 
 #include <array>

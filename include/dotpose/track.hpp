@@ -68,10 +68,11 @@ struct TrackOptions {
     float angular_acceleration_rad_s2 = 6;
 
     /// Maximum physically possible acceleration. If a sighting is farther from the prediction than
-    /// this acceleration explains, it must be confirmed before it is accepted.
+    /// this acceleration explains, further sightings must confirm it before it is accepted.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
-    /// Maximum speed. It limits the distance that the robot can have moved without sightings.
+    /// Maximum speed. The speed limits the distance that the robot can have moved without
+    /// sightings.
     float max_speed_mm_s = 1000;
     float max_turn_rad_s = 20;
     /// Number of standard deviations of the innovation by which a sighting may exceed the limits of
@@ -89,7 +90,7 @@ struct TrackOptions {
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
 
-    /// Standard deviations of printing errors, which are added in squares to the covariance of a
+    /// Standard deviations of printing errors. Their squares are added to the covariance of a
     /// sighting. At one place, printing errors are the same in every frame.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
@@ -136,7 +137,7 @@ inline constexpr int kVerdictCount = 5;
 /// Returns the identifier, such as "with_prior".
 const char* name(Verdict verdict) noexcept;
 
-/// The events of a frame; several may occur together.
+/// The events of a frame. Several events may occur together.
 struct TrackEvents {
     bool fix = false;   ///< the robot was lost and is found again
     bool lost = false;  ///< there was no accepted sighting for too long

@@ -1,4 +1,4 @@
-/// Version of dotpose, for the preprocessor too. The build, the packages and the other languages
+/// Version of dotpose, also for the preprocessor. The build, the packages and the other languages
 /// read the version from here.
 #pragma once
 
