@@ -1,12 +1,11 @@
-/// Position code: computes the symbol at each grid intersection, and the position of a window of
-/// symbols.
+/// Position code: the symbol at each grid intersection, and the position of a window of symbols.
 ///
 /// Paper section II-A. Every column of the pattern is the cyclic *main* sequence, read downwards
 /// from an offset, its *roll*. The rolls of adjacent columns differ by 5 to 58, and the differences
 /// encode the column's position in four coprime cyclic sequences. Rows encode y in the same way.
 ///
 /// Frame: x to the right, y DOWN, as the printed page is read. All functions are pure and
-/// thread-safe; none allocates.
+/// thread-safe, and do not allocate.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +17,8 @@
 
 namespace dotpose {
 
-/// Number of positions per axis, the common period of the four difference sequences: 236 * 233 * 31
-/// * 241.
+/// Number of positions per axis: 236 * 233 * 31 * 241, the common period of the four difference
+/// sequences.
 inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
 /// Length of the main sequence, which is the number of sections per axis.
 inline constexpr int kSections = 63;
@@ -35,15 +34,15 @@ enum class CodeVariant : std::uint8_t {
 /// Number of values of CodeVariant.
 inline constexpr int kCodeVariantCount = 3;
 
-/// A grid intersection by column x and row y; each in [0, kPositionsPerAxis).
+/// A grid intersection: column x and row y, each in [0, kPositionsPerAxis).
 struct Cell {
     std::uint32_t x = 0;
     std::uint32_t y = 0;
     friend constexpr bool operator==(const Cell&, const Cell&) = default;
 };
 
-/// The offsets (the paper's "sector") at which the main sequence starts in column 0 (u) and in row
-/// 0 (v); each in [0, 63).
+/// The offsets at which the main sequence starts in column 0 (u) and in row 0 (v), each in [0, 63).
+/// The paper calls them "sector".
 struct Section {
     std::uint8_t u = 0;
     std::uint8_t v = 0;
@@ -66,11 +65,12 @@ constexpr int x_bit(Symbol symbol) {
 constexpr int y_bit(Symbol symbol) {
     return static_cast<int>(symbol) >> 1 & 1;
 }
-/// Displacement of the dot along x, in units of the displacement length: -1, 0 or 1.
+/// Returns the displacement of the dot along x, in units of the displacement length: -1, 0 or 1.
 constexpr int dx(Symbol symbol) {
     return y_bit(symbol) - x_bit(symbol);
 }
-/// Displacement of the dot along y (down), in units of the displacement length: -1, 0 or 1.
+/// Returns the displacement of the dot along y (down), in units of the displacement length: -1, 0
+/// or 1.
 constexpr int dy(Symbol symbol) {
     return x_bit(symbol) + y_bit(symbol) - 1;
 }
@@ -84,8 +84,8 @@ constexpr char letter(Symbol symbol) {
 int delta(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns the offset of the main sequence in column (or row) p of section 0, in [0, 63), in O(1).
-/// `p` may exceed kPositionsPerAxis. The pattern continues there with rolls that differ from those
-/// at 0.
+/// `p` may exceed kPositionsPerAxis. Beyond kPositionsPerAxis, the pattern continues with rolls
+/// that differ from the rolls at 0.
 int roll(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns one bit of the cyclic main sequence, for any index >= 0.
@@ -95,7 +95,7 @@ int main_bit(std::uint32_t index) noexcept;
 /// and row instead.
 Symbol symbol_at(CodeVariant code, Cell cell, Section section) noexcept;
 
-/// A rectangle of symbols, row by row; 6 to 32 columns and rows.
+/// A rectangle of symbols, row by row, with 6 to 32 columns and rows.
 struct SymbolWindow {
     std::span<const Symbol> symbols;  ///< columns * rows symbols
     int columns = 0;
@@ -109,8 +109,9 @@ struct Place {
     friend constexpr bool operator==(const Place&, const Place&) = default;
 };
 
-/// Returns the place (dx, dy) intersections away; |dx|, |dy| < kPositionsPerAxis. Past either end
-/// of an axis, the pattern and the result continue at the other end in another section.
+/// Returns the place that is (dx, dy) intersections away from `place`; |dx|, |dy| <
+/// kPositionsPerAxis. Beyond either end of an axis, the pattern and the result continue at the
+/// other end in another section.
 Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noexcept;
 
 /// Decodes an error-free, upright window. Sets `place` only if the code contains exactly this

@@ -1,7 +1,7 @@
-/// Code evidence: the probability that a sheet is printed with each code variant, given frames of
-/// the sheet. The code variants agree on most of the plane. A frame can therefore often be read in
-/// several code variants, usually at the same place, sometimes at distant places. If one frame is
-/// ambiguous, further frames of the sheet decide:
+/// Code evidence: the probability of each code variant of a sheet, given frames of the sheet. The
+/// code variants agree on most of the plane. A frame can therefore often be read in several code
+/// variants, usually at the same place, sometimes at distant places. If one frame is ambiguous,
+/// further frames of the sheet decide:
 ///
 ///     CodeEvidence evidence;
 ///     for (;;) {
@@ -25,19 +25,19 @@
 namespace dotpose {
 
 /// The likelihood of each code variant for one sheet, given all frames so far. All frames of one
-/// place count as a single frame with their mean likelihood, because they share the defects of the
-/// same dots.
+/// place count as a single frame with the mean likelihood of these frames, because all of them
+/// contain the defects of the same dots.
 class CodeEvidence {
   public:
     /// log2 of the likelihood or the odds of each code variant, in units of 2^-8.
     using LogOdds = std::array<std::int32_t, kCodeVariantCount>;
 
-    /// Maximum change, as log2, of the odds of a code variant relative to the likeliest one, by one
-    /// frame or by all frames together. The limit lets later frames show that the sheet was
-    /// changed.
+    /// Maximum change, as log2, of the odds of a code variant relative to the likeliest code
+    /// variant, by one frame or by all frames together. With this limit, later frames can still
+    /// show that the sheet was changed.
     static constexpr std::int32_t kMax_log2 = 40;
-    /// Maximum change, as log2, of these odds by all frames of one place. The defects of the same
-    /// dots are not independent.
+    /// Maximum change, as log2, of these relative odds by all frames of one place. The defects of
+    /// the same dots are not independent.
     static constexpr std::int32_t kMaxOfPlace_log2 = 32;
 
     /// Starts with all code variants equally likely.
@@ -45,8 +45,8 @@ class CodeEvidence {
 
     /// Returns the code variant with the highest odds.
     CodeVariant likeliest() const;
-    /// Returns log2 of the odds of a code variant relative to the likeliest one, in units of 2^-8;
-    /// at most 0.
+    /// Returns log2 of the odds of a code variant relative to the likeliest code variant, in units
+    /// of 2^-8, at most 0.
     std::int32_t log2_q8(CodeVariant code) const;
     /// Returns the probability that the sheet does not have this code variant, in [0, 1].
     float p_wrong(CodeVariant code) const;
@@ -68,15 +68,15 @@ class CodeEvidence {
 
 /// The result of locating one frame whose code variant is not given.
 struct CodeReading {
-    /// If the status is ambiguous_code, pose and counts are those of one of the two places.
+    /// If the status is ambiguous_code, pose and counts belong to one of the two places.
     Fix fix;
     CodeVariant code = CodeVariant::anoto;  ///< code variant of `fix`
     CodeEvidence evidence;                  ///< evidence with this frame added
-    /// True if a place in another code variant explains the frame as well. If the fix is ok,
-    /// `p_wrong_log2` includes the odds of that place relative to the fix.
+    /// True if a place in another code variant explains the frame equally well. If the fix is ok,
+    /// `p_wrong_log2` includes the odds of this other place relative to the fix.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
-    Cell other_cell{};  ///< as Fix::cell; fractions and angle are equal to those of `fix`
+    Cell other_cell{};  ///< as Fix::cell; fractions and angle are the same as in `fix`
     Section other_section{};
 };
 
@@ -85,18 +85,20 @@ class Locator;
 /// Locates the frames of one sheet, in a given code variant or in the detected code variant.
 class CodeReader {
   public:
-    /// Uses the given code variant or, without one, the likeliest code variant given all frames.
+    /// Uses the given code variant, or the likeliest code variant given all frames if none is
+    /// given.
     explicit CodeReader(std::optional<CodeVariant> given = std::nullopt) : given_(given) {}
 
-    /// Locates an image, and sets the code variant in the options of `locator` to that of the fix.
-    /// The status of the fix reports errors, as in Locator::locate.
+    /// Locates an image, and sets the code variant in the options of `locator` to the code variant
+    /// of the fix. The status of the fix reports errors, as in Locator::locate.
     Fix locate(const ImageView& image, Locator& locator);
 
     /// Returns true if the code variant was given.
     bool is_given() const { return given_.has_value(); }
-    /// Returns the given code variant or, without one, the likeliest code variant so far.
+    /// Returns the given code variant, or the likeliest code variant so far if none is given.
     CodeVariant code() const { return given_.value_or(evidence_.likeliest()); }
-    /// Returns the evidence of the frames so far. It is used only if no code variant was given.
+    /// Returns the evidence of the frames so far. The evidence is used only if no code variant was
+    /// given.
     const CodeEvidence& evidence() const { return evidence_; }
 
   private:

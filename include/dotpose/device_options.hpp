@@ -1,5 +1,5 @@
-/// Device options: options in fixed point, as a DeviceLocator takes them. On desktops,
-/// LocatorOptions provides them in millimetres, pixels and ratios. Ranges are in [brackets]. If a
+/// Device options: the options of a DeviceLocator, in fixed point. On desktops, LocatorOptions
+/// provides the same options in millimetres, pixels and ratios. Ranges are in [brackets]. If a
 /// value is outside its range, every frame gets Status::bad_argument.
 #pragma once
 
@@ -13,10 +13,10 @@ namespace dotpose {
 
 /// Radial distortion, paper eq. 1-2: p_u = m + r_d / (1 + k |r_d|^2), with the distortion centre m.
 struct FixedLens {
-    /// k in 2^-40 / px^2; negative for barrel distortion. Default 0: none. [any]
+    /// k in units of 2^-40 / px^2; negative for barrel distortion. Default 0: no distortion. [any]
     std::int32_t k_q40 = 0;
     /// m relative to the image centre, in px times 256. Default: the image centre, as in the paper.
-    /// The centres of real lenses are a few pixels off. [-1024 to 1024 px]
+    /// In real lenses, m differs from the image centre by a few pixels. [-1024 to 1024 px]
     std::int32_t centre_dx_q8 = 0;
     std::int32_t centre_dy_q8 = 0;
 
@@ -28,10 +28,10 @@ struct FixedLens {
 };
 
 /// Options of the thresholds between paper and dots (paper section II-B.1). Devices and the second
-/// attempt use them.
+/// attempt use these options.
 struct ThresholdOptions {
     /// Low threshold: minimum contrast of every pixel of a blob to the paper, as a fraction of the
-    /// local contrast, in 1/256. Smaller values join neighbouring dots, larger values lose blurred
+    /// local contrast, in 1/256. Smaller values merge neighbouring dots. Larger values lose blurred
     /// dots. [1 to 256]
     int low_q8 = 120;
     /// High threshold: minimum contrast of the darkest pixel of a blob to the paper, as a fraction
@@ -43,9 +43,9 @@ struct ThresholdOptions {
 };
 
 /// Options of the selection of dots among dark blobs (paper section II-B.1). Devices and the second
-/// attempt use them.
+/// attempt use these options.
 struct BlobOptions {
-    /// Minimum number of pixels of a dot. 1 keeps salt-and-pepper noise. [0 to 2^20]
+    /// Minimum number of pixels of a dot. With 1, salt-and-pepper noise is not removed. [0 to 2^20]
     int min_area_px = 2;
     /// Minimum darkness of a dot, as a fraction of the upper quartile of all blobs, in 1/256. Paler
     /// blobs are noise. [0 to 256]
@@ -58,18 +58,19 @@ struct BlobOptions {
 /// Options of the search for the grid (paper sections II-B.2 and II-B.3). Only devices and the
 /// second attempt use `max_offset_q16`.
 struct LatticeOptions {
-    /// Minimum number of dots that is needed to search a grid. A position needs at least 6 x 6
-    /// dots. [0 to 2^20]
+    /// Minimum number of dots required to search for a grid. A position needs at least 6 x 6 dots.
+    /// [0 to 2^20]
     int min_dots = 40;
-    /// Maximum distance of a dot from its intersection, per axis, in 2^-16 spacing. Dots at a
-    /// larger distance count as noise. The nominal distance is 1/6 spacing. [0 to 32768]
+    /// Maximum distance of a dot from its intersection, along each axis, in units of 2^-16
+    /// spacings. Dots at a larger distance count as noise. The nominal distance is 1/6 spacing. [0
+    /// to 32768]
     int max_offset_q16 = 24000;
 };
 
 /// Limits beyond which a position is refused as not certain.
 struct IntegrityOptions {
-    /// Maximum probability that a fix is wrong, as log2 of an upper bound. A position that exceeds
-    /// it is refused. 2^-30 < 1e-9. [-2^20 to 0]
+    /// Maximum of the upper bound on the probability that a fix is wrong, as log2. A position with
+    /// a larger bound is refused. 2^-30 < 1e-9. [-2^20 to 0]
     int max_p_wrong_log2 = -30;
     /// Maximum fraction, in 1/256, of the bits read on either axis that may contradict the
     /// position. A larger fraction indicates that the frame contains two patterns. [0 to 256]
@@ -101,25 +102,26 @@ struct DeviceOptions {
     IntegrityOptions integrity;
 
     /// Minimum contrast between paper and dots, in grey levels. With less contrast, every attempt
-    /// ends with the status no_contrast. 0: any contrast that can be read. [0 to 255]
+    /// ends with the status no_contrast. Default 0: any contrast that can be read. [0 to 255]
     int min_contrast = 0;
 
     /// Maximum number of dots to which the first and the tracked attempt fit the pose, spread
-    /// evenly over the frame. The error decreases with the square root of the number; the time is
-    /// proportional to the number. Default: all dots of a VGA frame at 8 px per spacing. [any;
-    /// values are limited to between 64 and the capacity of the memory]
+    /// evenly over the frame. The error is proportional to 1 / sqrt(max_dots), the time to
+    /// max_dots. Default: all dots of a VGA frame at 8 px per spacing. [any; values are limited to
+    /// between 64 and the capacity of the memory]
     int max_dots = 4096;
 
     /// Spacing of the printed grid in nm, which converts a fix to millimetres. Default: 0.508 mm,
-    /// as in the paper. 0: not known. [any]
+    /// as in the paper. 0 means that the spacing is not known. [any]
     std::int32_t spacing_nm = 508'000;
 
     /// True if the first and the tracked attempt store dots, grid and bits in the trace, for
-    /// drawing and calibration. A frame then takes longer. The other attempts always store them.
+    /// drawing and calibration. A frame then takes longer. The other attempts always store dots,
+    /// grid and bits.
     bool show_stages = false;
 
-    /// Reference point, whose pose is reported, relative to the image centre, in px times 256.
-    /// Default: the image centre. [-16384 to 16384 px]
+    /// Reference point: the image point whose pose is reported, relative to the image centre, in px
+    /// times 256. Default: the image centre. [-16384 to 16384 px]
     std::int32_t reference_dx_q8 = 0;
     std::int32_t reference_dy_q8 = 0;
 };

@@ -1,4 +1,4 @@
-/// Fix: the pose that was computed from one frame, with its evidence.
+/// Fix: the pose computed from one frame, with the evidence for this pose.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace dotpose {
 
-/// The attempt of `locate` that made a fix; src/locate and src/device have one file for each.
+/// The attempt of `locate` that made a fix. Each attempt has a file in src/locate or src/device.
 enum class Attempt : std::uint8_t {
     tracked,  ///< dots were measured where a prediction expected them
     first,    ///< without a prediction, from patches of the image
@@ -59,14 +59,13 @@ struct Fix {
     int dots_used = 0;  ///< dots to which the pose was fitted
     /// Number of bits that contradict the position. Each cell read has two bits.
     int bit_errors = 0;
-    /// log2 of the upper bound of the probability that the position is wrong.
+    /// log2 of an upper bound on the probability that the position is wrong.
     int p_wrong_log2 = 0;
-    /// Root mean square distance of the dots from their fitted places, per axis.
+    /// Root mean square distance of the dots from their fitted places, along each axis.
     float residual_px = 0;
 
     /// The map from the image to the pattern, in spacings relative to `place`. The pose is the
-    /// value and the direction of this map at the reference point. The Prediction for the next
-    /// frame is made from this map.
+    /// value and the direction of this map at the reference point. `Prediction` uses this map.
     PlaneFromImage pattern_from_image;
     Place place;
     std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
@@ -85,10 +84,11 @@ struct Fix {
     // code.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }
     double y_grid() const { return cell.y + fraction_y_q16 / 65536.0; }
-    /// Position in the pattern frame, in mm; NaN if the spacing of the printed grid is not known.
+    /// Position in the pattern frame, in mm, or NaN if the spacing of the printed grid is not
+    /// known.
     double x_mm() const { return x_grid() * spacing_mm(); }
     double y_mm() const { return y_grid() * spacing_mm(); }
-    /// Spacing of the printed grid, in mm; NaN if it is not known.
+    /// Spacing of the printed grid, in mm, or NaN if the spacing is not known.
     double spacing_mm() const {
         return spacing_nm > 0 ? spacing_nm / 1e6 : std::numeric_limits<double>::quiet_NaN();
     }

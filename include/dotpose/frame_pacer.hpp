@@ -22,21 +22,22 @@ namespace dotpose {
 /// Criteria for movement, and the periods of frames.
 struct PacerOptions {
     /// Time without movement after which the device counts as stationary. A longer time costs
-    /// energy; a shorter time delays the start after each short stop.
+    /// energy. A shorter time delays the start after each short stop.
     std::int64_t stationary_after_us = 5'000'000;
     /// Period of frames while stationary. A longer period saves energy and delays the detection of
     /// movement.
     std::int64_t stationary_period_us = 1'000'000;
     /// Period of frames while moving. Default 0: as fast as possible.
     std::int64_t moving_period_us = 0;
-    /// Minimum distance that counts as movement, per axis, in 2^-16 spacing, from the place where
-    /// the device came to rest. Default: a tenth of a spacing. Must be well above the noise of a
-    /// resting device.
+    /// Minimum distance from the place where the device came to rest that counts as movement, along
+    /// either axis, in units of 2^-16 spacings. Default: a tenth of a spacing. The distance must be
+    /// well above the noise of a resting device.
     std::int32_t moved_q16 = 6554;
-    /// Minimum turn that counts as movement; 2^31 is half a turn. Default: one degree.
+    /// Minimum turn that counts as movement, as a binary angle: 2^31 is half a turn. Default: one
+    /// degree.
     std::int32_t turned_bam = 11'930'465;
     /// True if a stationary device that no longer sees the pattern counts as moved, for example
-    /// because it was lifted. Default: true. Set it to false if frames also fail at rest.
+    /// because it was lifted. Default: true. Set this option to false if frames also fail at rest.
     bool lost_is_moved = true;
 };
 
@@ -48,11 +49,11 @@ class FramePacer {
   public:
     explicit FramePacer(const PacerOptions& options = {}) : options_(options) {}
 
-    /// Takes the result of a frame, with or without a fix, and the time on any monotonic clock.
-    /// Returns the earliest time of the next frame.
+    /// Takes the result of a frame, with or without a fix, and the time of the frame on any
+    /// monotonic clock. Returns the earliest time of the next frame.
     std::int64_t next_frame_us(const Fix& fix, std::int64_t time_us);
 
-    /// Returns the state of the device; initially `moving`.
+    /// Returns the state of motion of the device, initially `moving`.
     Motion motion() const { return motion_; }
 
   private:
@@ -61,7 +62,7 @@ class FramePacer {
     PacerOptions options_;
     Motion motion_ = Motion::moving;
     bool has_begun_ = false;
-    Fix rest_;  ///< fix where the device came to rest; not ok if there was no fix since it moved
+    Fix rest_;  ///< fix where the device came to rest; not ok without a fix since it moved
     std::int64_t rest_since_us_ = 0;
 };
 

@@ -1,4 +1,4 @@
-/// A view of an 8-bit grey image; the caller owns the pixels.
+/// A view of an 8-bit grey image. The caller owns the pixels.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace dotpose {
 inline constexpr int kMinFrameSide_px = 64;
 inline constexpr int kMaxFrameSide_px = 4096;
 
-/// A grey image with dark dots on light paper; 0 is black. Row `v` starts at `pixels + v *
+/// A grey image with dark dots on light paper. Level 0 is black. Row `v` starts at `pixels + v *
 /// stride_bytes`.
 struct ImageView {
     const std::uint8_t* pixels = nullptr;

@@ -4,7 +4,7 @@
 ///     if (const dotpose::Fix fix = locator.locate(image)) use(fix.x_mm(), fix.y_mm());
 ///
 /// An image can also be pushed row by row, as a camera delivers it: call `begin`, then `push_row`
-/// for every row from the top, then `finish`. A DeviceLocator needs no frame buffer for this.
+/// for every row from the top, then `finish`. A DeviceLocator then needs no frame buffer.
 ///
 /// Dots are dark on light paper. For white dots on black, invert the pixels first:
 ///
@@ -34,8 +34,8 @@ namespace core {
 struct Workspace;
 }  // namespace core
 
-/// Base of Locator and DeviceLocator: options, memory and the state of a frame that is pushed row
-/// by row.
+/// Base class of Locator and DeviceLocator: options, memory, and the state of a frame that is
+/// pushed row by row.
 class RowLocator {
   public:
     RowLocator(const RowLocator&) = delete;
@@ -43,7 +43,7 @@ class RowLocator {
 
     /// Returns the options in use.
     const DeviceOptions& options() const { return options_; }
-    /// Sets the options of the following frames. Drops a frame that was begun and not finished.
+    /// Sets the options of the following frames. Drops a frame that was begun but not finished.
     void set_options(const DeviceOptions& options);
 
     /// Returns the results of each stage for the last frame. The stages of a DeviceLocator reuse
@@ -59,9 +59,10 @@ class RowLocator {
     Status note_begin(Status status, int height_px);
     /// Counts a row. Returns false if all rows of the frame were already pushed.
     bool takes_row();
-    /// Returns true if a frame was begun. Otherwise sets the status of the fix to that of `begin`.
+    /// Returns true if a frame was begun. Otherwise sets the status of the fix to the status of
+    /// `begin`.
     bool has_rows();
-    /// Ends the frame. Returns its fix, with the spacing of the printed grid.
+    /// Ends the frame. Returns the fix of the frame, with the spacing of the printed grid.
     Fix finished();
 
     core::Workspace* workspace_;
@@ -76,10 +77,10 @@ class RowLocator {
 class Locator : public RowLocator {
   public:
     /// Allocates a LargeMemory on the heap. If any option is outside its range, every frame gets
-    /// the status bad_argument; `bad_option` names the option.
+    /// the status bad_argument. `bad_option` names the option.
     explicit Locator(const LocatorOptions& options = {}) : Locator(new LargeMemory, options) {}
-    /// Uses `memory`, which must outlive the locator. No other locator may use this memory
-    /// meanwhile.
+    /// Uses `memory`, which must outlive the locator. No other locator may use this memory during
+    /// this time.
     explicit Locator(SmallMemory& memory, const LocatorOptions& options = {})
         : Locator(memory.workspace_, options) {
         detects_code_ = !options.code;
@@ -88,8 +89,8 @@ class Locator : public RowLocator {
         : Locator(memory.workspace_, options) {
         detects_code_ = !options.code;
     }
-    // Overloads for fixed-point options, in which the code is always given. They are templates to
-    // make `Locator(memory, {...})` select LocatorOptions.
+    // Overloads for fixed-point options, in which the code is always given. The overloads are
+    // templates to make `Locator(memory, {...})` select LocatorOptions.
     template <std::same_as<DeviceOptions> Fixed>
     explicit Locator(const Fixed& options) : Locator(new LargeMemory, options) {}
     template <std::same_as<DeviceOptions> Fixed>
@@ -98,7 +99,7 @@ class Locator : public RowLocator {
     Locator(LargeMemory& memory, const Fixed& options) : Locator(memory.workspace_, options) {}
     ~Locator() { delete owned_; }
 
-    /// Sets the options of the following frames. Drops a frame that was begun and not finished.
+    /// Sets the options of the following frames. Drops a frame that was begun but not finished.
     /// Restarts the detection of the code, unless the code is given.
     void set_options(const LocatorOptions& options) {
         set_fixed_options(options);
@@ -109,19 +110,19 @@ class Locator : public RowLocator {
         set_fixed_options(options);
     }
 
-    /// Returns the pose of an image; see Fix. If the options do not name the code, the code is
+    /// Returns the pose of an image; see Fix. If the options do not set the code, the code is
     /// detected from all images so far, and `options().code` is the code that was read. The same
     /// image gives the same bits on every processor, except in the covariance and the residual.
     Fix locate(const ImageView& image);
 
     /// Locates the pattern near the predicted place. A frame that does not confirm the prediction
-    /// is located without it; `Fix::attempt` reports which attempt succeeded. The prediction must
-    /// have been made in `options().code`.
+    /// is located without the prediction. `Fix::attempt` reports which attempt succeeded. The
+    /// prediction must have been made in `options().code`.
     Fix locate(const ImageView& image, const Prediction& prediction);
 
     /// Locates an image whose code variant is not known. Places in all code variants are
-    /// alternatives, weighted with the odds in `evidence`. A frame that places of two code variants
-    /// explain about equally well gets the status ambiguous_code. Afterwards `options().code` is
+    /// alternatives, weighted with the odds in `evidence`. If places of two code variants explain
+    /// the frame about equally well, the status is ambiguous_code. Afterwards `options().code` is
     /// the code variant that was read.
     CodeReading locate_in_any_code(const ImageView& image, const CodeEvidence& evidence);
 
@@ -131,13 +132,13 @@ class Locator : public RowLocator {
                                    const CodeEvidence& evidence);
 
     /// Locates an image in `options().code`, with the same fix as `locate`. `has_other` is true if
-    /// another code variant also explains the image without a contradiction: at another place, or
-    /// although no place in `options().code` explains it.
+    /// another code variant explains the image without a contradiction, either at a place other
+    /// than the fix, or although no place in `options().code` explains the image.
     CodeReading locate_in_code(const ImageView& image);
 
-    /// Starts an image that arrives row by row, with a prediction or without. The locator keeps the
-    /// rows. Errors: bad_argument; image_too_small; image_too_large (more pixels than the memory
-    /// keeps: 188 x 188 for a SmallMemory, 1280 x 1024 for a LargeMemory).
+    /// Starts an image that is pushed row by row, with or without a prediction. The locator keeps
+    /// the rows. Errors: bad_argument; image_too_small; image_too_large (more pixels than the
+    /// memory keeps: 188 x 188 for a SmallMemory, 1280 x 1024 for a LargeMemory).
     Status begin(int width_px, int height_px);
     Status begin(int width_px, int height_px, const Prediction& prediction);
     /// Takes the next row of `width_px` pixels. Rows beyond the height of the image are ignored.
@@ -165,21 +166,21 @@ class Locator : public RowLocator {
 };
 
 /// A locator for microcontrollers, for a camera that looks straight at the paper. Uses integers
-/// only and takes a short, bounded time; the options `effort` and `decoder` have no effect.
+/// only and takes a short, bounded time. The options `effort` and `decoder` have no effect.
 /// Provides neither covariance nor residual. Refuses a position as not_certain if a quickly
-/// computed bound of its probability of being wrong exceeds the limit. A program that uses only
-/// this class links none of the desktop attempts.
+/// computed upper bound on the probability that the position is wrong exceeds the limit. A program
+/// that uses only this class links none of the desktop attempts.
 class DeviceLocator : public RowLocator {
   public:
-    /// The same rules for memory and options hold as for Locator.
+    /// The rules for memory and options are the same as for Locator.
     explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
-    /// Locate an image as the functions of Locator with the same names do.
+    /// As the functions of Locator with the same names.
     Fix locate(const ImageView& image);
     Fix locate(const ImageView& image, const Prediction& prediction);
 
-    /// Starts a frame that is pushed row by row. The dots of each row are detected as it arrives.
-    /// Errors: bad_argument, image_too_small, image_too_large (too large for the memory).
+    /// Starts a frame that is pushed row by row. The dots of each row are detected as the row
+    /// arrives. Errors: bad_argument, image_too_small, image_too_large (too large for the memory).
     Status begin(int width_px, int height_px);
 
     /// Starts a frame whose dots are measured at their predicted places, as the rows arrive.
@@ -188,8 +189,8 @@ class DeviceLocator : public RowLocator {
     /// can then push them again without a prediction.
     Status begin(int width_px, int height_px, const Prediction& prediction);
 
-    /// Takes the next row of `width_px` pixels, which need not remain valid afterwards. Rows beyond
-    /// the height of the frame are ignored.
+    /// Takes the next row of `width_px` pixels. The pixels need not remain valid afterwards. Rows
+    /// beyond the height of the frame are ignored.
     void push_row(const std::uint8_t* pixels);
 
     /// Locates the frame whose rows were pushed. Error: bad_argument if no frame was begun.

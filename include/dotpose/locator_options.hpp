@@ -1,4 +1,4 @@
-/// LocatorOptions: options of a Locator in millimetres, pixels and ratios. The defaults suit any
+/// LocatorOptions: options of a Locator, in millimetres, pixels and ratios. The defaults suit any
 /// camera. Ranges are in [brackets]. If a value is outside its range, every frame gets
 /// Status::bad_argument, and `bad_option` names the option.
 #pragma once
@@ -17,11 +17,11 @@ namespace dotpose {
 /// Options of a Locator. All options affect every attempt, also on images that are pushed row by
 /// row.
 struct LocatorOptions {
-    /// Code variant of the sheet. Default: detected from all frames so far. A frame that two code
-    /// variants explain about equally well gets the status ambiguous_code.
+    /// Code variant of the sheet. Default: detected from all frames so far. If two code variants
+    /// explain a frame about equally well, the status is ambiguous_code.
     std::optional<CodeVariant> code;
     /// Spacing of the printed grid, which converts a fix to millimetres. Default: 0.508 mm, as in
-    /// the paper. 0: not known. [0 to 1000 mm]
+    /// the paper. 0 means that the spacing is not known. [0 to 1000 mm]
     double spacing_mm = 0.508;
 
     /// Radial distortion k in p_u = m + r_d / (1 + k |r_d|^2) (paper eq. 1-2), per px^2. Negative
@@ -30,22 +30,23 @@ struct LocatorOptions {
     /// Distortion centre m, relative to the image centre. [-1024 to 1024 px]
     double lens_centre_dx_px = 0;
     double lens_centre_dy_px = 0;
-    /// Reference point, whose pose is reported, relative to the image centre. [-16384 to 16384 px]
+    /// Reference point: the image point whose pose is reported, relative to the image centre.
+    /// [-16384 to 16384 px]
     double reference_dx_px = 0;
     double reference_dy_px = 0;
 
-    /// Maximum probability, as an upper bound, that a fix is wrong. A position that exceeds it is
-    /// refused as not_certain. Rounded down to a power of two. [1e-300 to 1]
+    /// Maximum of the upper bound on the probability that a fix is wrong. A position with a larger
+    /// bound is refused as not_certain. Rounded down to a power of two. [1e-300 to 1]
     double max_p_wrong = 1e-9;
     /// Maximum fraction of the bits read on either axis that may contradict the position. A larger
     /// fraction indicates that the frame contains two patterns. [0 to 1]
     double max_bit_errors = 0.18;
     /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast gets the
-    /// status no_contrast. Default 0: any contrast that can be read. Raise it for noisy cameras. [0
-    /// to 255]
+    /// status no_contrast. Default 0: any contrast that can be read. Use a larger value for noisy
+    /// cameras. [0 to 255]
     int min_contrast = 0;
-    /// Minimum number of dots that is needed to search a grid. A position needs at least 6 x 6
-    /// dots. [0 to 2^20]
+    /// Minimum number of dots required to search for a grid. A position needs at least 6 x 6 dots.
+    /// [0 to 2^20]
     int min_dots = 40;
 
     Effort effort = Effort::twice;
@@ -55,11 +56,12 @@ struct LocatorOptions {
     bool show_stages = false;
 
     /// Returns the same options in fixed point. If any option is outside its range, one of the
-    /// returned options is outside its range too.
+    /// returned options is also outside its range.
     operator DeviceOptions() const;
 };
 
-/// Returns the name of the first option outside of its range; null if all are in range.
+/// Returns the name of the first option that is outside its range, or null if all options are in
+/// range.
 inline const char* bad_option(const LocatorOptions& options) {
     const auto is_in = [](double value, double low, double high) {
         return value >= low && value <= high;  // false if `value` is NaN

@@ -1,6 +1,6 @@
-/// Memory of a Locator. It has a fixed size, belongs to the caller and serves any number of frames,
-/// one at a time. It may be static, on the heap or, if it fits, on the stack. Its content is
-/// private to the core.
+/// Memory of a Locator. The memory has a fixed size, belongs to the caller, and serves any number
+/// of frames, one at a time. The memory may be static, on the heap or, if small enough, on the
+/// stack. The content is private to the core.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ class AnyDeviceMemory {
     AnyDeviceMemory() = default;
     ~AnyDeviceMemory() = default;
 
-    /// Returns the size of a workspace in bytes; 0 if frames of this size are not supported.
+    /// Returns the size of a workspace in bytes, or 0 if frames of this size are not supported.
     static constexpr std::size_t bytes_for(int width_px, int height_px) {
         const bool has_32_bits = sizeof(void*) == 4;
         if (width_px == 160 && height_px == 120) return has_32_bits ? 10'640 : 11'808;

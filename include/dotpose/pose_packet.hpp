@@ -7,9 +7,9 @@
 ///     PacketReader reader;
 ///     for (std::uint8_t byte : received) if (reader.push(byte)) use(reader.packet());
 ///
-/// Packets with one to four wrong bits are always refused, and packets with more damage except for
-/// about 1 of 65536. Reading continues with the next packet. No heap, no double, no globals;
-/// different objects may be used at the same time.
+/// Packets with one to four wrong bits are always refused. Of packets with more wrong bits, about 1
+/// in 65536 is accepted. After a damaged packet, reading continues with the next packet. No heap,
+/// no double, no globals. Different objects may be used at the same time.
 #pragma once
 
 #include <array>
@@ -24,11 +24,11 @@
 
 namespace dotpose {
 
-/// Version of the format, for writing and reading.
+/// Version of the packet format that is written and read.
 inline constexpr int kPacketVersion = 1;
 
 /// The part of a frame's result that a packet contains. Unless `status` is ok, only the members
-/// above `cell` are valid; the rest is sent as zero.
+/// above `cell` are valid, and the other members are sent as zero.
 struct PosePacket {
     std::uint16_t sequence = 0;  ///< counts frames; a gap means lost packets
     std::uint32_t time_us = 0;   ///< time of the frame on the sender's clock; wraps every 71.6
@@ -41,11 +41,11 @@ struct PosePacket {
     std::uint16_t fraction_y_q16 = 0;
     std::int16_t theta_bam16 = 0;  ///< 2^15 is half a turn: steps of 0.0055 degrees
     Section section;
-    /// -log2 of the upper bound of the probability that the position is wrong; 255 means 255 or
+    /// -log2 of an upper bound on the probability that the position is wrong. 255 means 255 or
     /// more.
     std::uint8_t certainty = 0;
-    /// The larger standard deviation of x and y in 2^-12 spacing, rounded up; 255 means 255 or
-    /// more.
+    /// The larger standard deviation of x and y, in units of 2^-12 spacings, rounded up. 255 means
+    /// 255 or more.
     std::uint8_t deviation_q12 = 0;
 
     // Double precision is used only in these functions, which are not part of the embedded object
@@ -58,11 +58,12 @@ struct PosePacket {
     friend constexpr bool operator==(const PosePacket&, const PosePacket&) = default;
 };
 
-/// Returns the packet of a fix. `sequence` is the number of the frame, `time_us` its time.
+/// Returns the packet of a fix. `sequence` is the number of the frame, `time_us` the time of the
+/// frame.
 PosePacket make_packet(const Fix& fix, CodeVariant code, std::uint16_t sequence,
                        std::uint32_t time_us);
 
-/// The bytes of a packet, including the end mark, which is the only zero byte.
+/// The bytes of a packet, including the end mark. The end mark is the only zero byte.
 using PacketBytes = std::array<std::uint8_t, 32>;
 
 /// Returns the bytes of a packet for sending.
@@ -74,16 +75,16 @@ class PacketReader {
     /// Takes the next byte. Returns true if the byte completes a packet.
     bool push(std::uint8_t byte);
 
-    /// Returns the newest packet; not valid before the first packet.
+    /// Returns the newest packet. Not valid before the first packet.
     const PosePacket& packet() const { return packet_; }
 
-    /// Returns the number of invalid byte sequences between two end marks: damaged packets, or
-    /// packets of another version.
+    /// Returns the number of invalid byte sequences between two end marks. These are damaged
+    /// packets and packets of another version.
     std::uint32_t damaged() const { return damaged_; }
 
   private:
     std::array<std::uint8_t, 31> bytes_{};  ///< bytes since the last end mark
-    std::size_t count_ = 0;                 ///< number of these bytes; 32 if there were too many
+    std::size_t count_ = 0;                 ///< number of bytes since then; 32 if too many
     std::uint32_t damaged_ = 0;
     PosePacket packet_;
 };

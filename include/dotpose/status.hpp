@@ -49,12 +49,12 @@ enum class [[nodiscard]] Status : std::uint8_t{
 /// Number of values of Status, without `other`.
 inline constexpr int kStatusCount = static_cast<int>(Status::ambiguous_code) + 1;
 
-/// Returns the identifier of a status as written in output lines, for example "too_few_dots".
-/// Returns "other" for every number that is not a Status of this version.
+/// Returns the identifier of a status, as in output lines, for example "too_few_dots". Returns
+/// "other" for every number that is not a Status of this version.
 const char* name(Status status) noexcept;
 
-/// Returns one plain sentence for the user, without a full stop, that holds for every frame of this
-/// status.
+/// Returns one plain sentence for the user, without a full stop. The sentence holds for every frame
+/// with this status.
 const char* message(Status status) noexcept;
 
 }  // namespace dotpose

@@ -1,6 +1,6 @@
 /// Trace: the results of each stage of `Locator::locate` for the last frame, for drawing,
-/// evaluation and calibration. It is read-only and not a stable interface: it changes with the
-/// stages.
+/// evaluation and calibration. The trace is read-only and not a stable interface, because it
+/// changes with the stages.
 ///
 ///     DeviceOptions options;
 ///     options.show_stages = true;  // otherwise the first and the tracked attempt store little
@@ -35,7 +35,8 @@ struct DetectedDot {
     std::uint16_t area_px = 0;
 };
 
-/// A connection between two seeds. Each of the seeds is among the four nearest seeds of the other.
+/// A connection between two seeds. Each of the two seeds is among the four nearest seeds of the
+/// other seed.
 struct SeedEdge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;
@@ -49,11 +50,11 @@ struct Lattice {
     FixedVec origin_q16;
 };
 
-/// One cell of the matrices P of the paper's Fig. 8.
+/// One cell of the matrices P of Fig. 8 of the paper.
 struct GridCell {
     static constexpr std::uint16_t kNoDot = 65535;
-    /// Marks a cell with some of its four places covered by graphics. The low bits are a mask of
-    /// the hidden places, indexed by Symbol.
+    /// Marks a cell in which graphics cover some of the four places. The low bits are a mask of the
+    /// covered places, indexed by Symbol.
     static constexpr std::uint16_t kHidden = 65504;
     bool has_dot() const { return dot < kHidden; }
     bool is_hidden() const { return dot >= kHidden && dot != kNoDot; }
@@ -61,7 +62,7 @@ struct GridCell {
     std::int8_t x = 0;  ///< quasi-probability of the x bit, in 1/127: positive for 1, negative for
                         ///< 0
     std::int8_t y = 0;
-    std::uint16_t dot = kNoDot;  ///< index of the dot of this cell; kNoDot if none
+    std::uint16_t dot = kNoDot;  ///< index of the dot in this cell, or kNoDot
 };
 
 /// Quarter turns from the grid to the pattern: pattern_step = turn(grid_step).
@@ -100,20 +101,21 @@ struct Decoding {
     /// Agreement of some lines of the region with the main sequence, at the likeliest turn.
     std::int32_t agreement = 0;
     QuarterTurn pattern_from_grid;
-    Place place;  ///< place of grid cell (0, 0) in the code, which may be out of view
+    Place place;  ///< place in the code of grid cell (0, 0); the cell may be out of view
     /// True if the scores of the lines of the region are stored for this turn.
     bool lines_are_scored = false;
     int bits = 0;  ///< number of bits compared with the code at `place`, two per dot
-    /// log2 of the probability that the position is wrong along x and along y, times 256.
+    /// log2 of an upper bound on the probability that the position is wrong along x and along y,
+    /// times 256.
     std::array<int, 2> p_wrong_log2_q8{};
 };
 
-/// The matrices P^(x), P^(y) of the paper's Fig. 8 over a rectangle of the grid.
+/// The matrices P^(x), P^(y) of Fig. 8 of the paper, over a rectangle of the grid.
 struct GridView {
     std::span<const GridCell> cells;  ///< row by row
     GridRegion region;                ///< the region of the grid that `cells` covers
 
-    /// Returns the cell in column i and row j of the grid, which must be in the region.
+    /// Returns the cell in column i and row j of the grid. The cell must be in the region.
     const GridCell& at(int i, int j) const {
         return cells[static_cast<std::size_t>((j - region.j0) * region.columns + (i - region.i0))];
     }

@@ -1,6 +1,6 @@
 /// Tracker: the state of a robot from frame to frame. An adaptive filter estimates position, angle
-/// and velocities with their covariance; the tracker reports the events `fix`, `lost`, `kidnapped`,
-/// `stationary` and `moving`. docs/tracking.md explains filter, events and weak fixes.
+/// and velocities, with their covariance. The tracker reports the events `fix`, `lost`,
+/// `kidnapped`, `stationary` and `moving`. docs/tracking.md explains filter, events and weak fixes.
 ///
 ///     Tracker tracker;
 ///     for (;;) {
@@ -13,12 +13,12 @@
 /// `predict` returns the expected place of the pattern in the next frame; examples/follow_robot.cpp
 /// has a loop that uses it.
 ///
-/// Frames: any plane in mm that all sightings share: the pattern frame, or the world of a sheet
-/// file, where a robot may drive from sheet to sheet. Positions are integers in nanometres, which
-/// cover the whole pattern plane (2.1e14 nm). Angles are binary, 2^31 is half a turn, from +x
-/// towards +y. Velocities: mm/s along x and y, rad/s.
+/// Frames: poses are in any plane in mm that all sightings share. This is the pattern frame, or the
+/// world of a sheet file, in which a robot may drive from sheet to sheet. Positions are integers in
+/// nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary, from +x towards
+/// +y; 2^31 is half a turn. Velocities: mm/s along x and y, rad/s.
 ///
-/// No heap, no double, no globals; different trackers may be used at the same time.
+/// No heap, no double, no globals. Different trackers may be used at the same time.
 #pragma once
 
 #include <array>
@@ -46,12 +46,12 @@ struct Sighting {
     std::uint32_t plane = 0;
     std::array<std::array<float, 3>, 3> covariance{};  ///< covariance of x, y and theta, in mm and
                                                        ///< rad
-    /// Upper bound of the probability that the position is wrong, as in Fix. Above
-    /// TrackOptions::max_p_wrong_log2 the sighting is *weak*.
+    /// log2 of an upper bound on the probability that the position is wrong, as in Fix. If it
+    /// exceeds TrackOptions::max_p_wrong_log2, the sighting is *weak*.
     int p_wrong_log2 = 0;
     std::int32_t spacing_nm = 508'000;  ///< spacing of the pattern in view
-    /// True if the y axis of the plane points up on the paper. Angles then have the opposite sign
-    /// of those in the pattern.
+    /// True if the y axis of the plane points up on the paper. In this case, angles have the
+    /// opposite sign of angles in the pattern.
     bool is_y_up = false;
 };
 
@@ -61,23 +61,25 @@ Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
 /// Limits of the robot's motion, and criteria for accepting sightings.
 struct TrackOptions {
-    /// Standard deviation of the robot's acceleration while it manoeuvres. At other times the
-    /// filter estimates a lower value. Larger values follow sudden changes faster. The default
-    /// suits a table-top robot.
+    /// Standard deviation of the robot's acceleration while it manoeuvres. At other times, the
+    /// filter estimates a lower value. With a larger value, the filter follows sudden changes
+    /// faster. The default suits a table-top robot.
     float acceleration_mm_s2 = 600;
     float angular_acceleration_rad_s2 = 6;
 
-    /// Maximum physically possible acceleration. A sighting that is farther from the prediction
-    /// than this acceleration explains must be confirmed before it is accepted.
+    /// Maximum physically possible acceleration. If a sighting is farther from the prediction than
+    /// this acceleration explains, further sightings must confirm it before it is accepted.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
-    /// Maximum speed, which limits the distance that the robot can have moved without sightings.
+    /// Maximum speed. The speed limits the distance that the robot can have moved without
+    /// sightings.
     float max_speed_mm_s = 1000;
     float max_turn_rad_s = 20;
-    /// Number of standard deviations of the innovation by which a sighting may exceed these limits.
+    /// Number of standard deviations of the innovation by which a sighting may exceed the limits of
+    /// motion.
     float gate_sigmas = 5;
-    /// Number of consecutive consistent sightings that are needed to accept a jump. A larger number
-    /// delays the acceptance. With a smaller number, a single wrong fix may be accepted.
+    /// Number of consecutive consistent sightings required to accept a jump. A larger number delays
+    /// the acceptance. A smaller number may accept a single wrong fix.
     int confirmations = 3;
 
     /// Time without an accepted sighting after which the robot is lost.
@@ -88,8 +90,8 @@ struct TrackOptions {
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
 
-    /// Standard deviations of printing errors, which are added in squares to the covariance of a
-    /// sighting. Printing errors are the same in every frame of a place.
+    /// Standard deviations of printing errors. Their squares are added to the covariance of a
+    /// sighting. At one place, printing errors are the same in every frame.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 
@@ -135,11 +137,11 @@ inline constexpr int kVerdictCount = 5;
 /// Returns the identifier, such as "with_prior".
 const char* name(Verdict verdict) noexcept;
 
-/// The events of a frame; several may occur together.
+/// The events of a frame. Several events may occur together.
 struct TrackEvents {
     bool fix = false;   ///< the robot was lost and is found again
     bool lost = false;  ///< there was no accepted sighting for too long
-    /// Confirmed sightings are at a place to which the robot cannot have driven.
+    /// Confirmed sightings are at a place that the robot cannot have reached by driving.
     bool kidnapped = false;
     bool stationary = false;  ///< the robot came to rest
     bool moving = false;      ///< the robot was stationary and moves again
@@ -150,12 +152,12 @@ struct Track {
     bool is_lost = true;
     bool is_stationary = false;
     Verdict verdict = Verdict::none;
-    /// Upper bound, as log2, of the probability that the pose is wrong, given the prior; 0 without
+    /// Upper bound, as log2, of the probability that the pose is wrong, given the prior. 0 without
     /// an accepted sighting.
     int p_wrong_log2 = 0;
     TrackEvents events;
-    /// Pose at the time of the latest frame, predicted if the frame had no accepted sighting. Not
-    /// valid while the robot is lost.
+    /// Pose at the time of the latest frame. If the frame had no accepted sighting, the pose is
+    /// predicted. Not valid while the robot is lost.
     TrackedPose pose;
 };
 
@@ -172,7 +174,7 @@ struct MotionEstimate {
     TrackedPose pose;
     Vector3 acceleration{};    ///< mm/s^2, rad/s^2
     Covariance9 covariance{};  ///< covariance of (x, y, theta), their velocities and accelerations
-    /// Variance of the acceleration along each axis, relative to that of TrackOptions.
+    /// Variance of the acceleration along each axis, divided by the variance from TrackOptions.
     Vector3 agility{1, 1, 1};
     Vector3 innovation{};  ///< difference of the newest sighting from its prediction
     Matrix3 noise{};       ///< covariance of `innovation`
@@ -188,27 +190,28 @@ class Tracker {
     /// Starts in the `lost` state.
     explicit Tracker(const TrackOptions& options = {}) : options_(options) {}
 
-    /// Updates the state with a frame, given by its time and its sighting (null without a fix).
-    /// Ignores frames that are not newer than the previous frame.
+    /// Updates the state with a frame, given by its time and its sighting. The sighting is null if
+    /// there is no fix. Ignores frames that are not newer than the previous frame.
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
     /// Returns the state after the newest frame.
     const Track& track() const { return track_; }
 
     /// Predicts the place of the pattern in the frame at `time_us`: moves the map of `newest`, an
-    /// ok fix with the sighting `seen`, to the pose that the filter expects, and adds its
-    /// uncertainty. A sighting that is not accepted yet is predicted from the sightings that agree
-    /// with it. Returns Prediction::like(newest) if there is no expected pose, because the filter
-    /// has not followed `seen` or will be lost at that time. `options` are those of the Locator.
+    /// ok fix with the sighting `seen`, to the pose that the filter expects, and adds the
+    /// uncertainty of this pose. A prediction from a sighting that is not accepted yet uses the
+    /// sightings that agree with it. Returns Prediction::like(newest) if there is no expected pose,
+    /// because the filter has not followed `seen` or will be lost at that time. `options` are the
+    /// options of the Locator.
     Prediction predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
                        const DeviceOptions& options) const;
 
-    /// Returns true if a weak sighting of the next frame could be accepted. In this case, it is
-    /// worthwhile to locate the frame with a relaxed IntegrityOptions::max_p_wrong_log2.
+    /// Returns true if a weak sighting of the next frame could be accepted. It is then worthwhile
+    /// to locate the frame with a relaxed IntegrityOptions::max_p_wrong_log2.
     bool has_prior() const { return !track_.is_lost; }
 
   private:
-    /// Returns the motion with `seen` as its newest sighting; null if there is none.
+    /// Returns the motion with `seen` as its newest sighting, or null if there is none.
     const track::MotionEstimate* following(const Sighting& seen) const;
     Verdict judge(const track::MotionEstimate& prediction, const Sighting& sighting);
     bool is_confirmed(const Sighting& sighting);
@@ -221,7 +224,7 @@ class Tracker {
     bool has_frame_ = false;
     std::int64_t newest_us_ = 0;
     track::MotionEstimate last_;  ///< state at the last accepted sighting
-    /// State at the newest contradicting sighting. Contradicting sightings are filtered like
+    /// State at the newest sighting that contradicts the track. Such sightings are filtered like
     /// accepted sightings, in case the robot was put down elsewhere.
     track::MotionEstimate candidate_;
     int agreeing_ = 0;  ///< number of sightings in `candidate_`

@@ -41,7 +41,8 @@ Places find(const code::Secondary& a, std::size_t digit, std::span<const std::ui
     Places places;
     if (first == code::kAbsent) return places;
     if (!a.has_twins) {
-        // The place of the key is unique, so only the remaining digits are compared.
+        // The first kOrder digits occur only at this place, so only the remaining digits are
+        // compared.
         std::uint32_t next = first + std::uint32_t{code::kOrder};
         if (next >= a.length) next -= a.length;
         return {first, matches_at(a, digit, deltas.subspan(code::kOrder), next) ? 1 : 0};

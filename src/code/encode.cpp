@@ -13,10 +13,10 @@ int delta(CodeVariant code, std::uint32_t p) noexcept {
 }
 
 int roll(CodeVariant code, std::uint32_t p) noexcept {
-    // The sum of p differences is 5 p plus a part of each sequence. The part is the sum over the
-    // whole turns of the sequence and over the digits of its last, incomplete turn. The number of
-    // whole turns is the number of lines in them divided by the length of the sequence. Modulo 63,
-    // this division is a multiplication by the inverse.
+    // The sum of p differences is 5 p plus a contribution of each sequence. The contribution is the
+    // sum over the whole turns of the sequence and over the digits of its last, incomplete turn.
+    // The number of whole turns is the number of lines in these turns divided by the length of the
+    // sequence. Modulo 63, this division is a multiplication by the inverse.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
     std::uint32_t sum = code::kMinDelta * lines;
     for (const code::Secondary& a : code::basis(code)) {
@@ -45,8 +45,8 @@ int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
 
 namespace {
 
-/// Position and sections of a place along one axis: `own` is the section of the lines of this axis,
-/// `cross` that of the other axis.
+/// Position and sections of a place along one axis. `own` is the section of the lines of this axis,
+/// `cross` the section of the lines of the other axis.
 struct AxisPlace {
     std::uint32_t position;
     std::uint8_t own;
@@ -61,8 +61,8 @@ struct AxisPlace {
         place.position = static_cast<std::uint32_t>(target);
         return place;
     }
-    // A whole turn along x adds the roll of one turn to the columns. The bits of the rows are then
-    // read at an x that is larger by one turn.
+    // A whole turn along x adds the roll of one turn to the columns. After the turn, the bits of
+    // the rows are read at an x that is larger by the length of a turn.
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);
         return static_cast<std::uint8_t>(sum % kSections);

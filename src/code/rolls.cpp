@@ -13,9 +13,9 @@ int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32
 }
 
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place) {
-    // The part of a roll that comes from a4 is the sum over the whole turns of a4 and over the
-    // digits before the place. This sum is less than kTurns, a multiple of 63. Adding kTurns keeps
-    // the difference positive.
+    // The contribution of a4 to a roll is the sum over the whole turns of a4 and over the digits
+    // before the place. The contribution is less than kTurns, a multiple of 63. Adding kTurns keeps
+    // the difference of two contributions positive.
     constexpr std::uint32_t kTurns = 512 * kSections;
     const std::uint32_t lines = modulo_sections(position) + 4 * kSections;
     const auto by_a4 = [&](CodeVariant code) {

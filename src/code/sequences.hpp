@@ -78,8 +78,8 @@ consteval bool is_quasi_de_bruijn(const Digits<Length>& sequence, int order, uns
     return true;
 }
 
-/// Returns true if the cyclic sequence contains a string of `length` bits and also the same string
-/// flipped and reversed.
+/// Returns true if the cyclic sequence contains a string of `length` bits and also the flipped and
+/// reversed string.
 template <std::size_t Length>
 consteval bool has_flipped_reverse(const Digits<Length>& sequence, std::size_t length) {
     for (std::size_t i = 0; i < Length; ++i) {

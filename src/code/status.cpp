@@ -70,13 +70,13 @@ constexpr std::size_t row_of(Status status) {
     return std::min<std::size_t>(static_cast<std::size_t>(status), kStatusCount);
 }
 
-/// Names, stored separately from the messages. A program for a device that prints no messages then
-/// does not contain them.
+/// Names, stored separately from the messages, so a program for a device that prints no messages
+/// does not contain the messages.
 constexpr auto kNames = [] {
     std::array<std::array<char, 16>, kTexts.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::string_view name = kTexts[i].name;
-        // Including the terminating zero.
+        // Includes the terminating zero in the copy.
         std::copy_n(name.data(), name.size() + 1, names[i].begin());
     }
     return names;

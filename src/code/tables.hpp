@@ -17,8 +17,9 @@ inline constexpr std::uint8_t kAbsent = 255;
 /// difference provides one digit.
 inline constexpr int kOrder = 5;
 
-/// Numbers of entries by which the tables of a sequence extend beyond its end: for lines after the
-/// first line, and for the lanes of a vector that begins at the last line.
+/// Numbers of entries by which the tables of a sequence extend beyond its end: kLinesAhead entries
+/// for the lines after the first line, and kVectorAhead entries for the lanes of a vector that
+/// begins at the last line.
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
@@ -38,14 +39,16 @@ constexpr std::uint32_t modulo_sections(std::uint32_t n) {
 /// A secondary number sequence with its tables, in one type for all lengths and bases.
 struct Secondary {
     const std::uint8_t* digits;  ///< `length` digits
-    /// Sums of the weighted digits before each place, modulo 63. They are the contribution of the
-    /// sequence to the roll. The table extends beyond the end of the sequence by kLinesAhead +
-    /// kVectorAhead entries.
+    /// Sums of the weighted digits before each place, modulo 63. The element of a place is the
+    /// contribution of the sequence to the roll. The table extends beyond the end of the sequence
+    /// by kLinesAhead + kVectorAhead entries.
     const std::uint8_t* rolls;
-    /// First place of each string of 5 digits, indexed by its key; kAbsent if none.
+    /// First place of each string of 5 digits, indexed by its key, or kAbsent if the string does
+    /// not occur.
     const std::uint8_t* first_place_of;
-    /// Bit set of the places of each digit, from the lowest bit on. The bit sets are cyclic and
-    /// have 256 + kLinesAhead bits.
+    /// One bit set per digit: bit i is set if the digit occurs at place i. The sequence is repeated
+    /// cyclically up to 256 + kLinesAhead bits. Bit 0 is the least significant bit of the first
+    /// word.
     const std::uint32_t* const* places_of;
     std::uint32_t reciprocal;     ///< 2^20 / length
     std::uint16_t rest_of_65536;  ///< 65536 modulo length
@@ -64,9 +67,9 @@ struct Secondary {
             rest -= length;
         return rest;
     }
-    /// Returns the places at which the same `count` digits begin as at `place`, including `place`.
-    /// The result is a bit set of the 32 places from 32 * word on. Bits beyond the end of the
-    /// sequence are 0.
+    /// Returns the places at which the next `count` digits equal the digits at `place`. The result
+    /// is a bit set of places 32 * word to 32 * word + 31, including `place`. Bits beyond the end
+    /// of the sequence are 0.
     constexpr std::uint32_t equal_places(std::uint32_t place, int count, std::uint32_t word) const {
         const std::uint32_t rest = length - 32 * word;
         std::uint32_t places = rest < 32 ? ~(~std::uint32_t{0} << rest) : ~std::uint32_t{0};
@@ -79,7 +82,7 @@ struct Secondary {
     }
 };
 
-/// Returns the table Secondary::rolls of a sequence.
+/// Returns the table `Secondary::rolls` of a sequence.
 template <std::size_t Length>
 consteval Digits<Length + kLinesAhead + kVectorAhead> rolls(const Digits<Length>& sequence,
                                                             int weight) {
@@ -91,7 +94,7 @@ consteval Digits<Length + kLinesAhead + kVectorAhead> rolls(const Digits<Length>
     return result;
 }
 
-/// Returns the table Secondary::places_of of a sequence for one digit.
+/// Returns the table `Secondary::places_of` of a sequence for one digit.
 template <std::size_t Length>
 consteval auto places_of(const Digits<Length>& sequence, int digit) {
     std::array<std::uint32_t, (256 + kLinesAhead) / 32> words{};
@@ -101,8 +104,7 @@ consteval auto places_of(const Digits<Length>& sequence, int digit) {
     return words;
 }
 
-/// Returns the roll of a whole turn of a sequence, divided by the length of the sequence, modulo
-/// 63.
+/// Returns the roll of a whole turn of a sequence divided by the length of the sequence, modulo 63.
 consteval std::uint8_t turn_roll(std::size_t length, unsigned roll_of_turn) {
     std::size_t inverse = 1;
     while (length * inverse % kSections != 1)
@@ -186,7 +188,7 @@ inline constexpr auto kMainRepeated = [] {
     return bits;
 }();
 
-/// 32 bits of the main sequence from each index on. The first bit is the lowest bit.
+/// The 32 bits of the main sequence that begin at each index. The first bit is the lowest bit.
 inline constexpr auto kMainWords = [] {
     std::array<std::uint32_t, kSections> words{};
     for (std::size_t i = 0; i < words.size(); ++i) {

@@ -1,6 +1,6 @@
 // Minimum number of lines whose rolls differ between a position in one code variant and any
-// position in another variant, by place in a4. The same place is excluded if both variants have it
-// with the same rolls. Generated; tests/unit/code/unshared_codes_test.cpp recomputes the table.
+// position in another variant, by place in a4. The place itself is excluded if it has the same
+// rolls in both variants. Generated; tests/unit/code/unshared_codes_test.cpp recomputes the table.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace dotpose::code {
 
 /// Minimum numbers of unshared lines, indexed by the code variant read, the other variant, and the
 /// number of lines (`kUnsharedOf`). Each string contains one digit per place of the first line in
-/// a4. The minimum is over all places and shifts of the other variant, except the same place if
-/// both variants have it with the same rolls.
+/// a4. The minimum is over all places and shifts of the other variant, except the place itself if
+/// it has the same rolls in both variants.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kCodeVariantCount>,
                             kCodeVariantCount>
     kUnsharedInOther{{

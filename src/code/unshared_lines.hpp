@@ -84,10 +84,10 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
 /// Maximum number of unshared lines for which kMaxPositionsWith contains bounds.
 inline constexpr std::size_t kMaxCounted = 7;
 
-/// Upper bounds of the number of positions with exactly n unshared lines, indexed by row, sequence
-/// and n - 1. Only positions that differ from the position read in this sequence alone are counted,
-/// once for each shift at which they share a line. The bounds hold at all places and for the a4 of
-/// every code variant.
+/// Upper bounds on the number of positions with exactly n unshared lines, indexed by row, sequence
+/// and n - 1. Only positions that differ from the position read only in the given sequence are
+/// counted, once for each shift at which they share a line. The bounds hold at all places and for
+/// the a4 of every code variant.
 inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>, 3>
     kMaxPositionsWith{{
         {{{1, 4, 15, 34, 64, 120, 227},
@@ -104,16 +104,16 @@ inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>
           {0, 0, 3, 4, 7, 10, 16}}},
     }};
 
-/// Returns the minimum number of unshared lines, among `kUnsharedOf[row]` lines, over all positions
-/// that differ in this sequence only. The minimum is at least row + 1; three bits of the entry
-/// store the excess.
+/// Returns the minimum number of unshared lines, among `kUnsharedOf[row]` consecutive lines, over
+/// all positions that differ only in the sequence of `entry`. The minimum is at least row + 1.
+/// Three bits of the entry store the excess.
 constexpr std::size_t unshared_at_one_shift(std::size_t entry, std::size_t row) {
     return row + 1 + (kUnshared[entry] >> 3 * row & 7U);
 }
 
-/// Returns the minimum number of unshared lines if one part of a view is read at one shift of such
-/// a position, and the rest of the view at another shift. The minimum is at least row; two bits of
-/// the entry store the excess.
+/// Returns the minimum number of unshared lines if one part of a view is read at one shift of a
+/// position that differs only in the sequence of `entry`, and the rest of the view at another
+/// shift. The minimum is at least row. Two bits of the entry store the excess.
 constexpr std::size_t unshared_on_two_sides(std::size_t entry, std::size_t row) {
     return row + (kUnshared[entry] >> (9 + 2 * row) & 3U);
 }

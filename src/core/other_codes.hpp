@@ -12,8 +12,8 @@ namespace dotpose::core {
 /// Likelihood ratios of another code variant along one axis, relative to the place read. A ratio of
 /// 1 means equally likely.
 struct OtherAxis {
-    float here = 1;  ///< likelihood ratio of the same place in the other variant
-    /// Upper bound of the sum of the likelihood ratios of all other places in that variant.
+    float here = 1;  ///< likelihood ratio of the place of the reading in the other variant
+    /// Upper bound on the sum of the likelihood ratios of all other places in that variant.
     float elsewhere = 0;
     float best = 0;  ///< largest likelihood ratio of another place, among the places examined
     std::uint32_t position = 0;  ///< position of the first line at the place of `best`
@@ -25,9 +25,9 @@ struct OtherCode {
     OtherAxis x;
     OtherAxis y;
 
-    /// Returns the likelihood ratio of the same place, from both axes.
+    /// Returns the likelihood ratio of the place of the reading, over both axes.
     float here() const { return x.here * y.here; }
-    /// Returns the sum of the likelihood ratios of all other places.
+    /// Returns the sum of the likelihood ratios of all other places, over both axes.
     float elsewhere() const { return x.here * y.elsewhere + x.elsewhere * (y.here + y.elsewhere); }
 };
 
@@ -36,7 +36,7 @@ struct OtherCodes {
     bool are_wanted = false;
     /// Value of `log2_in_question_q8` if the code variant is given.
     static constexpr int kNoneInQuestion = -1;
-    /// log2 of the number of possible code variants, each weighted by its odds, in 2^-8.
+    /// log2 of the number of possible code variants, each weighted by its odds, in units of 2^-8.
     int log2_in_question_q8 = 0;
     /// First column and row that were compared, as positions in the code variant that was read.
     Cell first;

@@ -72,7 +72,7 @@ void threshold_bands(int ready, const DeviceOptions& options, Workspace& w) {
     for (int band = newest - ready + (is_last ? 1 : 0); ready > 0; --ready, ++band) {
         const int before = w.threshold.max_contrast;
         measure_levels(band, threshold, w.threshold);
-        // No row above had contrast, so the dots found there are noise.
+        // No row above had contrast, so the dots found above are noise.
         if (before < min_tile_contrast(threshold, w.threshold)) w.dot_count = 0;
         for (int v = band_begin(w.threshold, band); v < band_end(w.threshold, band); ++v) {
             grow_blobs(v, w.threshold, w.open, dot_list(w));

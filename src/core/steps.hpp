@@ -20,7 +20,8 @@ FixedVec image_centre_q8(const AdaptiveThreshold& threshold);
 /// Returns the image point whose pose is reported. `centre_q8` is the image centre.
 FixedVec reference_q8(FixedVec centre_q8, const DeviceOptions& options);
 
-/// Returns ok if a frame can be started, or an image can be located. Otherwise returns the reason.
+/// Returns ok if a frame of this size can be started, or if the image can be located. Otherwise
+/// returns the reason.
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w);
 Status check(const ImageView& image, const DeviceOptions& options, const Workspace& w);
 
@@ -31,7 +32,7 @@ const Fix& refuse(Status reason, Workspace& w);
 /// Clears the results of the previous frame.
 void forget_frame(Workspace& w);
 
-/// Starts a frame. Its size must be within the capacity of the workspace.
+/// Starts a frame. The size of the frame must be within the capacity of the workspace.
 void begin_frame(int width_px, int height_px, Workspace& w);
 
 /// Detects the blobs in `ready` bands of rows.
@@ -54,10 +55,11 @@ Status find_dots(const DeviceOptions& options, Workspace& w);
 /// point.
 Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w);
 
-/// Chooses the region of the grid that is decoded. The memory for lines limits its size.
+/// Chooses the region of the grid that is decoded. The size of the region is limited by the memory
+/// for lines.
 void choose_region(Workspace& w);
 
-/// Returns `mirrored` if the bits are those of a mirrored pattern. Otherwise returns `reason`.
+/// Returns `mirrored` if the bits are the bits of a mirrored pattern. Otherwise returns `reason`.
 Status refused(Status reason, const Workspace& w);
 
 }  // namespace dotpose::core

@@ -1,6 +1,6 @@
 // Workspace: the memory of a locator, which contains the results of every stage after a frame.
-// Capacities are fixed. The workspace is in the DeviceMemory, SmallMemory or LargeMemory of the
-// caller and is reused for each frame.
+// Capacities are fixed. The workspace is constructed in the DeviceMemory, SmallMemory or
+// LargeMemory of the caller and is reused for each frame.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ struct Workspace {
     OpenBlobs open;
     std::span<DetectedDot> dots;  ///< size is the capacity
     int dot_count = 0;
-    /// Distance from the image centre, per axis, within which dots are kept; decreases when `dots`
-    /// is full.
+    /// Distance from the image centre, along each axis, within which dots are kept. The distance
+    /// decreases when `dots` is full.
     int dots_kept_within_px = 0;
     // lattice
     std::span<std::uint16_t> seeds;  ///< indices of dots

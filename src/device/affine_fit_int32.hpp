@@ -46,7 +46,7 @@ class AffineFitInt32 {
                FixedVec{weight * target.x, weight * target.y});
     }
     int count() const { return changes_ - unused_; }
-    /// Sets `at_centre`, du and dv of the plane, and no other members. Targets are in 2^-bits
+    /// Sets `at_centre`, du and dv of the plane, but no other members. Targets are in 2^-bits
     /// cells. Returns false if the points are collinear.
     bool solve(int bits, PlaneFromImage& plane);
 
@@ -69,8 +69,8 @@ class AffineFitInt32 {
     }
     /// Adds the recent 32-bit sums to the 64-bit sums.
     void carry_over();
-    /// Returns n^2 times the covariance of two coordinates. `products` is the sum of their
-    /// products; a and b are the sums of the coordinates.
+    /// Returns n^2 times the covariance of two coordinates. `products` is the sum of the products
+    /// of the coordinates, a and b are their sums.
     std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const;
 
     std::int32_t changes_ = 0;

@@ -21,7 +21,7 @@ std::array<FixedVec, 4> displacements(std::int32_t length) {
     return all;
 }
 
-/// Offset of a dot from its intersection, in 2^-16 spacings, and the symbol of the dot.
+/// Offset of a dot from its intersection, in units of 2^-16 spacings, and the symbol of the dot.
 struct Offset {
     FixedVec q16;
     Symbol symbol;
@@ -69,13 +69,13 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
         return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
     // The squared distances of a Gaussian in the plane have a median of 1.39 sigma^2. The limit of
-    // 12 medians is therefore at 4 sigma. By chance, 1 dot in 3,000 exceeds it.
+    // 12 medians is therefore at 4 sigma. By chance, 1 dot in 3,000 exceeds the limit.
     const std::int32_t limit_q16 = 12 * sampled_median([&](const Offset& offset) {
                                        return squared_residual_q16(offset.q16, offset.symbol);
                                    }) +
                                    1;
 
-    // Targets are the printed places of the dots, in 1/64 cells, which are within 2^15.
+    // Targets are the printed places of the dots, in units of 1/64 cell, and are within 2^15.
     constexpr int kTargetBits = 6;
     const auto targets = displacements(shift_rounded(displacement_q16, 16 - kTargetBits));
     AffineFitInt32 fit;

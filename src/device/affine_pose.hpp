@@ -9,8 +9,8 @@ namespace dotpose::core {
 
 /// Fits the map from the centres of the dots to their printed places. Leaves out dots with large
 /// residuals. Sets `displacement_q16` to the distance of a typical dot from its intersection, in
-/// 2^-16 spacing. Returns the number of dots used. Returns 0, with an unchanged map, if the dots do
-/// not determine the map.
+/// units of 2^-16 spacings. Returns the number of dots used. Returns 0, with an unchanged map, if
+/// the dots do not determine the map.
 int fit_affine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                     std::int32_t& displacement_q16);
 

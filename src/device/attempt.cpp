@@ -14,12 +14,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of dots from which the grid is searched. It determines the time
+/// Maximum number of dots from which the grid is searched. This number determines the time
 /// (docs/firmware.md).
 constexpr int kSeeds = 64;
 
-/// Returns the point at which the grid search starts: the image centre or, if the centroid of the
-/// dots is far from the centre, as at the edge of a sheet, this centroid.
+/// Returns the point at which the search for the grid starts. This is the image centre, or the
+/// centroid of the dots if the centroid is far from the centre, as at the edge of a sheet.
 FixedVec start_q8(const Workspace& w) {
     const FixedVec centre_q8 = image_centre_q8(w.threshold);
     FixedVec sum_q4;
@@ -43,15 +43,15 @@ Status find_grid(const DeviceOptions& options, Workspace& w) {
     find_origin(w.found_dots(), first(w.seeds, w.seed_count), start, w.lattice);
     const Status grown = grow_grid(w.found_dots(), options.lattice, start, w.lattice,
                                    w.grid_from_image);  // II-B.3
-    // All maps of attempts are relative to the image centre.
+    // All attempts use maps relative to the image centre.
     w.grid_from_image = affine_tangent(w.grid_from_image, image_centre_q8(w.threshold));
     return grown;
 }
 
 /// Finds the position in the code from the bits.
 Status read_position(const DeviceOptions& options, Workspace& w) {
-    // The decoder does not need the 8 x 8 window of the paper's method. It is computed for display
-    // only.
+    // The decoder does not need the 8 x 8 window of the method of the paper. The window is computed
+    // for display only.
     if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
     choose_region(w);
     const Status status =
@@ -66,7 +66,7 @@ Status verify_position(const DeviceOptions& options, Workspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Fits the pose to the dots, whose positions in the code are known.
+/// Fits the pose to the dots, with the known positions of the dots in the code.
 Status measure_pose(const DeviceOptions& options, Workspace& w) {
     const Nominal nominal(w.grid, options.code, w.decoding);
     w.pattern_from_image =

@@ -24,15 +24,15 @@ struct Square {
     }
 };
 
-/// Returns the points, in 2^-16 spacing, that truncation assigns to cells up to `limit` cells from
-/// the middle cell.
+/// Returns the points, in units of 2^-16 spacings, that truncation assigns to cells up to `limit`
+/// cells from the middle cell.
 Square cells_within(int limit) {
     return {static_cast<std::uint32_t>(-limit * 65536),
             static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};
 }
 
-/// Returns the points, as fractions times 2^16, whose rounded offset is at most `limit_q16` on both
-/// axes.
+/// Returns the points, as fractions times 2^16, whose rounded offset is at most `limit_q16` along
+/// both axes.
 Square offsets_within(std::int32_t limit_q16) {
     return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
             static_cast<std::uint32_t>(std::min<std::int32_t>(2 * limit_q16, 65535)) << 16};
@@ -45,15 +45,15 @@ bool is_near(FixedVec rounding_q16, const Square& offsets) {
 /// Maximum distance of a cell whose dot may belong to the grid.
 constexpr int kFarthest_cells = 500;
 
-/// Calls `use(dot, c, is_within_reach)` for each dot. Truncating its place c in the plane gives the
-/// nearest cell. Does not set `near_intersections` of the result.
+/// Calls `use(dot, c, is_within_reach)` for each dot. c is the plane point of the dot, which
+/// truncation converts to the nearest cell. Does not set `near_intersections` of the result.
 template <typename Use>
 Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const Cells& cells,
                        Use use) {
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
-    // Fast test. Most dots are within reach, and no farther away than the dots before them.
+    // Fast test. Most dots are within reach, and not farther away than the dots before them.
     Square common = cells_within(0);
     for (const DetectedDot& dot : dots) {
         const FixedVec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));
@@ -75,7 +75,7 @@ Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const
     return found;
 }
 
-/// The cell of a dot, packed into one word; `no` if the fit does not use the dot.
+/// The cell of a dot, packed into one word, or `no` if the fit does not use the dot.
 enum class Used : std::uint32_t { no = 0x80808080 };
 
 Used used(FixedVec rounding_q16) {
@@ -91,7 +91,7 @@ FixedVec cell_of(Used used) {
 std::int64_t mean_square_q20(std::int32_t squared_offsets_q14, int dots) {
     return squared_offsets_q14 / std::max(dots, 1) * 64;
 }
-/// Returns the square of the offset of a dot from its intersection, in 2^-14 spacing^2.
+/// Returns the square of the offset of a dot from its intersection, in units of 2^-14 spacing^2.
 std::int32_t squared_offset_q14(FixedVec rounding_q16) {
     const FixedVec offset_q8{(rounding_q16.x >> 8 & 255) - 128, (rounding_q16.y >> 8 & 255) - 128};
     return (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
@@ -115,7 +115,8 @@ class Fits {
         return sums_.solve(0, plane) && is_nearly_square(plane);
     }
 
-    /// Checks that the dots are on a grid and displaced. Errors: no_grid, no_displacement.
+    /// Checks that the dots are displaced from the intersections of a grid. Errors: no_grid,
+    /// no_displacement.
     Status judge(int reach_cells, const PlaneFromImage& plane) const {
         const Square near = near_;
         std::int32_t squared_offsets_q14 = 0;

@@ -1,6 +1,6 @@
-// Near dot: measures the dot near an intersection at a known place in the image. The measurement
-// does not use the code, so it can confirm or contradict the code. Most functions are inline,
-// because calls would take a third of the time per dot on small processors.
+// Near dot: measures the dot near an intersection at a known place in the image. The code does not
+// influence the measurement, so a measurement can confirm or contradict the code. Most functions
+// are inline, because calls would take a third of the time per dot on small processors.
 #pragma once
 
 #include <array>
@@ -14,8 +14,9 @@
 
 namespace dotpose::core {
 
-/// Half the side of the square around an intersection that contains its dot, and of the square
-/// around the centre of a dot that contains the dot, in px. Valid for spacings of 7 to 13 px.
+/// Half the side, in px, of the square around an intersection that contains the dot of the
+/// intersection, and of the square around the centre of a dot that contains the dot. Valid for
+/// spacings of 7 to 13 px.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kDotHalf_px = 2;
 
@@ -41,15 +42,16 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
     return (top[0] + top[kSide_px] + bottom[0] + bottom[kSide_px]) >> 2;
 }
 
-/// Sets the pixels that `read_symbol` reads. Returns false if any of them is outside its square.
+/// Sets the pixels that `read_symbol` reads. Returns false if any of these pixels is outside the
+/// square of its intersection.
 bool lay_dot_pixels(Tracking& tracking);
 
 /// Reading of a dot, packed into one register.
 class ReadSymbol {
   public:
     static constexpr ReadSymbol unclear() { return ReadSymbol(-1); }
-    /// Constructs a clear reading: the symbol, and the level from 0 to 255 below which pixels
-    /// belong to the dot.
+    /// Constructs a clear reading. `level`, from 0 to 255, is the level below which pixels belong
+    /// to the dot.
     constexpr ReadSymbol(int symbol, std::int32_t level) : bits_(level * 4 + symbol) {}
 
     /// Returns true if one of the four places was clearly the darkest.
@@ -71,7 +73,7 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
         kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);
     const int quarter = (intersection_q16.x >> 15 & 1) + (intersection_q16.y >> 14 & 2);
     const std::int16_t* offset = tracking.dot_pixels[static_cast<std::size_t>(quarter)].data();
-    // Each value is four times a sum of four pixels, plus the symbol.
+    // Each value is four times the sum of four pixels, plus the symbol.
     std::int32_t darkest = INT32_MAX;
     std::int32_t second = INT32_MAX;
 #pragma GCC unroll 4
@@ -90,7 +92,7 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
     const std::int32_t paper = paper_around(tracking, at);
     const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
     // A dot darkens the sum of its own four pixels by about 6 times `depth`, and the sums of the
-    // places beside it by about 2 times `depth`.
+    // adjacent places by about 2 times `depth`.
     const bool is_clear =
         paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
     return is_clear ? ReadSymbol(darkest & 3, paper - depth) : ReadSymbol::unclear();
@@ -103,8 +105,8 @@ struct NearDot {
 };
 
 /// Measures the centroid of the pixels darker than `level` in a square around a place, with a side
-/// of 2 Half + 1 px. Returns false if the mass is not that of a dot, or if the square is not stored
-/// completely.
+/// of 2 Half + 1 px. Returns false if the mass is not plausible for a dot, or if the square is not
+/// stored completely.
 template <int Half>
 [[gnu::always_inline]] inline bool measure_square(const Tracking& tracking, FixedVec place_q16,
                                                   std::int32_t level, NearDot& dot) {

@@ -13,11 +13,11 @@ constexpr int stride_of(int width_px) {
 /// Stores a row. Requires room for the row.
 void keep_row(const std::uint8_t* pixels, Tracking& tracking);
 
-/// Discards the rows before the newest `Tracking::rows_needed` rows, unless there is room for
+/// Discards all rows except the newest `Tracking::rows_needed` rows, unless there is room for
 /// `rows` more rows.
 void make_room(int rows, Tracking& tracking);
 
-/// Returns a stored row. The following rows are adjacent in memory.
+/// Returns a stored row. The rows after it are adjacent in memory.
 inline const std::uint8_t* kept_row(const Tracking& tracking, int v) {
     return tracking.rows.data() + (v - tracking.first_kept) * tracking.stride_px;
 }

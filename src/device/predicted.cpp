@@ -61,8 +61,8 @@ bool invert(const PlaneFromImage& plane, FixedVec at_q16, CellMap& cells) {
     return true;
 }
 
-/// Leaves out the edges of a frame that contains more cells than the capacity. Returns the maximum
-/// distance of a cell in the remaining part from its middle.
+/// Leaves out the edges of a frame that contains too many cells for the memory. Returns the maximum
+/// distance of a cell from the middle of the remaining part.
 int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
     int width_px = tracking.width_px;
     int height_px = tracking.height_px;
@@ -71,8 +71,8 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
             static_cast<std::uint32_t>(width_px * width_px + height_px * height_px);
         const int cells = static_cast<int>(square_root(squared_px)) * 128 / spacing_q8 + 3;
         if (cells <= kMaxComparedLines / 2) {
-            // Crops the same number of pixels from opposite sides, so the image centre does not
-            // change.
+            // The same number of pixels is cropped from opposite sides, so the image centre does
+            // not change.
             tracking.left_out_px = static_cast<std::int16_t>((tracking.width_px - width_px) >> 1);
             tracking.rows_above = static_cast<std::int16_t>((tracking.height_px - height_px) >> 1);
             tracking.height_px = height_px;

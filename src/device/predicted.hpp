@@ -20,7 +20,7 @@ Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Track
 /// Index of the cell near the middle of the image, along both axes.
 inline constexpr int kMiddleCell = kMaxComparedLines / 2;
 
-/// Returns the place of the intersection of a cell, in 2^-16 px.
+/// Returns the place of the intersection of a cell, in units of 2^-16 px.
 inline FixedVec place_q16(const CellMap& cells, int i, int j) {
     return {cells.origin_q16.x + i * cells.along_x_q16.x + j * cells.along_y_q16.x,
             cells.origin_q16.y + i * cells.along_x_q16.y + j * cells.along_y_q16.y};
@@ -29,7 +29,8 @@ inline FixedVec place_q16(const CellMap& cells, int i, int j) {
 /// Returns the cell in the middle of the first rows.
 FixedVec middle_cell(const Tracking& tracking);
 
-/// Sets the displacement of dots, in 2^-12 spacing, and the places of dots that depend on it.
+/// Sets the displacement of dots, in units of 2^-12 spacings, and the places of dots that depend on
+/// this displacement.
 void set_displacement(std::int32_t displacement_q12, Tracking& tracking);
 
 }  // namespace dotpose::core

@@ -25,8 +25,8 @@ TrackedView view_of(const Tracking& tracking) {
     std::int32_t displaced_q16 = 0;
     for (const FixedVec displaced : tracking.displaced_q16)
         displaced_q16 = std::max(displaced_q16, larger_component(displaced));
-    // The place of a dot is rounded to a pixel, which needs kDotHalf_px further pixels on each
-    // side.
+    // The place of a dot is rounded to a pixel, so the dot needs kDotHalf_px pixels on each side of
+    // this pixel.
     const std::int32_t of_dot_q16 = kDotHalf_px * 65536 - 32768 + displaced_q16;
     // The square around the pixel of an intersection must also be in the image.
     const std::int32_t min_q16 = std::max<std::int32_t>(kHalf_px * 65536, of_dot_q16);
@@ -42,7 +42,7 @@ TrackedView view_of(const Tracking& tracking) {
 
 /// Finds the first cell in view of each row of cells, beginning at row `j`, in steps of `j_step`,
 /// up to the first row without a cell in view. The cells in view of a row are adjacent, and near
-/// those of the previous row.
+/// the cells in view of the previous row.
 void lay_rows(Tracking& tracking, int j, int j_step) {
     const TrackedView view = tracking.view;
     const RowDirection direction = row_direction(tracking);
@@ -72,7 +72,7 @@ void lay_rows(Tracking& tracking, int j, int j_step) {
     }
 }
 
-/// Stores the symbol that was read in a cell. Returns true if it is the symbol of the code.
+/// Stores the symbol that was read in a cell. Returns true if it equals the symbol of the code.
 DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     ComparedLine& column = column_of(tracking, i);
     ComparedLine& row = row_of(tracking, j);
@@ -88,7 +88,7 @@ DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     return false;
 }
 
-/// Adds the dot at the next intersection of a row, if it agrees with the code and is near its
+/// Adds the dot at the next intersection of a row, if the dot agrees with the code and is near its
 /// predicted place. Masses are below 2^12, and offsets are at most 2 px in the squares, so the sums
 /// over a row of 32 dots are below 2^30.
 DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
@@ -106,7 +106,8 @@ DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& r
     };
     const FixedVec offset_q8{sums.x * 256 - mass * in_pixel_q8(place_q16.x),
                              sums.y * 256 - mass * in_pixel_q8(place_q16.y)};
-    // Printers and lenses rarely move a dot by more than an eighth of the spacing, but dirt does.
+    // Printers and lenses rarely move a dot by more than an eighth of the spacing. Larger offsets
+    // are due to dirt.
     if (!is_within(offset_q8, mass * (tracking.spacing_q8 >> 3))) return;
     ++tracking.dots_measured;
     FixedVec& of_symbol = tracking.offset_q8[symbol];

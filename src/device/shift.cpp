@@ -11,8 +11,8 @@
 namespace dotpose::core {
 
 Shifts::Shifts(const Tracking& tracking) {
-    // Uses the columns within two spacings of the middle column, where a turn hardly blurs the
-    // sums.
+    // Uses the columns within two spacings of the middle column. In these columns, a turn hardly
+    // blurs the sums.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
     // A turn of 4 degrees (18/256 rad) about the image centre moves the first rows sideways.
@@ -30,7 +30,7 @@ Shifts::Shifts(const Tracking& tracking) {
     divide_by_dots();
 }
 
-/// Sets the paper level, which is the mean of the pixels that are lighter than the mean.
+/// Sets the paper level to the mean of the pixels that are lighter than the overall mean.
 void Shifts::measure_paper(const Tracking& tracking) {
     int threshold = 0;
     for (int round = 0; round < 2; ++round) {
@@ -52,8 +52,9 @@ void Shifts::measure_paper(const Tracking& tracking) {
 
 void Shifts::add_dots(const Tracking& tracking) {
     const int reach = kStep_px * steps_.y;
-    // This number of cells around the middle cell includes all dots within two spacings of the
-    // middle column, and the dots that may be shifted into the rows, at any turn of the grid.
+    // Maximum distance of the cells visited from the middle cell, along each axis. These cells
+    // contain all dots within two spacings of the middle column, and all dots that a shift may move
+    // into the rows, at any turn of the grid.
     constexpr int kAround = 5;
     const FixedVec middle = middle_cell(tracking);
     const auto around = [&](int cell) {
@@ -92,7 +93,7 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum divisor. Means of fewer dots are unreliable and are therefore reduced.
+    // Minimum divisor. A mean of fewer dots is unreliable, so it is reduced.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);
@@ -103,7 +104,7 @@ void Shifts::divide_by_dots() {
     }
 }
 
-/// Clears the shifts around the shift that was returned.
+/// Clears the shifts around a shift that was returned.
 void Shifts::forget_around(FixedVec at) {
     constexpr int kFar = 2;
     for (int y = std::max<std::int32_t>(at.y - kFar, 0);
@@ -120,7 +121,7 @@ bool Shifts::next(FixedVec& shift_q8) {
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const std::uint16_t* here = row_of(y);
         for (int x = 0; x <= 2 * steps_.x; ++x, ++here) {
-            // The weighted sum with the neighbours reduces noise.
+            // A weighted sum with the neighbours has less noise.
             const int around = 4 * here[0] + here[-1] + here[1] + here[-kPerRow] + here[kPerRow];
             if (around <= best) continue;
             best = around;
@@ -129,7 +130,7 @@ bool Shifts::next(FixedVec& shift_q8) {
     }
     if (best == 0) return false;
     constexpr int kStep_q8 = kStep_px * 256;
-    // Interpolates the maximum between the steps, from the two neighbours.
+    // Interpolates the maximum between the steps, from its two neighbours.
     const auto between = [](int before, int here, int after) {
         return (after - before) * kStep_q8 / std::max(before + here + after, 1);
     };

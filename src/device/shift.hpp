@@ -1,4 +1,4 @@
-// Shift: finds the error of a prediction from the first rows of a tracked frame.
+// Shift: the error of a prediction, from the first rows of a tracked frame.
 #pragma once
 
 #include <array>
@@ -8,20 +8,19 @@
 namespace dotpose::core {
 
 /// Mean darkness at each possible shift, over the places of the dots of the code near the middle
-/// column of the image. The displacements of the dots make the correct shift the darkest. If few
-/// dots are in view, shifts by one spacing may be nearly as dark.
+/// column of the image. At the correct shift, all displaced dots are at these places, so this shift
+/// is the darkest. If few dots are in view, shifts by one spacing may be nearly as dark.
 class Shifts {
   public:
     /// Searches the rows stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Sets `shift_q8` to the darkest shift that was not returned yet. Returns false if there is
-    /// none.
+    /// Sets `shift_q8` to the darkest shift that was not returned yet. Returns false if all shifts
+    /// were returned.
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }
-    /// Returns the darkness of the pixel in the middle of a dot, at the last shift that was
-    /// returned.
+    /// Returns the darkness of the pixel in the middle of a dot, at the shift returned last.
     int depth() const { return depth_; }
 
   private:
@@ -36,7 +35,8 @@ class Shifts {
     void add_dots(const Tracking& tracking);
     void add_dot(const Tracking& tracking, int u, int v);
     void divide_by_dots();
-    /// Returns the sums of a row of steps. The elements before the first and after the last are 0.
+    /// Returns the sums of a row of steps. The elements before the first step and after the last
+    /// step are 0.
     std::uint16_t* row_of(int y) { return sums_.data() + (y + 1) * kPerRow + 1; }
     void forget_around(FixedVec at);
 

@@ -16,7 +16,7 @@ namespace dotpose::core {
 namespace {
 
 /// Maximum number of shifts that are tried. The correct shift is almost always the first or the
-/// second.
+/// second shift.
 constexpr int kMaxShifts = 4;
 
 /// Moves the cells to the dots in the first rows. Errors: not_tracked.
@@ -30,7 +30,7 @@ Status settle(Tracking& tracking) {
         if (!shifts.next(shift_q8) || shifts.depth() < tracking.min_contrast)
             return Status::not_tracked;
         tracking.cells.origin_q16 = predicted_q16 + FixedVec{shift_q8.x * 256, shift_q8.y * 256};
-        // Until the mass of dots is measured, the threshold is half way between paper and ink.
+        // Until the mass of dots is measured, the threshold is midway between paper and ink.
         tracking.cut_q8 = 128 * shifts.depth() / paper;
         tracking.min_mass = paper / 8 + 16;
         tracking.max_mass = INT16_MAX;
@@ -90,7 +90,7 @@ Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& op
     t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.code, t)
                                        : Status::not_tracked;
     // Locators with memory for every stage have time to locate the whole frame without the
-    // prediction. This is more exact than tracking only its middle.
+    // prediction. Tracking only the middle would be less accurate.
     if (w.keeps_every_stage && t.left_out_px > 0) t.status = Status::not_tracked;
     t.rows_taken = -t.rows_above;
     if (t.status == Status::ok) lay_tracked_lines(options.code, t);

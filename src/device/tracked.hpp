@@ -8,15 +8,16 @@
 
 namespace dotpose::core {
 
-/// Starts a frame. Its size must be within the capacity of the workspace. Errors: not_tracked.
+/// Starts a frame. The size of the frame must be within the capacity of the workspace. Errors:
+/// not_tracked.
 Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& options,
                             const Prediction& prediction, DeviceWorkspace& w);
 
 /// Takes the next row. Errors: not_tracked. After an error, further rows are ignored.
 Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w);
 
-/// Ends the frame. Sets and returns the fix of the workspace. Its status is not_tracked if any row
-/// returned this status.
+/// Ends the frame. Sets and returns the fix of the workspace. The status is not_tracked if any row
+/// returned not_tracked.
 const Fix& finish_device_tracked(const DeviceOptions& options, DeviceWorkspace& w);
 
 }  // namespace dotpose::core

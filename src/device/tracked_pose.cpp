@@ -19,8 +19,8 @@ int excess_bits(const Tracking& tracking) {
     return std::max(static_cast<int>(std::bit_width(mass)) - 16, 0);
 }
 
-/// Returns the fit of the offsets of the dots from the cells, as a plane over the cells. Dots are
-/// weighted with their masses.
+/// Returns the fit of the offsets of the dots from the cells, as a plane over the cells. The
+/// weights of the dots are their masses.
 AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     std::int32_t mass = 0;
     FixedVec cells;
@@ -64,7 +64,7 @@ bool invert(const CellMap& cells, FixedVec centre_q8, PlaneFromImage& plane) {
     const FixedVec x = cells.along_x_q16;
     const FixedVec y = cells.along_y_q16;
     const std::int64_t det_q24 = cross(x, y) >> 8;
-    // A fit to a few dots may have any result. If cells have at least 1 px^2, no slope overflows.
+    // A fit to a few dots can have any result. If cells have at least 1 px^2, no slope overflows.
     if (det_q24 < 1 << 24) return false;
     const auto slope_q24 = [&](std::int32_t a_q16) {
         return short_quotient(std::int64_t{a_q16} << 32, det_q24);
@@ -85,8 +85,8 @@ bool invert(const CellMap& cells, FixedVec centre_q8, PlaneFromImage& plane) {
     return true;
 }
 
-/// Returns the excess of the mean measured displacement over the displacement of the tracking,
-/// relative to the latter, in 2^-12.
+/// Returns (measured - expected) / expected, in units of 2^-12, for the mean displacement of the
+/// dots. The expected displacement is `Tracking::displacement_q12`.
 std::int32_t relative_excess_q12(const Tracking& tracking, int excess, std::int32_t mass) {
     std::int64_t along = 0;
     for (std::size_t s = 0; s < tracking.offset_q8.size(); ++s) {

@@ -1,4 +1,4 @@
-// Tracked pose: computes the map from image to pattern of a tracked frame in integer arithmetic.
+// Tracked pose: the map from image to pattern of a tracked frame, in integer arithmetic.
 #pragma once
 
 #include "device/tracking.hpp"
@@ -6,7 +6,8 @@
 namespace dotpose::core {
 
 /// Fits the cells to the dots that were read, and sets the map and the typical displacement of
-/// dots, in 2^-16 spacing. Returns the number of dots, or 0 if the dots do not determine the map.
+/// dots, in units of 2^-16 spacings. Returns the number of dots, or 0 if the dots do not determine
+/// the map.
 int fit_tracked_pose(const Tracking& tracking, PlaneFromImage& pattern_from_image,
                      std::int32_t& displacement_q16);
 

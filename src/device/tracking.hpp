@@ -13,7 +13,7 @@
 namespace dotpose::core {
 
 /// Map from the cells of a grid to the image: cell (i, j) is at origin + i along_x + j along_y.
-/// Unlike a Lattice, the map is upright on the pattern.
+/// Unlike a Lattice, the map belongs to the upright pattern.
 struct CellMap {
     FixedVec origin_q16;  ///< in 2^-16 px
     FixedVec along_x_q16;
@@ -25,7 +25,8 @@ struct CellMap {
 struct TrackedRow {
     static constexpr std::int32_t kNever_q16 = INT32_MAX;
 
-    /// Place of the next cell in the image, in 2^-16 px; y is kNever_q16 if there is no next cell.
+    /// Place of the next cell in the image, in units of 2^-16 px. y is kNever_q16 if there is no
+    /// next cell.
     FixedVec next_q16{0, kNever_q16};
     std::int32_t i = 0;  ///< column of the next cell
     // Columns in the following sums are relative to the middle column.
@@ -49,12 +50,12 @@ struct TrackedView {
 };
 
 /// A frame whose dots are measured at predicted places while its rows arrive. If the frame contains
-/// too many cells, only its middle is tracked, and counts as the image.
+/// too many cells, only its middle is tracked and treated as the image.
 struct Tracking {
     Status status = Status::not_tracked;
     std::uint8_t min_contrast = 0;  ///< see DeviceOptions
     // Small processors access the first members fastest, so the members that are used for every dot
-    // come first.
+    // are first.
     int width_px = 0;
     int height_px = 0;
     int rows_taken = 0;  ///< negative before the first row of the tracked part
@@ -66,18 +67,18 @@ struct Tracking {
     std::int32_t max_mass = 0;
     int dots_measured = 0;
     std::int32_t spacing_q8 = 0;    ///< in 2^-8 px
-    std::span<ComparedLine> lines;  ///< the columns in the first half, the rows in the second half
+    std::span<ComparedLine> lines;  ///< first half: columns; second half: rows
     std::array<FixedVec, 4>
         displaced_q16{};  ///< by Symbol: offset of a dot from its intersection, in 2^-16 px
     std::array<FixedVec, 4> offset_q8{};  ///< by Symbol: sum of `offset_q8` over all rows
     /// Offset of the first of the four pixels around a dot, in bytes, relative to the pixel of the
-    /// intersection. Indexed by the quarter of that pixel that contains the intersection, and by
+    /// intersection. Indexed by the quarter of the pixel that contains the intersection, and by
     /// Symbol.
     std::array<std::array<std::int16_t, 4>, 4> dot_pixels{};
     std::int16_t left_out_px = 0;  ///< columns to the left of the tracked part
     std::int16_t rows_above = 0;   ///< rows above the tracked part
     CellMap cells;
-    /// Change of the pattern point per image px, in 2^-20 spacings per px.
+    /// Change of the pattern point per image px, in units of 2^-20 spacings per px.
     FixedVec du_q20;
     FixedVec dv_q20;
     std::int32_t displacement_q12 = 0;
@@ -88,7 +89,7 @@ struct Tracking {
     int next_reading = 0;  ///< value of rows_taken at which dots are read next
     int reach_px = 0;      ///< maximum error of the prediction at the image centre, in px
     Place corner;          ///< place of cell (0, 0) in the code
-    int first_cell = 0;    ///< first cell, per axis, that may be in view
+    int first_cell = 0;    ///< first cell, along each axis, that may be in view
     int last_cell = 0;
     std::span<TrackedRow> grid_rows;
     TrackedView view;

@@ -20,10 +20,10 @@ constexpr int kMinFraction_q3 = 6;
 constexpr int kMinMeasured = 8;
 
 /// Least squares of a shift, a turn and a stretch: offset = shift + stretch p + turn J p, where J
-/// is a quarter turn.
+/// rotates by a quarter turn.
 class SimilarityFit {
   public:
-    /// Adds a dot: its place in px relative to the middle, and its offset in 2^-8 px.
+    /// Adds a dot. p is its place in px relative to the middle.
     void add(FixedVec p, FixedVec offset_q8) {
         ++count_;
         p_ = p_ + p;
@@ -61,7 +61,8 @@ class SimilarityFit {
     std::int32_t across_ = 0;
 };
 
-/// Returns v stretched and turned, minus v. Not inlined, because 64-bit products need much code.
+/// Returns the difference between v, scaled and rotated, and v. Not inlined, because 64-bit
+/// products need much code.
 [[gnu::noinline]] FixedVec change(const SimilarityFit::Similarity& s, FixedVec v) {
     const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
     return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),
@@ -165,7 +166,7 @@ void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) 
 }
 
 /// Applies a small turn and stretch of the cells to the slopes of the plane. For each coordinate,
-/// the pair (dv, du) is stretched and turned like a vector.
+/// the pair (dv, du) is scaled and rotated like a vector.
 void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
     FixedVec& du = tracking.du_q20;
     FixedVec& dv = tracking.dv_q20;
@@ -188,8 +189,8 @@ bool find_turn(Tracking& tracking) {
         visit_round(tracking, middle, round, [&](int i, int j) { rounds.measure(i, j); });
         agree = rounds.seen() < kMinMeasured ||
                 8 * rounds.agreeing() >= kMinFraction_q3 * rounds.seen();
-        // The cells move only after some rounds, because the middle dot adds nothing to `recentre`,
-        // and the third round adds little to the second.
+        // The cells are moved only after some rounds: the middle dot does not change the result of
+        // `recentre`, and the third round adds few dots to the second round.
         const bool moves_cells = round % 2 == 0 ? round > 0 : round == 1;
         if (moves_cells && rounds.agreeing() > before) rounds.lay_cells();
     }

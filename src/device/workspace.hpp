@@ -22,15 +22,15 @@ struct DeviceWorkspace : Workspace {
 struct DeviceCapacity {
     int width_px = 0;
     int height_px =
-        kMaxFrameSide_px;  ///< less for frames that are wider than kMaxSideWithLowTiles_px
+        kMaxFrameSide_px;  ///< smaller for frames that are wider than kMaxSideWithLowTiles_px
     int dots = 0;
     int grid_side = 0;
-    // Runs and blobs of one row. The capacities exceed the number of dots by far, so further runs
-    // and blobs are noise or graphics.
+    // Runs and blobs of one row. The capacities exceed the number of dots by far, so runs and blobs
+    // beyond them are noise or graphics.
     int runs = 0;
     int blobs = 0;
-    // Maximum number of runs of a whole frame, which bounds the time. Dots have 500 runs in 188 x
-    // 120 px; noisy frames that were located had up to 1,900.
+    // Maximum number of runs of a whole frame, which bounds the time. In 188 x 120 px, dots have
+    // 500 runs. Noisy frames that were located had up to 1,900 runs.
     int max_runs = 0;
 };
 
@@ -55,7 +55,7 @@ inline constexpr DeviceCapacity kDeviceCapacity<320, 240>{.width_px = 320,
 
 /// Workspace of a DeviceLocator on a small microcontroller, for frames of one size: about 12 KB for
 /// 188 x 120 px. Stages share memory, so only the results of the last stage remain. The class only
-/// sets spans into its memory; the stages are compiled once for all sizes.
+/// sets spans into its memory, so the stages are compiled only once for all sizes.
 template <DeviceCapacity kCapacity>
 class DeviceWorkspaceOf : public DeviceWorkspace {
   public:
@@ -64,7 +64,7 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
                       kCapacity.height_px <= kMaxSideWithLowTiles_px,
                   "the workspace has memory for low tiles only");
 
-    // The braces clear all members by one call. Code that stores each member would be 800 bytes
+    // The braces clear all members by one call. Code that stores to each member would be 800 bytes
     // longer.
     DeviceWorkspaceOf() : DeviceWorkspace{} {
         max_width_px = kCapacity.width_px;

@@ -10,7 +10,8 @@ namespace {
 
 /// Distance, in cells, within which two frames may contain some of the same dots.
 constexpr std::uint32_t kSamePlace_cells = 64;
-/// Maximum number of frames counted at one place. A float counts up to this number exactly.
+/// Maximum number of frames counted at one place. A float represents all integers up to this
+/// number.
 constexpr std::uint32_t kMaxFrames = 1U << 23;
 
 bool is_near(std::uint32_t a, std::uint32_t b) {
@@ -19,7 +20,7 @@ bool is_near(std::uint32_t a, std::uint32_t b) {
 }
 
 /// Returns all log odds relative to the likeliest code, clamped to at least -max_log2. Log odds are
-/// log2 in 2^-8.
+/// log2 in units of 2^-8.
 CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int32_t max_log2) {
     const std::int32_t likeliest = *std::max_element(log2_q8.begin(), log2_q8.end());
     for (std::int32_t& log2 : log2_q8)
@@ -32,8 +33,8 @@ CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int3
 CodeEvidence::LogOdds CodeEvidence::sum() const {
     LogOdds sum = before_log2_q8_;
     if (frames_here_ == 0) return sum;
-    // Regardless of the dependence between frames, the mean of their factors against the true code
-    // is m or more in at most one case in m (Markov).
+    // For the true code, the mean of the factors of these frames is m or more in at most one case
+    // in m (Markov), even if the frames are not independent.
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const float mean = factors_here_[i] / static_cast<float>(frames_here_);
         sum[i] +=

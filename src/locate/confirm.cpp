@@ -152,7 +152,7 @@ FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const
     if (!reader.correct_neighbour_bias(hypothesis, fit) && !has_pixel_bias) return {};
     FloatPlane better = hypothesis.pattern_from_image;
     PoseFit better_fit;
-    // Without the dots at the border, too few dots may remain.
+    // Without the dots at the border, there may be too few dots.
     if (!fit_plane(kernels, reader.dots(), static_cast<int>(half_side_px(image)) + 1,
                    tuning::fit::kOutlier * fit.variance, fit.displacement, better, better_fit)) {
         return {};
@@ -189,15 +189,15 @@ void write_fix(const ImageView& image, const DeviceOptions& options, const Hypot
     write_pose(w.pattern_from_image, reference, options.code, hypothesis.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     if (!(from_q8 == FixedVec{})) {
-        // The next prediction is made from the fix and is relative to the image centre.
+        // The next prediction is made from the fix, relative to the image centre.
         w.fix.pattern_from_image =
             fixed_plane(recentred(hypothesis.pattern_from_image, {-from.x, -from.y}), centre_q8);
     }
     w.fix.status = Status::ok;
 }
 
-/// Returns true if, within reach, the fitted plane is so far from the places where dots were
-/// measured that the small centroid windows missed part of the distance.
+/// Returns true if the fitted plane is so far from the plane before the fit, within reach, that the
+/// small centroid windows missed a part of the offsets.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
@@ -217,11 +217,12 @@ FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
 }
 
-/// Distance from the centre, in px, within which dots are read. It grows from round to round.
+/// Distance from the centre, in px, within which dots are read. The distance grows from round to
+/// round.
 struct Reach {
     float full;  ///< distance that includes the whole image
-    /// Distance within which the bits must make the position certain. Bits at larger distances do
-    /// not count.
+    /// Distance within which the bits must make the position certain. Bits at larger distances are
+    /// not used for this.
     float deciding;
     float now;  ///< distance of the current round
 
@@ -232,8 +233,8 @@ struct Reach {
           deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
           now(deciding) {
         if (!hypothesis.is_partial_view) return;
-        // The pattern may end anywhere, so the first round is smaller than usual. One island of
-        // dots may not make the position certain, so the deciding distance is larger.
+        // The pattern may end anywhere, so the first round has a smaller distance than usual. One
+        // island of dots may not make the position certain, so the deciding distance is larger.
         deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
         now = std::min(full, tuned::kDenseOfPart * spacing_px);
     }
@@ -272,8 +273,8 @@ Confirmation finish(const Kernels& kernels, const ImageView& image, const Device
 }
 
 /// Measures the dots of the hypothesis, compares their bits with the code, and fits the pose. An
-/// exact hypothesis is implausible if its bits are not clean, or if it is still far from its dots
-/// after kMaxLooks rounds.
+/// exact hypothesis is implausible if its bits are not clean, or if its plane is still far from the
+/// dots after kMaxLooks rounds.
 Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
                                  const DeviceOptions& options, Hypothesis hypothesis,
                                  DesktopWorkspace& w) {

@@ -11,18 +11,19 @@
 
 namespace dotpose::core {
 
-/// Returns true if a grid in an image may have this plane. The following steps depend on it.
+/// Returns true if the plane is plausible for a grid in the image. The following steps require a
+/// plausible plane.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
 /// Result of `confirm`.
 enum class Confirmation : std::uint8_t {
     ok,
     implausible,  ///< the dots are not at their expected places
-    uncertain,    ///< the dots are at their places, but their bits leave doubts
+    uncertain,    ///< the dots are at their expected places, but the position is not certain
 };
 
-/// Measures, compares and fits. If the hypothesis is predicted and its dots are suitable, samples
-/// them directly first. Sets the fix of the workspace and, if requested, its trace.
+/// Measures, compares and fits. If the hypothesis is predicted and its dots are suitable, first
+/// samples these dots directly. Sets the fix of the workspace and, if requested, its trace.
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      Hypothesis hypothesis, DesktopWorkspace& w);
 

@@ -35,7 +35,8 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
 }
 
 /// Drops windows that are much darker than paper. Such windows are on the table beyond the sheet,
-/// where noise is as dark as dots. `paper` is the mean level around dots; the first call sets it.
+/// where noise is as dark as dots. `paper` is the mean level around dots, which the first call
+/// sets.
 void drop_table(MeasuredDots& dots, float& paper) {
     float sum = 0;
     float count = 0;
@@ -56,8 +57,8 @@ float dot_radius_px(const Hypothesis& hypothesis) {
     return std::sqrt(hypothesis.typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
 }
 
-/// Returns the radius of the centroid window, in px. Small enough to limit noise, large enough to
-/// include the edge of the dot.
+/// Returns the radius of the centroid window, in px. Small enough to limit noise, and large enough
+/// to include the edge of the dot.
 float window_radius_px(const Hypothesis& hypothesis) {
     const bool is_fine =
         spacing_px(hypothesis.pattern_from_image) < tuned::kMaxSpacingForSmallWindow_px;
@@ -88,7 +89,7 @@ bool can_sample_directly(const Hypothesis& hypothesis) {
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
     if (variance_px2 > tuned::kMaxVariance_px2) return false;
     const float drift_px = tuned::kDriftInView_px * spacing_px(plane) / static_cast<float>(side_px);
-    return has_common_phase(plane, drift_px);  // per step of the grid
+    return has_common_phase(plane, drift_px);  // maximum drift per step of the grid
 }
 
 WindowOptions DotReader::window_options(const Hypothesis& hypothesis) const {
@@ -102,8 +103,8 @@ BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlo
     if (hypothesis.is_exact)
         return kernels_.read_levels(image_, view, hypothesis.depth_q8, dots_, columns, rows);
     WindowOptions window = window_options(hypothesis);
-    // Away from the centre, most windows may be empty. The typical mass is therefore that of the
-    // first call.
+    // Away from the centre, most windows may be empty, so the typical mass of the first call is
+    // used.
     if (hypothesis.is_partial_view) window.typical_mass = typical_mass_;
     typical_mass_ = hypothesis.typical_mass = kernels_.measure_windows(image_, view, window, dots_);
     if (hypothesis.is_partial_view) drop_table(dots_, paper_);
@@ -141,7 +142,8 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
 
 bool DotReader::correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                                    const PoseFit& fit, FloatVec& remaining_px2) const {
-    // If the lens has distortion, or after direct sampling, the dots have many phases.
+    // If the lens has distortion, or after direct sampling, the sub-pixel phases of the dots
+    // differ.
     if (hypothesis.is_exact || view.lens.k != 0) return false;
     const float variance_px2 =
         fit.variance * spacing_px_ * spacing_px_ / static_cast<float>(fit.dots);

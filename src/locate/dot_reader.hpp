@@ -1,5 +1,5 @@
 // Dot reader: reads the bits and measures the centres of the listed dots, by direct sampling or in
-// windows, depending on how exactly the hypothesis predicts the dots.
+// windows, depending on the precision of the hypothesis.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"
@@ -13,20 +13,21 @@ namespace dotpose::core {
 /// window.
 bool can_sample_directly(const Hypothesis& hypothesis);
 
-/// Returns true if the pixel bias matters: all dots in view have the same sub-pixel phase, so the
-/// bias does not average out, and their other errors are small. `variance_px2` is the variance of
-/// the mean of their centres along one axis, `side_px` the longer side of the image.
+/// Returns true if the pixel bias matters. This is the case if all dots in view have the same
+/// sub-pixel phase, so the bias does not average out, and the other errors of the dots are small.
+/// `variance_px2` is the variance of the mean of all centres along one axis, `side_px` the longer
+/// side of the image.
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px);
 
-/// Reads and measures the listed dots. Uses their places directly if the hypothesis is exact, and
-/// windows around the intersections otherwise.
+/// Reads and measures the listed dots. Samples at the places of the dots if the hypothesis is
+/// exact, and uses windows around the intersections otherwise.
 class DotReader {
   public:
     DotReader(const Kernels& kernels, const ImageView& image, float spacing_px, MeasuredDots& dots)
         : kernels_(kernels), image_(image), spacing_px_(spacing_px), dots_(dots) {}
 
-    /// Reads the bits of the listed dots. If `block` is not null, stores the bits in it; the block
-    /// must be empty.
+    /// Reads the bits of the listed dots. If `block` is not null, stores the bits in this block,
+    /// which must be empty.
     BitsRead read(const CellsInView& view, Hypothesis& hypothesis, BitBlock* block);
     /// Reads the bits of the measured dots again, through the new plane of the hypothesis.
     /// Overwrites the block.
@@ -38,7 +39,8 @@ class DotReader {
     /// If all dots have the same sub-pixel phase, measures the centres again and subtracts the
     /// pixel bias. The plane must have been fitted to the current centres, and must be fitted again
     /// afterwards. Sets the remaining variance of the mean of the centres, in px^2. Returns false
-    /// if the bias does not matter, because the dots have many phases or larger errors.
+    /// if the bias does not matter, because the phases of the dots differ or other errors are
+    /// larger.
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
     /// Corrects the bias of facing dots if the centroid windows reach the neighbouring dot. The

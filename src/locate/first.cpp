@@ -38,8 +38,8 @@ FloatVec middle_of(const Patch& patch, const ImageView& image) {
             middle_v_px(patch) - static_cast<float>(image.height_px - 1) / 2};
 }
 
-/// Finds the dots of the patch. Returns false if the patch has no contrast. Sets the status of a
-/// frame whose patches contain no grid.
+/// Finds the dots of the patch. Returns false if the patch has no contrast. Sets the status for the
+/// case that no patch contains a grid.
 bool find_patch_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -54,7 +54,7 @@ bool find_patch_dots(const Kernels& kernels, const ImageView& image, const Devic
     return true;
 }
 
-/// Finds a place in the code from the dots of a patch. The dots and the hypothesis are relative to
+/// Finds a place in the code from the dots of a patch. Dots and hypothesis are relative to
 /// `from_centre`. Returns false if no place is found.
 bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const PatchView& view,
                      FloatVec from_centre, DesktopWorkspace& w, Hypothesis& hypothesis) {
@@ -117,9 +117,9 @@ bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Devic
     return true;
 }
 
-/// Finds a hypothesis in a patch around a point of the image, in px. Its origin is the point where
-/// the dots are densest, which is returned in `densest_px`. Returns false if the dots of the patch
-/// have no place in the code.
+/// Finds a hypothesis in a patch around a point of the image, in px. Sets `densest_px`, the origin
+/// of the hypothesis, to the point where the dots are densest. Returns false if the dots of the
+/// patch have no place in the code.
 bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
                             const DeviceOptions& options, FixedVec around_px, int scale,
                             DesktopWorkspace& w, FixedVec& densest_px, Hypothesis& hypothesis) {
@@ -148,10 +148,10 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
     return false;
 }
 
-/// Searches a patch around a point of the image. If the dots of the patch are densest elsewhere,
-/// then searches a patch around that point. Each hypothesis that its bits contradict increases the
-/// probability of a wrong fix. `tries_left` is the number of such hypotheses that are still
-/// allowed.
+/// Searches a patch around a point of the image. If the dots of the patch are densest at another
+/// point, then also searches a patch around that point. `tries_left` is the number of further
+/// hypotheses that their bits may contradict. Each such hypothesis increases the probability of a
+/// wrong fix.
 Confirmation locate_around(const Kernels& kernels, const ImageView& image,
                            const DeviceOptions& options, FixedVec around_px, int scale,
                            int& tries_left, DesktopWorkspace& w) {

@@ -1,4 +1,4 @@
-// First: the first attempt. Locates an image without a prediction, beginning with a patch of the
+// First: the first attempt. Locates an image without a prediction, starting from one patch of the
 // image.
 #pragma once
 
@@ -10,8 +10,8 @@
 namespace dotpose::core {
 
 /// Finds the grid in a part of the image, then measures the dots of the whole image. Returns true
-/// if a fix was found, which is in the workspace. Otherwise the status in the workspace is
-/// no_contrast, too_few_dots, no_grid or, if the bits leave doubts, not_certain.
+/// if a fix was found. The workspace then contains the fix, and otherwise one of the statuses
+/// no_contrast, too_few_dots, no_grid and not_certain.
 bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                   DesktopWorkspace& w);
 

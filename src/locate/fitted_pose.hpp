@@ -10,9 +10,9 @@ namespace dotpose::core {
 
 /// Returns true if the position explains the frame badly: the residuals are large, and bits
 /// contradict the position. Two overlapping patterns that are nearly aligned can look like a third
-/// pattern, with the columns of the first and the rows of the second. A quarter of its cells then
-/// have no dot at the expected place, half of the dots are beside their places, and the typical
-/// displacement is too small. docs/integrity.md has the numbers.
+/// pattern, with the columns of the first and the rows of the second pattern. In this case, a
+/// quarter of the cells have no dot at the expected place, half of the dots are next to their
+/// places, and the typical displacement is too small. docs/integrity.md has the numbers.
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
 /// Measures the dots of the position and fits the map from the image to the pattern. Returns false
@@ -20,8 +20,7 @@ bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 bool fit_pattern(const DeviceOptions& options, const ImageView& image, DesktopWorkspace& w,
                  PoseFit& fit);
 
-/// Fits the map as `fit_pattern` does, and writes the pose into the fix. Errors: no_grid,
-/// not_certain.
+/// As `fit_pattern`, and writes the pose into the fix. Errors: no_grid, not_certain.
 Status measure_pose(const DeviceOptions& options, const ImageView& image, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

@@ -104,7 +104,7 @@ void count_from_centre(CodeVariant code, Hypothesis& hypothesis) {
 }
 
 Similarity similarity_of(const DotOffsets& found) {
-    // Least squares in closed form of offset = shift + turn * place, in complex numbers.
+    // Closed-form least-squares solution of offset = shift + turn * place, in complex numbers.
     const float fraction = 1 / static_cast<float>(found.points);
     const float u = found.u * fraction;  // mean place
     const float v = found.v * fraction;

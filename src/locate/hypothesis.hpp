@@ -1,5 +1,5 @@
-// Hypothesis: a plane and a place in the code that an attempt tries, and the cells that are then in
-// view.
+// Hypothesis: a plane and a place in the code that an attempt tries, and the cells in view for this
+// hypothesis.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -18,15 +18,15 @@ struct Hypothesis {
     float displacement = 0;     ///< distance of a typical dot from its intersection, in spacings
     bool is_certain = false;    ///< true if the place needs no confirmation
     bool is_predicted = false;  ///< true if the plane predicts each dot to a fraction of a pixel
-    /// True if each dot is closer to its predicted place than to any other place of its cell. The
-    /// dots are then sampled directly.
+    /// True if each dot is closer to its predicted place than to any other place of its cell. In
+    /// this case, the dots are sampled directly.
     bool is_exact = false;
     bool is_partial_view =
         false;  ///< true if the pattern may cover only a part of the image, around `from_centre`
     int depth_q8 =
         0;  ///< contrast of a typical dot in the smoothed patch, in 1/256 of the paper level
-    /// Sum of the darkness of a dot below the threshold, relative to the paper level; 0 if not yet
-    /// known.
+    /// Sum of the darkness of a dot below the threshold, relative to the paper level, or 0 if not
+    /// yet known.
     float typical_mass = 0;
 };
 
@@ -59,7 +59,7 @@ struct Similarity {
 /// Fits a similarity to the offsets of at least two dots.
 Similarity similarity_of(const DotOffsets& found);
 
-/// Moves, scales and turns a plane by a similarity.
+/// Moves, scales and rotates a plane by a similarity.
 FloatPlane moved(const FloatPlane& plane, const Similarity& by);
 
 }  // namespace dotpose::core

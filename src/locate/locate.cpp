@@ -34,7 +34,7 @@ namespace {
 namespace tuned = tuning::cascade;
 
 /// The steps of the cascade. `resampled` is the second attempt with a second sampling of doubtful
-/// bits, which takes three times as long.
+/// bits. This step takes three times as long as `second`.
 enum class Step : std::uint8_t { tracked, first, second, resampled, device };
 
 /// Returns true if the dots are on a grid that could not be read in this code. Another code may be
@@ -56,7 +56,7 @@ class Cascade {
           w_(w),
           second_(image, w) {}
 
-    /// Returns the fix. The results in the workspace are those of this fix.
+    /// Returns the fix. The workspace then contains the results that belong to this fix.
     CodeReading locate(const Prediction* prediction) {
         if (options_.effort == Effort::device) return make({Step::device});
         prediction_ = prediction;
@@ -81,7 +81,7 @@ class Cascade {
         return make({Step::first, Step::second, Step::resampled});
     }
 
-    /// Makes the steps in order until a code gives a certain fix. If none does, returns the first
+    /// Runs the steps in order until a code gives a certain fix. If no code does, returns the first
     /// doubtful fix, or the failure in the likeliest code.
     CodeReading make(std::initializer_list<Step> steps) {
         std::optional<CodeReading> doubtful;
@@ -112,7 +112,7 @@ class Cascade {
         return codes_.in_order();
     }
 
-    /// Makes one step in one code. Returns true if there is a fix. The workspace then contains the
+    /// Runs one step in one code. Returns true if there is a fix. The workspace then contains the
     /// fix and the odds of the other codes.
     bool attempt(Step step, CodeVariant code) {
         options_.code = code;
@@ -155,8 +155,8 @@ class Cascade {
         return codes_.judge(read, w_.other_codes, w_.fix, options_.integrity.max_p_wrong_log2);
     }
 
-    /// Returns the certain fix or, if there is one, a better fix: in a code that explains the same
-    /// place better, or by the second attempt.
+    /// Returns the certain fix, or a better fix if there is one: a fix in another code that
+    /// explains the same place better, or a fix by the second attempt.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempt(other_step, other)) return false;
@@ -191,8 +191,8 @@ class Cascade {
         return reading;
     }
 
-    /// Adds evidence from a frame of another sheet. The evidence for one code can be so strong that
-    /// no frame of another code is certain, but such a frame must still be able to overturn the
+    /// Adds evidence from a frame of another sheet. Strong evidence for one code can prevent every
+    /// frame of another code from being certain. Such a frame must still be able to overturn the
     /// evidence.
     void add_evidence_of_another_sheet(CodeReading& reading) {
         if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
@@ -228,7 +228,8 @@ CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
                            const CodeEvidence& evidence, DesktopWorkspace& w) {
     w.is_mirrored = false;
     CodeReading reading = Cascade(image, options, codes, evidence, w).locate(prediction);
-    // An attempt may have found the mirrored code before later attempts failed for other reasons.
+    // An earlier attempt may have found the mirrored code before later attempts failed for other
+    // reasons.
     if (reading.fix.status != Status::ok && w.is_mirrored)
         reading.fix.status = w.fix.status = Status::mirrored;
     if (reading.fix.status == Status::ok && is_pale(image, options, reading.code, reading.fix)) {

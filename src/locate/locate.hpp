@@ -9,14 +9,14 @@
 
 namespace dotpose::core {
 
-/// See Locator::locate; `prediction` may be null.
+/// See Locator::locate. `prediction` may be null.
 Fix locate(const ImageView& image, const DeviceOptions& options, const Prediction* prediction,
            DesktopWorkspace& w);
 
 /// See Locator::begin.
 Status begin_image(int width_px, int height_px, const DeviceOptions& options, DesktopWorkspace& w);
 
-/// See Locator::locate_in_any_code; `prediction` may be null.
+/// See Locator::locate_in_any_code. `prediction` may be null.
 CodeReading locate_in_any_code(const ImageView& image, const DeviceOptions& options,
                                const Prediction* prediction, const CodeEvidence& evidence,
                                DesktopWorkspace& w);

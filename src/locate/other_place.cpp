@@ -37,8 +37,8 @@ std::uint8_t section(CodeVariant code, const Line& line, const Line& crossing) {
     return static_cast<std::uint8_t>(section_of(code, roll, line.position, crossing.position));
 }
 
-/// Returns the likelihood ratio of the likeliest other place, which differs along one axis or along
-/// both axes.
+/// Returns the likelihood ratio of the likeliest other place. This place differs from the fix along
+/// one axis or along both axes.
 float best_odds(const OtherCode& there) {
     return std::max(
         {there.x.best * there.y.here, there.x.here * there.y.best, there.x.best * there.y.best});
@@ -77,7 +77,7 @@ void name_other_place(CodeVariant read, CodeVariant other, const OtherCodes& oth
                               steps(fix.place.cell.y, others.first.y));
     const int x_roll = code::roll_from(read, first.cell.x, first.section.u, first.cell.y);
     const int y_roll = code::roll_from(read, first.cell.y, first.section.v, first.cell.x);
-    // The other place differs along one axis or along both.
+    // The other place differs from the fix along one axis or along both axes.
     const float by_x = there.x.best * there.y.here;
     const float by_y = there.x.here * there.y.best;
     const float by_both = there.x.best * there.y.best;

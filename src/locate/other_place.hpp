@@ -1,4 +1,4 @@
-// Other place: determines the place in another code that explains a frame.
+// Other place: the place in another code that explains a frame.
 #pragma once
 
 #include "core/other_codes.hpp"
@@ -7,7 +7,8 @@
 namespace dotpose::core {
 
 /// If a place in another code explains the frame as well as the fix, sets this place in `reading`.
-/// It is at another position, or at the same position if the other code explains it better.
+/// This place is at another position, or at the same position if the other code explains the frame
+/// better.
 void name_code_that_explains(const OtherCodes& others, CodeReading& reading);
 
 /// Sets the likeliest place in the code `other` for a reading in the code `read`.

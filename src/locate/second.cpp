@@ -40,7 +40,8 @@ void detect_filtered(const ImageView& image, const DeviceOptions& filtered, Desk
         detect_row(next_smooth_row(image, w.smoothing), filtered, w);
 }
 
-/// Finds the grid of the dots, including tilt and lens distortion. Slower than `find_grid`.
+/// Finds the grid of the dots, including tilt and lens distortion. This takes longer than
+/// `find_grid`.
 Status find_grid_thoroughly(const DeviceOptions& options, DesktopWorkspace& w) {
     const FixedVec centre_q8 = image_centre_q8(w.threshold);
     Status status = find_axes(centre_q8, kMaxSeeds, w);
@@ -63,7 +64,7 @@ bool shows_one_pattern(const ImageView& image, const DeviceOptions& options, Des
     return sample_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
 }
 
-/// Decodes with the decoder that the options name.
+/// Decodes with the decoder selected by the options.
 Status decode(const DeviceOptions& options, DesktopWorkspace& w) {
     if (options.decoder == Decoder::window) {
         return decode_window(w.grid, options.code, w.line_scores, w.decoding);
@@ -94,8 +95,8 @@ Status resample(const ImageView& image, const DeviceOptions& options, DesktopWor
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }
 
-/// If all dots have the same sub-pixel phase, measures them again as the first attempt does, which
-/// corrects the pixel bias.
+/// If all dots have the same sub-pixel phase, measures the dots again as the first attempt does, to
+/// correct the pixel bias.
 void measure_again_if_biased(const ImageView& image, const DeviceOptions& options,
                              DesktopWorkspace& w) {
     const float variance_px2 =
@@ -119,7 +120,7 @@ Status read_filtered_with(const DeviceOptions& filtered, const ImageView& image,
     return shows_one_pattern(image, filtered, w) ? Status::ok : Status::not_certain;
 }
 
-/// Finds dots and grid and reads the bits. If the dots may be pale, tries again with a lower
+/// Finds dots and grid, and reads the bits. If the dots may be pale, tries again with a lower
 /// threshold.
 Status read_filtered(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     DeviceOptions filtered = for_filtered(options);
@@ -131,7 +132,8 @@ Status read_filtered(const ImageView& image, const DeviceOptions& options, Deskt
     const Fix seen = w.fix;
     filtered.threshold.min_contrast = pale;
     if (read_filtered_with(filtered, image, w) == Status::ok) return Status::ok;
-    // The lower threshold found no pattern, so its dots are noise and the first result is kept.
+    // No pattern was found with the lower threshold, so the additional dots are noise. Keeps the
+    // first result.
     w.fix = seen;
     w.dot_count = 0;
     return status;

@@ -1,5 +1,5 @@
-// Second: the second attempt. Filters an image against noise and uneven light, finds the grid of
-// all its dots thoroughly, and reads the bits at each cell of the image.
+// Second: the second attempt. Filters an image against noise and uneven light, fits the grid to all
+// dots, and reads the bits at each cell of the image.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -16,9 +16,10 @@ class SecondAttempt {
 
     SecondAttempt(const ImageView& image, DesktopWorkspace& w) : image_(image), w_(w) {}
 
-    /// Locates the image in the code of the options. Returns true if there is a fix; the workspace
-    /// then contains the fix, and otherwise the status. With `Resampling::if_doubtful`, a position
-    /// that is not certain is read again through a grid that is fitted to its dots.
+    /// Locates the image in the code of the options. Returns true if there is a fix. The workspace
+    /// then contains the fix, and otherwise the status. With `Resampling::if_doubtful`, reads a
+    /// position that is not certain again, through a grid that is fitted to the dots of this
+    /// position.
     bool read(const DeviceOptions& options, Resampling resampling);
 
   private:

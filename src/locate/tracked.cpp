@@ -16,7 +16,7 @@ namespace {
 
 namespace tuned = tuning::tracked;
 
-/// Fits position, scale and turn by least squares. Perspective and shear remain as predicted.
+/// Fits position, scale and turn by least squares. Keeps the predicted perspective and shear.
 /// Returns false if the dots do not determine position, scale and turn.
 bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reach_px,
                     float displacement, float max_off, FloatPlane& plane) {
@@ -46,8 +46,8 @@ int max_shift_px(const Prediction& prediction, float spacing_px) {
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
-/// Corrects the plane by the centroids of the listed dots. Most dots must have offsets of about a
-/// pixel or less; otherwise returns false.
+/// Corrects the plane by the centroids of the listed dots. Returns false unless most dots have
+/// offsets of about a pixel or less.
 bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsInView view,
                           FloatPlane& plane, MeasuredDots& dots) {
     const float far_px = std::max(view.width_px, view.height_px) / 2;
@@ -61,8 +61,8 @@ bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsI
         if (found.points < tuned::kMinNear || 4 * found.points < 3 * dots.count) return false;
         const Similarity motion = similarity_of(found);
         plane = moved(plane, motion);
-        // Centroid windows measure only a part of a large offset, for example of an offset due to a
-        // turn.
+        // Centroid windows measure only a part of a large offset, for example of an offset caused
+        // by a turn.
         const float moved_far_px =
             far_px * std::max(std::abs(motion.scale), std::abs(motion.turn_rad));
         if (moved_far_px < tuned::kTurned_px) break;
@@ -110,8 +110,8 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Devic
            fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kSecondOff, plane);
 }
 
-/// Corrects the hypothesis by the dots near `from`, in px relative to the image centre. Returns
-/// false if the dots are not found.
+/// Corrects the hypothesis by the dots near the point `from`, in px relative to the image centre.
+/// Returns false if the dots are not found.
 bool correct(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
              FloatVec from, int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
     hypothesis.from_centre = from;

@@ -14,8 +14,9 @@ namespace dotpose::core {
 bool locate_tracked(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                     const Prediction& prediction, DesktopWorkspace& w);
 
-/// Measures the dots of the fix in the workspace again, as exactly as the dots of a prediction. The
-/// place of the fix must be certain. If the dots do not confirm the fix, it remains unchanged.
+/// Measures the dots of the fix in the workspace again, as precisely as the dots of a prediction.
+/// The place of the fix must be certain. If the dots do not confirm the fix, the fix remains
+/// unchanged.
 void measure_again(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                    DesktopWorkspace& w);
 

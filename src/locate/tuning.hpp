@@ -9,15 +9,15 @@ namespace dotpose::core::tuning {
 
 /// Constants of the first attempt (locate/first).
 namespace first {
-/// Size of the part of the image that is searched first, and of the patches elsewhere: 20 x 14 dots
-/// at 11 px per spacing.
+/// Size of the patch that is searched first, and of the patches away from the image centre: 20 x 14
+/// dots at 11 px per spacing.
 inline constexpr int kPatchWidth_px = 224;
 inline constexpr int kPatchHeight_px = 160;
-/// Minimum spacing at which a patch predicts dots exactly enough for direct sampling. Dots of finer
-/// grids are measured more accurately in centroid windows.
+/// Minimum spacing at which a patch predicts dots precisely enough for direct sampling. Dots of
+/// finer grids are measured more accurately in centroid windows.
 inline constexpr float kMinSpacingForPrediction_px = 9.5F;
-/// Maximum number of hypotheses away from the image centre that their bits contradict. Each of them
-/// increases the probability of a wrong fix.
+/// Maximum number of hypotheses away from the image centre that their bits may contradict. Each
+/// such hypothesis increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
 /// For patches away from the image centre: numbers of dots near the middle that are used to search
 /// waves, and factors of the spacing. If large displacements weaken the waves, only some of these
@@ -29,12 +29,13 @@ inline constexpr float kSpacings[] = {1, 0.965F};
 /// Constants of the tracked attempt (locate/tracked).
 namespace tracked {
 /// Maximum distance, in spacings, from a point to the dots that determine the error of the
-/// prediction at this point. Small enough that an angular error does not match a dot to the wrong
+/// prediction at this point. With this distance, an angular error does not match a dot to the wrong
 /// intersection.
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots that determine a correction of the prediction.
 inline constexpr int kMinNear = 10;
-/// Maximum error of a prediction, in spacings. Beyond half a spacing, the next dot is closer.
+/// Maximum error of a prediction, in spacings. If the error exceeds half a spacing, a neighbouring
+/// dot is closer.
 inline constexpr float kMaxOff = 0.6F;
 /// Range of spacings that can be tracked.
 inline constexpr float kFinest_px = 5;
@@ -55,15 +56,15 @@ inline constexpr float kTurned_px = 2;
 /// Maximum number of measurements of the dots.
 inline constexpr int kMaxLooks = 3;
 /// Points around which dots are searched, relative to the image centre, in fractions of the sides
-/// of the image. If one point is covered, another point may be visible.
+/// of the image. The pattern may be covered at one point and visible at another point.
 inline constexpr FloatVec kPoints[] = {
     {0, 0}, {-0.25F, -0.22F}, {0.25F, 0.22F}, {0.25F, -0.22F}, {-0.25F, 0.22F}};
 }  // namespace tracked
 
 /// Constants of the measurement of dots at known places (locate/confirm, locate/dot_reader).
 namespace confirm {
-/// Radius around the image centre, in spacings, within which all dots are measured. The bits of
-/// these dots must make the position certain.
+/// Radius around the image centre, in spacings, within which all dots are measured. The bits of the
+/// dots in this radius must make the position certain.
 inline constexpr float kDense = 10;
 /// Maximum half side of an image, in spacings, that is measured completely in one round.
 inline constexpr float kDenseAtMost = 17;
@@ -73,32 +74,32 @@ inline constexpr float kDenseOfPart = 6;
 inline constexpr float kDecidingOfPart = 32;
 /// Factor by which a plane is extrapolated beyond the dots to which it was fitted.
 inline constexpr float kFarther = 3.5F;
-/// Limits of clean bits, which need no second reading: the minimum percentage of clear dots, and
-/// the maximum number of wrong bits, which is kMaxWrong (one dot) or one per kDotsPerWrong dots,
+/// Limits of clean bits, which need no second reading: minimum percentage of clear dots, and
+/// maximum number of wrong bits. The maximum is kMaxWrong (one dot) or one per kDotsPerWrong dots,
 /// whichever is larger.
 inline constexpr int kClear_percent = 97;
 inline constexpr int kMaxWrong = 2;
 inline constexpr int kDotsPerWrong = 200;
-/// Outlier limit: squared residual divided by the mean squared residual. It is four standard
+/// Outlier limit: squared residual divided by the mean squared residual. The limit is four standard
 /// deviations.
 inline constexpr float kOutlier = 8.3F;
-/// Distance, in spacings, between the planes before and after a fit, in a corner of the measured
-/// part. Above this distance, small centroid windows miss a part of the offsets, and the dots are
-/// measured again.
+/// Maximum distance, in spacings, between the planes before and after a fit, in a corner of the
+/// measured part. Above this distance, small centroid windows miss a part of the offsets, so the
+/// dots are measured again.
 inline constexpr float kFar = 0.055F;
 /// Maximum number of measurements of the dots. docs/accuracy.md, "Dots with the same sub-pixel
 /// phase", lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
-/// Fraction of the paper level below which windows are dropped, because they are on the table
+/// Fraction of the paper level below which windows are dropped. Such windows are on the table
 /// beyond the sheet, where noise is as dark as dots.
 inline constexpr float kTable = 0.4F;
-/// Range of spacings for direct sampling. Below kMaxSpacingForSmallWindow_px, dots are so small
-/// that small centroid windows contain them at any blur. Below kMinSpacingForDirectSampling_px, the
-/// four places of a cell are too close to be separated by one sample each.
+/// Range of spacings for direct sampling. Below kMaxSpacingForSmallWindow_px, a dot fits in a small
+/// centroid window at any blur. Below kMinSpacingForDirectSampling_px, one sample each cannot
+/// separate the four places of a cell.
 inline constexpr float kMaxSpacingForSmallWindow_px = 13;
 inline constexpr float kMinSpacingForDirectSampling_px = 8;
-/// Radius of a centroid window, in dot radii. The window includes the edge of the dot, and is large
-/// enough to make the result independent of the sub-pixel phase (`dotpose_tables alike`).
+/// Radius of a centroid window, in dot radii. The window includes the edge of the dot, and its size
+/// makes the result independent of the sub-pixel phase (`dotpose_tables alike`).
 inline constexpr float kWindowRadii = 2.4F;
 /// Minimum radius of a centroid window.
 inline constexpr float kMinWindowRadius_px = 3.3F;
@@ -106,15 +107,15 @@ inline constexpr float kMinWindowRadius_px = 3.3F;
 /// the dots bias each other.
 inline constexpr float kFacing = 0.55F;
 /// Maximum deviation of a grid step from whole pixels at which all dots have about the same
-/// sub-pixel phase. At a larger deviation, the dots of a view have all phases.
+/// sub-pixel phase. At a larger deviation, the phases of the dots in view are evenly distributed.
 inline constexpr float kDrift_px = 0.05F;
 /// Maximum drift of the sub-pixel phase across the view at which the pixel bias is corrected. The
 /// correction takes several times as long as the rest of the frame.
 inline constexpr float kDriftInView_px = 0.35F;
-/// Maximum variance, along an axis, of the mean place of all dots at which biases matter.
+/// Maximum variance of the mean of all centres, along one axis, at which biases matter.
 inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
-/// Range of sizes of image parts that are prefetched. Smaller parts are already in the cache;
-/// larger parts would evict their own first rows.
+/// Range of sizes of image parts that are prefetched. Smaller parts are already in the cache.
+/// Larger parts would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// Minimum number of predicted dots that must be found.
@@ -133,14 +134,15 @@ inline constexpr float kRough = 0.027F;
 
 /// Constants of the second attempt (locate/second).
 namespace second {
-/// Factors of the thresholds for the filtered image, in which noise is reduced to a third, and dots
-/// are paler and wider. Of frames with dirt over 5 % of the area (docs/limits.md, 200 frames), 93 %
-/// were located with these factors and 80 % with the thresholds of the options.
+/// Factors of the thresholds for the filtered image, in which noise is a third of the original
+/// noise, and dots are paler and wider. Of frames with dirt over 5 % of the area (docs/limits.md,
+/// 200 frames), 93 % were located with these factors and 80 % with the thresholds of the options.
 inline constexpr int kLow_3rds = 2;
 inline constexpr int kHigh_10ths = 9;
 /// Divisor of the minimum contrast for a second detection in an image with too few dots, because
-/// noise is reduced to a third in a filtered image. The second detection finds dots that are 6 grey
-/// levels darker than paper (`dotpose_tables alike --spacings 8 --dots 0.10 --blurs 1.5`).
+/// the noise of a filtered image is a third of the original noise. The second detection finds dots
+/// that are 6 grey levels darker than paper (`dotpose_tables alike --spacings 8 --dots 0.10 --blurs
+/// 1.5`).
 inline constexpr int kPaleParts = 3;
 /// Maximum turns of the periodogram search relative to the first estimate, in degrees, tried in
 /// order. Words can turn the first estimate by 26 degrees.
@@ -152,12 +154,12 @@ namespace cascade {
 /// Minimum odds of another code at which a frame is read again in that code.
 inline constexpr float kBetterOdds = 2;
 /// Minimum number of bits per contradicting bit at which a reading in another code is reported.
-/// Apart from misread bits, less than one bit in a hundred contradicts it.
+/// Apart from misread bits, less than one bit in a hundred contradicts such a reading.
 inline constexpr int kBitsPerError = 50;
-/// Minimum odds of a different place in another code at which the place is reported beside a
+/// Minimum odds of a different place in another code at which the place is reported next to a
 /// certain fix.
 inline constexpr float kNamedElsewhere = 0.99F;
-/// Minimum odds of the same place in another code at which the place is reported beside a certain
+/// Minimum odds of the same place in another code at which the place is reported next to a certain
 /// fix.
 inline constexpr float kNamedHere = 1024;
 }  // namespace cascade

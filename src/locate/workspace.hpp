@@ -17,7 +17,7 @@
 
 namespace dotpose::core {
 
-/// Image whose rows are pushed to a Locator.
+/// An image that is pushed row by row to a Locator.
 struct PushedImage {
     std::span<std::uint8_t> memory;
     int width_px = 0;
@@ -38,7 +38,7 @@ struct PushedImage {
         std::copy_n(pixels, width_px, memory.begin() + static_cast<std::ptrdiff_t>(size(rows)));
         ++rows;
     }
-    /// Returns the image. Missing rows are white.
+    /// Returns the image. Rows that were not pushed are white.
     ImageView completed() const {
         const std::size_t begin = size(rows);
         std::fill_n(memory.begin() + static_cast<std::ptrdiff_t>(begin), size(height_px) - begin,
@@ -69,8 +69,9 @@ inline OtherCodes* wanted_codes(DesktopWorkspace& w) {
     return w.other_codes.are_wanted ? &w.other_codes : nullptr;
 }
 
-/// A workspace with its memory, for images up to `MaxWidth` px wide. It stores the `MaxDots` dots
-/// nearest to the image centre and the middle `GridSide` x `GridSide` cells of the grid.
+/// A workspace with its memory, for images up to `MaxWidth` px wide. The workspace stores the
+/// `MaxDots` dots nearest to the image centre and the middle `GridSide` x `GridSide` cells of the
+/// grid.
 template <int MaxWidth, int MaxDots, int GridSide>
 class WorkspaceOf : public DesktopWorkspace {
   public:
@@ -133,8 +134,8 @@ class WorkspaceOf : public DesktopWorkspace {
     // A run may begin at every second pixel, and each run may begin a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
 
-    // Size of the largest image whose rows are pushed: that of the sensor of the paper, or 1280 x
-    // 1024 px.
+    // Size of the largest image that can be pushed row by row: the size of the sensor of the paper,
+    // or 1280 x 1024 px.
     static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
 
     // Maximum number of lines that cross an image at any angle.
@@ -146,7 +147,7 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::array<std::uint8_t, kRolls>, 2> rolls_;
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
-    // The side of a block is a tenth of the shorter side of the image, so at least 6 px. There are
+    // The side of a block is a tenth of the shorter side of the image, and at least 6 px. There are
     // at most 11 x 683 blocks.
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};

@@ -30,8 +30,8 @@ BitLines in_opposite_order(const BitLines& lines) {
     return result;
 }
 
-/// Returns each line reversed and with its bits flipped, as they are after half a turn. The lines
-/// keep their order.
+/// Returns each line reversed and with its bits flipped, as half a turn changes them. The order of
+/// the lines does not change.
 BitLines backwards(const BitLines& lines) {
     BitLines result;
     for (std::size_t i = 0; i < lines.bits.size(); ++i) {
@@ -56,9 +56,9 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
     return {std::clamp(BitBlock::kMiddle - max_count / 2, first, last + 1 - max_count), max_count};
 }
 
-/// Returns the score of a line read backwards minus its score read forwards. A line of six bits is
-/// almost always exact in the wrong direction too, by chance. Each additional bit halves this
-/// probability.
+/// Returns the score of a line read backwards minus its score read forwards. By chance, a line of
+/// six bits almost always also agrees exactly in the wrong direction. Each additional bit halves
+/// this probability.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);

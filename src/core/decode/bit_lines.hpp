@@ -1,6 +1,6 @@
-// Bit lines: the bits of 64 x 64 cells, stored as one word for each column or row. A line is
-// turned, compared and counted in a few instructions. Paper sections II-B.4 to II-B.7, with hard
-// bits instead of probabilities.
+// Bit lines: the bits of 64 x 64 cells, stored as one word for each column or row. A few
+// instructions rotate a line, compare it, or count its bits. Paper sections II-B.4 to II-B.7, with
+// hard bits instead of probabilities.
 #pragma once
 
 #include "core/decode/lines.hpp"
@@ -39,17 +39,18 @@ struct BlockLines {
 };
 
 /// Returns the number of quarter turns from the grid to the pattern, by a vote of lines near the
-/// middle. `turned` applies it.
+/// middle. `turned` applies these quarter turns.
 int likeliest_turn(const Kernels& kernels, const BitBlock& block);
 
-/// Returns the block turned upright on the pattern. 0 to 3 quarter turns map cell (i, j) to (i, j),
-/// (-1 - j, i), (-1 - i, -1 - j) or (j, -1 - i).
+/// Returns the block rotated to the upright orientation of the pattern. 0 to 3 quarter turns map
+/// cell (i, j) to (i, j), (-1 - j, i), (-1 - i, -1 - j) or (j, -1 - i).
 BitBlock turned(int quarters, const BitBlock& block);
-/// Returns the plane turned like the block. It maps image points to cells of the turned block.
+/// Returns the plane rotated like the block. The result maps image points to cells of the rotated
+/// block.
 FloatPlane turned(int quarters, const FloatPlane& grid_from_image);
 
 /// Scores the lines of an upright block that have bits. Half of the storage is for columns and half
-/// for rows. If it is too small for all lines, the middle lines are scored.
+/// for rows. If half of the storage is too small for all lines, the middle lines are scored.
 BlockLines score_block(const Kernels& kernels, const BitBlock& block,
                        std::span<ScoredLine> storage);
 

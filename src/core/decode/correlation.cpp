@@ -8,7 +8,7 @@ namespace dotpose::core {
 namespace {
 
 /// Weights are summed in groups of kGroup weights, for all combinations of signs. kGroups groups
-/// are summed at a time.
+/// are added at a time.
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
@@ -17,8 +17,8 @@ constexpr std::size_t kAtOnce = kGroup * kGroups;
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
-/// kGroup bits of the main sequence from each index on. The first bit is the lowest bit. Stored as
-/// byte offsets in Sums, which saves small processors a multiplication.
+/// The kGroup bits of the main sequence that begin at each index. The first bit is the lowest bit.
+/// Stored as byte offsets in Sums, which saves small processors a multiplication.
 constexpr auto kStrings = [] {
     std::array<std::uint8_t, 2 * kSections + kAtOnce> strings{};
     for (std::size_t i = 0; i < strings.size(); ++i) {
@@ -38,7 +38,7 @@ std::int32_t sum_at(const Sums& sums, std::uint8_t bytes) {
 
 using Line = std::span<const std::int8_t>;
 
-/// Copies the weights of both lines from `first` on, padded with zeros.
+/// Copies the weights of both lines, starting at `first`, padded with zeros.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
     const auto rest = [&](Line line) {
         line = line.subspan(std::min(first, line.size()));
@@ -59,8 +59,7 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
 }
 
 /// Sets, for each string of bits, the sum of a group of weights. A weight is negated if its bit is
-/// 0.
-// Not inlined, because the unrolled code is long. Unrolling halves the time.
+/// 0. Unrolling halves the time. Not inlined, because the unrolled code is long.
 [[gnu::noinline]] void sum_signed(const std::int32_t* weights, Sums& sums) {
     static_assert(kGroup == 5);
     sums[0] = -(weights[0] + weights[1] + weights[2] + weights[3] + weights[4]);
@@ -95,7 +94,7 @@ void correlate_both(Line a, Line b, LineScores& scores_a, LineScores& scores_b) 
     const auto are_zero = [&](std::size_t i) {
         return (i >= a.size() || a[i] == 0) && (i >= b.size() || b[i] == 0);
     };
-    // Lines of a grid that is oblique in the image are empty at both ends.
+    // Lines of a grid that is rotated in the image are empty at both ends.
     std::size_t end = std::max(a.size(), b.size());
     std::size_t first = 0;
     while (first < end && are_zero(first))

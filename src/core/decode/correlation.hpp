@@ -14,9 +14,9 @@ struct Match {
     std::uint8_t roll = 0;
 };
 
-/// Sets the score of each roll o: the sum of the weights whose signs agree with the main sequence
-/// from index o on, minus the sum of the magnitudes of all other weights. Doubtful bits have small
-/// weights. There are at most 256 weights, in [-127, 127].
+/// Sets the score of each roll o: the sum of the weights whose signs agree with the main sequence,
+/// beginning at index o, minus the sum of the magnitudes of all other weights. Doubtful bits have
+/// small weights. There are at most 256 weights, in [-127, 127].
 void correlate(std::span<const std::int8_t> weights, LineScores& scores);
 
 /// Correlates two lines in little more time than one line.

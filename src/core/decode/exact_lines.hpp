@@ -13,7 +13,7 @@ namespace dotpose::core {
 std::uint8_t exact_roll(std::uint64_t bits, std::uint64_t valid);
 
 /// Finds the place of cell (0, 0) of an upright block from exact lines. Returns false if too few
-/// adjacent lines are exact, or if the number of bit errors at the place exceeds half the number of
+/// adjacent lines are exact, or if there are more bit errors at the place than half the number of
 /// lines.
 bool find_place_exactly(CodeVariant code, const BitBlock& block, Place& place);
 

@@ -6,8 +6,8 @@
 
 namespace dotpose::core {
 
-/// Returns the quasi-probability f(r) of eq. 9 for a projected offset in 2^-16 spacings. The result
-/// is in units of 1/127, in [-127, 127].
+/// Returns the quasi-probability f(r) of eq. 9 for a projected offset in units of 2^-16 spacings.
+/// The result is in units of 1/127, in [-127, 127].
 std::int8_t quasi_probability(std::int32_t projection_q16);
 
 /// Clears the grid and sets its extent to the cells from `min` to `max`. If there are more cells
@@ -15,7 +15,7 @@ std::int8_t quasi_probability(std::int32_t projection_q16);
 void lay_out(FixedVec min, FixedVec max, Grid& grid);
 
 /// Fills the matrices P of Fig. 8 from all dots. A larger grid is cropped to the middle `grid.side`
-/// cells per axis. Errors: grid_too_small.
+/// cells along each axis. Errors: grid_too_small.
 Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid);
 

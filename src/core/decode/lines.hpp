@@ -44,8 +44,8 @@ struct AxisReading {
     /// Sum of the best scores of all lines, regardless of their rolls.
     std::int32_t max_possible = 0;
 
-    /// Returns true if the score is so near the maximum that no other reading can have a similar
-    /// score.
+    /// Returns true if the score is so close to the maximum that no other reading can have a
+    /// similar score.
     bool is_clear() const { return 8 * std::int64_t{score} > 7 * std::int64_t{max_possible}; }
 };
 

@@ -23,8 +23,8 @@ class Nominal {
   private:
     QuarterTurn turn_;
     FixedVec first_;  ///< minimum pattern step of the cells of the grid
-    /// Index in the main sequence of the first cell of each column; `rows_` contains that of each
-    /// row.
+    /// Index in the main sequence of the first cell of each column. `rows_` contains the index of
+    /// the first cell of each row.
     std::array<std::uint8_t, kMaxGridSide> columns_;
     std::array<std::uint8_t, kMaxGridSide> rows_;
 };

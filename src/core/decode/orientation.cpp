@@ -97,7 +97,7 @@ std::int32_t best_agreement(const Voters& voters) {
 
 Orientation rank_turns(const Grid& grid, const GridRegion& region) {
     // differs: the paper counts the lines that occur exactly in the main sequence. The sum of the
-    // best scores gives the same vote, but includes lines with a misread bit.
+    // best scores gives the same vote, but also uses lines with a misread bit.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
     const BothWays of_columns = agreement(x_columns);
@@ -107,7 +107,8 @@ Orientation rank_turns(const Grid& grid, const GridRegion& region) {
     // Half a turn flips and reverses lines.
     const std::int32_t turned_columns = of_columns.backwards.flipped;
     const std::int32_t turned_rows = of_rows.backwards.flipped;
-    // A quarter turn exchanges columns and rows and flips one of them; see `turned` in upright.hpp.
+    // A quarter turn exchanges columns and rows and flips either the columns or the rows (`turned`
+    // in upright.hpp).
     const std::array<std::int32_t, 4> scores{columns + rows, turned_columns + rows,
                                              turned_columns + turned_rows, columns + turned_rows};
     std::array<QuarterTurn, 4> turns{QuarterTurn{0}, QuarterTurn{1}, QuarterTurn{2},

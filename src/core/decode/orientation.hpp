@@ -1,4 +1,5 @@
-// Orientation: the quarter turn that makes the grid upright on the pattern. Paper section II-B.6.
+// Orientation: the quarter turn that rotates the grid to the upright orientation of the pattern.
+// Paper section II-B.6.
 #pragma once
 
 #include <array>
@@ -14,13 +15,13 @@ struct Orientation {
                              ///< likely turn
 };
 
-/// Ranks the four turns by a vote of the columns and rows. On each axis, the lines are compared
-/// with the main sequence as read, and flipped and reversed.
+/// Ranks the four turns by a vote of the columns and rows. The lines of each axis are compared with
+/// the main sequence both as read and after a half turn, which flips and reverses them.
 Orientation rank_turns(const Grid& grid, const GridRegion& region);
 
-/// Returns true if the region agrees much better with the mirrored pattern, whose columns contain
-/// the bits of rows, than with the pattern. `agreement` is the agreement with the pattern, as
-/// `rank_turns` returned it.
+/// Returns true if the region agrees much better with the mirrored pattern than with the pattern.
+/// The columns of the mirrored pattern contain the bits of rows. `agreement` is the result of
+/// `rank_turns`.
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t agreement);
 
 }  // namespace dotpose::core

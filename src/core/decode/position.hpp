@@ -1,4 +1,4 @@
-// Position: determines the turn and the place in the code. Paper sections II-B.6 and II-B.7.
+// Position: the turn and the place in the code. Paper sections II-B.6 and II-B.7.
 #pragma once
 
 #include "core/decode/grid.hpp"
@@ -14,7 +14,7 @@ Status decode_window(const Grid& grid, CodeVariant code, std::span<ScoredLine> s
                      Decoding& decoding);
 
 /// Decodes all dots: correlates all lines with weights, and finds the position with the largest sum
-/// of scores. Tries the two most likely turns and takes the turn with the larger sum. Errors:
+/// of scores. Tries the two most likely turns and keeps the turn with the larger sum. Errors:
 /// grid_too_small, not_in_code.
 Status decode_all(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                   Decoding& decoding);

@@ -66,7 +66,7 @@ class CellSampler {
     void visit(const Grid& grid, Use use) const;
     /// Sets the darkness and shade of the places in the image.
     void sample(CellView& view) const;
-    /// Returns the paper level at the middle of the cell relative to the paper level at the middle
+    /// Returns the paper level at the middle of the cell divided by the paper level at the middle
     /// of the image.
     int light_q8(const CellView& view) const;
     /// Returns, for each place in the image, the shade of the darkest square at a distance of 2/15
@@ -91,7 +91,8 @@ class CellSampler {
     const PlaneFromImage& plane_;
 };
 
-/// Returns the distance between sampled pixels, in px. It is larger than 1 for large squares.
+/// Returns the distance between sampled pixels, in px. The distance is larger than 1 for large
+/// squares.
 int step_px(int half_px) {
     return std::max(half_px / 3, 1);
 }
@@ -270,7 +271,7 @@ class Ink {
         return sample;
     }
 
-    /// Returns true if two of the places of the cell look like dots.
+    /// Returns true if two places of the cell look like dots.
     bool is_crowded(const Sample& sample) const {
         std::array<int, 4> sorted = sample.darkness_q8;
         std::sort(sorted.begin(), sorted.end());
@@ -281,11 +282,11 @@ class Ink {
     /// Returns the weight of a bit. `one_q8` and `zero_q8` are the darkness at the places where the
     /// bit is 1 and 0.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
-        // The weight is the difference relative to the noise of the sensor. The difference in grey
+        // The weight is the difference divided by the noise of the sensor. The difference in grey
         // levels and the contrast are both proportional to the light.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
-        // The weight is limited, because above some contrast, errors are not caused by noise.
+        // The weight is limited. Above some contrast, errors are not caused by noise.
         const int weight = static_cast<int>(
             std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
         return static_cast<std::int8_t>(weight * sample.reliability_q4 / 16);

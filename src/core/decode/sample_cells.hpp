@@ -1,6 +1,6 @@
 // Sample cells: samples the bits of every cell from the image, at the four places of the cell. Dots
-// contribute even if they were not found as blobs. Replaces the projections of eq. 7-8 in the
-// second attempt. differs: docs/differs-from-paper.md.
+// contribute even if they were not found as blobs. In the second attempt, this stage replaces the
+// projections of eq. 7-8. differs: docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/grid.hpp"
@@ -11,7 +11,7 @@
 namespace dotpose::core {
 
 /// Extends the grid over the whole image and sets the weights of the bits of all its cells, or of
-/// the middle `grid.side` cells per axis. Places outside the image and under graphics favour
+/// the middle `grid.side` cells along each axis. Places outside the image and under graphics favour
 /// neither value of a bit, and cells under graphics are marked as hidden. Cells near graphics or
 /// the border have smaller weights. Returns false if many cells contain two dots, which means that
 /// the image contains two patterns.

@@ -53,8 +53,8 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Returns the reading for which line `line` is at `position` with `roll`. Its score is the sum
-/// over all lines.
+/// Returns the reading for which line `line` is at `position` with `roll`. The score of the reading
+/// is the sum over all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     std::array<std::uint8_t, kMaxLines> storage;
@@ -95,8 +95,8 @@ std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     }
 }
 
-/// Reads the lines from `first` on with the given rolls, and replaces `best` if the reading has a
-/// higher score over all lines. Returns true if the new reading is clear.
+/// Reads the lines that start at `first` with the given rolls, and replaces `best` if the reading
+/// has a higher score over all lines. Returns true if the new reading is clear.
 bool improve(CodeVariant code, const Lines& lines, int first, std::span<const std::uint8_t> rolls,
              AxisReading& best) {
     std::uint32_t position = 0;
@@ -122,7 +122,7 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
     const auto widths = widen(run, length, max_readings);
     std::array<int, kMaxRunLength> choice{};
     while (true) {
-        // Counts up the choices. The choice of the last line changes fastest.
+        // Advances to the next combination. The choice of the last line changes fastest.
         std::size_t n = rolls.size();
         while (n > 0 && choice[n - 1] + 1 == widths[n - 1]) {
             choice[--n] = 0;
@@ -134,8 +134,8 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
     }
 }
 
-/// Returns the first line of the run with the largest sum of margins among the runs that are not
-/// taken yet, or -1 if all runs are taken.
+/// Returns the first line of the run with the largest sum of margins among the runs not taken yet,
+/// or -1 if all runs are taken.
 int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int largest = INT32_MIN;

@@ -8,7 +8,8 @@
 namespace dotpose::core {
 
 /// Returns the number of consecutive lines that determine a position. The misprinted sequence of
-/// libdots needs more lines, because only 7 consecutive differences are unique in it.
+/// libdots needs more lines, because its strings of fewer than 7 consecutive differences are not
+/// unique.
 int run_length(CodeVariant code);
 
 /// Returns the reading of the first line if line `line` is at `position` with `roll`. Sets the
@@ -16,14 +17,14 @@ int run_length(CodeVariant code);
 AxisReading reading_of_first(CodeVariant code, std::uint32_t position, int roll, int line,
                              std::span<std::uint8_t> rolls);
 
-/// Reads runs of consecutive lines, starting with the clearest run, each with its most likely
-/// rolls, and keeps the position with the largest sum over all lines. If the score of this position
-/// is not the maximum possible, searches by steps as well. Errors: not_in_code, if no reading
-/// occurs in the code.
+/// Reads runs of consecutive lines, clearest run first, with the most likely rolls of each line.
+/// Keeps the position with the highest score over all lines. If this score is below the maximum
+/// possible and there are at least `run_length(code)` lines, also calls `search_by_steps`. Error:
+/// not_in_code if no reading occurs in the code.
 Status find_axis(CodeVariant code, const Lines& lines, AxisReading& best);
 
-/// Reads only a few runs with a few readings each, for first attempts. A position that takes longer
-/// to find is rarely certain.
+/// As `find_axis`, but reads only a few runs with a few readings each, for first attempts. A
+/// position that takes longer to find is rarely certain.
 Status find_axis_briefly(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

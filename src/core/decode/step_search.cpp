@@ -14,7 +14,7 @@ constexpr std::size_t kSequences = 4;
 constexpr std::size_t kDigits = 3;
 constexpr std::size_t kStepSizes = code::kMaxDelta - code::kMinDelta + 1;
 
-/// Loss of score, by sequence and digit, if the step between two lines has this digit in this
+/// Loss of score for each sequence and digit, if the step between two lines has this digit in this
 /// sequence.
 using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
 
@@ -74,8 +74,8 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
     return places;
 }
 
-/// Returns the reading for which the first line is at `position`, with the best roll. Its score is
-/// the sum over all lines.
+/// Returns the reading with the first line at `position` and the best roll. The score of the
+/// reading is the sum over all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;
     code::follow_rolls(code, position, 0, std::span(rolls).first(lines.all.size()));

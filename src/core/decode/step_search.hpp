@@ -7,9 +7,10 @@
 namespace dotpose::core {
 
 /// Finds the loss of each digit of every step between two lines, then the places in each secondary
-/// sequence that agree best with all steps, and then the best position that combines such places.
-/// Replaces `best` if the position is better. Also finds positions that the search by runs of lines
-/// misses, for example if graphics hide every sixth line or if no line has a clear roll.
+/// sequence that agree best with all steps, and then the best position among the combinations of
+/// these places. Replaces `best` if this position has a higher score. Also finds positions that the
+/// search by runs of lines misses, for example if graphics hide every sixth line or if no line has
+/// a clear roll.
 void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

@@ -1,5 +1,6 @@
-// Upright: the matrices P turned upright on the pattern, which makes them independent of the turn
-// of the grid. Paper section II-B.6 (last paragraph: symbols and matrices are rotated accordingly).
+// Upright: the matrices P rotated to the upright orientation of the pattern. The result does not
+// depend on the rotation of the grid. Paper section II-B.6, last paragraph ("symbols and matrices
+// are rotated accordingly").
 #pragma once
 
 #include <array>
@@ -11,17 +12,18 @@
 
 namespace dotpose::core {
 
-/// Signed weights of the bits of a line; positive for bit 1.
+/// Signed weights of the bits of a line. Positive weights mean bit 1.
 using Line = std::array<std::int8_t, kMaxGridSide>;
 
-/// Weights of the two bits of a symbol; positive for bit 1.
+/// Weights of the two bits of a symbol. Positive weights mean bit 1.
 struct Bits {
     std::int8_t x = 0;
     std::int8_t y = 0;
 };
 
-/// Returns the bits of a cell turned upright on the pattern. A quarter turn maps the displacement
-/// (x, y) to (-y, x), and therefore the projections of eq. 7-8, (y - x, y + x), to (x + y, x - y).
+/// Returns the bits of a cell rotated to the upright orientation of the pattern. A quarter turn
+/// maps the displacement (x, y) to (-y, x), and therefore the projections of eq. 7-8, (y - x, y +
+/// x), to (x + y, x - y).
 constexpr Bits turned(QuarterTurn pattern_from_grid, const GridCell& cell) {
     const auto minus_x = static_cast<std::int8_t>(-cell.x);
     const auto minus_y = static_cast<std::int8_t>(-cell.y);
@@ -37,7 +39,7 @@ constexpr Bits turned(QuarterTurn pattern_from_grid, const GridCell& cell) {
     }
 }
 
-/// A region of the grid, turned upright.
+/// A region of the grid, rotated to the upright orientation.
 class Upright {
   public:
     Upright(const Grid& grid, const GridRegion& region, QuarterTurn pattern_from_grid)
@@ -53,7 +55,7 @@ class Upright {
         };
         to_right_ = stride({1, 0});
         downwards_ = stride({0, 1});
-        // The same as in `turned`, for all cells of a line.
+        // As in `turned`, but for all cells of a line.
         x_bit_ = is_sideways() ? &GridCell::y : &GridCell::x;
         y_bit_ = is_sideways() ? &GridCell::x : &GridCell::y;
         x_sign_ = q == 0 || q == 1 ? 1 : -1;

@@ -12,8 +12,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Half of a low threshold for which every pixel is dark. Used as a sentinel after the last pixel
-/// of a row, it ends the search for dark pixels.
+/// Half of a low threshold for which every pixel is dark. It serves as a sentinel after the last
+/// pixel of a row, and ends the search for dark pixels.
 constexpr std::uint8_t kAlwaysDark = 128;
 
 constexpr int kBandsKept = 4;  // three are needed; a power of two is faster
@@ -37,7 +37,7 @@ void keep_row(const std::uint8_t* pixels, const AdaptiveThreshold& threshold, st
     const std::uint8_t* const end = pixels + threshold.width_px;
     std::uint8_t* const whole = row + whole_width(threshold);
     if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
-        // The C libraries of small devices copy byte by byte, which is slower.
+        // The `memcpy` of small devices copies byte by byte, which is slower.
         copy_blocks<28>(pixels, end, row);
         copy_blocks<12>(pixels, end, row);
         copy_blocks<4>(pixels, end, row);
@@ -78,7 +78,7 @@ void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
     }
 }
 
-/// Replaces each number by the maximum of this number and its two neighbours.
+/// Replaces each number by the maximum of the number and its two neighbours.
 void join_neighbours(std::uint8_t* number, std::size_t count) {
     std::uint8_t* const last = number + count - 1;
     int here = *number;
@@ -129,8 +129,8 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
 
 /// Returns the contrast of dots relative to paper in a band, in 1/256, or 0 if no tile has
 /// contrast. Ink reflects the same fraction of the light everywhere, so all tiles have the same
-/// relative contrast. Strokes of graphics increase the contrast of the tiles around them. The 30 %
-/// quantile over a band is the contrast of dots even if strokes cross the band.
+/// relative contrast. Strokes of graphics increase the contrast of the tiles around the strokes.
+/// The 30 % quantile over a band is the contrast of dots even if strokes cross the band.
 unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                              int min_contrast, int& max_contrast) {
     Histogram histogram{};
@@ -145,7 +145,7 @@ unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses
     return (2 * bin + 1) * (256 / (2 * kContrastBins));
 }
 
-/// Sets the thresholds of all columns from their contrasts relative to paper, in 2^-16.
+/// Sets the thresholds of all columns from their contrasts relative to paper, in units of 2^-16.
 void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q16,
                 unsigned to_high_q16, AdaptiveThreshold& threshold) {
     std::uint8_t* half_low_levels = threshold.half_low_levels.data();
@@ -163,7 +163,7 @@ void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q
 }  // namespace
 
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold) {
-    // A smaller divisor would reject more noise, but also pale dots in uneven light.
+    // A smaller divisor would reject more noise, but would also reject pale dots in uneven light.
     constexpr int kContrastPart = 6;
     return std::clamp(threshold.max_contrast / kContrastPart, options.min_contrast,
                       2 * options.min_contrast);
@@ -202,11 +202,11 @@ void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold
     std::uint8_t* const darknesses = threshold.high_levels.data();
     join_bands(three_bands(threshold, band), tiles, papers, darknesses);
     // The darkness includes the tiles on both sides, because dots may be farther apart than the
-    // width of a tile. The paper level does not: each tile contains paper, and the brightest of
-    // several tiles would be too bright.
+    // width of a tile. The paper level does not include these tiles. Each tile contains paper, and
+    // the brightest of several tiles would be too bright.
     join_neighbours(darknesses, tiles);
-    // A tile with less than half of its columns in the image consists mostly of the repeated last
-    // pixel.
+    // If less than half of the columns of a tile are in the image, the tile consists mostly of the
+    // repeated last pixel.
     if (whole_width(threshold) - threshold.width_px > kTileWidth_px / 2)
         papers[tiles - 1] = std::max(papers[tiles - 2], papers[tiles - 1]);
     const unsigned contrast_q8 = typical_contrast_q8(

@@ -18,7 +18,7 @@ constexpr std::uint32_t kMaxMass = 65535;
 /// Marks a merged blob, in place of its last row.
 constexpr std::uint16_t kNoRow = UINT16_MAX;
 
-/// Returns an upper bound of the distance of a dot from the image centre, per axis.
+/// Returns an upper bound on the distance of a dot from the image centre, along either axis.
 int all_within_px(const AdaptiveThreshold& threshold) {
     return std::max(threshold.width_px, threshold.height_px);
 }
@@ -37,7 +37,7 @@ struct IsKept {
 };
 
 /// Removes all dots that do not satisfy the predicate, and keeps the order. std::remove_if is not
-/// used because libraries unroll it, which takes a kilobyte on small devices.
+/// used, because libraries unroll it, which takes a kilobyte on small devices.
 template <typename Predicate>
 void keep_dots(DotList list, Predicate is_to_keep) {
     DetectedDot* kept = list.dots.data();
@@ -59,8 +59,8 @@ void keep_dots(DotList list, Predicate is_to_keep) {
     return true;
 }
 
-/// Returns sum / mass in 1/256, rounded. Drops the lowest one or two bits for the largest blobs, to
-/// stay within 32 bits.
+/// Returns sum / mass in units of 1/256, rounded. For the largest blobs, drops the lowest one or
+/// two bits to stay within 32 bits.
 std::int32_t mean_q8(std::uint32_t sum, std::uint32_t mass) {
     for (; sum >= 1U << 23; sum /= 2)
         mass /= 2;
@@ -130,7 +130,7 @@ void add_run(const Run& run, int v, OpenBlob& blob) {
     blob.passes_high |= run.passes_high;
 }
 
-/// Merges `other` into `blob`: both are parts of one dark spot.
+/// Merges `other` into `blob`. Both blobs are parts of one dark spot.
 void unite(OpenBlob& blob, OpenBlob& other) {
     blob.sum_x += other.sum_x;
     blob.sum_y += other.sum_y;
@@ -156,8 +156,8 @@ void end_row(Run& after_last) {
     after_last.begin = after_last.end = UINT16_MAX;
 }
 
-/// Adds each run of row `v` to the blob of the runs above that it touches, including at corners.
-/// Opens a new blob for a run that touches none.
+/// Adds each run of row `v` to the blob of a touching run in the row above. Runs that meet at a
+/// corner touch. Opens a new blob for a run that touches no other run.
 void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
     bool some_united = false;
     for (Run& run : below) {
@@ -202,8 +202,8 @@ void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& thr
     }
 }
 
-/// Returns the upper quartile of a member over a sample of the dots. Blobs of noise may be as
-/// frequent as dots, but few blobs are larger than dots.
+/// Returns the upper quartile of a member over a sample of the dots. There may be as many blobs of
+/// noise as dots, but few blobs are larger than dots.
 std::int32_t typical(std::span<const DetectedDot> dots, std::uint16_t DetectedDot::*member) {
     constexpr std::size_t kSample = 128;
     const std::size_t step = dots.size() / kSample + 1;

@@ -24,7 +24,7 @@ struct OpenBlob {
     std::uint16_t right = 0;  ///< exclusive
     std::uint16_t first_v = 0;
     std::uint16_t last_v = 0;
-    /// The blob into which this blob was merged. For an unused blob, the next unused blob.
+    /// The blob into which this blob was merged. In the list of unused blobs, the next unused blob.
     OpenBlob* part_of = nullptr;
     bool passes_high = false;  ///< true if a pixel is darker than the high threshold
 };
@@ -54,7 +54,8 @@ struct DotList {
 void begin_blobs(const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
 /// Finds the runs of row `v` with `threshold.half_low_levels` and `threshold.high_levels`,
-/// continues the blobs of the row above, and adds the blobs that ended there to the list.
+/// continues the blobs of the row above, and adds the blobs that ended in the row above to the
+/// list.
 void grow_blobs(int v, const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
 /// Removes dots that are much lighter or larger than the upper quartile, and dots with too few

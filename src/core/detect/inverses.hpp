@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Returns 1 / (n + 1) in 2^-22.
+/// Returns 1 / (n + 1) in units of 2^-22.
 constexpr std::uint32_t inverse_q22(std::uint32_t n) {
     return (1U << 22) / (n + 1);
 }
@@ -23,7 +23,7 @@ class Inverse {
         inverse_q22_ = static_cast<std::int32_t>(
             tabled<inverse_q22, 256>(static_cast<std::uint32_t>(mass - 1)));
     }
-    /// Returns sum / mass in 2^-8. The sum must be at most 8 times the mass.
+    /// Returns sum / mass in units of 2^-8. The sum must be at most 8 times the mass.
     std::int32_t quotient_q8(std::int32_t sum) const {
         // The shifted sum has at most 12 bits: 9 bits of the mass and 3 bits of the quotient.
         const std::int32_t n = shift_ > 0 ? sum >> shift_ : sum * (1 << -shift_);

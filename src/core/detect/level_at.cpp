@@ -24,7 +24,7 @@ std::array<int, kTaps> taps(std::int32_t position_q8) {
     return weights;
 }
 
-/// Returns a pixel with defects corrected. Pixels at the border have too few neighbours; the
+/// Returns a pixel with defects corrected. Pixels at the border have too few neighbours, so the
 /// nearest inner pixel replaces them.
 int level_near(const ImageView& image, int u, int v) {
     return without_defect(image, std::clamp(u, 1, image.width_px - 2),

@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::patch;
 
-/// Returns 2^24 / (n + 1), rounded up. The values are tabled, because the divisions for all tiles
-/// would take a microsecond.
+/// Returns 2^24 / (n + 1), rounded up. The values are tabulated, because the divisions for all
+/// tiles would take a microsecond.
 constexpr std::uint32_t reciprocal_q24(std::uint32_t n) {
     return ((1U << 24) + n) / (n + 1);
 }
@@ -50,8 +50,8 @@ bool measure_contrast(Patch& patch) {
     const auto tile = [](int column, int row) {
         return static_cast<std::size_t>(row * Patch::kTilesPerRow + column);
     };
-    // Number of tiles by their darkness relative to their paper level, in 1/64. The last bin counts
-    // tiles without contrast.
+    // Number of tiles by darkness relative to their paper level, in units of 1/64. The last bin
+    // counts tiles without contrast.
     constexpr std::size_t kFlat = 65;
     std::array<int, kFlat + 1> counts{};
     for (int row = 0; row < rows; ++row) {
@@ -70,8 +70,8 @@ bool measure_contrast(Patch& patch) {
     patch.dot_contrast_q8 = 4 * static_cast<int>(median) + 2;
     const int contrast_q16 = patch.dot_contrast_q8 * tuned::kThreshold_q8;
     for (int row = 0; row < rows; ++row) {
-        // The thresholds of the whole row are computed as one vector, including those of its unused
-        // tiles.
+        // The thresholds of the whole row are computed as one vector, including the thresholds of
+        // unused tiles.
         const auto paper = std::span(patch.brightest).subspan(tile(0, row), Patch::kTilesPerRow);
         std::array<std::uint8_t, Patch::kTilesPerRow> thresholds;
         for (std::size_t i = 0; i < thresholds.size(); ++i)
@@ -104,7 +104,7 @@ void keep_isolated(Patch& patch) {
     };
     std::size_t kept = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
-        // On a plateau the parabola has no vertex, and the minimum has no finite place.
+        // On a plateau, the parabola has no vertex, so the minimum has no finite coordinates.
         if (!(std::abs(dots.x[i]) < kNoDot_px && std::abs(dots.y[i]) < kNoDot_px)) continue;
         const int u = pixel_of(dots.x[i], patch.width_px);
         const int v = pixel_of(dots.y[i], patch.height_px);

@@ -25,8 +25,8 @@ bool is_group_light(const std::uint8_t* pixels, const std::uint8_t* half_low_lev
     return tops == kTops;
 }
 
-/// Returns the first dark pixel of a row, starting at `begin`. The dark pixel after the end of the
-/// row ends the search.
+/// Returns the first dark pixel of a row, starting at `begin`. The sentinel, a dark pixel after the
+/// end of the row, ends the search.
 const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row,
                               const std::uint8_t* half_low_levels) {
     const auto before = static_cast<std::size_t>(begin - row) % kWord_px;
@@ -58,8 +58,7 @@ const std::uint8_t* write_run(const std::uint8_t* pixel, const std::uint8_t* row
     run.begin = static_cast<std::uint16_t>(pixel - row);
     bool passes_high = false;
     std::uint32_t mass = 0;
-    // Sum of depth * (last column - column), because each depth is added again for every following
-    // pixel.
+    // Sum of depth * (last column - column). Each depth is added again for every following pixel.
     std::uint32_t moment = 0;
     const std::uint8_t* tile_end = nullptr;
     do {

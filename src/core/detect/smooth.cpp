@@ -20,7 +20,7 @@ std::uint16_t* line(const Smoothing& smoothing, int v, int width_px) {
     return smoothing.lines.data() + static_cast<std::ptrdiff_t>(v % kRows) * width_px;
 }
 
-/// Clamps pixels to the range of their neighbours, which removes single impulses.
+/// Clamps each pixel to the range of its neighbours, which removes single impulses.
 void clip_impulses(const ImageView& image, int v, std::uint8_t* out) {
     const std::uint8_t* above = image.row(std::max(v - 1, 0));
     const std::uint8_t* here = image.row(v);
@@ -69,14 +69,14 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
     }
 }
 
-/// Returns half the side of the surroundings, which include two spacings if 8 dots are in view.
+/// Returns half the side of the surroundings, which contain two spacings if 8 dots are in view.
 /// Near the border the surroundings are smaller but still symmetric around the pixel, which cancels
 /// a gradient of the light.
 int half_side(int at, int length, int max_half) {
     return std::max(std::min({max_half, at, length - 1 - at}), tuned::kMinHalf_px);
 }
 
-/// Adds a row to the sums of the columns, or subtracts it. A pixel much darker than the paper
+/// Adds a row to the sums of the columns, or subtracts the row. A pixel much darker than the paper
 /// around it counts as paper, because a stroke of graphics is not shadow.
 void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     const std::uint8_t* row = image.row(v);
@@ -96,7 +96,7 @@ void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     }
 }
 
-/// Moves the window of rows that the column sums contain to [begin, end).
+/// Moves the window of rows that are summed in the column sums to [begin, end).
 void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing) {
     while (smoothing.sums_end < end)
         add_row(image, smoothing.sums_end++, true, smoothing);
@@ -107,8 +107,8 @@ void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing)
 /// Minimum level of the normalised image. Darker pixels are raised to this level.
 constexpr std::uint32_t kMinLevel = kNormalLevel * tuned::kMinLevel_5ths / 5;
 
-/// Computes quotients, rounded down, by multiplication. They are exact for n / d < 256 and d <
-/// 2^20: the factor is too large by less than one, which increases n / d by less than n / 2^48 < 1
+/// Computes quotients, rounded down, by multiplication. The quotients are exact for n / d < 256 and
+/// d < 2^20: `factor_` is too large by less than 1, which increases n / d by less than n / 2^48 < 1
 /// / d.
 class Divider {
   public:
@@ -126,8 +126,8 @@ class Divider {
     std::uint64_t factor_ = 0;
 };
 
-/// Returns kNormalLevel / mean in 2^-24, rounded up. Its product with a pixel is too large by less
-/// than 1 / 256. The mean is not 0.
+/// Returns kNormalLevel / mean in units of 2^-24, rounded up. The product of this factor and a
+/// pixel is too large by less than 1 / 256. The mean is not 0.
 constexpr std::uint32_t normalising_factor_q24(std::uint32_t mean) {
     return mean == 0 ? 0 : ((std::uint32_t{kNormalLevel} << 24) - 1) / mean + 1;
 }

@@ -1,5 +1,5 @@
-// Smooth: the filter of the second attempt. It normalises the light, filters pixel noise at the
-// size of a blurred dot, and removes single defect pixels. differs: not in the paper;
+// Smooth: the filter of the second attempt. The filter normalises the light, filters pixel noise at
+// the size of a blurred dot, and removes single defect pixels. differs: not in the paper;
 // docs/differs-from-paper.md.
 #pragma once
 
@@ -27,7 +27,7 @@ struct Smoothing {
 /// Grey level to which the mean of the surroundings is scaled.
 inline constexpr int kNormalLevel = 192;
 
-/// Starts an image and discards the rows of the previous one.
+/// Starts an image and discards the rows of the previous image.
 void begin_smoothing(const ImageView& image, Smoothing& smoothing);
 
 /// Returns the next row, from the top, of the filtered image. Each pixel is clamped to the range of

@@ -12,7 +12,7 @@ struct LevelRange {
     int high = 0;
 };
 
-/// Returns the range of the eight neighbours of a pixel, which must not be on the border.
+/// Returns the range of the eight neighbours of a pixel. The pixel must not be on the border.
 inline LevelRange range_around(const ImageView& image, int u, int v) {
     LevelRange range;
     for (int dv = -1; dv <= 1; ++dv) {
@@ -26,8 +26,8 @@ inline LevelRange range_around(const ImageView& image, int u, int v) {
     return range;
 }
 
-/// Returns a pixel or, if its level is far outside the range of its neighbours, their mean. Such a
-/// pixel is a defect of the sensor. The pixel must not be on the border.
+/// Returns a pixel, or the mean of its neighbours if the level of the pixel is far outside their
+/// range. Such a pixel is a defect of the sensor. The pixel must not be on the border.
 inline int without_defect(const ImageView& image, int u, int v) {
     const auto [low, high] = range_around(image, u, v);
     const int level = image.row(v)[u];

@@ -1,5 +1,4 @@
-// Tiles: measures the mean and the darkest pixels of each tile, from which the thresholds are
-// computed.
+// Tiles: the mean and the darkest pixels of each tile, from which the thresholds are computed.
 #pragma once
 
 #include <span>

@@ -8,32 +8,33 @@ namespace dotpose::core::tuning {
 
 /// Paper level by blocks (detect/paper).
 namespace paper {
-/// Side of a block, as a part (1/n) of the shorter side of the image. A block includes several
+/// Side of a block, as a part (1/n) of the shorter side of the image. A block contains several
 /// spacings even if few dots are in view, but is small compared with the shading of lamps and
 /// lenses.
 inline constexpr int kBlockPart = 10;
 /// Number of pixels sampled along each side of a block.
 inline constexpr int kSamplesPerSide = 12;
 /// Fraction of the pixels of a block, in thirds, that are darker than its paper level. Dots cover a
-/// smaller fraction, and noise is on both sides of the level.
+/// smaller fraction, and noise is symmetric about the level.
 inline constexpr int kDarker_3rds = 2;
-/// Minimum level of a block, in fourths of the brightest block around it. Darker blocks are covered
-/// by graphics and get the brightest level instead, because the light changes less from block to
-/// block.
+/// Minimum level of a block, in fourths of the level of the brightest block around it. A darker
+/// block is covered by graphics, because the light changes less from block to block. The brightest
+/// level replaces the level of such a block.
 inline constexpr int kCovered_4ths = 3;
 }  // namespace paper
 
 /// Normalisation of the light in the second attempt (detect/smooth).
 namespace smooth {
-/// Minimum of half the side of the surroundings, which applies at the border of the image, in px:
-/// half the width of a dot.
+/// Minimum half side of the surroundings, in px: half the width of a dot. The minimum applies at
+/// the border of the image.
 inline constexpr int kMinHalf_px = 4;
 /// Maximum level of a stroke, in tenths of the brightest paper level nearby. Darker pixels count as
-/// paper in the mean of the surroundings, because strokes of graphics are not shadow. With 4:
+/// paper in the mean of the surroundings, because a stroke of graphics is not a shadow. With 4:
 /// 1,995; with 9: 1,995.
 inline constexpr int kStroke_10ths = 7;
-/// Minimum level of the normalised image, in fifths of the paper level. The limit makes graphics no
-/// darker than a weak dot, which keeps the contrast of nearby dots visible. With 2: 1,937.
+/// Minimum level of the normalised image, in fifths of the paper level. With this limit, graphics
+/// are at most as dark as a weak dot, which keeps the contrast of nearby dots visible. With 2:
+/// 1,937.
 inline constexpr int kMinLevel_5ths = 4;
 }  // namespace smooth
 
@@ -42,14 +43,14 @@ namespace patch {
 /// Minimum side of a patch, in px: 8 dots at a spacing of 6 px.
 inline constexpr int kMin_px = 48;
 /// Minimum darkness of a smoothed dot, in grey levels, and minimum number of tiles with at least
-/// this darkness. Tiles with less are blank.
+/// this darkness. Tiles with less darkness count as blank.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
-/// Minimum darkness of a dot, which is a minimum of the smoothed patch, in 1/256 of the darkness of
-/// a typical dot. Lighter minima are noise.
+/// Minimum darkness of a dot, in units of 1/256 of the darkness of a typical dot. Lighter minima of
+/// the smoothed patch are noise.
 inline constexpr int kThreshold_q8 = 150;
 /// Distances in px, along the axes and diagonally, at which the surroundings of a minimum are
-/// tested. kMaxDark of the eight directions may be dark, as beside another dot.
+/// tested. At most kMaxDark of the eight directions may be dark, as next to another dot.
 inline constexpr int kAway_px = 4;
 inline constexpr int kDiagonally_px = 3;
 inline constexpr int kMaxDark = 2;

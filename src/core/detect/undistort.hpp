@@ -1,4 +1,5 @@
-// Undistort: converts image points to those of a lens without distortion, and back. Paper eq. 1-2.
+// Undistort: converts image points to the image points of a lens without distortion, and back.
+// Paper eq. 1-2.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -6,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Returns the image point of a lens without distortion, by eq. 1-2.
+/// Returns the image point for a lens without distortion, by eq. 1-2.
 FixedVec undistorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8);
 
 /// Replaces the centres of dots by their undistorted points.
@@ -16,8 +17,8 @@ void undistort(const FixedLens& lens, FixedVec image_centre_q8, std::span<Detect
 /// 2 r_u / (1 + sqrt(1 - 4 k r_u^2)).
 FixedVec distorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8);
 
-/// Returns the distorted image point of a plane point, in 2^-8 px. The centre of the plane is the
-/// image centre.
+/// Returns the distorted image point of a plane point, in units of 2^-8 px. The centre of the plane
+/// is the image centre.
 FixedVec distorted_point_q8(const FixedLens& lens, const PlaneFromImage& plane,
                             FixedVec plane_point_q16);
 

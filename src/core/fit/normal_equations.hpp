@@ -1,4 +1,4 @@
-// Normal equations of a least-squares problem in single precision, solved by Cholesky's
+// Normal equations of a least-squares problem in single precision, solved by Cholesky
 // decomposition.
 #pragma once
 
@@ -38,16 +38,16 @@ class NormalEquations {
             columns_[i].set(i, columns_[i].at(i) * by);
     }
 
-    /// Replaces M by L. Leaves out parameters of which the equations determine less than a fraction
-    /// `min_determined` of the diagonal element after elimination of the parameters before them.
-    /// Returns false if one of the first `required` parameters is left out.
+    /// Replaces M by L. Leaves out a parameter if elimination of the preceding parameters reduces
+    /// its diagonal element to `min_determined` times its original value or less. Returns false if
+    /// one of the first `required` parameters is left out.
     bool decompose(float min_determined, std::size_t required) {
         Vector minima;
         for (std::size_t i = 0; i < N; ++i)
             minima[i] = min_determined * columns_[i].at(i);
         for (std::size_t i = 0; i < N; ++i) {
             Column& column = columns_[i];
-            // Parameters that no equation contains have the element 0 and are left out as well.
+            // A parameter that no equation contains has the element 0 and is also left out.
             if (!(column.at(i) > minima[i])) {
                 if (i < required) return false;
                 leave_out(i);
@@ -70,7 +70,7 @@ class NormalEquations {
     /// Returns an element of L.
     float factor(std::size_t row, std::size_t column) const { return columns_[column].at(row); }
 
-    /// Returns L^-1 vector. The inner product of two such vectors a and b is a . M^-1 . b.
+    /// Returns L^-1 vector. The inner product of two whitened vectors is a . M^-1 . b.
     Vector whitened(const Vector& vector) const {
         Column rest(vector);
         Vector result;
@@ -82,7 +82,8 @@ class NormalEquations {
     }
     /// Returns L^-T vector.
     Vector unwhitened(const Vector& vector) const {
-        // Each element depends on the one before it, which is therefore subtracted last.
+        // Each element depends on the element computed before it, so that element is subtracted
+        // last. The other products need not wait for it.
         Vector result{};
         for (std::size_t i = N; i-- > 0;) {
             float rest = vector[i];

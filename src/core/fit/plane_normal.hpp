@@ -14,8 +14,7 @@ struct Residuals {
     Four weight;
 };
 
-/// Weighted sums over the points and their residuals. They are the elements of the normal
-/// equations.
+/// Weighted sums over the points and their residuals: the elements of the normal equations.
 class PlaneSums {
   public:
     void add(const FourVecs& places, const Residuals& residuals);

@@ -1,5 +1,5 @@
-// Projections: projects four image points at once through a plane, and provides their derivatives
-// with respect to the parameters of the plane.
+// Projections: the map of four image points through a plane, and its derivatives with respect to
+// the parameters of the plane.
 #pragma once
 
 #include <array>
@@ -31,10 +31,10 @@ struct FourVecs {
 /// (0, 1)) place for perspective, and (place . place) place for the lens.
 std::array<Parameters, 2> jacobian(const FourVecs& places, std::size_t point);
 
-/// A plane whose parameters change the pattern, not the image. For scale, turn, perspective and
-/// shear this is exact at any tilt. Places on the pattern are relative to the plane's `at`, in
-/// units of its scale. With this unit, the derivatives with respect to all parameters have similar
-/// sizes, and single precision suffices.
+/// A plane with parameters that act on the pattern instead of the image. For scale, turn,
+/// perspective and shear this is exact at any tilt. Places on the pattern are relative to the
+/// plane's `at`, in units of its scale. With this unit, the derivatives with respect to all
+/// parameters have similar sizes, and single precision suffices.
 class ScaledPlane {
   public:
     ScaledPlane(const FloatPlane& plane, float reach_px);

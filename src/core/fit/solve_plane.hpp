@@ -1,5 +1,5 @@
-// Solve: one Gauss-Newton step to the least-squares plane, in which distortions are kept as far as
-// they are probable.
+// Solve: one Gauss-Newton step to the least-squares plane. Distortion terms are shrunk according to
+// their probability.
 #pragma once
 
 #include <array>
@@ -24,10 +24,10 @@ struct PoseFit {
 };
 
 /// Solves the normal equations of `fit` for the step to the least-squares plane, and shrinks the
-/// distortion terms to their posterior means. `distortions` contains these terms of the current
-/// plane, and `unit` is the scale of this plane. Sets `moved` to the squared length of the step in
-/// units of the standard deviation of the pose, and all members of `fit` except the displacement.
-/// Returns false if the dots do not determine the plane.
+/// distortion terms to their posterior means. `distortions` contains the distortion terms of the
+/// current plane, and `unit` is the scale of the current plane. Sets `moved` to the squared length
+/// of the step in units of the standard deviation of the pose, and all members of `fit` except the
+/// displacement. Returns false if the dots do not determine the plane.
 bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step, float& moved);
 
 }  // namespace dotpose::core

@@ -13,14 +13,15 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of adjacent lines that two distinct positions share. With one more shared line,
-/// five digits would be equal, which determine the position.
+/// Maximum number of adjacent lines that two distinct positions share. One more shared line would
+/// make five adjacent digits equal, and five digits determine the position.
 constexpr int kMaxSharedInARow = code::kOrder;
-/// Expected odds above which counting more alternatives one by one cannot make the fix certain.
+/// Expected odds above which the fix cannot become certain, even if more alternatives are counted
+/// one by one.
 constexpr float kBeyondHelp = 1e-4F;
 
-/// Returns the expected odds of the alternatives that differ in at least `min_different` sequences
-/// and share fewer than `shared_lines` adjacent lines.
+/// Returns the expected odds of the far alternatives that differ in at least `min_different`
+/// sequences and share fewer than `shared_lines` adjacent lines.
 float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int min_different) {
     ExpectedAlternatives expected(lines.ratios.basis, lines.ratios.position, shared_lines - 1,
                                   min_different);
@@ -60,8 +61,8 @@ int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2) {
         // Skips the slowest sums if the other sums already exceed the limit.
         if (sum < limit) sum += sum_of_near_alternatives(lines, kMaxSharedInARow - 1);
         if (sum < limit) {
-            // At most an eighth of the remaining margin to the limit, because this part alone must
-            // not refuse a fix.
+            // At most an eighth of the remaining margin to the limit, because the estimated odds
+            // alone must not cause a refusal.
             const float negligible = std::min(std::max(sum, far_below_doubt), limit - sum) / 8;
             sum += sum_of_double_alternatives(lines, negligible, limit - sum);
         }

@@ -6,8 +6,8 @@
 
 namespace dotpose::core {
 
-/// Returns log2 of an upper bound of the summed odds of all alternatives, at most 0. The bound is
-/// only as close as a comparison of the sum with 2^limit_log2 requires.
+/// Returns log2 of an upper bound on the summed odds of all alternatives, at most 0. The bound is
+/// computed only precisely enough to compare the sum with 2^limit_log2.
 int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

@@ -19,16 +19,16 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of shifts at which an alternative does not share a given line.
+/// Number of shifts of an alternative at which it does not share a given line.
 constexpr float kShifts = kSections - 1;
-/// Upper bound of the odds charged for each pruned single alternative, as log2 in 2^-8 and as a
-/// number.
+/// Upper bound on the odds charged for each pruned single alternative, as log2 in units of 2^-8 and
+/// as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Number of places of all four sequences.
 constexpr float kSingles = 741;
 
-/// Returns 2^(n / 256), rounded up by at most 2 %; at least 2^-100.
+/// Returns 2^(n / 256), rounded up by at most 2 %, and at least 2^-100.
 constexpr float power_of_two_rounded_up(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;
@@ -53,7 +53,7 @@ constexpr FarAlternatives kFarAlternatives = [] {
 }();
 
 /// Returns the expected odds of the far alternatives: the same sum as in quick_alternatives.cpp,
-/// but in floating point and for all sets in parallel.
+/// but in floating point and for all sets of sequences in parallel.
 float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
     std::array<float, kMaxLines> odds;
     const auto count = static_cast<std::size_t>(ratios.count());
@@ -78,7 +78,8 @@ float sharing_none(const LikelihoodRatios& ratios) {
     return (1 + kSingles) * kShifts * odds_of(ratios, lost);
 }
 
-/// Score of a lost bit. All bits have the same weight in this file, so losses are whole bits.
+/// Score that a wrong bit loses. All bits in this file have the same weight, so losses are
+/// multiples of this score.
 constexpr int kBit = 2 * 127;
 /// Sets the minimum loss of each line, in bits, in decreasing order. Losses are clamped to
 /// kMaxBits. Returns the number of lines.
@@ -86,8 +87,8 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
     constexpr int kMaxBits = 31;
     const auto count = static_cast<std::size_t>(ratios.count());
     std::array<std::uint8_t, kMaxLines> bits;
-    // Counting sort: `begin` first contains the number of lines that lose b bits, then the index of
-    // the first of these lines.
+    // Counting sort. `begin[b]` first contains the number of lines that lose b bits, then the index
+    // of the first of these lines.
     std::array<std::uint8_t, kMaxBits + 1> begin{};
     for (std::size_t line = 0; line < count; ++line) {
         const int loss = ratios.min_loss(static_cast<int>(line)) / kBit;
@@ -169,8 +170,8 @@ bool is_code_in_question(const Query& query) {
     return query.others != nullptr && query.others->log2_in_question_q8 >= 0;
 }
 
-/// Returns an upper bound of the probability that random bits agree with the code at least as well
-/// as the bits read.
+/// Returns an upper bound on the probability that random bits agree with the code at least as well
+/// as the bits that were read.
 float chance_of(const Confidence& bits, const Query& query) {
     if (!is_code_in_question(query))
         return power_of_two_exactly(chance_log2(bits, query.odds_per_bit_q8));
@@ -185,8 +186,8 @@ float codes_in_question(const Query& query) {
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
-/// Returns an upper bound of the probability that one axis is wrong, or 1 if the bound exceeds the
-/// limit. Hard bits never give a smaller bound than scores.
+/// Returns an upper bound on the probability that one axis is wrong, or 1 if the bound exceeds the
+/// limit. Hard bits never give a smaller bound than scores do.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
                  const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();
@@ -214,7 +215,8 @@ bool is_within_limit(float wrong, int limit_log2, Fix& fix) {
     return fix.p_wrong_log2 <= limit_log2;
 }
 
-/// Returns true if both axes are certain. Sets the odds of the other codes.
+/// Returns true if both axes are certain. Sets the odds of the other codes unless `Query::others`
+/// is null.
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                  const LikelihoodRatios& x, const LikelihoodRatios& y, const Query& query,
                  Fix& fix) {
@@ -229,9 +231,9 @@ bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
     return true;
 }
 
-/// Returns the odds of a bit, as log2 in 2^-8, estimated from both axes. Both axes are read from
-/// the same dots and therefore have the same error rate. Returns 0 if there are no bits or too many
-/// bits are wrong. Sets `bit_errors`.
+/// Returns the odds of a bit, as log2 in units of 2^-8, estimated from both axes. Both axes are
+/// read from the same dots and therefore have the same error rate. Returns 0 if there are no bits
+/// or too many bits are wrong. Sets `bit_errors`.
 int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOptions& options,
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();

@@ -1,5 +1,5 @@
-// Certainty: computes a bound of the probability that a position is wrong, from chance,
-// alternatives and seams. docs/integrity.md derives the bound.
+// Certainty: an upper bound on the probability that a position is wrong, from chance, alternatives
+// and seams. docs/integrity.md derives the bound.
 #pragma once
 
 #include <array>
@@ -27,14 +27,14 @@ struct AxisBits {
 
 /// Returns true if the hard bits alone, without the scores of lines, make the position certain.
 /// This takes a tenth of the work of `is_certain` and suffices for clean frames. Returns false if
-/// in doubt. Bits that were read farther from the middle are used for chance only, so the result is
-/// still an upper bound. Sets `p_wrong_log2` of the fix. If `others` is not null, sets the odds of
-/// the other codes.
+/// in doubt. Bits outside the middle of the view are used for chance only, so the result is still
+/// an upper bound. Sets `p_wrong_log2` of the fix. If `others` is not null, sets the odds of the
+/// other codes.
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
                           CodeVariant code, const IntegrityOptions& options, Fix& fix,
                           OtherCodes* others = nullptr);
 
-/// Bits and scores from which a position is judged.
+/// Bits and scores by which a position is judged.
 struct Evidence {
     Place corner;                    ///< place of the first column and row
     std::array<Confidence, 2> bits;  ///< bits of x and of y, compared with the code

@@ -8,7 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of the first line and of the first cell of the middle, and their index in the block.
+/// Number of the first line and of the first cell of the middle block. Lines and cells are numbered
+/// from cell (0, 0).
 constexpr int kFirst = -kMaxComparedLines / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 
@@ -30,8 +31,8 @@ std::uint32_t longest_run(std::uint32_t bits) {
 
 }  // namespace
 
-/// Compares the lines of one axis with the code. `rolls` are the rolls of the lines from
-/// `first_line` on, at cell `first_cell`.
+/// Compares the lines of one axis with the code. `rolls` contains the rolls at cell `first_cell` of
+/// the lines that start at `first_line`.
 CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rolls, int first_line,
                                   int count, int first_cell) {
     Half half;

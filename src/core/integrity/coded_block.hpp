@@ -1,5 +1,5 @@
-// Coded block: packs the bits read and the bits of the code at the same cells into words. One
-// instruction then compares a whole line.
+// Coded block: the bits read and the bits of the code at the same cells, packed into words. One
+// instruction compares a whole line.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"
@@ -15,8 +15,8 @@ class CodedBlock {
     CodedBlock(CodeVariant code, const Place& place, const CellsInView& view,
                const BitBlock& block);
 
-    /// Returns the bits of one axis. `confidence` is that of all bits read, including bits outside
-    /// the middle.
+    /// Returns the bits of one axis. `confidence` includes all bits read, also the bits outside the
+    /// middle.
     AxisBits axis(Axis axis, const Confidence& confidence) const;
 
   private:

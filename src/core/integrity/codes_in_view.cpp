@@ -5,8 +5,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds below which no more bits are needed: odds of the same place in another code, and odds of
-/// all places elsewhere.
+/// Odds below which no more bits are needed: odds of the place of the reading in another code, and
+/// summed odds of all other places in that code.
 constexpr float kMaxOddsHere = 1e-12F;
 constexpr float kMaxOddsElsewhere = 1e-10F;
 
@@ -19,8 +19,8 @@ bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     return own != theirs;
 }
 
-/// Returns true if more lines may change the odds: either another code has other symbols in view,
-/// or a place elsewhere in another code is not ruled out yet.
+/// Returns true if more lines may change the odds: either another code has different symbols in
+/// view, or another place in another code is not ruled out yet.
 bool may_change_odds(CodeVariant read, const Place& place, bool has_more_lines,
                      const OtherCodes& others) {
     const auto have_other_rolls = [&](CodeVariant other) {

@@ -1,5 +1,5 @@
-// Codes in view: computes the odds of the other codes from all dots in view, and not only from the
-// dots that were used to make the position certain.
+// Codes in view: the odds of the other codes, computed from all dots in view instead of only the
+// dots that made the position certain.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"

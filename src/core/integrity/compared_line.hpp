@@ -1,4 +1,4 @@
-// Compared lines: the bits read in a column or row, beside the bits of the code.
+// Compared lines: the bits read in a column or row, next to the bits of the code.
 #pragma once
 
 #include <cstdint>

@@ -7,13 +7,13 @@
 namespace dotpose::core {
 namespace {
 
-/// log2(1 + 2^-n) in 2^-16, for n = 0, 1/2, 1, ..., rounded up.
+/// log2(1 + 2^-n) in units of 2^-16, for n = 0, 1/2, 1, ..., rounded up.
 constexpr std::array<std::int32_t, 34> kLog2OfOneAnd{
     65536, 50565, 38337, 28623, 21098, 15391, 11137, 8009, 5732, 4089, 2910, 2067,
     1466,  1039,  736,   521,   369,   261,   185,   131,  93,   66,   47,   33,
     24,    17,    12,    9,     6,     5,     3,     3,    2,    2};
 
-/// Returns an upper bound of log2(1 + 2^-n). The function is convex, so its chords are above it.
+/// Returns an upper bound on log2(1 + 2^-n). The function is convex, so its chords are above it.
 int log2_of_one_and_q16(int n_q8) {
     const auto i = static_cast<std::size_t>(n_q8 >> 7);
     return kLog2OfOneAnd[i] - ((kLog2OfOneAnd[i] - kLog2OfOneAnd[i + 1]) * (n_q8 & 127) >> 7);
@@ -24,13 +24,13 @@ int log_odds_q8(int odds_per_bit_q8, int level) {
     return (odds_per_bit_q8 * Confidence::weight_of(level) * 129) >> 14;
 }
 
-/// Returns the fraction of bits that are wrong at these odds, in 2^-16.
+/// Returns the fraction of bits that are wrong at the given log odds, in units of 2^-16.
 std::uint32_t wrong_fraction_q16(int log_odds_q8) {
     if (log_odds_q8 >= 15 * 256) return 1;
     return UINT32_MAX / (65536 + static_cast<std::uint32_t>(exp2_q16(log_odds_q8)));
 }
 
-/// Returns log2 of Chernoff's bound for one hypothesis, in 2^-16.
+/// Returns log2 of the Chernoff bound for one hypothesis, in units of 2^-16.
 std::int64_t agreement_log2_q16(const Confidence& axis, int odds_per_bit_q8) {
     std::int64_t sum_q16 = 0;
     for (int level = 0; level < Confidence::kLevels; ++level) {

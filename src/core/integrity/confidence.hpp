@@ -8,7 +8,7 @@
 
 namespace dotpose::core {
 
-/// Histogram of the bits by weight, in steps of 8, and by agreement with the code.
+/// Histogram of the bits, by weight in steps of 8 and by agreement with the code.
 class Confidence {
   public:
     static constexpr int kLevels = 16;
@@ -46,24 +46,24 @@ class Confidence {
     }
 
   private:
-    /// Numbers of right and of wrong bits, alternating, by level.
+    /// Numbers of correct and of wrong bits, alternating, by level.
     std::array<std::int32_t, 2 * kLevels> counts_{};
 };
 
-/// Returns the odds that a bit of weight 127 is right, as log2 in 2^-8, in [0, 16 * 256]. The log
-/// odds of a weaker bit are proportional to its weight. The estimate is the value at which the
-/// expected weight of wrong bits equals the observed weight plus two full bits (logistic
+/// Returns the odds that a bit of weight 127 is correct, as log2 in units of 2^-8, in [0, 16 *
+/// 256]. The log odds of a weaker bit are proportional to its weight. The estimate is the value at
+/// which the expected weight of wrong bits equals the observed weight plus two full bits (logistic
 /// regression, maximum likelihood). Returns 0 if the bits carry no information.
 int odds_per_bit_q8(const Confidence& confidence);
 
-/// Returns log2 of an upper bound of the probability that random bits of these weights agree as
-/// well with any position, section and turn of one axis. There are L * 63 * 4 hypotheses. The
-/// probability of each is bounded by Chernoff, with weights scaled to log odds. The bound holds for
-/// any odds and is smallest near the true odds.
+/// Returns log2 of an upper bound on the probability that random bits of these weights agree
+/// equally well with any position, section and turn of one axis. There are L * 63 * 4 hypotheses.
+/// The probability of each hypothesis is bounded by the Chernoff bound, with weights scaled to log
+/// odds. The bound holds for any odds and is smallest near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
-/// Returns the bound of `chance_log2` in 2^-8, for 2^(log2_times_q8 / 256) times as many
-/// hypotheses. Uses the given odds or odds of 2^16, whichever give the smaller bound.
+/// Returns the bound computed by `chance_log2` in units of 2^-8, for 2^(log2_times_q8 / 256) times
+/// as many hypotheses. Uses the given odds or odds of 2^16, whichever gives the smaller bound.
 int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8);
 
 }  // namespace dotpose::core

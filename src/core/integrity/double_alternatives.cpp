@@ -11,12 +11,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Minimum of the sum: negligible odds for each of the 190,027 pairs of places at each shift. No
-/// result depends on a smaller expectation.
+/// Minimum of the sum: negligible odds for each of the 190,027 pairs of places at each shift.
+/// Smaller expectations do not change any result.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
 /// Safety factor of expectations. The odds at a given position can be larger than the mean over all
-/// positions. On 5,630 axes of hard frames, they were at most 21 times as large.
+/// positions. On 5,630 axes of hard frames, the odds were at most 21 times the mean.
 constexpr float kMargin = 32;
 
 /// Set of anchors, one bit per anchor, by rank.
@@ -64,8 +64,7 @@ class Groups {
     std::array<Anchors, kMinFound - 1> groups_{};
 };
 
-/// One byte for each anchor, by rank, and for a few more lines. Compilers keep the vector in one
-/// register.
+/// One byte for each anchor, by rank, and for a few more lines. The vector fits in one register.
 using AnchorBytes [[gnu::vector_size(16)]] = std::uint8_t;
 static_assert(sizeof(AnchorBytes) >= kMaxAnchors && sizeof(AnchorBytes) <= kMaxLines);
 
@@ -89,13 +88,13 @@ AnchorBytes since(int one, const RankedLines::Offsets& offsets) {
     return modulo_sections(anchors_of(offsets) - offsets.all[static_cast<std::size_t>(one)]);
 }
 
-/// Returns the negative of `since`, modulo 63. Two places share the anchors at which `since` of one
-/// place equals `opposite` of the other place.
+/// Returns the negative of `since`, modulo 63. A pair of places shares the anchors at which `since`
+/// of one place equals `opposite` of the other place.
 AnchorBytes opposite(int one, const RankedLines::Offsets& offsets) {
     return modulo_sections(offsets.all[static_cast<std::size_t>(one)] - anchors_of(offsets));
 }
 
-/// Set of anchors. The byte of each anchor in the set is 1.
+/// Set of anchors. Anchors in the set have the byte 1.
 class Marks {
   public:
     explicit Marks(AnchorBytes marks) { std::memcpy(halves_.data(), &marks, sizeof marks); }
@@ -104,8 +103,8 @@ class Marks {
     Anchors anchors() const { return bits_of(halves_[0]) | bits_of(halves_[1]) << 8; }
 
   private:
-    /// Returns the lowest bits of eight bytes. The product moves each bit to a different bit of the
-    /// highest byte.
+    /// Returns the lowest bit of each of eight bytes. The multiplication moves each of these bits
+    /// to a different bit of the highest byte.
     static Anchors bits_of(std::uint64_t bytes) {
         return static_cast<Anchors>(bytes * 0x0102040810204080 >> 56);
     }
@@ -120,7 +119,7 @@ struct Opposite {
     const RankedLines::Offsets* place;
 };
 
-/// The places of a sequence, except that of the reading, in buckets by the difference of their
+/// The places of a sequence, except the place of the reading, in buckets by the difference of their
 /// offsets at two anchors, modulo 63.
 class Buckets {
   public:
@@ -170,8 +169,8 @@ class Finder {
     float sum() const {
         float sum = 0;
         groups_.visit_pairs([&](int one, int other) {
-            // For each pair of sequences, the places of one of them are sorted into buckets. The
-            // places of the shortest sequence, a3, never are.
+            // For each pair of sequences, the places of one sequence are sorted into buckets. This
+            // is never a3, the shortest sequence.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });
@@ -179,8 +178,8 @@ class Finder {
     }
 
   private:
-    /// Returns the odds of the alternatives that differ in this sequence and in one of `others`,
-    /// and share both anchors.
+    /// Returns the odds of the alternatives that differ in `sequence` and in one of `others`, and
+    /// share both anchors.
     float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others, int one,
                           int other) const {
         const Buckets buckets(lines_, sequence, one, other);
@@ -205,7 +204,8 @@ class Finder {
     /// Returns the odds of a pair of places. `shared` is the sum of their offsets in a line that
     /// the pair shares.
     float odds(const RankedLines::Offsets& a, const RankedLines::Offsets& b, int shared) const {
-        // 126 is shift 0 modulo 63. It keeps the sums of two offsets positive.
+        // Adding 126, a multiple of 63, does not change the shift and keeps the index of the loss
+        // positive.
         const int base = 2 * kSections - shared;
         int lost = 0;
         for (int rank = 0; rank < lines_.count(); ++rank) {
@@ -230,8 +230,8 @@ float sum_of_double_alternatives(const RankedLines& lines, float negligible, flo
         return kMargin * expected[static_cast<std::size_t>(shared)];
     };
     // If fewer anchors must be shared, more pairs of anchors are visited: 6 of the 66 pairs for
-    // seven anchors, 18 for four, all for two. Fewer than four anchors are worth the time only if
-    // the fix would be refused otherwise.
+    // seven shared anchors, 18 for four, all for two. Requiring fewer than four shared anchors is
+    // worth the time only if the fix would be refused otherwise.
     constexpr int kMinForDetail = 4;
     int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&

@@ -7,11 +7,11 @@
 namespace dotpose::core {
 
 /// Returns the summed odds of the 190,027 pairs of places at all shifts, at least 2^-41. Pairs that
-/// share several of the lines with the most information are counted one by one; all other pairs
-/// contribute their expectation. The required number of shared lines makes this expectation about
-/// `negligible`, or at most `max_odds` if that takes too long. If the expectation exceeds
-/// `max_odds` even then, returns the expectation without counting pairs, because the sum exceeds
-/// the limit anyway. Needs at least 6 lines.
+/// share several of the lines with the most information are counted one by one. All other pairs
+/// contribute their expectation. The required number of shared lines is chosen such that this
+/// expectation is about `negligible`, or at most `max_odds` if `negligible` takes too long. If the
+/// expectation still exceeds `max_odds`, returns the expectation without counting pairs, because
+/// the sum exceeds the limit anyway. Needs at least 6 lines.
 float sum_of_double_alternatives(const RankedLines& lines, float negligible, float max_odds);
 
 }  // namespace dotpose::core

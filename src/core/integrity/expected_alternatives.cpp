@@ -7,8 +7,8 @@ namespace dotpose::core {
 namespace {
 
 /// Safety factor per step. A string of five digits occurs at most once in a sequence, which is at
-/// most 3^5 / 233 times as frequent as in a random sequence. Over the four sequences, this factor
-/// is 1.12 for five steps.
+/// most 3^5 / 233 times its frequency in a random sequence. For five steps in all four sequences,
+/// these ratios multiply to 1.12.
 constexpr float kUnevenness = 1.03F;
 
 }  // namespace
@@ -68,8 +68,8 @@ void ExpectedAlternatives::add_line(const ByShift& odds) {
             before[0] += sum;
         const ByShift after = after_step(set, before);
         // A run of shared lines begins where the shift returns to 0, and continues where all digits
-        // are equal. Adjacent lines can only be shared in the second case, because different digits
-        // have different sums.
+        // are equal. If the digits of a step differ, the shift changes, so the next line is not
+        // shared.
         float returned = after[0] - before[0] * set.equal;
         returned = returned > 0 ? returned : 0;
         for (std::size_t i = max_shared_ - 1; i > 0; --i) {

@@ -34,8 +34,9 @@ class ExpectedAlternatives {
     struct Set {
         unsigned different = 0;  ///< set of sequences, one bit per sequence
         float alternatives = 0;  ///< number of alternatives
-        float equal = 1;  ///< probability that all digits of a step equal those of the reading
-        ByShift sums{};   ///< sums indexed by the current shift; element 0 is not used
+        /// Probability that all digits of a step equal the digits of the reading.
+        float equal = 1;
+        ByShift sums{};  ///< sums indexed by the current shift; element 0 is not used
         std::array<float, kMaxShared>
             shared{};  ///< sums at shift 0, indexed by the number of adjacent shared lines minus 1
     };

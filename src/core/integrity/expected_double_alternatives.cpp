@@ -6,18 +6,19 @@
 namespace dotpose::core {
 namespace {
 
-/// As kUnevenness in expected_alternatives.cpp.
+/// Safety factor per step, as `kUnevenness` in expected_alternatives.cpp.
 constexpr float kUnevenness = 1.03F;
-/// Lower bounds of odds and sums, which avoid slow denormal products. Sums start at the large
-/// number kStart. The lower bounds then contribute little even if other rolls fit some lines much
-/// better.
+/// Lower bounds on odds and sums. The bounds avoid denormal numbers, which are slow. Sums start at
+/// the large number kStart, so the lower bounds contribute little even if other rolls fit some
+/// lines much better.
 constexpr float kMinOdds = 0x1p-40F;
 constexpr float kMinSum = 0x1p-80F;
 constexpr float kStart = 0x1p40F;
 
 using ByShift = std::array<float, kSections>;
 
-/// Alternatives that differ in two sequences, over the lines added so far.
+/// Alternatives that differ in two given sequences. Accumulates their odds over the lines added so
+/// far.
 class Pair {
   public:
     Pair(const code::Secondary& a, const code::Secondary& b, std::uint32_t position)
@@ -36,7 +37,7 @@ class Pair {
             advance(b_, place_b_);
         }
         is_first_ = false;
-        // The odds of a shared line are 1.
+        // Sum at shift 0, by the number of shared anchors. The odds of a shared line are 1.
         std::array<float, kMinFound> shared;
         for (std::size_t n = 0; n < sums_.size(); ++n) {
             shared[n] = sums_[n][0];
@@ -63,7 +64,7 @@ class Pair {
     /// Applies a step in one sequence to the sums by shift. All digits of an alternative are
     /// equally probable; the digits of the reading are known.
     static void step(const code::Secondary& of, std::uint32_t place, float factor, ByShift& sums) {
-        // The sums are stored twice, which makes every cyclic shift of them contiguous.
+        // The sums are stored twice in a row, which makes every cyclic shift of them contiguous.
         std::array<float, 2 * kSections> before;
         const float fraction = factor / static_cast<float>(of.base);
         for (std::size_t s = 0; s < kSections; ++s)

@@ -12,8 +12,8 @@ inline constexpr int kMaxAnchors = 12;
 /// Alternatives that share at least this number of anchors are always counted one by one.
 inline constexpr int kMinFound = 7;
 
-/// Returns, for each n, the expected odds of all alternatives that share fewer than n of the first
-/// `anchors` ranks.
+/// Returns, for each n, the expected odds of all alternatives that share fewer than n of the
+/// `anchors` lines with the highest ranks.
 std::array<float, kMinFound + 1> expected_double_alternatives(const RankedLines& lines,
                                                               int anchors);
 

@@ -37,8 +37,8 @@ constexpr NearestSubstrings nearest_of(std::size_t first, std::size_t length) {
 }
 
 /// Minimum distances of the substrings of the main sequence, by first index. Bit i is 1 if the
-/// distance grows when bit i is added to the substring. The distance grows by at most one with each
-/// bit.
+/// distance grows when the substring is extended by its bit i. The distance grows by at most one
+/// with each bit.
 constexpr auto kGrowingDistances = [] {
     std::array<std::uint32_t, kSections> grows{};
     for (std::size_t first = 0; first < grows.size(); ++first) {
@@ -60,7 +60,7 @@ static_assert([] {
 }());
 
 /// Upper bounds, by length, of log2 of the number of substrings at the minimum distance from a
-/// substring, in 2^-8.
+/// substring, in units of 2^-8.
 constexpr auto kLog2OfNearest = [] {
     std::array<std::uint16_t, kMaxComparedLines + 1> log2{};
     for (std::size_t length = 0; length < log2.size(); ++length) {
@@ -127,7 +127,7 @@ void LikelihoodRatios::set_min_losses_of_bits() {
 }
 
 int LikelihoodRatios::log2_of_nearest_q8(int line) const {
-    // All rolls except the nearest lose at least one bit more.
+    // All rolls except the nearest rolls lose at least one bit more.
     const int log2_q8 = add_log2(log2_of_nearest_q8_[static_cast<std::size_t>(line)],
                                  kOtherRolls_q8 - odds_per_bit_q8_);
     return std::min(log2_q8, kOtherRolls_q8);
@@ -180,7 +180,7 @@ std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOff
     const int base = offsets[static_cast<std::size_t>(shared)];
     const int count = ratios.count();
     int lost = 0;
-    // Visits the lines after the shared line first, in which the loss grows fastest, then the lines
+    // Visits first the lines after the shared line, where the loss grows fastest, then the lines
     // before it.
     for (int i = 1, line = shared + 1; i < count; ++i, ++line) {
         if (line == count) line = 0;

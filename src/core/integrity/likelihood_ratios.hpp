@@ -16,16 +16,16 @@ namespace dotpose::core {
 /// Maximum number of adjacent lines that two positions share in the misprinted code (libdots).
 inline constexpr int kMaxShared = 7;
 
-/// log2 of the number of other rolls (62), in 2^-8, rounded up.
+/// log2 of the number of other rolls (62), in units of 2^-8, rounded up.
 inline constexpr int kOtherRolls_q8 = 1525;
 
-/// Odds below 2^-64 are not computed further and count as 2^-64.
+/// Odds below 2^-64 count as 2^-64.
 inline constexpr int kNegligible_q8 = -64 * 256;
 inline constexpr float kNegligible = 5.5e-20F;
 
 /// Losses and odds of alternatives, line by line. The loss of an alternative in a line is the score
 /// of the reading minus the score of the alternative. A line is shared if reading and alternative
-/// have the same roll in this line; the loss in a shared line is 0.
+/// have the same roll in this line. The loss in a shared line is 0.
 class LikelihoodRatios {
   public:
     /// Computes the ratios of scored lines. Requires odds_per_bit_q8 > 0.
@@ -41,11 +41,11 @@ class LikelihoodRatios {
                      std::span<const std::uint8_t> rolls);
 
     int count() const { return count_; }
-    /// Returns true for ratios of hard bits, which have no scores: `lines` is empty.
+    /// Returns true for ratios of hard bits. Hard bits have no scores, so `lines` is empty.
     bool is_of_bits() const { return !bits_.empty(); }
 
-    /// Returns the loss of an alternative in a line in which its roll is larger than that of the
-    /// reading by `shift`; |shift| < 63.
+    /// Returns the loss of an alternative in a line. The roll of the alternative is the roll of the
+    /// reading plus `shift`; |shift| < 63.
     int loss(int line, int shift) const {
         const int own = rolls_[static_cast<std::size_t>(line)];
         const int moved = own + shift;
@@ -65,19 +65,19 @@ class LikelihoodRatios {
             .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
     }
     /// Returns the minimum loss of an alternative whose digit differs in the step from `line` to
-    /// the next line. Such an alternative does not share one of the two lines. The result is not
-    /// negative.
+    /// the next line. Such an alternative does not share at least one of the two lines. The result
+    /// is not negative.
     int min_loss_of_step(int line) const {
         return std::max(std::min(min_loss(line), min_loss(line + 1)), 0);
     }
-    /// Returns an upper bound of log2, in 2^-8, of the odds of all other rolls together divided by
-    /// the odds of the best of them. For hard bits only.
+    /// Returns log2 of an upper bound on the summed odds of all other rolls, divided by the odds of
+    /// the best of these rolls, in units of 2^-8. For hard bits only.
     int log2_of_nearest_q8(int line) const;
     /// Returns the maximum score that an alternative gains in lines that other rolls fit better.
     int max_gain() const { return max_gain_; }
     /// Returns the maximum number of adjacent lines that an alternative shares.
     int max_shared() const { return basis[3].has_twins ? kMaxShared : code::kOrder; }
-    /// Returns the odds of an alternative with this loss, as log2 in 2^-8.
+    /// Returns the odds of an alternative with this loss, as log2 in units of 2^-8.
     int log2_odds_q8(int lost) const {
         // A lost score is twice the weight of the bits. 129 / 2^15 is about 1 / (2 * 127). Losses
         // above kMaxLost do not change the result.
@@ -90,8 +90,8 @@ class LikelihoodRatios {
     float odds(int lost) const {
         const int log2_q8 = std::clamp(log2_odds_q8(lost), kNegligible_q8, -kNegligible_q8);
         const int whole = log2_q8 >> 8;
-        // The exponent of a float begins at bit 23 and has a bias of 127. The builtin replaces
-        // std::bit_cast, which the standard library of emscripten lacks.
+        // The exponent of a float begins at bit 23 and has a bias of 127. `std::bit_cast` is
+        // missing in the standard library of emscripten.
         const auto power =
             __builtin_bit_cast(float, static_cast<std::uint32_t>(whole - 16 + 127) << 23);
         return static_cast<float>(exp2_q16(log2_q8 - whole * 256)) * power;
@@ -107,7 +107,7 @@ class LikelihoodRatios {
     std::array<std::uint32_t, 4> places;
 
   private:
-    /// Score lost by a wrong bit of full weight, which is twice its weight.
+    /// Score that a wrong bit of full weight loses: twice its weight.
     static constexpr int kScoreOfBit = 2 * 127;
 
     void find_places();
@@ -120,7 +120,7 @@ class LikelihoodRatios {
     /// The rolls with the minimum loss in a line, except the roll of the reading.
     struct Nearest {
         int lost_bits = 0;      ///< number of bits that these rolls lose
-        int log2_count_q8 = 0;  ///< upper bound of log2 of the number of these rolls, in 2^-8
+        int log2_count_q8 = 0;  ///< upper bound on log2 of the number of these rolls, in 2^-8
     };
     Nearest nearest(int line) const;
 
@@ -156,8 +156,8 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
 }
 
 /// Returns the loss of an alternative at the shift at which it shares the line `shared`. Stops
-/// adding as soon as the alternative is hopeless. Returns nullopt if the alternative shares an
-/// earlier line too, because it was counted at that line.
+/// adding as soon as the alternative is hopeless. Returns nullopt if the alternative also shares an
+/// earlier line, because it was counted at that line.
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
                                    int shared);
 

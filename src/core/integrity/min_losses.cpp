@@ -8,7 +8,7 @@ MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last) {
     const int count = ratios.count();
     const int max_shared = ratios.max_shared();
     MinLosses min_loss;
-    // Minimum over the alternatives that do not share the last of the n lines.
+    // Minimum loss of the alternatives that do not share the last of the n lines, for each n.
     MinLosses unshared_last;
     unshared_last[0] = 0;
     int lowest = 0;  // index of the smallest element, at most `max_shared` lines back

@@ -17,11 +17,12 @@ constexpr std::uint32_t kTurns = kMaxLines / code::kA3.size() + 1;
 /// the reading.
 class TwinPlaces {
   public:
-    /// The run begins at line `run` and has one more line than `digits`.
+    /// The run begins at line `run` and has `digits` + 1 lines.
     TwinPlaces(const RankedLines& lines, std::size_t sequence, std::uint32_t run, int digits) {
         const code::Secondary& a = lines.ratios.basis[sequence];
         const std::uint32_t own = (lines.ratios.places[sequence] + run) % a.length;
-        // The place of the reading comes first. The places before it in the sequence come last.
+        // The place of the reading is first in the list. The places before it in the sequence are
+        // last.
         for (const bool before : {false, true}) {
             const auto add = [&](std::uint32_t place) {
                 if ((place < own) != before) return;
@@ -60,8 +61,8 @@ class TwinPlaces {
 
 using OneOfEach = std::array<const TwinPlaces::Twin*, 4>;
 
-/// Returns the odds of an alternative that shares a run of lines. `first` is the sum of `first` of
-/// its twins.
+/// Returns the odds of an alternative that shares a run of lines. `first` is the sum of the members
+/// `first` of its twins.
 float odds_of_twins(const RankedLines& lines, EightOffsets first, const OneOfEach& twins) {
     int lost = lines.loss_of_first(first);
     for (int rank = 8; rank < lines.count() && !lines.ratios.is_hopeless(lost); ++rank) {
@@ -82,7 +83,7 @@ float sum_of_twins(const RankedLines& lines, const std::array<TwinPlaces, 4>& pl
     for (const auto& a : places[0].all()) {
         for (const auto& b : places[1].all()) {
             for (const auto& c : places[2].all()) {
-                // No byte overflows, because four times 62 is 248.
+                // Bytes do not overflow, because 4 * 62 = 248.
                 const EightOffsets first = a.first + b.first + c.first;
                 for (const auto& d : places[3].all()) {
                     if (!is_own) sum += odds_of_twins(lines, first + d.first, {&a, &b, &c, &d});

@@ -9,12 +9,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds of places in other codes below which these places are ordinary doubts, which a second
-/// attempt may remove.
+/// Summed odds of the places in another code above which the fix is ambiguous. Smaller odds are
+/// ordinary doubts, which a second attempt may remove.
 constexpr float kAmbiguousOdds = 1e-3F;
-/// Odds below which no attempt is made in a code, because earlier frames contradict it.
+/// Odds of a code, from earlier frames, below which no attempt is made in this code.
 constexpr float kRuledOutOdds = 1e-9F;
-/// Factors below this value are rounding errors and are ignored.
+/// Factors below this value are treated as rounding errors.
 constexpr float kRoundings = 1.01F;
 
 std::size_t index(CodeVariant code) {
@@ -33,7 +33,7 @@ PossibleCodes::PossibleCodes(const CodeEvidence& evidence) : is_known_(false) {
         order_[i] = static_cast<CodeVariant>(i);
         weights_[i] = power_of_two(evidence.log2_q8(order_[i]));
     }
-    // Sorts by insertion, which keeps the order of codes that are equally likely.
+    // Insertion sort, which keeps the order of codes with equal odds.
     for (std::size_t i = 1; i < order_.size(); ++i) {
         for (std::size_t k = i; k > 0 && weight(order_[k]) > weight(order_[k - 1]); --k)
             std::swap(order_[k], order_[k - 1]);
@@ -87,8 +87,8 @@ CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others) {
     for (std::size_t i = 0; i < log2_q8.size(); ++i) {
         if (i == index(read)) continue;
         const float odds = others.of[i].here() + others.of[i].elsewhere();
-        // A code that explains the frame equally well gives no evidence. Its rounding errors must
-        // not accumulate.
+        // A code that explains the frame equally well is not evidence. Its rounding errors must not
+        // accumulate.
         const bool is_equal = odds <= kRoundings && odds * kRoundings >= 1;
         log2_q8[i] = is_equal ? 0 : log2_of_odds_q8(odds);
     }

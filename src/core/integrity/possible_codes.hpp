@@ -1,5 +1,5 @@
-// Possible codes: determines how certain a fix in one code is, given that the sheet may have
-// another code. docs/integrity.md, "Which code?", derives the numbers.
+// Possible codes: the certainty of a fix in one code if the sheet may have another code.
+// docs/integrity.md, "Which code?", derives the numbers.
 #pragma once
 
 #include <array>
@@ -15,18 +15,19 @@ namespace dotpose::core {
 /// Certainty of a fix, given its alternatives in the other possible codes.
 struct Judgement {
     bool is_certain = false;
-    bool is_ambiguous = false;  ///< true if a place in another code is about as likely
-    int p_wrong_log2 = 0;  ///< log2 of the bound of the probability of being wrong, over all codes
-    CodeVariant other = CodeVariant::anoto;  ///< likeliest code other than the one read
+    bool is_ambiguous = false;  ///< true if a place in another code is about as likely as the fix
+    /// log2 of an upper bound on the probability that the fix is wrong, over all codes.
+    int p_wrong_log2 = 0;
+    CodeVariant other = CodeVariant::anoto;  ///< likeliest code other than the code read
     float other_odds = 0;                    ///< odds of that code relative to the code read
 };
 
 /// The codes that a sheet may have, with their odds before the frame.
 class PossibleCodes {
   public:
-    /// Constructs the case that only one code is possible.
+    /// Only the code `only` is possible.
     explicit PossibleCodes(CodeVariant only);
-    /// Constructs the case that all codes are possible, with the odds of earlier frames.
+    /// All codes are possible, weighted by their odds from earlier frames.
     explicit PossibleCodes(const CodeEvidence& evidence);
 
     /// Returns the codes that earlier frames do not rule out, the likeliest first.
@@ -54,7 +55,8 @@ class PossibleCodes {
     std::array<CodeVariant, kCodeVariantCount> order_{};
 };
 
-/// Returns log2 of the likelihood of the bits in each code relative to the code read, in 2^-8.
+/// Returns log2 of the likelihood of the bits in each code relative to the code read, in units of
+/// 2^-8.
 CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others);
 
 }  // namespace dotpose::core

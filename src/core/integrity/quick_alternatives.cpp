@@ -12,30 +12,30 @@
 namespace dotpose::core {
 namespace {
 
-/// log2 of the number of places of all four sequences (741), in 2^-8, rounded up.
+/// log2 of the number of places of all four sequences (741), in units of 2^-8, rounded up.
 constexpr int kSingles_q8 = 2441;
-/// Odds below which no closer bound is computed.
+/// Odds below which no tighter bound is computed.
 constexpr int kSmallOdds_q8 = -36 * 256;
-/// The default limit. Bounds are at least as close as this limit requires, even if the caller
+/// The default limit. Bounds are at least as tight as this limit requires, even if the caller
 /// accepts more doubt.
 constexpr int kUsualLimit_q8 = -30 * 256;
-/// Upper bound of the odds charged for each pruned single alternative, as log2.
+/// Upper bound on the odds charged for each pruned single alternative, as log2.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 
-/// Odds of an alternative in a line that it does not share, as log2.
+/// Odds of an alternative in a line that it does not share, as log2 in units of 2^-8.
 struct LineOdds {
     int best_q8;  ///< at the roll with the minimum loss
-    int sum_q8;   ///< sum over all rolls except that of the reading
+    int sum_q8;   ///< sum over all rolls except the roll of the reading
 };
 using AllLineOdds = std::array<LineOdds, kMaxLines>;
 
-/// 2^-b in 2^-12, rounded up, for b in steps of half a bit.
+/// 2^-b in units of 2^-12, rounded up, for b in steps of half a bit.
 constexpr std::array<std::uint16_t, 26> kPowers{4096, 2897, 2048, 1449, 1024, 725, 512, 363, 256,
                                                 182,  128,  91,   64,   46,   32,  23,  16,  12,
                                                 8,    6,    4,    3,    2,    2,   1,   1};
 
-/// Returns log2 of the sum of 2^-b over all rolls except that of the reading. b is the loss of a
-/// roll, in bits, minus the loss of the best of these rolls.
+/// Returns log2 of the sum of 2^-b over all rolls except the roll of the reading, where b is the
+/// loss of a roll, in bits, minus the loss of the best of these rolls.
 int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     const std::int16_t* scores = ratios.lines[line].data();
     const int own = ratios.own_roll(line);
@@ -44,8 +44,8 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
         const auto half_bits = static_cast<std::size_t>(-ratios.log2_odds_q8(best - score) >> 7);
         return kPowers[std::min(half_bits, kPowers.size() - 1)];
     };
-    // Most rolls lose so much that they contribute the smallest power, which is that of 12 bits or
-    // more.
+    // Most rolls lose at least 12 bits. The power of such a roll is the smallest power in the
+    // table.
     const int min_power_score = best - ratios.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
     for (int roll = 0; roll < kSections; ++roll)
@@ -54,20 +54,21 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     return log2_at_most_q8(sum_q12) - 12 * 256;
 }
 
-/// Returns an upper bound of the sum that `ExpectedAlternatives` computes for one set. Merges all
-/// shifts at which a line is not shared into one state. The probability of a step to any one of
-/// these shifts is at most p, the probability that the next line is shared too. The contribution of
-/// a line therefore has two bounds: p times the sum of its odds over all rolls, and its best odds.
+/// Returns an upper bound on the sum that `ExpectedAlternatives` computes for one set. All shifts
+/// at which a line is not shared are merged into one state. The probability of a step to any one of
+/// these shifts is at most p, the probability that the next line is also shared. The contribution
+/// of a line therefore has two bounds: p times the sum of its odds over all rolls, and its best
+/// odds.
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
     const auto max_shared = static_cast<std::size_t>(ratios.max_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
     // All sums are divided by the probability that all lines so far are shared. The sum of the
-    // alternatives that share exactly the newest n lines then stays constant.
+    // alternatives that share exactly the newest n lines is then constant.
     std::array<int, kMaxShared + kMaxLines> sharing;
-    // Sums of each element of `sharing` and the element before it. Adding pairs halves the number
-    // of terms.
+    // Sums of each element of `sharing` and its predecessor. Adding pairs halves the number of
+    // terms.
     std::array<int, kMaxShared + kMaxLines> pairs;
     std::fill_n(sharing.begin(), kMaxShared, kNever_q8);
     std::fill_n(pairs.begin(), kMaxShared, kNever_q8);
@@ -89,9 +90,10 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
     return sum + (ratios.count() - 1) * equal + set.alternatives_q8;
 }
 
-/// Returns an upper bound of the odds, over all sets, of the alternatives that share at most seven
-/// lines. These alternatives lose in all other lines. Their roll in the first line is arbitrary,
-/// and there are fewer than 2^lines subsets of shared lines.
+/// Returns an upper bound on the odds, over all sets, of the alternatives that share at most seven
+/// lines. Such an alternative loses at least the minimum loss of each line that it does not share.
+/// Its roll in the first line is arbitrary, and there are fewer than 2^lines subsets of shared
+/// lines.
 int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
     constexpr std::size_t kFew = 7;
     std::array<int, kFew> largest{};  // the largest losses
@@ -123,7 +125,7 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
         odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
-    // The four other sets contain more alternatives, which share lines more rarely. In each of
+    // The other four sets contain more alternatives, but these share lines more rarely. In each of
     // these sets, the alternatives that share more than seven lines have less than half of the odds
     // of the first set.
     constexpr int kThreeTimes_q8 = 406;
@@ -154,7 +156,7 @@ class ByShift {
     struct Loss {
         std::uint16_t least;  ///< minimum loss of the alternatives that do not share the line
         std::uint8_t line;
-        /// Part of the roll of the line that comes from the place of the reading.
+        /// The part of the roll of the line that comes from the place of the reading.
         std::uint8_t own = 0;
     };
 
@@ -175,12 +177,12 @@ class ByShift {
     std::size_t count_ = 0;               ///< number of lines with a loss
     std::array<Loss, kMaxLines> losses_;  ///< in decreasing order
     std::uint32_t in_all_ = 0;            ///< sum of all losses
-    /// Number and sum of the first losses. Their sum stays below the limit even without the largest
-    /// loss, which may be kept.
+    /// Number and sum of the first losses. The sum of the first losses stays below the limit even
+    /// without the largest loss, which an alternative may keep.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
-    /// Sum of the losses that are kept at each shift, plus `none_`. Smaller values are left over
-    /// from earlier alternatives.
+    /// Sum of the losses of the lines kept at each shift, plus `none_`. Smaller values are left
+    /// over from earlier alternatives.
     std::array<std::uint32_t, kSections> kept_{};
     std::uint32_t none_;
 };
@@ -220,7 +222,7 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // If at most this sum is kept, the lines visited so far lose the limit.
+    // If an alternative keeps at most this sum, it loses the limit in the lines visited so far.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);
@@ -253,7 +255,7 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     return sum;
 }
 
-/// Returns an upper bound of the odds of the single alternatives of one sequence that share a line,
+/// Returns an upper bound on the odds of the single alternatives of one sequence that share a line,
 /// from the minimum loss of these alternatives. An alternative is counted once per shift at which
 /// it shares a line, so at most `ratios.count()` times.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
@@ -268,8 +270,8 @@ int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshar
 using Sequences = unsigned;
 constexpr Sequences kAllSequences = 15;
 
-/// Adds the bounds from tables to `sum`, for those of the given sequences whose bound is below
-/// `little_q8`. Returns the remaining sequences.
+/// Adds to `sum` the bounds from tables of those given sequences whose bound is below `little_q8`.
+/// Returns the remaining sequences.
 Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences sequences,
                         int& sum) {
     for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
@@ -318,7 +320,7 @@ int other_sections_log2_q8(const LikelihoodRatios& ratios) {
 }  // namespace
 
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
-    // For hard bits there is no closer sum, so all sets are counted.
+    // There is no tighter sum for hard bits, so all sets are counted.
     const bool is_last = ratios.is_of_bits();
     int far = far_log2_q8(ratios, true, is_last ? limit_q8 : kSmallOdds_q8);
     if (far > kSmallOdds_q8 && !is_last) far = far_log2_q8(ratios, false, limit_q8);
@@ -328,11 +330,12 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
     Sequences sequences = kAllSequences;
     int singles = kNever_q8;
     if (is_last) {
-        // The bounds from tables are larger than the odds, but avoid most of the work.
+        // The bounds from tables exceed the odds, but avoid most of the work.
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);
-        // Alternatives that share no line lose at least as much as alternatives in other sections.
+        // Alternatives that share no line lose at least as much as alternatives in other sections
+        // do.
         singles = add_log2(singles, kSingles_q8 + other_sections);
     }
     if (sequences != 0) singles = add_log2(singles, singles_log2_q8(ratios, sequences));

@@ -27,7 +27,7 @@ void RankedLines::rank_lines() {
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); ++line) {
         const auto others = std::span(odds(static_cast<int>(line))).subspan(1);
         sums[line] = std::accumulate(others.begin(), others.end(), 0.0F);
-        // Insertion sort, because `std::sort` would be more code than the rest of this file.
+        // Insertion sort. The code of `std::sort` would be larger than the rest of this file.
         std::size_t rank = line;
         for (; rank > 0 && sums[lines_[rank - 1]] > sums[line]; --rank)
             lines_[rank] = lines_[rank - 1];

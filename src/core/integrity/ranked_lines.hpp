@@ -1,5 +1,6 @@
-// Ranked lines: the lines, sorted by decreasing information, and the roll offsets of all places of
-// the secondary sequences in this order. Most alternatives then become hopeless after a few lines.
+// Ranked lines: the lines sorted by decreasing information, and the roll offsets of all places of
+// the secondary sequences in this order. Sums in this order exclude most alternatives after a few
+// lines.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -10,7 +11,7 @@ namespace dotpose::core {
 /// lowest byte.
 using EightOffsets = std::uint64_t;
 
-/// 1 in each byte.
+/// A word with 1 in each byte.
 inline constexpr EightOffsets kInEach = 0x0101010101010101;
 
 /// Losses, odds and roll offsets, indexed by the ranks of lines.
@@ -34,8 +35,8 @@ class RankedLines {
     const Offsets& offsets(std::size_t sequence, std::uint32_t place) const {
         return offsets_[kFirsts[sequence] + place];
     }
-    /// Returns the loss of an alternative in a line. `further` is the roll offset of the
-    /// alternative modulo 63, stored as any congruent number from 0 to 255.
+    /// Returns the loss of an alternative in a line. `further` is congruent to the roll offset of
+    /// the alternative modulo 63, from 0 to 255.
     int loss(int rank, int further) const {
         return losses_[static_cast<std::size_t>(rank)][static_cast<std::size_t>(further)];
     }

@@ -11,15 +11,16 @@
 namespace dotpose::core {
 namespace {
 
-/// Prior probability that a given border between two lines is a seam between sections at a given
-/// distance from each other. With this value, a position is accepted if a seam explains the view
+/// Prior probability that a given border between two lines is a seam between two sections with a
+/// given difference of rolls. With this value, a position is accepted if a seam explains the view
 /// equally well, but not if a seam explains it better.
 constexpr int kSeam_q8 = -32 * 256;
 /// Odds relative to the position read below which an alternative is not counted.
 constexpr int kMin_q8 = -8 * 256;
 
-/// Minimum losses of an alternative before each line, and from each line on, over its shifts. Skips
-/// shifts that lose at least the limit, regardless of the shift on the other side.
+/// Minimum losses of an alternative before each line, and from each line to the last line, over its
+/// shifts. Skips shifts that lose at least the limit, regardless of the shift on the other side of
+/// the border.
 class LossesByBorder {
   public:
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
@@ -27,7 +28,7 @@ class LossesByBorder {
         before_.fill(kNone);
         from_.fill(kNone);
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios.count()));
-        // Loss that an alternative avoids by sharing the lines of a shift.
+        // Loss of the lines that an alternative shares at each shift.
         std::array<int, kSections> kept{};
         int in_all = 0;
         int max_kept = 0;
@@ -76,8 +77,7 @@ class LossesByBorder {
     std::array<int, kMaxLines> from_;
 };
 
-/// Adds up the odds of the seam alternatives that explain the lines about as well as the position
-/// read.
+/// Adds up the odds of the seam alternatives that explain the lines about as well as the reading.
 class SeamAlternatives {
   public:
     SeamAlternatives(const LikelihoodRatios& ratios, int loss_limit)

@@ -67,7 +67,7 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
         std::uint8_t parts = 0;
         for (int lost = lost_at(step); lost >= part; lost -= part)
             ++parts;
-        // A loss of one part excludes too few places to be worth its time.
+        // A loss of one part excludes too few places to be worth the time.
         if (parts == 1) parts = 0;
         losses[static_cast<std::size_t>(step)] = parts;
         const int with_this = max_loss_before + parts;
@@ -91,7 +91,7 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
 
 // Not inlined, because small processors then keep all variables in registers.
 [[gnu::noinline]] std::uint32_t SimilarPlaces::operator[](std::uint32_t word) const {
-    // Excludes the bits beyond the end of the sequence and the bit of the place that was read.
+    // Excludes the bits beyond the end of the sequence and the bit of the place of the reading.
     const std::uint32_t places = sequence_.length - 32 * word;
     std::uint32_t excluded = places < 32 ? ~std::uint32_t{0} << places : 0;
     if (own_ / 32 == word) excluded |= std::uint32_t{1} << own_ % 32;
@@ -101,7 +101,7 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     for (const Step& step : std::span(steps_).first(count_)) {
         const std::uint32_t* here = step.places + word;
         const std::uint32_t equal = here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
-        // A line that is part of two steps must not be counted twice.
+        // A line that belongs to two steps must not be counted twice.
         if (step.ahead != before + 1) counted = 0;
         before = step.ahead;
         counted = ~(equal | counted);

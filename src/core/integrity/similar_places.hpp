@@ -1,5 +1,5 @@
-// Similar places: the places of a sequence whose digits are so similar to those of the reading that
-// their alternatives may matter. The search processes 32 places at a time, one per bit.
+// Similar places: the places of a sequence whose digits are so similar to the digits of the reading
+// that their alternatives may matter. The search processes 32 places at a time, one per bit.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -12,12 +12,14 @@ inline constexpr int kMaxSteps = 18;
 /// Number of parts into which the loss limit is divided.
 inline constexpr unsigned kLimitParts = 15;
 
-/// Steps at which an alternative is excused: it loses nothing there, regardless of its digit.
+/// Steps at which an alternative is excused. The alternative loses nothing in an excused step,
+/// regardless of its digit.
 enum class Excused : std::uint8_t { none, any_one };
 
-/// Minimum loss of an alternative in each step in which its digit differs from that of the reading.
-/// Such an alternative does not share one of the two lines, so its loss is at least the smaller
-/// loss of the two lines. In parts of the loss limit, rounded down.
+/// Lower bound on the loss of an alternative in each step where its digit differs from the digit of
+/// the reading. Such an alternative does not share at least one of the two lines of the step, so it
+/// loses at least the smaller of their minimum losses. `losses` is in units of 1/kLimitParts of the
+/// loss that excludes a place, rounded down.
 struct Steps {
     Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused);
 
@@ -27,21 +29,22 @@ struct Steps {
     bool can_exclude = false;  ///< true if any place can lose the limit
 };
 
-/// The places, at the first step, that may lose less than the limit.
+/// The places that may lose less than the limit. A place is identified by its index at the first
+/// step.
 class SimilarPlaces {
   public:
     /// `own` is the place of the reading at the first step of `steps`.
     SimilarPlaces(const code::Secondary& a, std::uint32_t own, const Steps& steps);
 
-    /// Returns the similar places among the 32 places from 32 * word on, except the place of the
-    /// reading.
+    /// Returns the similar places among places 32 * word to 32 * word + 31, one bit per place.
+    /// Excludes the place of the reading.
     std::uint32_t operator[](std::uint32_t word) const;
 
   private:
     struct Step {
         const std::uint32_t* places;  ///< places at which the digit of the reading occurs
-        std::uint8_t ahead;           ///< number of the step
-        std::uint8_t parts;           ///< loss, in parts of the limit
+        std::uint8_t ahead;           ///< index of the step
+        std::uint8_t parts;           ///< loss of the step, in parts of the limit
     };
     const code::Secondary& sequence_;
     std::uint32_t own_;
@@ -57,7 +60,7 @@ void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
     }
 }
 
-/// Calls `use` with the sequence and the place, at the first line, of all similar places. Skips
+/// Calls `use` with the sequence and the place of each similar place, at the first line. Skips
 /// sequences for which `is_settled` returns true.
 template <typename IsSettled, typename Use>
 void visit_similar_places(const LikelihoodRatios& ratios, const Steps& steps, IsSettled is_settled,

@@ -7,7 +7,7 @@ namespace {
 /// alternative shares a line of a lower rank, because it was counted at that rank.
 float odds_of_single(const RankedLines& lines, const RankedLines::Offsets& alternative,
                      int shared) {
-    // With this base, the sum for the shared line is 126, which is shift 0 modulo 63.
+    // With this base, the shared line has the sum 126, which is shift 0 modulo 63.
     const int base = 2 * kSections - alternative.all[static_cast<std::size_t>(shared)];
     int lost = lines.loss_of_first(alternative.first + kInEach * static_cast<unsigned>(base));
     if (lines.ratios.is_hopeless(lost)) return kNegligible;

@@ -8,7 +8,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Bounds of the odds of the single alternatives that share a line, by sequence, from one table.
+/// Bounds on the odds of the single alternatives that share a line, by sequence, from one table.
 class Bounds {
   public:
     explicit Bounds(const UnsharedLines& unshared) : unshared_(unshared) {
@@ -16,14 +16,14 @@ class Bounds {
         for (std::size_t n = 1; n < odds_.size(); ++n)
             odds_[n] = ratios.odds(unshared.min_loss_of(n) - ratios.max_gain());
     }
-    /// Returns the bound of a sequence. An alternative with n unshared lines of the table loses at
+    /// Returns the bound for a sequence. An alternative with n unshared lines of the table loses at
     /// least the sum of the n smallest line losses. The table bounds the number of such
     /// alternatives for each n, and the minimum of n for each place.
     float operator[](std::size_t sequence) const {
         const LikelihoodRatios& ratios = unshared_.ratios();
         const auto& max_with = code::kMaxPositionsWith[unshared_.tables() - 1][sequence];
-        // Alternatives with more unshared lines than the table covers. An alternative is counted
-        // once per shift at which it shares a line, so at most `ratios.count()` times.
+        // Bound for the alternatives with more unshared lines than the table counts. An alternative
+        // is counted once per shift at which it shares a line, so at most `ratios.count()` times.
         float sum =
             static_cast<float>(ratios.count() * ratios.basis[sequence].length) * odds_.back();
         std::size_t n = unshared_.min_unshared(sequence, Sharing::at_one_shift);

@@ -1,5 +1,5 @@
 // Unshared lines: the minimum loss of all single alternatives of a sequence, from a table of the
-// minimum number of lines that they leave unshared. Most alternatives then need not be enumerated.
+// minimum number of lines that they do not share. Most alternatives then need not be enumerated.
 #pragma once
 
 #include <array>
@@ -11,8 +11,7 @@
 
 namespace dotpose::core {
 
-/// Shifts at which an alternative shares lines: a single shift, or one shift on each side of a
-/// border.
+/// Shifts at which an alternative shares lines.
 enum class Sharing : std::uint8_t {
     at_one_shift,
     on_two_sides,  ///< at one shift before any border and at another shift beyond it
@@ -30,34 +29,35 @@ class UnsharedLines {
                   int max_lines = kMaxTableLines);
 
     const LikelihoodRatios& ratios() const { return ratios_; }
-    /// Returns the number of tables that have at most as many lines as are in view. The last of
-    /// these tables is used.
+    /// Returns the number of tables for at most as many lines as are in view. The last of these
+    /// tables is used.
     std::size_t tables() const { return row_ + 1; }
-    /// Returns true if all alternatives of a sequence lose at least `loss_limit`, apart from gains
-    /// in other lines.
+    /// Returns true if all alternatives of a sequence lose at least `loss_limit`, not counting
+    /// their gains in other lines.
     bool all_lose(std::size_t sequence, Sharing sharing, int loss_limit) const {
         return min_loss(sequence, sharing) >= loss_limit;
     }
-    /// Returns the minimum number of lines of the table that an alternative of a sequence leaves
-    /// unshared, or 0 if there is no table for the sequence.
+    /// Returns the minimum number of lines of the table that an alternative of a sequence does not
+    /// share, or 0 if there is no table for the sequence.
     std::size_t min_unshared(std::size_t sequence, Sharing sharing) const;
-    /// Returns the minimum loss of an alternative with n unshared lines of the table, apart from
-    /// gains in other lines.
+    /// Returns the minimum loss of an alternative with n unshared lines of the table, not counting
+    /// its gains in other lines.
     int min_loss_of(std::size_t n) const { return smallest_sums_[n]; }
     /// Returns the minimum loss of all alternatives of a sequence, or 0 if there is no table for
     /// the sequence.
     int min_loss(std::size_t sequence, Sharing sharing) const;
-    /// Returns the minimum loss of all places in the a4 of another code. The argument contains the
-    /// rows of `code::kUnsharedInOther` for that code.
+    /// Returns the minimum loss of all places in a4 of another code. `unshared_in_other` contains
+    /// the rows of `code::kUnsharedInOther` for that code.
     int min_loss(const std::array<std::string_view, 3>& unshared_in_other) const;
 
   private:
-    /// Returns the losses of the lines in the middle to which the table is applied. The middle
-    /// lines are the longest. Returns an empty span if there are too few lines for any table.
+    /// Returns the losses of the lines to which the table is applied. These are in the middle of
+    /// the view, where lines are longest. Returns an empty span if there are too few lines for any
+    /// table.
     std::span<const std::int16_t> choose_lines(int max_lines);
 
     const LikelihoodRatios& ratios_;
-    /// Row of the table; SIZE_MAX if there are too few lines for any table.
+    /// Row of the table, or SIZE_MAX if there are too few lines for any table.
     std::size_t row_ = SIZE_MAX;
     std::uint32_t first_line_ = 0;
     SmallestSums smallest_sums_{};  ///< sums of the n smallest losses, for each n

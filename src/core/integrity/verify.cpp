@@ -57,8 +57,8 @@ Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& up
 /// Result of the comparison of all bits in view with the code, before alternatives are counted.
 struct Doubt {
     int odds_per_bit_q8 = 0;  ///< 0 if the bits carry no information
-    /// log2 of the bound of the probability that random bits agree equally well, in 2^-8, for each
-    /// axis.
+    /// Upper bound on the probability that random bits agree equally well, as log2 in units of
+    /// 2^-8, for each axis.
     std::array<int, 2> by_chance_q8{};
 };
 
@@ -90,7 +90,7 @@ Doubt compare_with_chance(const Grid& grid, CodeVariant code, const IntegrityOpt
     return doubt_of(agreements, options, decoding, fix);
 }
 
-/// Returns the bound of the probability that one axis is wrong, as log2 in 2^-8.
+/// Returns an upper bound on the probability that one axis is wrong, as log2 in units of 2^-8.
 int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limit_q8,
                       int alternatives_q8) {
     int sum_q8 = add_log2(by_chance_q8, alternatives_q8);
@@ -98,9 +98,9 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
     return std::min(sum_q8, 0);
 }
 
-/// Returns the bound of the probability that each axis is wrong, as log2 in 2^-8.
-/// `alternatives_q8(axis, ratios)` returns the odds of the alternatives of an axis. It is not
-/// called for an axis whose chance alone exceeds the limit.
+/// Returns an upper bound on the probability that each axis is wrong, as log2 in units of 2^-8.
+/// `alternatives_q8(axis, ratios)` returns the odds of the alternatives of an axis. Skips axes
+/// whose probability of a match by chance alone exceeds the limit.
 template <typename Alternatives>
 std::array<int, 2> with_alternatives(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
@@ -139,7 +139,8 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
     return is_sure ? Status::ok : Status::not_certain;
 }
 
-/// Returns the bound of the probability that each axis is wrong. Uses quick_alternatives.hpp.
+/// Returns an upper bound on the probability that each axis is wrong, computed by
+/// quick_alternatives.hpp.
 std::array<int, 2> estimate_quickly(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                     int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {
@@ -164,7 +165,7 @@ Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
 
 namespace {
 
-/// Lines of one axis of a tracked frame, from the first to the last in view.
+/// Lines of one axis of a tracked frame, from the first to the last line in view.
 struct TrackedAxis {
     std::span<const ComparedLine> lines;
     AxisReading reading;
@@ -191,7 +192,7 @@ TrackedAxis tracked_axis(CodeVariant code, std::span<const ComparedLine> columns
     }
     result.confidence.add(127, false, seen - wrong);
     result.confidence.add(127, true, wrong);
-    // The reading is that of the first line in view, at the first cell of that line.
+    // The reading belongs to the first line in view, at the first cell of that line.
     const auto ahead = static_cast<std::int32_t>(begin);
     result.reading = axis == Axis::x ? reading_of(code, moved(code, corner, ahead, 0), axis)
                                      : reading_of(code, moved(code, corner, 0, ahead), axis);
@@ -232,8 +233,8 @@ std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
             compare(code, all, Axis::y, reading_of(code, corner, Axis::y))};
 }
 
-/// Sets the bound of chance for several possible codes. `log2_codes_q8` is log2 of their number, in
-/// 2^-8.
+/// Sets the upper bounds on chance for several possible codes. `log2_codes_q8` is log2 of the
+/// number of codes, in units of 2^-8.
 void count_hypotheses_of(int log2_codes_q8, const Grid& grid, CodeVariant code,
                          const Decoding& decoding, Doubt& doubt) {
     const auto agreements = compare_both(grid, code, decoding);
@@ -278,8 +279,8 @@ Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Deco
                           [&](std::size_t, const LikelihoodRatios& ratios) {
                               return quick_alternatives_log2_q8(ratios, limit_q8) + codes_q8;
                           });
-    // The probability is computed as closely as for the default limit, even if the caller accepts a
-    // larger probability.
+    // The probability is computed as precisely as for the default limit, even if the caller accepts
+    // a larger probability.
     const int doubtful_q8 = std::min(limit_q8, -30 * 256);
     if (sum(p_wrong_q8) > doubtful_q8) {
         const auto counted_q8 = with_alternatives(

@@ -1,5 +1,6 @@
-// Verify: compares all dots in view with the position that was decoded from a part of them.
-// differs: the paper accepts every position that decodes; see docs/differs-from-paper.md.
+// Verify: compares all dots in view with the decoded position. The position was decoded from some
+// of the dots. differs: the paper accepts every position that decodes; see
+// docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/grid.hpp"
@@ -15,18 +16,18 @@ namespace dotpose::core {
 
 /// Sets `bit_errors` and `p_wrong_log2` of the fix, and `p_wrong_log2_q8` of the decoding, from
 /// chance and alternatives. Uses quick_alternatives.hpp, and alternatives.hpp if the quick bound
-/// leaves doubts. `others` contains the number of possible codes; null means that the code is
+/// exceeds the limit. `others` contains the number of possible codes, and is null if the code is
 /// given. Errors: not_certain.
 Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
-/// As `verify`, in integers only and in bounded time. Refuses positions that quick_alternatives.hpp
-/// leaves in doubt.
+/// As `verify`, but in integers only and in bounded time. Refuses a position if the bound of
+/// quick_alternatives.hpp exceeds the limit.
 Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
-/// As `verify`, for a tracked frame, whose bits all have the same weight. `lines` contains the
-/// columns in its first half and the rows in its second half. `corner` is the place of the first
+/// As `verify`, but for a tracked frame, in which all bits have the same weight. The first half of
+/// `lines` contains the columns, the second half the rows. `corner` is the place of the first
 /// column and row.
 Status verify_tracked(CodeVariant code, std::span<const ComparedLine> lines, const Place& corner,
                       const IntegrityOptions& options, Decoding& decoding, Fix& fix);

@@ -14,10 +14,10 @@ namespace {
 
 /// The sequence in which the codes differ.
 constexpr std::size_t kA4 = 3;
-/// Upper bound of the odds charged for each pruned place, as log2 in 2^-8 and as a number.
+/// Upper bound on the odds charged for each pruned place, as log2 in units of 2^-8 and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
-/// Summed odds below which no closer bound is computed.
+/// Summed odds below which no tighter bound is computed.
 constexpr float kNegligibleOdds = 1e-12F;
 
 /// Minimum losses of the lines that a place does not share.
@@ -38,8 +38,8 @@ struct Losses {
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
-        // The quotients are below 16. Floats of this size are exact enough to never be rounded up
-        // to the next integer.
+        // The quotients are below 16. Floats of this size are precise enough that a quotient is
+        // never rounded up to the next integer.
         const auto part = static_cast<float>((loss_limit + StepLosses::kLimitParts - 1) /
                                              StepLosses::kLimitParts);
         for (int step = 0; step < steps.count; ++step) {
@@ -54,11 +54,11 @@ struct Losses {
     /// of at most `all_but`.
     bool exceed_limit(int all_but) const { return kUnit * (all - all_but) > loss_limit; }
 
-    /// Unit of losses, to which they are rounded down, because their sum must fit in 16 bits.
+    /// Unit of losses. Losses are rounded down to this unit, because their sum must fit in 16 bits.
     static constexpr int kUnit = 8;
     int loss_limit;                           ///< loss from which a place is skipped
     int all = 0;                              ///< loss of places that share no line, in units
-    int at_best = 0;                          ///< loss of these places, minus their gains
+    int at_best = 0;                          ///< `all` minus the gains, in score
     std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units
 };
 
@@ -73,7 +73,7 @@ class OtherPlaces {
           theirs_(code::basis(other)[kA4]),
           shift_here_(code::roll_further(read, other, ratios.position, ratios.places[kA4])),
           here_(offsets_of(ratios.places[kA4])) {
-        // A line loses nothing if its roll equals that of the reading.
+        // A line loses nothing if the roll of the place equals the roll of the reading.
         const int shared = modulo(here_[0] - shift_here_);
         int lost = 0;
         for (std::size_t line = 0; line < count_ && !ratios_.is_hopeless(lost); ++line) {
@@ -84,13 +84,13 @@ class OtherPlaces {
         result_.here = ratios_.odds(lost);
     }
 
-    /// Returns the likelihood ratio of the same place.
+    /// Returns the likelihood ratio of the place of the reading in the other code.
     float here() const { return result_.here; }
-    /// Returns an upper bound of the sum of the likelihood ratios of all other places, or the sum
-    /// itself once they are counted.
+    /// Returns the summed likelihood ratios of all other places, or an upper bound on the sum until
+    /// these places are counted.
     float elsewhere() const { return result_.elsewhere; }
 
-    /// Bounds the odds of the places elsewhere by a table.
+    /// Bounds the odds of all other places by a table.
     void bound(const UnsharedLines& unshared, CodeVariant read, CodeVariant other) {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
@@ -105,7 +105,8 @@ class OtherPlaces {
     /// Resets the bound, before the places are counted one by one.
     void begin_count() { result_.elsewhere = 0; }
 
-    /// Adds the same place of a4 at its other shifts, and all places at shifts that share no line.
+    /// Adds the place of the reading in a4 at its other shifts, and all places at shifts that share
+    /// no line.
     void add_unsimilar() {
         // A place with the rolls of the reading shares all lines at one shift, and no line at any
         // other shift.
@@ -119,9 +120,9 @@ class OtherPlaces {
     void add_skipped(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kSkippedOdds;
     }
-    /// Returns the sums and the position of the best place elsewhere.
+    /// Returns the sums, and the position of the best other place.
     const OtherAxis& result() {
-        // The position of a place with small odds is never reported.
+        // A place with smaller odds is never reported.
         constexpr float kMinReportedOdds = 1e-6F;
         if (result_.best < kMinReportedOdds) return result_;
         auto places = ratios_.places;
@@ -146,14 +147,14 @@ class OtherPlaces {
         return offsets;
     }
 
-    /// Returns an upper bound of the odds of all places at shifts that share no line. Each of these
-    /// places is counted with the best odds that any of them can have.
+    /// Returns an upper bound on the odds of all places at shifts that share no line. Each place is
+    /// counted with the best odds that any of them can have.
     float sharing_none() const {
         return static_cast<float>(theirs_.length * (kSections - 1)) * ratios_.odds(losses_.at_best);
     }
 
-    /// Adds the places at shifts that share no line. If their bound is not negligible, they are
-    /// counted one by one.
+    /// Adds the places at shifts that share no line. If the bound on the odds of these places is
+    /// not negligible, the places are counted one by one.
     void add_sharing_none() {
         const float all = sharing_none();
         if (all <= kNegligibleOdds) {
@@ -182,8 +183,8 @@ class OtherPlaces {
     }
 
     void add(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
-        // Loss of the lines shared at each shift, in units of kUnit, indexed by the roll offset of
-        // the lines.
+        // Summed loss of the lines shared at each shift, in units of kUnit, indexed by the roll
+        // offset of these lines.
         std::array<std::uint16_t, kSections + 1> shared{};
         std::uint16_t most = 0;
         for (std::size_t line = 0; line < count_; ++line) {
@@ -212,7 +213,7 @@ class OtherPlaces {
         }
     }
 
-    /// Counts a place at which the roll of the first line is larger by `shift`.
+    /// Counts a place. `shift` is the roll of its first line minus the roll of the reading.
     void count(std::uint32_t place, int shift, float odds) {
         result_.elsewhere += odds;
         if (odds <= result_.best) return;
@@ -226,9 +227,8 @@ class OtherPlaces {
     const std::size_t count_;
     const code::Secondary& theirs_;
     const int shift_here_;
-    const RollOffsets here_;  ///< roll offsets of the same place
-    bool has_same_rolls_ =
-        true;  ///< true if the same place has the rolls of the reading in all lines
+    const RollOffsets here_;  ///< roll offsets at the place of the reading in the other code's a4
+    bool has_same_rolls_ = true;  ///< true if that place has the rolls of the reading in all lines
     std::uint32_t best_place_ = 0;
     OtherAxis result_;
 };
@@ -243,15 +243,16 @@ class AxisWeigher {
           read_(read),
           losses_(ratios_) {}
 
-    /// Returns the places in the code `other`. The places elsewhere are bounded by a table.
+    /// Returns the odds of the places in the code `other`: exact for the place of the reading, and
+    /// an upper bound from a table for all other places.
     OtherPlaces bounded(CodeVariant other) const {
         OtherPlaces others(ratios_, losses_, read_, other);
         others.bound(unshared_, read_, other);
         return others;
     }
 
-    /// Counts the places elsewhere one by one if their bound is not negligible. `across` are the
-    /// odds of the other axis.
+    /// Counts all other places one by one if the bound on their odds is not negligible. `across`
+    /// contains the odds of the other axis.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
         others.begin_count();

@@ -1,5 +1,5 @@
-// Weigh codes: computes the odds of the places in the other codes that explain an axis as well as
-// the place read. Codes differ in a4 only, so these places differ from the reading in a4 alone.
+// Weigh codes: the odds of the places in the other codes that explain an axis about as well as the
+// reading does. Codes differ in a4 only, so these places differ from the reading in a4 only.
 // docs/integrity.md derives the sums.
 #pragma once
 

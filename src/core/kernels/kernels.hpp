@@ -18,7 +18,8 @@ namespace dotpose::core {
 
 /// Two plane waves of the same length at right angles: cos(2 pi (kx x + ky y) - phase).
 struct Waves {
-    /// Frequency of the first wave, in turns per px; the second wave is perpendicular to it.
+    /// Frequency of the first wave, in turns per px. The second wave is perpendicular to the first
+    /// wave.
     float kx = 0;
     float ky = 0;
     float power = 0;  ///< power of both waves; at most 2 for a grid without displacements
@@ -32,18 +33,18 @@ struct CellPass {
     float reach_px = 0;  ///< maximum distance of a dot from the centre along each axis
     /// Maximum distance of a dot from the nearest place of its cell, in spacings.
     float max_off = 0;
-    /// Distance of the four places of a cell from its centre, in spacings; 0 for one place at the
-    /// centre.
+    /// Distance of the four places of a cell from its centre, in spacings, or 0 for one place at
+    /// the centre.
     float displacement = 0;
     bool with_perspective = false;
 };
 
 /// Sums over the dots of one pass, for the least-squares plane with perspective: i (1 + g x + h y)
-/// = a x + b y + c, and the same for j with d, e and f. Without perspective, only the first three
-/// elements of `i` and `j` are set, and `square` is 0.
+/// = a x + b y + c, and j (1 + g x + h y) = d x + e y + f. Without perspective, only the first
+/// three elements of `i` and `j` are set, and `square` is 0.
 struct CellSums {
     float seen = 0;  ///< number of dots within reach
-    float used = 0;  ///< number of these dots that are near a place
+    float used = 0;  ///< number of dots within reach that are near a place
     /// Sum of the squared distances of the used dots from their places, in spacings^2.
     float squares = 0;
     std::array<float, 6> one{};     ///< sums of 1, x, y, xx, xy, yy
@@ -71,8 +72,8 @@ struct CellsInView {
     float displacement = 0;  ///< distance of dots from their intersections, in spacings
     Windows windows = Windows::on_intersections;
     int step = 1;  ///< row subsampling step: every `step`-th cell of a row is listed
-    /// Index in the main sequence of each column at row `first_row`; `row_rolls` contains that of
-    /// each row at column `first_column`.
+    /// Index in the main sequence of each column at row `first_row`. `row_rolls` contains the index
+    /// of each row at column `first_column`.
     const std::uint8_t* column_rolls = nullptr;
     const std::uint8_t* row_rolls = nullptr;
     int first_column = 0;  ///< first column of the pattern for which rolls are given
@@ -87,16 +88,16 @@ struct WindowOptions {
     float reach = 0.36F;    ///< half the side of a window, in spacings; at most kMaxHalfWindow_px
     /// Threshold, in 1/256 of the paper level: minimum contrast of a pixel of a dot.
     int cut_q8 = 128;
-    /// Mass of a dot relative to the paper level; 0 to use the mass of most windows.
+    /// Mass of a dot relative to the paper level, or 0 to use the mass of most windows.
     float typical_mass = 0;
 };
 /// Maximum half side of a window, and maximum radius of a centroid window.
 inline constexpr int kMaxHalfWindow_px = 24;
 inline constexpr float kMaxCentroidRadius_px = 24;
-/// Maximum radius of a small centroid window, which takes a tenth of the time of a larger one.
+/// Maximum radius of a small centroid window, which takes a tenth of the time of a larger window.
 inline constexpr float kSmallCentroidRadius_px = 4;
-/// Radius of the centroid window for predicted dots. Small enough to limit noise, large enough to
-/// include the edge of the dot at 8 to 13 px per spacing.
+/// Radius of the centroid window for predicted dots. Small enough to limit noise, and large enough
+/// to include the edge of the dot at 8 to 13 px per spacing.
 inline constexpr float kPredictedCentroidRadius_px = 3.65F;
 
 /// Sums over dots for the fit of nine parameters; see PlaneNormal. Places (u, v) are the places
@@ -127,7 +128,7 @@ struct DotOffsets {
     /// it (across).
     float along = 0;
     float across = 0;
-    /// Sums of offsets times the direction of the displacement along x; `of_y` contains the sums
+    /// Sums of offsets times the direction of the displacement along x. `of_y` contains the sums
     /// along y.
     std::array<float, 2> of_x{};
     std::array<float, 2> of_y{};
@@ -150,7 +151,7 @@ struct BlockSums {
 /// Result of reading bits.
 struct BitsRead {
     int seen = 0;  ///< number of cells with a dark spot
-    int read = 0;  ///< number of these cells whose spot is near one of the four places
+    int read = 0;  ///< number of `seen` cells whose spot is near one of the four places
     int wrong_x = 0;
     int wrong_y = 0;
     int right = 0;        ///< number of dots without a wrong bit
@@ -164,8 +165,8 @@ struct LineLoss {
     std::uint8_t loss = 0;
 };
 
-/// Places in the four sequences of a position. Each place has a line that it shares with the
-/// reading.
+/// List of places in the four sequences of a position. Each place has a line that it shares with
+/// the reading.
 struct SimilarPlaceList {
     static constexpr int kMax = 256;
     struct Entry {
@@ -180,17 +181,17 @@ struct SimilarPlaceList {
 /// Set of places of a sequence, one bit per place. The first place is the lowest bit.
 using PlaceBits = std::array<std::uint32_t, 8>;
 
-/// Minimum loss of an alternative whose digit differs from that of the reading in the step from one
-/// line to the next. Such an alternative does not share one of the two lines. The unit is
-/// 1/kLimitParts of the loss limit.
+/// Minimum loss of an alternative in each step from one line to the next in which its digit differs
+/// from the digit of the reading. Such an alternative does not share at least one of the two lines.
+/// The unit is 1/kLimitParts of the loss limit.
 struct StepLosses {
     static constexpr int kLimitParts = 8;
     int count = 0;
     std::array<std::uint8_t, 64> parts;  ///< loss of each step; at most kLimitParts
 };
 
-/// Alternatives, grouped by the set of sequences in which they differ: their number, and the
-/// probability that all their digits in a step equal those of the reading.
+/// Alternatives, grouped by the set of sequences in which they differ: the number of alternatives,
+/// and the probability that all their digits in a step equal the digits of the reading.
 struct FarAlternatives {
     std::array<float, 8> equal{1, 1, 1, 1, 1, 1, 1, 1};
     std::array<float, 8> number{};
@@ -214,15 +215,15 @@ struct Kernels {
     /// Smooths the patch by 1-2-1 along both axes, and finds the brightest and the darkest pixel of
     /// each tile.
     void (*smooth_patch)(Patch& patch);
-    /// Lists the dots: minima of the smoothed patch that are darker than its thresholds. Their
-    /// places are the vertices of parabolas through the neighbouring pixels, relative to the middle
-    /// of the patch.
+    /// Lists the dots: minima of the smoothed patch that are darker than its thresholds. The place
+    /// of a dot is the vertex of the parabolas through the neighbouring pixels, relative to the
+    /// middle of the patch.
     void (*find_minima)(Patch& patch);
     /// Returns the strongest waves of 12 directions, with about `per_px` turns per px.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
     /// Returns the sums of one pass over the dots.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
-    /// Sets the bits of the cells in which the dots are. Cell (-32, -32) is the first.
+    /// Sets the bits of the cells that contain the dots. Cell (-32, -32) is the first cell.
     void (*read_cells)(const PatchDots& dots, const FloatPlane& plane, float displacement,
                        BitLines& columns, BitLines& rows);
     /// Scores 64 cells of a line against the main sequence at each roll.
@@ -236,12 +237,13 @@ struct Kernels {
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
     /// Sets the centroids of the dark pixels in the windows of the dots. Drops dots whose mass is
-    /// much larger or smaller than that of a typical window. Returns the mass of a typical window.
+    /// much larger or smaller than the mass of a typical window. Returns the mass of a typical
+    /// window.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowOptions& options, MeasuredDots& dots);
-    /// Sets the centres to weighted centroids in centroid windows, without a threshold and its
-    /// bias. `radius_px` is at most kMaxCentroidRadius_px; windows at the border of the image are
-    /// smaller.
+    /// Sets the centres to weighted centroids in centroid windows, without a threshold, which would
+    /// bias the centres. `radius_px` is at most kMaxCentroidRadius_px. Windows at the border of the
+    /// image are smaller.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float reach_px,
                            MeasuredDots& dots);
     /// Reads the bits of cells whose dots are predicted to a fraction of their displacement: the
@@ -257,8 +259,8 @@ struct Kernels {
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`
-    /// and `rows`, unless these are null; cell (-32, -32) is the first. The lines must be empty,
-    /// and no cell may have two dots.
+    /// and `rows`, unless these are null. Cell (-32, -32) is the first cell. The lines must be
+    /// empty, and no cell may have two dots.
     BitsRead (*read_bits)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                           BitLines* columns, BitLines* rows);
     /// Returns the sums over the inliers, whose squared residuals are at most `limit` (spacings^2).
@@ -270,18 +272,19 @@ struct Kernels {
     /// along both axes.
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
-    /// Returns the other places of a sequence that may lose less than the limit, according to the
-    /// steps.
+    /// Returns the places of a sequence, other than the place of the reading, that may lose less
+    /// than the limit according to `steps`.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
     /// Returns the expected odds of the far alternatives. `best` contains, for each line, the odds
-    /// of the best other roll. At most `max_shared` adjacent lines are shared.
+    /// of the best roll other than the roll of the reading. At most `max_shared` adjacent lines are
+    /// shared.
     float (*sum_far_alternatives)(std::span<const float> best, int max_shared,
                                   const FarAlternatives& sets);
-    /// Lists the other places, in the sequences whose bit is set, that may lose less than
-    /// `loss_limit` over the given lines, which are sorted by decreasing loss. Returns false if
-    /// there are too many places, or if places that share none of the first lines may lose less
-    /// than the limit.
+    /// Lists the places other than the place of the reading, in the sequences whose bit is set,
+    /// that may lose less than `loss_limit` over the given lines. The lines are sorted by
+    /// decreasing loss. Returns false if there are too many places, or if places that share none of
+    /// the first lines may lose less than the limit.
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 unsigned sequences, std::span<const LineLoss> lines, int loss_limit,
                                 SimilarPlaceList& list);

@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Maximum number of columns and of rows that are decoded. If more lines are in view, the lines
-/// read most clearly are decoded.
+/// Maximum number of columns, and of rows, that are decoded. If more lines are in view, the lines
+/// with the clearest bits are decoded.
 inline constexpr int kMaxLines = 64;
 
 /// Agreement of one column or row with the main sequence at each roll.

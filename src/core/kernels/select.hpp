@@ -1,15 +1,16 @@
-// Select: returns the kernels for the current processor.
+// Select: chooses the kernels for the current processor.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
 
-/// Returns scalar kernels for any processor. The other kernels are compared with them.
+/// Returns scalar kernels for any processor. Tests compare the other kernels with the scalar
+/// kernels.
 const Kernels& portable_kernels();
 /// Returns kernels with vectors of 16 bytes, for every x86-64 and 64-bit ARM processor.
 const Kernels& wide_kernels();
-/// Returns kernels for AVX2, or null if the processor or the compiler does not support it.
+/// Returns kernels for AVX2, or null if the processor or the compiler does not support AVX2.
 const Kernels* avx2_kernels();
 
 /// Returns the fastest kernels for this processor.

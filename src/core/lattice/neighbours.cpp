@@ -23,14 +23,15 @@ class Buckets {
     int column(FixedVec at_q8) const { return at_q8.x >> shift_; }
     int row(FixedVec at_q8) const { return at_q8.y >> shift_; }
     std::span<const BucketedSeed> all() const { return memory_.first(count_); }
-    /// Returns the first seed in the bucket at this column of a row, or the next seed if the bucket
-    /// is empty.
+    /// Returns the first seed in the bucket at this column of a row. If the bucket is empty,
+    /// returns the next seed.
     const BucketedSeed* in_row(int row, int column) const {
         return &memory_[memory_[static_cast<std::size_t>(row * columns_ + column)].begin];
     }
 
   private:
-    const std::span<BucketedSeed> memory_;  ///< the element after the last bucket contains its end
+    const std::span<BucketedSeed>
+        memory_;  ///< the last element contains the end of the last bucket
     const std::size_t count_;
     int shift_ = 0;
     int columns_ = 1;
@@ -55,8 +56,8 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
         columns_ = ((end.x - corner.x) >> shift_) + 1;
         rows_ = ((end.y - corner.y) >> shift_) + 1;
     } while (columns_ > max_buckets || rows_ > max_buckets || columns_ * rows_ > max_buckets);
-    // Counting sort: counts the seeds, sets the ends of the buckets, then fills the buckets
-    // backwards.
+    // Counting sort: counts the seeds of each bucket, sets the ends of the buckets, then fills the
+    // buckets backwards.
     const auto buckets = static_cast<std::size_t>(columns_ * rows_);
     for (BucketedSeed& bucket : memory_.first(buckets + 1))
         bucket.begin = 0;
@@ -75,7 +76,8 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
     }
 }
 
-/// Maximum distance of a neighbour per axis, in 2^-8 px (128 px). No grid has a larger spacing.
+/// Maximum distance of a neighbour along each axis, in units of 2^-8 px (128 px). No grid has a
+/// larger spacing.
 constexpr std::int32_t kFarthest_q8 = 1 << 15;
 
 std::uint32_t wrapped_square(std::int32_t a) {
@@ -85,8 +87,8 @@ std::uint32_t wrapped_square(std::int32_t a) {
 /// The four nearest seeds of one seed among the seeds tested so far, nearest first.
 class Nearest {
   public:
-    /// Keeps only seeds at squared distances below `within_q16`. `may_be_far` is true if seeds may
-    /// be 128 px away or more.
+    /// Keeps only seeds whose squared distance is below `within_q16`. `may_be_far` is true if seeds
+    /// may be 128 px away or more.
     Nearest(const BucketedSeed& self, std::uint32_t within_q16, bool may_be_far)
         : self_(self), may_be_far_(may_be_far) {
         for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -107,15 +109,15 @@ class Nearest {
         }
     }
     bool has_four() const { return points_[3] != nullptr; }
-    /// Writes the indices of the four seeds; -1 for each missing seed.
+    /// Writes the indices of the four seeds, or -1 for each missing seed.
     void write(std::array<std::int16_t, 4>& seeds) const {
         for (std::size_t k = 0; k < seeds.size(); ++k)
             seeds[k] = points_[k] == nullptr ? -1 : static_cast<std::int16_t>(points_[k]->seed);
     }
 
   private:
-    /// Keeps the point if it is another seed and near enough. Returns the squared distance below
-    /// which a further seed is kept.
+    /// Keeps the point `p` if it is another seed and near enough. Returns the squared distance
+    /// below which a further seed is kept.
     DOTPOSE_NOINLINE std::uint32_t consider(const BucketedSeed* p, std::uint32_t squared_q16) {
         const bool is_far = may_be_far_ && larger_component(p->at_q8 - self_.at_q8) >= kFarthest_q8;
         if (p != &self_ && !is_far) insert<3>(p, squared_q16);
@@ -153,7 +155,7 @@ void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
 
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds) {
-    // Bins are as narrow as possible, provided that the last bin contains the farthest dot.
+    // Bins are as narrow as possible, but the last bin must contain the farthest dot.
     std::array<std::uint16_t, kDistanceBins> histogram{};
     int shift = 0;
     for (const DetectedDot& dot : dots) {
@@ -193,7 +195,8 @@ void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uin
             const bool is_last = reach >= max_reach || sure_q8 >= kFarthest_q8;
             const auto within_q16 =
                 is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8);
-            // Seeds are at most one bucket beyond `reach`, and therefore at most twice as far away.
+            // Seeds in the buckets searched are at most one bucket beyond `reach`, and therefore at
+            // most twice as far away.
             Nearest nearest(p, within_q16, 2 * sure_q8 > kFarthest_q8);
             const int left = std::max(column - reach, 0);
             const int right = std::min(column + reach, buckets.columns() - 1);

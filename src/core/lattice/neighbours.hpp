@@ -1,7 +1,8 @@
 // Neighbours: the four nearest dots of each dot near the image centre, and the symmetric edges
-// between them. Paper section II-B.2. differs: the paper connects all dots. Here only the dots
-// nearest the centre (seeds), at most kMaxSeeds, give the first grid, which is then extended
-// outwards (device/grow.hpp, lattice/refine_grid.hpp). This bounds the time for any image.
+// between them. Paper section II-B.2. differs: the paper connects all dots. Here, the first grid is
+// fitted only to the seeds, which are the dots nearest the centre, at most kMaxSeeds. The grid is
+// then extended outwards (device/grow.hpp, lattice/refine_grid.hpp). This bounds the time for any
+// image.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +11,11 @@
 
 namespace dotpose::core {
 
-/// Maximum number of seeds: the dots nearest the image centre, which give the first estimate of the
-/// grid.
+/// Maximum number of seeds. Seeds are the dots nearest the image centre, from which the first grid
+/// is estimated.
 inline constexpr int kMaxSeeds = 256;
 
-/// Element n of two unrelated arrays that share their memory: the n-th seed, sorted by bucket in
+/// Element n of two independent arrays that share their memory: the n-th seed, sorted by bucket in
 /// row-major order, and the n-th bucket.
 struct BucketedSeed {
     FixedVec at_q8;           ///< place of the seed relative to the corner of the first bucket
@@ -27,8 +28,8 @@ struct BucketedSeed {
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds);
 
-/// Finds the four nearest other seeds of each seed, nearest first, within 128 px per axis; -1 for
-/// each missing seed. `memory` must have one element more than there are seeds.
+/// Finds the four nearest other seeds of each seed, nearest first, within 128 px along each axis.
+/// Writes -1 for each missing seed. `memory` must have one element more than there are seeds.
 void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                      std::span<BucketedSeed> memory,
                      std::span<std::array<std::int16_t, 4>> neighbours);

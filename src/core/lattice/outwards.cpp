@@ -99,9 +99,9 @@ float inner(const std::array<float, 3>& a, const std::array<float, 3>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Solves the least-squares problem of i (1 + g x + h y) = a x + b y + c, and of the same equation
-/// for j with d, e, f. Eliminates a, b, c and d, e, f, which leaves two equations for g and h.
-/// Without perspective, g = h = 0. Returns false if the dots do not determine the plane.
+/// Solves the least-squares problem of i (1 + g x + h y) = a x + b y + c, and of j (1 + g x + h y)
+/// = d x + e y + f. Eliminates a, b, c and d, e, f, which leaves two equations for g and h. Without
+/// perspective, g = h = 0. Returns false if the dots do not determine the plane.
 bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane) {
     const Inverse inverse(sums.one);
     if (!inverse.is_regular) return false;
@@ -225,7 +225,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     plane = plane_from_waves(*waves);
     const float spacing = spacing_px(plane);
     const float full = view.full_reach_px;
-    // The first rounds fit the intersections. The displacements of dots count as noise.
+    // The first rounds fit the intersections. In these rounds, the displacements of dots are noise.
     CellPass pass{tuned::kFirstReach * spacing, tuned::kFirstMaxOffset, 0};
     CellSums sums;
     for (int round = 0; round < 2; ++round) {
@@ -237,8 +237,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     if (mean_square < kUndisplaced) return false;
     grid.displacement =
         std::clamp(std::sqrt(mean_square), tuned::kMinDisplacement, tuned::kMaxDisplacement);
-    // The next rounds fit the nearest of the four places of each cell. This reduces the noise to a
-    // fifth.
+    // The following rounds fit the nearest of the four places of each cell, which reduces the noise
+    // to a fifth.
     pass.displacement = grid.displacement;
     pass.max_off = std::min(tuned::kMaxOffsetPart * grid.displacement, tuned::kMaxOffset);
     for (int round = 0; round < tuned::kMaxRounds; ++round) {
@@ -254,7 +254,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
             break;
         pass.reach_px = std::min(std::max(pass.reach_px * growth(fraction), 4 * spacing), full);
     }
-    // Graphics may stop the growth. Bits can be read within the reach of the grid.
+    // Graphics may stop the growth of the reach. Bits can still be read within the reach of the
+    // grid.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     return true;

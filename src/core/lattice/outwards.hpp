@@ -1,6 +1,6 @@
 // Outwards: finds the plane of the grid from the dots of a patch. Waves through the dots near the
 // middle give a first plane. Further planes are fitted to more and more dots, with perspective as
-// soon as it is measurable. Paper sections II-B.2 and II-B.3.
+// soon as perspective is measurable. Paper sections II-B.2 and II-B.3.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -17,8 +17,8 @@ struct PatchGrid {
     float variance = 0;
 };
 
-/// Estimates for the dots of a patch before the search. The search begins at the origin of their
-/// coordinates.
+/// Estimates for the dots of a patch before the search. The search begins at the origin of the
+/// coordinates of the dots.
 struct PatchView {
     float spacing_px = 0;     ///< approximate spacing, in px of the image
     float full_reach_px = 0;  ///< maximum distance of a dot along an axis, in px of the image
@@ -29,9 +29,9 @@ struct PatchView {
 /// Returns the view of a patch with dots everywhere.
 PatchView whole_view(const Patch& patch);
 
-/// Moves the origin of the dots to the dot with the nearest neighbours. For a patch that is only
-/// partly covered by the pattern. Sets `from_middle_px` to the new origin relative to the middle of
-/// the patch. Returns false if there are too few dots.
+/// Moves the origin of the dots to the dot with the nearest neighbours. Used for a patch that is
+/// only partly covered by the pattern. Sets `from_middle_px` to the new origin relative to the
+/// middle of the patch. Returns false if there are too few dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
 /// Finds the grid. Returns false if the dots are not on a grid, or are not displaced.

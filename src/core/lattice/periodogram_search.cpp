@@ -55,7 +55,7 @@ class Periodogram {
     }
 
     std::int64_t power(const Wave& wave) const { return squared(sum(wave)); }
-    /// Returns the sum of the powers of the wave and of the wave at right angles to it.
+    /// Returns the sum of the powers of the wave and of the perpendicular wave.
     std::int64_t power_of_square(const Wave& wave) const {
         return power(wave) + power(wave.turned(kQuarter_bam));
     }
@@ -108,14 +108,15 @@ Wave ascend(Wave wave, Power power) {
     return wave;
 }
 
-/// Returns the lattice whose rows are the crests of both waves. Its origin is near the centre.
+/// Returns the lattice whose rows are the crests of both waves. The origin of the lattice is near
+/// the centre.
 Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave& second,
                    FixedVec centre_q8) {
     const FixedVec a = first.vector_q30();
     const FixedVec b = second.vector_q30();
     const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
     // Two waves in the same direction do not determine a grid. The caller refuses the result later,
-    // but it must not overflow.
+    // but the computation must not overflow.
     constexpr std::int32_t kLongest_q16 = 4096 << 16;
     const auto entry = [&](std::int32_t part_q30) {
         return limited((std::int64_t{part_q30} << 30) / area_q44, kLongest_q16);
@@ -142,14 +143,14 @@ void search_periodogram(std::span<const DetectedDot> dots, std::span<const std::
     Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
                          lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
               static_cast<std::int32_t>(length_q16)};
-    // Within a few cells, the peak is broad enough for a coarse raster.
+    // Within a few cells, the peak is wide enough for a coarse raster.
     const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * tuned::kNear_cells);
     wave = best_around(wave,
                        {tuned::kTurn_deg * kDegree_bam, wave.spacing_q16 / tuned::kStretchPart,
                         max_turn_deg / tuned::kTurn_deg, tuned::kStretches},
                        [&](const Wave& w) { return near.power_of_square(w); });
-    // If the camera is tilted, the two directions have different spacings and are not at right
-    // angles.
+    // If the camera is tilted, the two directions have different spacings and are not
+    // perpendicular.
     const Raster tilt{tuned::kTiltTurn_deg * kDegree_bam,
                       wave.spacing_q16 / tuned::kTiltStretchPart, tuned::kTiltSteps,
                       tuned::kTiltSteps};

@@ -1,7 +1,7 @@
 // Periodogram search: finds the grid from the periodogram of the dots, for frames with many missing
-// or false dots. False neighbours mislead the search by edges, but the sum over all dots near the
-// centre still has its maximum at the true spacing and direction. differs: used in the second
-// attempt only; docs/differs-from-paper.md.
+// or false dots. False neighbours mislead the estimate of the axes from edges, but the sum over all
+// dots near the centre still has its maximum at the true spacing and direction. differs: used in
+// the second attempt only; docs/differs-from-paper.md.
 #pragma once
 
 #include "dotpose/trace.hpp"

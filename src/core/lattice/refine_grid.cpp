@@ -13,12 +13,14 @@ namespace {
 
 namespace tuned = tuning::refine_grid;
 
-/// Maximum distance of a cell that is used, in cells.
+/// Maximum distance of a cell from cell (0, 0), along either axis, in cells. Dots in farther cells
+/// are ignored.
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Corrects the origin by eq. 6: the error of the origin is the median offset of the dots near it.
-/// The offset is relative to the estimate, so the difference o - median of the paper becomes a sum.
+/// Corrects the origin by eq. 6: the error of the origin is the median offset of the dots near the
+/// origin. The offset is relative to the estimated origin, so the difference o - median of the
+/// paper becomes a sum.
 void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
@@ -72,7 +74,8 @@ int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
 /// target of a dot whose GridPoint is g.
 template <typename TargetOf>
 void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, TargetOf target_of) {
-    // Relative to its value at the centre, which may have more digits than a float.
+    // Relative to the value of the plane at its centre, which may have more digits than a float
+    // holds.
     PlaneFromImage from_centre = plane;
     from_centre.at_centre_q16 = {};
     const int reach = reach_px(dots, plane.centre_q8);
@@ -108,8 +111,8 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
 }
 
 /// Fits the plane to the dots within reach. differs: eq. 6 continues with median lengths between
-/// neighbours. Here a least-squares fit, in which displacements are noise, determines all terms,
-/// and the reach grows from round to round.
+/// neighbours. Here, a least-squares fit determines all terms, displacements are noise, and the
+/// reach grows from round to round.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
     fit_to_targets(dots, plane, [&](const GridPoint& g) {

@@ -14,7 +14,7 @@ inline constexpr std::int32_t kDisplacement_q16 = 65536 / 6;
 
 /// Distance, in cells, within which the first estimate is reliable. Errors of 3 % of the spacing, 1
 /// degree in the direction and 1/20 cell in the origin add up to less than 1/3 cell, the distance
-/// of a displaced dot from the next cell.
+/// between a displaced dot and the next cell.
 inline constexpr int kFirstReach_cells = 4;
 
 /// Counts of the dots within reach.
@@ -28,10 +28,10 @@ struct Regularity {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
     }
 
-    /// Returns the status for the mean square of all offsets, in spacings^2. Dots at random places
-    /// are near an intersection in half of the cases, with a mean square of 1/6. Displaced dots are
-    /// always near an intersection, with a mean square of 1/36. Dots of a plain grid have a mean
-    /// square of 0.
+    /// Returns the status for the mean square of all offsets, in spacings^2. Of dots at random
+    /// places, half are near an intersection, with a mean square of 1/6. Displaced dots are always
+    /// near an intersection, with a mean square of 1/36. Dots of a plain grid have a mean square of
+    /// 0.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
         constexpr std::int64_t kUndisplaced_q20 = (1 << 20) / 256;
@@ -44,9 +44,9 @@ struct Regularity {
 };
 
 /// Extends a fit from the first reach to the farthest dot. `fit(reach_cells)` fits the grid to the
-/// dots within the reach and sets `found`. It is called for each reach until the dots are settled,
-/// at most `max_rounds` times, because a better fit assigns more dots to the correct cells. Returns
-/// false if a fit fails.
+/// dots within the reach and sets `found`. `fit` is called at most `max_rounds` times for each
+/// reach, until enough dots are near an intersection, because a better fit assigns more dots to the
+/// correct cells. Returns false if a fit fails.
 template <typename Fit>
 bool fit_outwards(int max_rounds, const Regularity& found, Fit fit) {
     for (int reach = kFirstReach_cells;; reach += reach / 2 + 1) {

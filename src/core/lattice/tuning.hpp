@@ -8,8 +8,8 @@ namespace dotpose::core::tuning {
 
 /// Agreement of dots with a grid that is fitted outwards (lattice/regularity).
 namespace regularity {
-/// Minimum fraction of dots near an intersection, in 1/20, at which a reach is settled. One dot in
-/// twenty may be dirt.
+/// Minimum fraction of dots near an intersection, in 1/20, at which the reach is extended. One dot
+/// in twenty may be dirt.
 inline constexpr int kSettled_20th = 19;
 /// Minimum fraction of dots near an intersection, in 1/10, at which the dots form a grid. Of dots
 /// at random places, half are near an intersection.
@@ -20,12 +20,12 @@ inline constexpr int kMin_10ths = 7;
 namespace refine_grid {
 /// Number of dots whose median offset gives the origin.
 inline constexpr int kMedianSample = 256;
-/// Maximum number of rounds at one reach. A better fit assigns more dots to the correct cells. A
-/// reach that is not settled after these rounds is accepted.
+/// Maximum number of rounds at one reach. A better fit assigns more dots to the correct cells.
+/// After these rounds, the reach is extended in any case.
 inline constexpr int kMaxRounds = 4;
-/// Distance from all four places of its cell beyond which a dot is false, in 1/65536 spacing.
-/// Slightly less than the distance of the places from the intersection. With half or twice the
-/// value: 1,994.
+/// Maximum distance of a dot from the nearest of the four places of its cell, in 1/65536 spacing.
+/// Dots farther away are false. The value is slightly less than the distance of the places from the
+/// intersection. With half or twice the value: 1,994.
 inline constexpr int kFar_q16 = 65536 / 8;
 /// Number of fits to the nearest places of the dots. The second fit assigns the dots by the better
 /// plane of the first fit.
@@ -34,9 +34,10 @@ inline constexpr int kPlaceRounds = 2;
 
 /// First grid of the second attempt, from the periodogram (lattice/periodogram_search).
 namespace periodogram_search {
-/// Half the side, in spacings, of the square of dots that are summed: in the first search, and in
-/// later searches. Fewer cells give a broader peak, which the coarse raster cannot miss. More cells
-/// give a more exact maximum. With kNear_cells = 3: 1,964; with 10: 1,993.
+/// Half the side, in spacings, of the square of dots that are summed: kNear_cells in the first
+/// search, kWider_cells in later searches. Fewer cells give a wider peak, which the coarse raster
+/// cannot miss. More cells give a more precise maximum. With kNear_cells = 3: 1,964; with 10:
+/// 1,993.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
 /// Search raster around the first estimate: degrees per step, spacing step as a part (1/n) of the
@@ -44,7 +45,7 @@ inline constexpr int kWider_cells = 8;
 inline constexpr int kTurn_deg = 2;
 inline constexpr int kStretchPart = 40;
 inline constexpr int kStretches = 4;
-/// Search raster for the two directions separately, for tilted cameras: up to 9 degrees and 12 % of
+/// Search raster for each of the two directions, for tilted cameras: up to 9 degrees and 12 % of
 /// the spacing to each side. At a tilt of 30 degrees, one spacing is 13 % shorter than the other.
 inline constexpr int kTiltTurn_deg = 3;
 inline constexpr int kTiltStretchPart = 25;
@@ -61,21 +62,21 @@ namespace outwards {
 /// Minimum number of dots in a patch. A position needs six lines of six cells, which contain 36
 /// dots.
 inline constexpr int kMinDots = 40;
-/// Minimum and maximum number of dots near the middle that are used to search waves. Waves through
-/// fewer dots may be as strong by chance. More dots take longer, in each of 12 directions, and
-/// hardly improve the waves.
+/// Minimum and maximum number of dots near the middle that are used to search waves. With fewer
+/// dots, chance may cause waves of the same strength. More dots take longer, in each of 12
+/// directions, and hardly improve the waves.
 inline constexpr int kMinCentralDots = 14;
 inline constexpr int kMaxCentralDots = 64;
 /// Fractions of the power of a grid without displacements: kClearWaves ends the search, and
 /// kFaintWaves is the minimum for the waves to be used.
 inline constexpr float kClearWaves = 0.2F;
 inline constexpr float kFaintWaves = 0.12F;
-/// Range of spacings in the smoothed patch, in px of the patch. Dots of finer grids merge, and dots
-/// of coarser grids have no single minimum.
+/// Range of spacings in the smoothed patch, in px of the patch. In finer grids, dots merge. In
+/// coarser grids, a dot has more than one minimum.
 inline constexpr float kFinest_px = 5.2F;
 inline constexpr float kCoarsest_px = 40;
-/// Limits of a plausible fit: factors on the first spacing, because half and twice the spacing are
-/// wrong, and the fold within the reach.
+/// Limits of a plausible fit: factors on the first spacing, because a fit may find half or twice
+/// the spacing, and the fold within the reach.
 inline constexpr float kMinSpacing = 0.7F;
 inline constexpr float kMaxSpacing = 1.4F;
 inline constexpr float kMaxFold = 0.7F;
@@ -98,7 +99,7 @@ inline constexpr float kMinUsed = 12;
 inline constexpr float kMinFraction = 0.4F;
 inline constexpr int kMaxRounds = 16;
 /// Factors on the reach for the next round, by the fraction of dots near a place of their cells. A
-/// plane with large errors is first improved near the middle.
+/// plane with large errors is thus first improved near the middle.
 inline constexpr float kGoodFraction = 0.9F;
 inline constexpr float kGoodGrowth = 1.8F;
 inline constexpr float kFairFraction = 0.8F;

@@ -1,4 +1,4 @@
-// Cells: maps many points to grid cells, through a plane without perspective or lens, in 32-bit
+// Cells: map many points to grid cells, through a plane without perspective or lens, in 32-bit
 // arithmetic.
 #pragma once
 
@@ -20,11 +20,13 @@ class Cells {
         const FixedVec p = image_point_q8 - rounding_centre_q8_;
         return {p.x >> 5, p.y >> 5};
     }
-    /// Returns the plane point, in 2^-16 spacing. Valid within 512 spacings of the centre.
+    /// Returns the plane point, in units of 2^-16 spacings. Valid within 512 spacings of the
+    /// centre.
     FixedVec plane_point_q16(FixedVec from_centre_q3) const {
         return rounding_plane_point_q16(from_centre_q3) - FixedVec{kHalf_q16, kHalf_q16};
     }
-    /// Returns the plane point plus half a spacing. Its integer part is the nearest cell.
+    /// Returns the plane point plus half a spacing. The integer part of the result is the nearest
+    /// cell.
     FixedVec rounding_plane_point_q16(FixedVec p) const {
         return {rounding_at_centre_q16_.x + ((du_q18_.x * p.x + dv_q18_.x * p.y) >> 5),
                 rounding_at_centre_q16_.y + ((du_q18_.y * p.x + dv_q18_.y * p.y) >> 5)};
@@ -38,7 +40,7 @@ class Cells {
   private:
     static constexpr std::int32_t kHalf_q16 = 1 << 15;
 
-    // The centre is reduced by half a unit, and the plane point is increased by half a cell.
+    // Half a unit is subtracted from the centre, and half a cell is added to the plane point.
     // Truncation then rounds to nearest.
     FixedVec rounding_centre_q8_;
     FixedVec rounding_at_centre_q16_;

@@ -13,8 +13,8 @@ constexpr std::array<std::int32_t, 30> kAtan{
     10430,     5215,      2608,      1304,     652,      326,      163,      81,
     41,        20,        10,        5,        3,        1};
 
-/// Product of cos(atan(2^-i)), times 2^30. Its inverse is the factor by which the rotations below
-/// lengthen a vector.
+/// 2^30 times the product of all cos(atan(2^-i)). The rotations of `angle_bam` lengthen a vector by
+/// the inverse of this product.
 constexpr std::int32_t kCordicGain_q30 = 652032874;
 
 constexpr std::int32_t kHalfTurn = INT32_MIN;
@@ -68,7 +68,7 @@ std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
 
 std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
     if (shift > 0) {
-        // Shifts the numerator left by as many bits as `shift` and the limit of 62 bits allow.
+        // Shifts the numerator left as far as `shift` and the limit of 62 bits allow.
         const auto bits = std::bit_width(static_cast<std::uint64_t>(magnitude(numerator)));
         const int up = std::clamp(62 - static_cast<int>(bits), 0, shift);
         numerator *= std::int64_t{1} << up;
@@ -134,9 +134,9 @@ std::int32_t angle_bam(FixedVec direction) {
             angle -= static_cast<std::uint32_t>(kAtan[i]);
         }
     };
-    // Before step i, |y| is at most 2^(1 - i) of the length of the vector, which these rotations
-    // increase to at most 1.65 * 2^41. From step 12 on, |y| and the amount subtracted from it fit
-    // in 32 bits.
+    // Before step i, |y| is at most 2^(1 - i) times the length of the vector. The rotations
+    // increase the length to at most 1.65 * 2^41. From step 12, |y| and the amount subtracted from
+    // it fit in 32 bits.
     constexpr std::size_t kNarrow = 12;
     for (std::size_t i = 0; i < kNarrow; ++i)
         turn(x, y, x >> i, i);

@@ -102,34 +102,35 @@ constexpr std::uint32_t square_root(Unsigned n) {
     return static_cast<std::uint32_t>(root);
 }
 
-/// Returns log2(n) in 2^-16, rounded down, for n >= 1.
+/// Returns log2(n) in units of 2^-16, rounded down, for n >= 1.
 std::int64_t log2_q16(std::uint32_t n);
 
-/// Returns 2^(n / 256) in 2^-16 with an error of at most 2 %, for 0 <= n < 47 * 256. Interpolates
-/// linearly between whole powers and subtracts a correction.
+/// Returns 2^(n / 256) in units of 2^-16 with an error of at most 2 %, for 0 <= n < 47 * 256.
+/// Interpolates linearly between whole powers and subtracts a correction.
 constexpr std::int64_t exp2_q16(int n_q8) {
     const std::int32_t fraction_q8 = n_q8 & 255;
-    // 1 + f exceeds 2^f by at most 0.086, about f (1 - f) / 3; 21846 / 2^16 is a third.
+    // 1 + f exceeds 2^f by at most 0.086, which is about f (1 - f) / 3. 21846 / 2^16 is a third.
     const std::int32_t mantissa_q16 =
         65536 + fraction_q8 * 256 - (fraction_q8 * (256 - fraction_q8) * 21846 >> 16);
     return std::int64_t{mantissa_q16} << (n_q8 >> 8);
 }
 
-/// Represents the log2 of zero, in 2^-8.
+/// Represents the log2 of zero, in units of 2^-8.
 inline constexpr int kNever_q8 = -(1 << 20);
 
-/// log2(1 + 2^-d) in 2^-8 for d = 0, 1, ... The function is convex, so it is below its chords. The
-/// table is outside the function because each inlined call would copy it.
+/// log2(1 + 2^-d) in units of 2^-8 for d = 0, 1, ... The function is convex, so it is below its
+/// chords. The table is outside the function, because each inlined call would copy it.
 inline constexpr std::array<std::uint8_t, 12> kGain{255, 150, 83, 44, 23, 12, 6, 3, 2, 1, 1, 1};
 
-/// Returns an upper bound of log2(n) in 2^-8, for 0 < n < 2^24: log2(1 + f) is at most f + 0.087.
+/// Returns an upper bound on log2(n) in units of 2^-8, for 0 < n < 2^24: log2(1 + f) is at most f +
+/// 0.087.
 constexpr int log2_at_most_q8(std::uint32_t n) {
     if (n == 1) return 0;
     const int whole = static_cast<int>(std::bit_width(n)) - 1;
     return whole * 256 + static_cast<int>(n << 8 >> whole) - 256 + 23;
 }
 
-/// Returns an upper bound of log2(2^a + 2^b) in 2^-8.
+/// Returns an upper bound on log2(2^a + 2^b) in units of 2^-8.
 constexpr int add_log2(int a_q8, int b_q8) {
     const int larger = std::max(a_q8, b_q8);
     const int d = larger - std::min(a_q8, b_q8);
@@ -148,7 +149,7 @@ std::int32_t median(std::span<std::int32_t> values);
 std::int32_t upper_quartile(std::span<std::int32_t> values);
 
 /// Returns the sine of a phase, times 2^14, with an error of at most 6 %, from two parabolas.
-/// Phases are in 2^-16 turns.
+/// Phases are in units of 2^-16 turns.
 constexpr std::int32_t rough_sine(std::int32_t phase_q16) {
     const std::int32_t x = static_cast<std::int16_t>(phase_q16 & 0xFFFF);
     return x * (32768 - magnitude(x)) >> 14;
@@ -157,7 +158,7 @@ constexpr std::int32_t rough_cosine(std::int32_t phase_q16) {
     return rough_sine(phase_q16 + 16384);
 }
 
-/// Returns the angle of a vector from +x towards +y, with an error of about 1e-9 turns; the angle
+/// Returns the angle of a vector from +x towards +y, with an error of about 1e-9 turns. The angle
 /// of (0, 0) is 0. Requires |x|, |y| < 2^29.
 std::int32_t angle_bam(FixedVec direction);
 

@@ -7,8 +7,8 @@
 
 namespace dotpose::core {
 
-/// PlaneFromImage in single precision, from px to spacings: pattern = at + (du x + dv y) / (1 +
-/// tilt . (x, y) + bend (x^2 + y^2)).
+/// PlaneFromImage in single precision. Maps a point (x, y) in px to spacings: pattern = at + (du x
+/// + dv y) / (1 + tilt . (x, y) + bend (x^2 + y^2)).
 struct FloatPlane {
     float at_x = 0;
     float at_y = 0;
@@ -21,7 +21,7 @@ struct FloatPlane {
     float bend = 0;
 };
 
-/// The lens of eq. 1-2. Its distortion centre is relative to the centre of the plane, in px.
+/// The lens of eq. 1-2. The distortion centre is relative to the centre of the plane, in px.
 struct FloatLens {
     float k = 0;  ///< per px^2
     float centre_x = 0;
@@ -34,7 +34,7 @@ struct FloatVec {
 };
 
 /// Returns the plane point, in spacings, of an image point in px relative to the centre. The
-/// divisor is clamped to at least 1/4, because planes fold farther away.
+/// divisor is clamped to at least 1/4, because the map folds where the divisor is 0.
 FloatVec plane_point(const FloatPlane& plane, FloatVec px);
 
 /// Returns the same plane relative to another image point. The result is an approximation if the

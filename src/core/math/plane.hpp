@@ -12,14 +12,14 @@ struct GridPoint {
     FixedVec offset_q16;  ///< eq. 5, in spacings, each in [-1/2, 1/2)
 };
 
-/// Limit of coordinates, in 2^-16 spacing, and of slopes, in 2^-24 spacings per px. No image has
-/// larger values, but planes fitted to false dots may exceed the limit. Four times the limit fits
-/// in 32 bits.
+/// Limit of coordinates, in units of 2^-16 spacings, and of slopes, in units of 2^-24 spacings per
+/// px. All images are within the limit, but planes fitted to false dots may exceed it. Four times
+/// the limit fits in 32 bits.
 inline constexpr std::int32_t kBeyondReason = 1 << 28;
 
-/// Returns k r^2 in 2^-48, with r clamped to 4096 px. Points of images are rarely farther from the
-/// centre, but points of planes seen from the side may be. The limit keeps the result within 64
-/// bits for any k.
+/// Returns k r^2 in units of 2^-48, with r clamped to 4096 px. Points of images are rarely farther
+/// from the centre, but points of planes seen from the side may be. With this limit, the result
+/// fits in 64 bits for any k.
 inline std::int64_t bend_q48(std::int32_t k_q40, FixedVec r_q8) {
     constexpr std::int64_t kFarthest_q8 = 0xFFFFFFFF;
     return k_q40 * std::min(squared(r_q8) >> 8, kFarthest_q8);
@@ -33,15 +33,15 @@ inline bool is_affine(const PlaneFromImage& plane) {
 /// Returns the plane of a lattice, without perspective or lens. Requires u x v > 0.
 PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 
-/// Returns the plane point of an image point by eq. 3, in 2^-16 spacing. differs: the paper
-/// projects on u and v, which is correct only if u and v are at right angles and the camera is not
-/// tilted.
+/// Returns the plane point of an image point by eq. 3, in units of 2^-16 spacings. differs: the
+/// paper projects on u and v, which is correct only if u and v are at right angles and the camera
+/// is not tilted.
 FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the nearest intersection and the offset from it, by eq. 3-5.
 GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8);
 
-/// Returns the inverse of plane_point_q16, in 2^-8 px.
+/// Returns the inverse of plane_point_q16, in units of 2^-8 px.
 FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point_q16);
 
 /// Returns the tangent of the plane at an image point: the plane without perspective or lens that

@@ -1,5 +1,4 @@
-// Tabled: reads a function of small integers from a table, because the smallest processors have no
-// divider.
+// Tabled: functions of small integers as tables, because the smallest processors have no divider.
 #pragma once
 
 #include <array>

@@ -23,8 +23,8 @@ Parameters direction_gradient(const FourVecs& places, float scale, std::size_t f
     return gradient;
 }
 
-/// Returns covariance * a, for a covariance in which each term is correlated with its neighbours
-/// only.
+/// Returns the product of a covariance and a vector. Each term of the covariance is correlated with
+/// its neighbours only.
 Parameters times(const std::array<Parameters, kPoseParameters>& covariance, const Parameters& a) {
     Parameters product;
     for (std::size_t k = 0; k < kPoseParameters; ++k) {

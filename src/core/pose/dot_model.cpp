@@ -18,7 +18,8 @@ constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F,
                              0.64944805F, 0.52249856F, 0.38268343F, 0.23344536F, 0.07845910F};
 constexpr float kSmall_px2 = 4;  // squared half axis
 
-/// Returns exp(-x) for x >= 0, with the same bits on every platform, unlike library functions.
+/// Returns exp(-x) for x >= 0. Unlike a library function, gives the same bits on every
+/// platform.
 float exp_of_minus(float x) {
     constexpr float kLog2 = 0.693147181F;
     if (!(x < 80)) return 0;
@@ -117,7 +118,7 @@ DotImages draw(const ModelDot& dot, int half_px) {
     }
     for (std::size_t v = begin; v < end; ++v) {
         for (std::size_t u = begin; u < end; ++u) {
-            // The total darkness is always 1, so a wider ellipse is paler everywhere.
+            // The total darkness is always 1, so a wider ellipse has less darkness in every pixel.
             float& by = by_radius_u.all[v][u];
             by = (by - images.dot.all[v][u] / radius.x) / (2 * radius.x);
             by_radius_v.all[v][u] /= 2 * radius.y;

@@ -1,5 +1,5 @@
-// Dot model: computes the image of a dot and its derivatives with respect to the parameters. The
-// dot is an ellipse, blurred by a Gaussian and averaged over square pixels.
+// Dot model: the image of a dot and its derivatives with respect to the parameters. The dot is an
+// ellipse, blurred by a Gaussian and averaged over square pixels.
 #pragma once
 
 #include <array>

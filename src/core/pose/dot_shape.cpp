@@ -55,14 +55,14 @@ DotShape::Normal DotShape::equations(const StackedDots& stacks, const Terms& ter
     normal.expect(radius_u, first[radius_u], first[radius_u], terms);
     normal.expect(blur_u, tuned::kBlur_2, tuned::kBlur_2, terms);
     normal.expect(blur_v, tuned::kBlur_2, tuned::kBlur_2, terms);
-    // Prior: most dots are about as wide as high.
+    // Prior: the width and the height of most dots are about equal.
     Terms by_width{};
     by_width[radius_u] = 1 / first[radius_u];
     by_width[radius_v] = -by_width[radius_u];
     normal.add(by_width, (terms[radius_v] - terms[radius_u]) / first[radius_u],
                1 / (tuned::kSigmaOfWidth * tuned::kSigmaOfWidth));
-    // Prior: the size of a small dot is hardly visible, but its contrast is about that of other
-    // dots.
+    // Prior: the size of a small dot is hardly visible, but its contrast is about the contrast of
+    // other dots.
     const float area = kPi * std::sqrt(terms[radius_u] * terms[radius_v]);
     const float contrast = terms[mass] / area;
     Terms by_contrast{};

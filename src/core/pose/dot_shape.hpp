@@ -1,4 +1,4 @@
-// Dot shape: determines size and blur of the dots of a frame by fitting a model dot to their mean
+// Dot shape: the size and the blur of the dots of a frame, from a fit of a model dot to their mean
 // images.
 #pragma once
 
@@ -10,8 +10,8 @@ namespace dotpose::core {
 /// The model dot of a frame, with its uncertainty.
 class DotShape {
   public:
-    /// Terms of the fit: common offset of all dots along u and v; squared half axes and blur of the
-    /// model dot; its total darkness; and the darkness of the paper.
+    /// Terms of the fit: common offset of all dots along u and v; squared half axes, blur and total
+    /// darkness of the model dot; darkness of the paper.
     enum Term : std::size_t {
         offset_u,
         offset_v,
@@ -40,12 +40,12 @@ class DotShape {
     /// Returns the variance of a quantity, given its derivatives with respect to the terms. The
     /// variance includes the misfit of the model.
     float variance(const Terms& derivatives) const;
-    /// Returns the ratio of the squared residuals of the images to the noise. The ratio is at least
-    /// 1, which is a perfect fit.
+    /// Returns the ratio of the squared residuals of the images to the noise, at least 1. A perfect
+    /// fit has the ratio 1.
     float misfit() const { return misfit_; }
 
   private:
-    /// Normal equations of the terms, and their cost.
+    /// Normal equations of the terms, and the cost of the terms.
     struct Normal : NormalEquations<Term::count> {
         float squares = 0;  ///< squared residuals of the images, in variances
         float pixels = 0;

@@ -1,7 +1,7 @@
-// Facing dots: corrects the bias of adjacent dots that are displaced towards each other. If such
-// dots are large or blurred, each biases the centroid of the other towards itself. The biases
-// cancel in the pose, but increase the residuals. differs: the paper does not state the uncertainty
-// of a pose.
+// Facing dots: corrects the bias of adjacent dots that are displaced towards each other. If two
+// such dots are large or blurred, each dot shifts the centroid of the other dot towards itself. The
+// shifts cancel in the pose, but increase the residuals. differs: the paper does not state the
+// uncertainty of a pose.
 #pragma once
 
 #include "core/math/float_plane.hpp"

@@ -10,9 +10,9 @@ namespace {
 
 namespace tuned = tuning::fit;
 
-/// Returns the squared length of a step, in units of the standard deviation of the pose, below
-/// which no further round is needed. The less nonlinear the plane, the closer a step ends to the
-/// solution.
+/// Returns the squared step length, in units of the standard deviation of the pose, below which the
+/// fit has converged. The limit is larger for a nearly linear plane, because one step then ends
+/// closer to the solution.
 float settled(const FloatPlane& p, float reach) {
     const float nonlinear =
         (std::abs(p.tilt_x) + std::abs(p.tilt_y)) * reach + std::abs(p.bend) * reach * reach;
@@ -20,8 +20,8 @@ float settled(const FloatPlane& p, float reach) {
                       tuned::kMinSettled, tuned::kMaxSettled);
 }
 
-/// Returns true if the inliers within the limit `other` are the same, or nearly the same, as those
-/// within `limit`.
+/// Returns true if the inliers within the limit `other` are the same, or nearly the same, as the
+/// inliers within `limit`.
 bool keeps_dots(const FitSums& sums, float limit, float other) {
     return (sums.outliers == 0 && sums.farthest <= other) ||
            std::abs(other - limit) < tuned::kSameLimit * limit;
@@ -47,7 +47,7 @@ bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, f
         plane = scaled.changed(step);
         const bool is_settled = moved < std::min(settled_before, settled(plane, reach));
         const float next_limit = tuned::kOutlier * fit.variance + kExact;
-        // Continues until a step settles the plane and the inliers no longer change.
+        // Iterates until the step is below the limit and the inliers no longer change.
         if (is_settled && keeps_dots(sums, limit, next_limit)) return true;
         limit = next_limit;
     }

@@ -1,5 +1,5 @@
-// Float fit: fits the pose to dots that were measured at their places in the code. The same fit as
-// `refine_pose`, in vectors and single precision. differs: the paper stops at eq. 12.
+// Float fit: fits the pose to dots that were measured at their places in the code. Like
+// `refine_pose`, but with vectors and in single precision. differs: the paper stops at eq. 12.
 #pragma once
 
 #include "core/math/float_plane.hpp"

@@ -1,5 +1,5 @@
-// Group scatter: measures the correlation of the residuals of neighbouring dots, by a one-way
-// analysis of variance of both coordinates together.
+// Group scatter: the correlation of the residuals of neighbouring dots, from a one-way analysis of
+// variance of both coordinates together.
 #pragma once
 
 #include <algorithm>

@@ -50,7 +50,7 @@ struct Window {
 
     /// Returns the part of the window around a pixel in which every pixel has all its neighbours in
     /// the image, or nullopt if the pixel itself lacks a neighbour. Windows at the border are
-    /// cropped and not rejected, because dots at the border determine angle and tilt best.
+    /// cropped and not rejected, because the dots at the border contribute most to angle and tilt.
     std::optional<Box> box_around(const ImageView& image, int u, int v) const {
         const int last_u = image.width_px - 2;
         const int last_v = image.height_px - 2;

@@ -13,7 +13,7 @@ namespace dotpose::core {
 /// Replaces the dots by measured dots, one for each cell that has a dot at its place, and links the
 /// cells to these dots. Centres are Gaussian-windowed centroids (Bertin, SExtractor: XWIN),
 /// iterated from the nominal places. Windows may be cropped by the border of the image. Masses are
-/// darkness relative to the paper level, in 2^-14. Returns the number of dots.
+/// darkness relative to the paper level, in units of 2^-14. Returns the number of dots.
 int measure_dots(const ImageView& image, const FixedLens& lens,
                  const PlaneFromImage& pattern_from_image, const Nominal& nominal, Grid& grid,
                  std::span<DetectedDot> dots);

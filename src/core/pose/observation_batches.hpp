@@ -42,7 +42,7 @@ class ObservationBatches {
   public:
     ObservationBatches(const Observations& observations, FixedVec centre_q8);
 
-    /// Returns an upper bound of the distance of the dots from the centre, along each axis.
+    /// Returns an upper bound on the distance of the dots from the centre, along each axis.
     int reach_px() const { return reach_px_; }
     /// Returns a regular subsample of the dots, or all dots if they fit in one batch.
     const ObservationBatch& sample() const { return sample_; }

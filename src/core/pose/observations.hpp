@@ -13,7 +13,7 @@ struct Observation {
     Symbol symbol;
 };
 
-/// Returns the printed place of the dot, in 2^-16 spacings relative to `Decoding::place`.
+/// Returns the printed place of the dot, in units of 2^-16 spacings relative to `Decoding::place`.
 inline FixedVec nominal_place_q16(const Observation& o, std::int32_t displacement_q16) {
     return {o.pattern_step.x * 65536 + dx(o.symbol) * displacement_q16,
             o.pattern_step.y * 65536 + dy(o.symbol) * displacement_q16};
@@ -22,22 +22,23 @@ inline FixedVec nominal_place_q16(const Observation& o, std::int32_t displacemen
 /// Dots that belong to a cell of a grid, with their nominal places.
 class Observations {
   public:
-    /// `paper` is the paper level of the image in which all dots were measured. It is null if the
-    /// dots were not measured.
+    /// `paper` is the paper level of the image in which all dots were measured. `paper` is null if
+    /// the dots were not measured.
     Observations(std::span<const DetectedDot> dots, const Grid& grid, const Nominal& nominal,
                  const PaperMap* paper = nullptr)
         : dots_(dots), grid_(grid), nominal_(nominal), paper_(paper) {}
 
     bool know_noise() const { return paper_ != nullptr; }
-    /// Returns the variance of a centre due to pixel noise, relative to a dot on the brightest
-    /// paper. The noise is constant over the image; the contrast is proportional to the light.
+    /// Returns the variance of a centre due to pixel noise, divided by the variance for a dot on
+    /// the brightest paper. Noise is constant over the image, but contrast is proportional to the
+    /// light.
     float noise(const Observation& o) const {
         const float light =
             static_cast<float>(paper_at(*paper_, o.image_point_q8.x >> 8, o.image_point_q8.y >> 8));
         return 255.0F * 255.0F / (light * light);
     }
 
-    /// Returns an upper bound of the number of observations that `visit` visits.
+    /// Returns an upper bound on the number of observations that `visit` visits.
     int count() const { return static_cast<int>(dots_.size()); }
 
     /// Calls `use` for every `every`-th observation.

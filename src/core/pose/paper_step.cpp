@@ -23,8 +23,8 @@ constexpr float kBehind = tuned::kBehind;
 /// Sums over the dots of one part of the sheet. Coherent dots are dots whose residuals a common
 /// displacement may explain.
 struct PartSums {
-    /// Number of dots; their log odds for the single plane; number of coherent dots; their squared
-    /// residuals.
+    /// Number of dots; log odds of these dots for the single plane; number of coherent dots;
+    /// squared residuals of the coherent dots.
     Four counts;
     Four places;  ///< coherent dots: sums of x and y, and of the residuals along x and y
     /// Coherent dots: sums of xx, xy and yy, relative to the reference point, and of the torque.
@@ -44,7 +44,8 @@ struct PartSums {
     float dots() const { return counts[2]; }
     float squares() const { return counts[3]; }
 
-    /// Returns the squared residuals that remain if the part is displaced and turned as a whole.
+    /// Returns the squared residuals that remain after a displacement and rotation of the whole
+    /// part.
     float remaining() const {
         if (dots() < 3) return squares();
         const float by = 1 / dots();
@@ -90,7 +91,7 @@ struct Symmetric3 {
 };
 
 /// Least-squares affine map of all coherent dots. The gain of a step at a line is relative to this
-/// map, because an affine map without a step absorbs most of a step in the middle.
+/// map, because this map absorbs most of a step in the middle of the view.
 class AffineFit {
   public:
     AffineFit() = default;
@@ -105,7 +106,7 @@ class AffineFit {
 
     /// Returns the squared residuals of all coherent dots after the affine map.
     float squares() const { return squares_; }
-    /// Returns the reduction of the squared residuals if the part beyond a line is displaced.
+    /// Returns the reduction of the squared residuals by a displacement of the part beyond a line.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
         const float spread = step[0] - inner_product(step, inverse_ * step);
@@ -114,8 +115,8 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns the reduction of the squared residuals if the part beyond a line is displaced and
-    /// turned.
+    /// Returns the reduction of the squared residuals by a displacement and rotation of the part
+    /// beyond a line.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
@@ -142,8 +143,8 @@ class AffineFit {
     }
 
   private:
-    /// Minimum effective number of dots by which a part must differ from the whole to determine a
-    /// step.
+    /// Minimum spread of the dots of a part that determines a step: the effective number of dots by
+    /// which the part differs from the whole.
     static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};
@@ -204,8 +205,8 @@ class Search {
             if (max_gain_of(part, here) > best.gain) consider(line, gain_of(part, here));
         }
         if (likeliest == 0) return;
-        // Tests for a turn of the part only near the line at which a displacement alone explains
-        // most.
+        // A rotation of the part is tested only near the line where a pure displacement explains
+        // the most.
         constexpr std::size_t kNear = 2;
         const std::size_t last = std::min(likeliest + kNear, lines_ - 1);
         for (std::size_t line = std::max(likeliest, kNear + 1) - kNear; line <= last; ++line) {
@@ -263,13 +264,13 @@ class Search {
         return dots * std::log(affine_.squares() / remaining);
     }
 
-    /// Returns the log odds of the dots of a part for a plane of their own.
+    /// Returns the log odds of the dots of a part, for a plane fitted to this part alone.
     float on_own_plane(const PartSums& part) const {
         return kOnPlane * part.dots() - part.remaining() / (2 * variance_) +
                off_plane_ * (part.seen() - part.dots());
     }
 
-    /// Returns an upper bound of `gain_of`, for the smallest possible residuals.
+    /// Returns an upper bound on `gain_of`, for the smallest possible residuals.
     float max_gain_of(const PartSums& beyond, const PartSums& here) const {
         const auto max_of = [this](const PartSums& part) {
             return kOnPlane * part.dots() + off_plane_ * (part.seen() - part.dots());
@@ -314,7 +315,7 @@ PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, con
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // Turning the best line a little increases the gain, but hardly doubles it.
+    // A small rotation of the best line increases the gain, but hardly doubles it.
     if (best.gain < PaperStep::kPossible / 2) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {

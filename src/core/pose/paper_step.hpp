@@ -9,9 +9,10 @@ namespace dotpose::core {
 
 /// A line in the pattern that divides the sheet.
 struct PaperStep {
-    /// Gains below kPossible can be explained by chance: 1 in 100 flat sheets exceeds kPossible.
-    /// Gains above kCertain cannot. Both values are high because many lines are tried, each with
-    /// three parameters for the part beyond the line, and because steps are rare.
+    /// Gains below kPossible can be explained by chance: the gain exceeds kPossible on 1 of 100
+    /// flat sheets. Gains above kCertain cannot be explained by chance. Both limits are high
+    /// because many lines are tried, each with three parameters for the part beyond the line, and
+    /// because steps are rare.
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 

@@ -68,9 +68,9 @@ struct CentroidError {
 
 enum class Along : std::uint8_t { u, v };
 
-/// Returns the error along an axis. `dot_px` and `window_px` are the places of the dot and of the
-/// window along this axis, relative to the centre of a pixel. The error is computed with the slope
-/// along u, because the kernels use this slope for both axes.
+/// Returns the error along an axis. `dot_px` and `window_px` are the coordinates of the dot and of
+/// the window along this axis, relative to the centre of a pixel. The error is computed with the
+/// slope along u, because the kernels use this slope for both axes.
 CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, float window_px,
                              float radius_px) {
     const bool is_u = axis == Along::u;
@@ -92,7 +92,7 @@ CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, fl
     return error;
 }
 
-/// Bias along one axis of windows that are centred on their dots: amplitude * sin(2 pi phase).
+/// Bias of windows that are centred on their dots, along one axis: amplitude * sin(2 pi phase).
 class AxisBias {
   public:
     AxisBias(const DotShape& shape, Along axis, float radius_px) {
@@ -118,7 +118,7 @@ class AxisBias {
         dots_ += 1;
         return amplitude_px_ * sine;
     }
-    /// Returns the variance of the mean over the dots that remains, in px^2.
+    /// Returns the variance of the mean over the dots that remains after correction, in px^2.
     float variance_of_mean() const {
         const float mean = sines_ / std::max(dots_, 1.0F);
         return variance_ * mean * mean;

@@ -1,7 +1,7 @@
 // Pixel bias: corrects the error of the centroids due to the sub-pixel phase of the dots. If the
-// dots have all phases, the error averages out. If all dots have the same phase, the error is
-// computed from a model dot and subtracted. differs: in the frames of the paper the dots have all
-// phases.
+// phases of the dots are evenly distributed, the error averages out. If all dots have the same
+// phase, the error is computed from a model dot and subtracted. differs: the frames of the paper
+// contain all phases.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -24,7 +24,7 @@ struct CentroidWindow {
 void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots);
 
 /// Subtracts the bias from the centres of all inliers of the plane. Returns the remaining variance
-/// of the mean of all centres, along u and v, in px^2.
+/// of the mean over all centres, along u and v, in px^2.
 FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window,
                             const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 

@@ -13,7 +13,7 @@ namespace tuned = tuning::fit;
 
 constexpr float kPower30 = 1073741824.0F;
 
-/// Dependence of the scatter of dots on the light. Print errors do not depend on the light; pixel
+/// Scatter of the dots as a function of the light. Print errors do not depend on the light; pixel
 /// noise increases as the light decreases. Fits a line to the squared residuals as a function of
 /// the noise.
 class Scatter {
@@ -97,7 +97,8 @@ class Round {
     }
 
   private:
-    /// Returns the plane relative to its `at_centre`, which may have more digits than a float.
+    /// Returns the plane relative to its `at_centre`, which may have more digits than a float
+    /// holds.
     static FloatPlane from_its_at(PlaneFromImage plane) {
         plane.at_centre_q16 = {};
         return float_plane(plane);

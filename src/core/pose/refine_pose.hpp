@@ -1,7 +1,7 @@
 // Refine: fits the pose to all dots. Once the position is known, the printed place of every dot is
 // known, including its displacement. The pose is the least-squares map from the centres of the dots
-// to these places. differs: the paper stops at eq. 12, in whose grid the displacements are noise.
-// Uses single precision.
+// to these places. Uses single precision. differs: the paper stops at eq. 12 and fits a grid, in
+// which the displacements are noise.
 #pragma once
 
 #include "core/fit/solve_plane.hpp"
@@ -10,9 +10,9 @@
 
 namespace dotpose::core {
 
-/// Improves the pose. Rejects outliers. Distortion terms, which a camera straight above flat
-/// paper does not need, are shrunk to their posterior means (fit/posterior), because each term
-/// costs accuracy. Returns false, without a change, if the dots do not determine the pose.
+/// Improves the pose. Rejects outliers. Distortion terms are shrunk to their posterior means
+/// (fit/posterior), because each term costs accuracy, and a camera straight above flat paper does
+/// not need them. Returns false, without a change, if the dots do not determine the pose.
 bool refine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                  PoseFit& fit);
 

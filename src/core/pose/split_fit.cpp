@@ -76,8 +76,9 @@ bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
                        split.fit))
             return false;
         if (round + 1 == tuned::kRounds) break;
-        // The plane of one side determines the line more exactly. It does not give the probability
-        // of the line, because the dots beyond the line did not contribute to the plane.
+        // The plane of one side determines the line more precisely. This plane does not give the
+        // probability of the line, because the dots beyond the line did not contribute to the
+        // plane.
         const PaperStep step = find_paper_step(dots, split.plane, split.fit, reference_px);
         if (step.gain > 0) split.step = step;
     }

@@ -5,8 +5,8 @@
 
 namespace dotpose::core {
 
-/// Hides the dots on one side of a line from fits during the lifetime of the object, by moving
-/// their cells far away.
+/// Hides the dots on one side of a line from fits during the lifetime of the object, by moving the
+/// cells of these dots far away.
 class HalfPlane {
   public:
     enum class Side : std::uint8_t { here, beyond };

@@ -39,7 +39,7 @@ class StackedDots {
             if (stack.dots > 0) use(stack);
         }
     }
-    /// Calls `use` for the pixels used, relative to the central pixel.
+    /// Calls `use` for each pixel used, relative to the central pixel.
     template <typename Use>
     void visit_pixels(Use use) const {
         for (int v = -half_px_; v <= half_px_; ++v) {

@@ -1,5 +1,5 @@
-// Subgrid: computes the place of the reference point between the intersections, and the angle.
-// Paper section II-B.8, eq. 10-12; the angle is at the end of II-B.6.
+// Subgrid: the place of the reference point between the intersections, and the angle. Paper section
+// II-B.8, eq. 10-12; the angle is at the end of II-B.6.
 #pragma once
 
 #include "dotpose/fix.hpp"
@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Returns the plane of the grid, turned upright. The origin of the result is `Decoding::place`.
+/// Returns the plane of the grid, rotated upright. The origin of the result is `Decoding::place`.
 PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn pattern_from_grid);
 
 /// Writes position, section, angle and spacing at the reference point into the fix.

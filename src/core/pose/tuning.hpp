@@ -8,27 +8,29 @@ namespace dotpose::core::tuning {
 
 /// Centres of dots in a window (pose/measure).
 namespace measure {
-/// Half the side of the window, in 1/32 of the spacing, but at least kMinHalf_q8 (1/256 px). The
-/// border of the window is on paper even if the dot is displaced from the centre, and no other dot
-/// reaches into the window.
+/// Half the side of the window, in 1/32 of the spacing, but at least kMinHalf_q8 (1/256 px). With
+/// this size, the border of the window is on paper even if the dot is displaced from the centre,
+/// and the window contains no part of another dot.
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
 /// Standard deviation of the fitted dot, in 1/128 of the spacing, but at least kMinSigma_q8 (1/256
-/// px). This is the width of a blurred dot. With 6: 1,994, 2.19 and 5.36 µm; with 24: 1,904, 3.58
-/// and 9.19 µm.
+/// px). The value is the width of a blurred dot. With 6: 1,994, 2.19 and 5.36 µm; with 24: 1,904,
+/// 3.58 and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
 /// Maximum squared distance of a dot from its place, in units of sigma^2. The fit separates dirt
 /// from badly printed dots. A smaller limit would reject badly printed dots, which costs accuracy
 /// and hides print errors.
 inline constexpr int kFarthest_2 = 9;
-/// Maximum number of Gauss-Newton steps. A step of less than kSettled_q8 (1/256 px) is the last.
+/// Maximum number of Gauss-Newton steps. Iteration also ends after a step of less than kSettled_q8
+/// (1/256 px).
 inline constexpr int kMaxIterations = 5;
 inline constexpr int kSettled_q8 = 4;
-/// Maximum darkness of a dot, in halves of the darkness of the typical dot. The minimum is one
-/// half. The limits reject paper where a dot is missing, dirt, and graphics.
+/// Maximum darkness of a dot, in halves of the darkness of a typical dot. The minimum is half the
+/// darkness of a typical dot. These limits reject dirt, graphics, and bare paper where a dot is
+/// missing.
 inline constexpr int kTooDark_halves = 3;
-/// Maximum number of dots in the sample whose median is the darkness of the typical dot.
+/// Maximum number of dots in the sample. The median of the sample is the darkness of a typical dot.
 inline constexpr int kMedianSample = 256;
 }  // namespace measure
 
@@ -37,8 +39,8 @@ namespace fit {
 /// Maximum number of Gauss-Newton rounds, in `refine_pose` and in `fit_plane`.
 inline constexpr int kMaxRounds = 4;
 inline constexpr int kMaxRoundsOfFloats = 5;
-/// Squared length of a step, in units of the standard deviation of the pose, after which no further
-/// step is needed. The next step would be much smaller.
+/// Squared length of a step, in units of the standard deviation of the pose, after which the fit
+/// ends. The next step would be much smaller.
 inline constexpr float kSettled = 0.01F;
 /// Outlier limit, in medians of the squared residuals. The median is 1.39 sigma^2, so 12 medians
 /// are 4 sigma. By chance, 1 dot in 3,000 exceeds the limit.
@@ -52,9 +54,9 @@ inline constexpr float kSameLimit = 0.04F;
 inline constexpr float kMaxByNoise = 0.9F;
 /// Minimum number of dots for the vectorized plane fit.
 inline constexpr int kMinDots = 20;
-/// Squared length of a step, in units of the standard deviation of the pose, below which no further
-/// round is needed. The value is kNonlinearSettled / nonlinearity^2, which leaves an error of a
-/// fifth of a deviation, clamped to [kMinSettled, kMaxSettled].
+/// Squared length of a step, in units of the standard deviation of the pose, below which the fit
+/// has converged: kNonlinearSettled / nonlinearity^2, clamped to [kMinSettled, kMaxSettled]. The
+/// remaining error is a fifth of a standard deviation.
 inline constexpr float kMinSettled = 0.2F;
 inline constexpr float kMaxSettled = 30;
 inline constexpr float kNonlinearSettled = 0.04F;
@@ -63,8 +65,8 @@ inline constexpr float kNonlinearSettled = 0.04F;
 /// Fit of the model dot of a frame (pose/dot_shape).
 namespace shape {
 /// Prior of the terms: standard deviation of the common offset of all dots; mean and standard
-/// deviation of the variance of the blur; standard deviation of the difference of the squared half
-/// axes, relative to one of them; mean and standard deviation of the contrast of ink.
+/// deviation of the variance of the blur; standard deviation of the relative difference of the
+/// squared half axes; mean and standard deviation of the contrast of ink.
 inline constexpr float kOff_px = 0.1F;
 inline constexpr float kBlur_2 = 0.25F;
 inline constexpr float kSigmaOfWidth = 0.3F;
@@ -76,8 +78,8 @@ inline constexpr float kMin_px2 = 0.005F;
 inline constexpr float kFirstDamping = 0.01F;
 inline constexpr float kMaxDamping = 1e4F;
 inline constexpr float kDampingGrows = 10;
-/// Reduction of the cost, in squared deviations, below which a step is the last, and maximum number
-/// of rounds.
+/// The fit ends after a step that reduces the cost by less than kSettled squared deviations, or
+/// after kMaxRounds rounds.
 inline constexpr float kSettled = 0.3F;
 inline constexpr int kMaxRounds = 30;
 }  // namespace shape
@@ -90,15 +92,17 @@ inline constexpr float kSure = 4;
 
 /// The pixel bias of dots with the same sub-pixel phase (pose/pixel_bias).
 namespace bias {
-/// Number of dots whose images are stacked. It is large enough to determine their shape.
+/// Number of dots whose images are stacked. This number suffices to determine the shape of the
+/// dots.
 inline constexpr int kDots = 256;
-/// Distance beyond the edge of a dot up to which pixels are used. This is the extent of the blur.
+/// Distance beyond the edge of a dot up to which pixels are used. The distance is the extent of the
+/// blur.
 inline constexpr float kBeyondEdge_px = 1.5F;
 /// Variance of the blur above which the bias is negligible.
 inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
-/// Variance of the bias that remains after correction by a model dot, relative to the square of the
-/// bias. kOfModel is the value for round dots. For dots that are not round, kOfMisfit is added for
-/// each noise variance of misfit beyond kMisfit.
+/// Variance of the bias that remains after correction by a model dot, divided by the squared bias:
+/// kOfModel + kOfMisfit * max(misfit - kMisfit, 0), where misfit is `DotShape::misfit()`. Round
+/// dots need only kOfModel.
 inline constexpr float kOfModel = 0.01F;
 inline constexpr float kMisfit = 2.5F;
 inline constexpr float kOfMisfit = 0.025F;
@@ -109,14 +113,14 @@ inline constexpr float kSlopes = 0.03F;
 /// Correlation of residuals (pose/uneven).
 namespace uneven {
 /// Limits of the excess of the scatter between blocks, in standard deviations. Fast attempts search
-/// for a line beyond kSuspect. The second attempt, whose dots are noisier, searches beyond
-/// kMaybeLine, because the plane absorbs most of a step at a line. Beyond kShared, which one flat
-/// sheet in twenty exceeds, the common residuals increase the covariance. One side of a line counts
-/// as even up to kSuspect. A sheet without a line counts as uneven beyond kUneven, which hardly one
-/// flat sheet in 1,000 exceeds. Measured by `dotpose_tables slips`.
+/// for a line above kSuspect. The second attempt, whose dots are noisier, searches above
+/// kMaybeLine, because the plane absorbs most of a step at a line. Above kShared, the common
+/// residuals increase the covariance; 1 of 20 flat sheets exceeds kShared. One side of a line
+/// counts as even up to kSuspect. A sheet without a line counts as uneven above kUneven; hardly 1
+/// of 1,000 flat sheets exceeds kUneven. Measured by `dotpose_tables slips`.
 inline constexpr float kMaybeLine = 0.9F;
-/// Number of dots up to which kMaybeLine applies. With more dots, common residuals of any sheet
-/// become more significant.
+/// Number of dots up to which kMaybeLine applies. With more dots, the common residuals of any sheet
+/// are more significant.
 inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
@@ -134,8 +138,9 @@ inline constexpr int kFewAlong = 6;
 /// residual of a block. docs/integrity.md compares the result with the errors on bent sheets.
 inline constexpr float kOfPlace = 2;
 inline constexpr float kOfTurn = 8;
-/// Standard deviation of the common residuals of blocks that is not attributed to the sheet. It is
-/// the pixel bias of dots whose phase drifts slowly, which averages out over the view.
+/// Standard deviation of the common residuals of blocks that is not attributed to the sheet. The
+/// cause of these residuals is the pixel bias of dots whose phase drifts slowly. This bias averages
+/// out over the view.
 inline constexpr float kPixelBias_px = 0.004F;
 /// Distance from the line, in spacings, within which the reference point may be on either side of
 /// the line.
@@ -154,20 +159,20 @@ inline constexpr float kTogether = 36;
 inline constexpr float kBehind = 0.5F;
 /// Minimum number of dots beyond the line.
 inline constexpr float kMinBeyond = 12;
-/// Outlier limit, in spacings^2, in the first round of a fit to one side, which starts from a plane
-/// fitted to both sides.
+/// Outlier limit, in spacings^2, in the first round of a fit to one side. This round starts from a
+/// plane fitted to both sides.
 inline constexpr float kFarOff = 0.04F;
-/// Distance from the line, in spacings, within which dots belong to neither side. It is the
-/// uncertainty of the line.
+/// Distance from the line, in spacings, within which dots belong to neither side. The distance is
+/// the uncertainty of the line.
 inline constexpr float kMargin = 0.8F;
-/// Search for the common residual of the dots beyond the line. Uses dots within kReach spacings of
-/// the reference point, and needs at least kMinAgreeing dots that agree within kAgreement
+/// Search for the common residual of the dots beyond the line. Uses the dots within kReach spacings
+/// of the reference point. At least kMinAgreeing of these dots must agree within kAgreement
 /// (spacings^2).
 inline constexpr float kReach = 10;
 inline constexpr int kMinAgreeing = 8;
 inline constexpr float kAgreement = 0.08F * 0.08F;
 /// Number of rounds. Each round fits the dots on the near side of the line. All rounds except the
-/// last then search for the line again.
+/// last round then search for the line again.
 inline constexpr int kRounds = 3;
 }  // namespace paper_step
 

@@ -69,7 +69,7 @@ bool has_outliers(const Blocks& blocks) {
 }
 
 /// Adds the difference of two planes at the reference point to the covariance, multiplied by
-/// `weight`, because the pose may be that of either plane.
+/// `weight`, because either plane may be the pose.
 void add_difference(const FloatPlane& plane, const FloatPlane& other, FloatVec reference_px,
                     float weight, PoseFit& fit) {
     const FloatVec p = plane_point(plane, reference_px);
@@ -105,15 +105,15 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
     FloatPlane beyond;
     if (fit_far_side(kernels, dots, reference_px, split, beyond))
         return add_difference(split.plane, beyond, reference_px, 1, fit);
-    // If its plane is not known, the other side may be anywhere within a cell, turned by some
-    // degrees.
+    // If the plane of the other side is not known, this side may be anywhere within a cell, rotated
+    // by some degrees.
     add(1.0F / 12, 0, fit);
     add(1.0F / 12, 1, fit);
     add(0.02F * 0.02F, 2, fit);
 }
 
-/// Uses the fit to the side of the reference point if a line certainly divides the sheet and that
-/// side is even. If a line is only possible, the covariance includes both fits.
+/// Fits only the side of the reference point if a line certainly divides the sheet and this side is
+/// even. If a line is only possible, the covariance includes both fits.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
     SplitFit split{plane, fit};
@@ -136,8 +136,8 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     if (is_divided) widen_near_line(kernels, dots, reference_px, split, fit);
 }
 
-/// Searches for a line if the blocks scatter by more than `min_excess` deviations, or if there are
-/// many outliers.
+/// Searches for a line if the scatter between blocks exceeds `min_excess` deviations, or if there
+/// are many outliers.
 void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dots,
                      const Blocks& blocks, FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
     const float excess = blocks.scatter().excess();
@@ -147,7 +147,7 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
         widen_by_blocks(blocks, fit);
 }
 
-/// Returns the excess, in standard deviations, beyond which a thorough attempt searches for a line.
+/// Returns the excess, in standard deviations, above which a thorough attempt searches for a line.
 /// Common residuals that every sheet has, such as pixel bias, become more significant with the
 /// number of dots, and so do lines.
 float patient_excess(const Blocks& blocks) {

@@ -1,5 +1,5 @@
-// Headers that the loops need. They must be included before the namespace of an implementation
-// begins.
+// Headers that the loops need. The headers must be included before the namespace of an
+// implementation begins.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 
 namespace dotpose::core {
 
-/// True if loops have one version for all cases, and not a faster version for each case, because
-/// the size of WebAssembly code matters.
+/// True if loops have one version for all cases instead of a faster version for each case. The size
+/// of WebAssembly code matters more than its speed.
 #if defined(__wasm__)
 inline constexpr bool kOneForm = true;
 #else

@@ -1,5 +1,4 @@
-// Dark sums: computes mass and moments of the dark pixels of a square, for processors without
-// vectors.
+// Dark sums: mass and moments of the dark pixels of a square, for processors without vectors.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +21,9 @@ struct DarkSums {
 inline constexpr int kHalfOfDiamond = 2;
 
 /// Returns the sums of a square of 2 Half + 1 pixels per side that begins at `row`. The size is a
-/// compile-time constant, so the pixels of a row are summed without a loop, and their places are
-/// constants.
-// Not inlined, because small processors then keep all variables in registers.
+/// compile-time constant, so the pixels of a row are summed without a loop, and the coordinates of
+/// the pixels are constants. Not inlined, because small processors then keep all variables in
+/// registers.
 template <int Half>
 DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t stride,
                                            std::int32_t level) {
@@ -34,7 +33,8 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
     const auto add_row = [&](int reach) {
 #pragma GCC unroll 16
         for (int x = -reach; x <= reach; ++x) {
-            // Most pixels are paper. Testing the sign of the difference needs no comparison.
+            // Most pixels are paper. The sign of the difference identifies them without a further
+            // comparison.
             const std::int32_t darkness = level - row[Half + x];
             if (darkness < 0) continue;
             mass += darkness;
