@@ -263,8 +263,9 @@ Vector2d direction_of_line(const std::vector<Station>& stations, const Vector2d&
     return along.dot(drive) < 0 ? Vector2d(-along) : along;
 }
 
-/// Throws Error unless the frames are in the order of the drive, and all places are as close to the
-/// line as those of a robot that turned by at most kMaxSwerve_rad in the middle of the drive.
+/// Throws Error unless the frames are in the order of the drive and all places are close to the
+/// line. The maximum distance is that of a robot that turned by kMaxSwerve_rad in the middle of the
+/// drive.
 void require_straight(const std::vector<Vector2d>& on_line, double length_mm) {
     const double max_mm = std::tan(kMaxSwerve_rad) * length_mm / 2;
     double farthest_mm = on_line.front().x();

@@ -160,7 +160,8 @@ void MqttClient::start() {
     mosquitto_disconnect_callback_set(mosquitto_, Callbacks::on_disconnect);
     mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
     mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
-    // One more message than `publish` uses, because presence messages must not wait.
+    // One more than the number of messages that `publish` uses, because presence messages must not
+    // wait.
     mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMaxUnderWay + 1));
     // Messages are published by other threads than the thread of `run`.
     mosquitto_threaded_set(mosquitto_, true);
