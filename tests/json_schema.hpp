@@ -98,7 +98,7 @@ class JsonSchema {
         if (keyword == "type") return has_type(rule, value);
         if (keyword == "const") return value == rule;
         if (keyword == "enum") return std::ranges::find(rule, value) != rule.end();
-        // Other keywords do not apply to values of another type.
+        // The remaining keywords apply only to values of their type.
         const bool is_bound =
             keyword == "minimum" || keyword == "maximum" || keyword == "exclusiveMinimum";
         if (is_bound && !value.is_number()) return true;

@@ -254,8 +254,8 @@ inline void add_partial(std::vector<Limit>& limits) {
     }
 }
 
-/// Returns the image of a sheet with inverted contrast: its dots are as light as the paper of
-/// `shot`, and its paper is as dark as the ink.
+/// Returns the image of a sheet with inverted contrast: the dots have the grey level of the paper
+/// of `shot`, and the paper has the grey level of the ink.
 inline GreyImage white_on_black(const Shot& shot) {
     Shot blank = shot;
     blank.page.columns = blank.page.rows = 1;  // a single dot, far outside of the view

@@ -175,8 +175,8 @@ TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     EXPECT_EQ(run("check-print photo.jpg --format json"), 0);
     EXPECT_EQ(json::parse(output_)["exif_of_camera"], true);
 
-    // EXIF data of a scanner have no exposure, so the 300 dpi of the file are used. --dpi is used
-    // as well.
+    // EXIF data of a scanner have no exposure, so the resolution of the file, 300 dpi, is used. The
+    // option --dpi has the same effect.
     write("scan.jpg", {test::date_taken, test::file_source});
     EXPECT_EQ(run("check-print scan.jpg"), 3);
     EXPECT_THAT(output_, HasSubstr("FAULT: the driver scaled the page to 110.0 %"));

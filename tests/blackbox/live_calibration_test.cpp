@@ -1,5 +1,5 @@
-// `dotpose calibrate --live` without a display: it takes frames that add information, reports what
-// is missing, and ends automatically.
+// `dotpose calibrate --live` without a display: the tool takes frames that add information, reports
+// the missing requirements, and ends automatically.
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -135,7 +135,7 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
     EXPECT_EQ(calibrate("--size 188x120 --fps 10 - <drive.raw"), 0) << errors_;
     EXPECT_TRUE(has_file());
     EXPECT_GE(used(), 10);
-    // In 2 s there is no frame at rest.
+    // There is no frame at rest for 2 s.
     fs::remove(directory_ / "camera.yaml");
     EXPECT_EQ(calibrate("--size 188x120 --fps 30 - <drive.raw"), 1);
     EXPECT_FALSE(has_file());

@@ -1,4 +1,4 @@
-// From a printed page to the place on the page and in the world, with the tool alone: `dotpose
+// Locates frames of printed pages on the page and in the world, with the tool alone: `dotpose
 // print` with a sheet file, frames of the pages, and `dotpose locate` with the sheet file.
 #include <algorithm>
 #include <cmath>
@@ -58,8 +58,8 @@ TEST_F(SheetFiles, tell_sheet_place_and_world_pose) {
         EXPECT_EQ(record.contains("x_m"), i % 2 == 1);
         EXPECT_EQ(record.contains("yaw_rad"), i % 2 == 1);
         if (i % 2 == 0) continue;
-        // The page's y axis points down and the world's up. The place in the world is therefore the
-        // conjugate, rotated and moved.
+        // The page's y axis points down, and the world's y axis points up. The place in the world
+        // is therefore the conjugate, rotated and moved.
         const std::complex<double> turn = std::polar(1.0, kYaw_rad);
         const std::complex<double> at =
             std::complex(1.25, -0.5) + turn * std::conj(std::complex(x_mm, y_mm)) / 1000.0;
@@ -271,7 +271,7 @@ TEST_F(SheetFiles, the_print_scale_is_applied) {
 TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
     ASSERT_EQ(print("-o a.png --margin 0 --dpi 1200 --paper 30x30 --sheets sheets.json --name a"),
               0);
-    // The margin is wide enough for frames whose centre is on b but that only show dots of a.
+    // The margin is wide enough for frames with their centre on b that only show dots of a.
     ASSERT_EQ(print("-o b.png --margin 9 --dpi 1200 --paper 50x30 --sheets sheets.json --name b"),
               0);
     const GreyImage a = read_image((directory_ / "a.png").string());

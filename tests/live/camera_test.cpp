@@ -22,7 +22,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// Shell functions: wait until a number of lines of a file contain a word, while the tool is
+/// Shell functions that wait until a number of lines of a file contain a word, while the tool is
 /// running.
 constexpr const char* kWaiting =
     "has() { until [ $(grep -c \"$2\" $1) -ge $3 ]; do kill -0 $watch; sleep 0.05; done; }\n"

@@ -146,7 +146,7 @@ TEST_F(FleetScale, BridgedBrokersPassOnEachStateOnce) {
                                   west.port()));
     WatchedFleet in_east(folders[0], "--qos 1 --log log.csv --mqtt " + east.url());
     WatchedFleet in_west(folders[1], "--qos 1 --log log.csv --mqtt " + west.url());
-    // The bridge works when a state gets across.
+    // The bridge works once a state has passed it.
     wait_until([&] {
         publish(west, 1, 1, 1000);
         std::this_thread::sleep_for(200ms);

@@ -1,4 +1,5 @@
-// Encode and decode agree on random windows, upright and turned. The nightly test checks a million.
+// Checks that decoding inverts encoding for random windows, upright and turned. The nightly test
+// checks a million windows.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -80,8 +81,8 @@ std::string check_turned(const Draw& draw, const Grid& upright) {
     if (draw.quarter_turns > 0) {
         Place place;
         const Status status = decode(draw.code, seen.window(), place);
-        // Turning reverses and flips the bits of at least one axis. 7 such bits do not occur in the
-        // main sequence.
+        // Turning reverses and flips the bits of at least one axis. A string of 7 such bits does
+        // not occur in the main sequence.
         if (draw.columns >= 7 && draw.rows >= 7 && status != Status::not_in_code) {
             return "a turned window was not refused";
         }

@@ -1,5 +1,5 @@
-// Weak sightings: compares, by enumeration, the probability that a place inside the tracker's gate
-// was mistaken for another one there with the bound that the tracker uses (docs/tracking.md).
+// Weak sightings: enumerates all other places inside the tracker's gate, sums their odds relative
+// to the true place, and compares the sum with the bound that the tracker uses (docs/tracking.md).
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -178,11 +178,11 @@ TEST(WeakSighting, NoPlaceInTheGateIsLikelierThanTheBound) {
 struct Repetition {
     std::uint32_t position = 0;
     int distance = 0;  ///< in lines
-    int roll = 0;      ///< roll of the later lines relative to the earlier ones, 0 to 62
+    int roll = 0;      ///< roll of the later lines relative to the earlier lines, 0 to 62
 };
 
-/// Returns all repetitions within reach. They are where the same four digits are repeated in all
-/// four sequences.
+/// Returns all repetitions within reach. A repetition occurs where the same four digits are
+/// repeated in all four sequences.
 std::vector<Repetition> repetitions(CodeVariant code) {
     const code::Basis& basis = code::basis(code);
     std::vector<Repetition> found;

@@ -96,7 +96,7 @@ TEST(CalibrateLens, ASlightTiltTellsAnUnbiasedFocalLength) {
     EXPECT_LT(std::abs(normalised) / std::sqrt(kSeries), kMaxSigmas);
 }
 
-// The far corner has half as many px per spacing as the middle.
+// The far corner has half the px per spacing of the middle.
 TEST(CalibrateLensAtLength, AStrongTiltIsCoveredToTheCorners) {
     CameraModel truth;
     truth.width_px = 640;

@@ -1,4 +1,5 @@
-// The numbers in section III-A of the paper, and those of a thin lens.
+// Optics reports, compared with the numbers in section III-A of the paper and with the equations of
+// a thin lens.
 #include "dotpose/tools/optics.hpp"
 
 #include <cmath>

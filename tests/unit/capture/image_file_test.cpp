@@ -392,7 +392,7 @@ TEST_F(ImageFileTest, survives_random_damage) {
         int refused = 0;
         for (int round = 0; round < kRounds; ++round) {
             Bytes bytes = sample.bytes;
-            // Half of the damage is in the headers, where it has the largest effect.
+            // Half of the damage is in the headers, where damage has the largest effect.
             const std::size_t reach = round % 2 == 0 ? bytes.size() : std::size_t{200};
             for (std::uint32_t flips = 1 + random() % 8; flips > 0; --flips) {
                 bytes[random() % reach] = static_cast<std::uint8_t>(random());

@@ -1,4 +1,4 @@
-// Rarer kinds of image files than those of image_file_test.cpp.
+// Rare kinds of image files. image_file_test.cpp tests the common kinds.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-// Nothing is allocated after construction: a Locator uses only the memory passed to it.
+// Checks that nothing is allocated after construction: a Locator uses only the memory passed to it.
 // scripts/check-core-symbols checks the same in the object code, including malloc.
 #include <cstdlib>
 #include <memory>

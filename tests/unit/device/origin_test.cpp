@@ -84,7 +84,7 @@ TEST(Origin, BearsDotsThatAreMissingOrFalse) {
              placed_dots(mesh, 20, kImage_px, [&](int, int) { return random_displacement(rng); })) {
             const double fate = rng.uniform();
             if (fate > 0.2) dots.push_back(dot_at(d.centre_px));
-            // One dot in ten is joined by one at a random place in its cell.
+            // One cell in ten has a second dot at a random place.
             if (fate < 0.9) continue;
             dots.push_back(dot_at(
                 mesh.at(d.cell.x + rng.uniform(-0.5, 0.5), d.cell.y + rng.uniform(-0.5, 0.5))));

@@ -112,7 +112,7 @@ std::vector<Mark> letters(const std::string& text, const GreyImage& image) {
     return marks;
 }
 
-/// Returns the intersection closest to a pixel, in cells relative to that of the pose.
+/// Returns the intersection closest to a pixel, in cells relative to the intersection of the pose.
 FixedVec nearest_cell(const Shot& shot, Vec2 pixel) {
     const double spacing_mm = shot.page.pattern.spacing_mm;
     const Vec2 offset_mm = Projection(shot.camera, shot.pose).offset_from_pixel(pixel);

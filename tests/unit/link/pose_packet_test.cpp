@@ -107,8 +107,8 @@ TEST(PosePacket, CrcIsThatOfTheCatalogue) {
 }
 
 TEST(PosePacket, NoFourBitsCancelInTheCrc) {
-    // The CRC is linear, so only the changes by single bits matter. If no two pairs of them are
-    // equal, no four bits or fewer cancel.
+    // The CRC is linear, so only the changes of the CRC by single bits matter. If no two pairs of
+    // changes are equal, no errors of up to four bits cancel.
     Bytes coded(link::kCodedBytes, 0);
     const unsigned none = link::crc16(coded);
     std::vector<unsigned> changes;

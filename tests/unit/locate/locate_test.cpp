@@ -172,7 +172,7 @@ TEST(Locate, LittleMemoryIsEnoughForADevice) {
         const Fix fix = pushed(frame, Locator(small, device));
         expect_same(pushed(frame, DeviceLocator(little)), fix);
         found += fix.status == Status::ok;
-        // Noise and graphics fill the memory. Afterwards, it must work as before.
+        // Noise and graphics fill the memory. Afterwards, the locator must work as before.
         const Shot hard = shot_of({.preset = Preset::hard}, kSeed, i);
         const Fix full = pushed(render(hard), DeviceLocator(little));
         if (full.status == Status::ok) {

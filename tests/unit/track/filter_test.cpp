@@ -40,8 +40,8 @@ Sighting at(int frame, const Pose& pose, const Matrix3& covariance) {
     return sighting;
 }
 
-/// Returns the covariance of a view of 8 mm: the same standard deviation along x and y, and that of
-/// the angle in proportion.
+/// Returns the covariance of a view of 8 mm: the same standard deviation along x and y, and a
+/// proportional standard deviation of the angle.
 Matrix3 round_covariance(double sigma_mm) {
     const auto variance = static_cast<float>(sigma_mm * sigma_mm);
     return {{{variance, 0, 0}, {0, variance, 0}, {0, 0, variance / 16}}};

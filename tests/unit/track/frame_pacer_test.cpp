@@ -121,8 +121,8 @@ TEST(FramePacer, AMissedFrameIsNoMovement) {
 
 TEST(FramePacer, AddsUpWhatASlowDeviceCreeps) {
     Device device;
-    // A spacing per minute. Single frames are like those of a device at rest, but in 6 s the device
-    // moves by a tenth of a spacing.
+    // The device moves by a spacing per minute. From frame to frame, the device appears to be at
+    // rest, but in 6 s it moves by a tenth of a spacing.
     device.run_until(600 * kSecond_us,
                      [](std::int64_t t) { return at(100 + static_cast<double>(t) / 60e6); });
     const auto moving = std::ranges::count(device.motions, Motion::moving);

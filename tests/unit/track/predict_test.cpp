@@ -73,7 +73,8 @@ Pose driving(std::int64_t time_us) {
     return {5000 + driven * std::cos(kPi / 6), 7000 + driven * std::sin(kPi / 6), 0.4 + 3 * t};
 }
 
-/// Returns the sighting in a world whose x axis is that of the pattern rotated by 2 rad, with y up.
+/// Returns the sighting in a world with y up, whose x axis is the x axis of the pattern rotated by
+/// 2 rad.
 Sighting in_world(const Pose& pose, std::int64_t time_us) {
     constexpr double kYaw_rad = 2;
     Sighting sighting = sighting_of(fix_at(pose), time_us);
@@ -190,7 +191,8 @@ TEST(TrackerPredict, ExpectsNothingWhereTheFilterDoesNot) {
     robot = drive(200'000, driving);
     expect_as_seen(robot.predict(200'000), robot.fix);  // the time of the newest frame
     expect_as_seen(robot.predict(100'000), robot.fix);
-    expect_as_seen(robot.predict(270'000), robot.fix);  // the robot will be lost
+    expect_as_seen(robot.predict(270'000),
+                   robot.fix);  // the robot counts as lost 70 ms after the last sighting
     robot.tracker.update(300'000, nullptr);
     EXPECT_FALSE(robot.tracker.has_prior());
     expect_as_seen(robot.predict(305'000), robot.fix);

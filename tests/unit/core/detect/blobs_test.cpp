@@ -237,7 +237,7 @@ TEST(Blobs, NoMoreRunsAreLookedAtThanTheWorkspaceSays) {
         w.open.max_runs = rows * 20;
         EXPECT_EQ(static_cast<int>(blobs_of(image, w).size()), rows * 10);
     }
-    // If a row has more runs than there is room for, the remaining dots end in this row.
+    // If a row has more runs than the table can hold, the remaining dots end in this row.
     w.open.max_runs = 3 * 20 + 5;
     EXPECT_EQ(blobs_of(image, w).size(), 35u);
 }
@@ -367,7 +367,7 @@ TEST(Blobs, TheSizeFilterIsRelativeToTheMedianDot) {
 }
 
 TEST(Blobs, SaltAndPepperIsSiftedOut) {
-    // Dots have about nine pixels. 1 % of the pixels are isolated dark or light ones.
+    // Dots have about nine pixels. 1 % of the pixels are isolated dark or light pixels.
     Rng rng(kSeed);
     GreyImage image = blank(188, 120);
     std::vector<Vec2> centres;

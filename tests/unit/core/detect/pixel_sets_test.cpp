@@ -1,4 +1,4 @@
-// The pixels of a blob are exactly those darker than the threshold of their tile.
+// Checks that blobs consist of exactly the pixels that are darker than the threshold of their tile.
 #include <algorithm>
 #include <utility>
 

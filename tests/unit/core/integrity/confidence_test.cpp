@@ -130,7 +130,7 @@ TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
             const double fine = chance_log2_q8(bits, odds, kThree_q8) / 256.0;
             ASSERT_GE(fine, exact[static_cast<std::size_t>(e)] + std::log2(3.0L) - 1e-9L);
             ASSERT_LE(fine, chance_log2(bits, odds) + kThree_q8 / 256.0);
-            // Without errors, the optimum odds are those of bits that are certain.
+            // Without errors, the optimum odds are the odds of certain bits.
             if (e == 0) {
                 ASSERT_LE(fine, exact[0] + std::log2(3.0L) + 0.05L);
             }
@@ -159,7 +159,7 @@ TEST(Chance, EachBitThatAgreesHasItsFactor) {
 }
 
 TEST(Chance, EachBitThatContradictsHasItsFactor) {
-    // The factor of a contradicting bit is 2^y times that of an agreeing bit.
+    // The factor of a contradicting bit is 2^y times the factor of an agreeing bit.
     constexpr int kBits = 1 << 12;
     for (const int weight : {12, 60, 124}) {
         const Confidence agree = confidence(kBits, weight, 0);
@@ -194,8 +194,8 @@ TEST(Chance, WeakBitsThatContradictSayLittle) {
 }
 
 TEST(Chance, ChanceHoldsForRandomBits) {
-    // Counts the random bits of random weights that agree as well as a claim of 2^-8 requires, for
-    // one hypothesis.
+    // Counts the trials, with random bits of random weights, whose agreement suffices for a claim
+    // of 2^-8 for one hypothesis.
     Rng rng(kSeed);
     constexpr int kTrials = 200'000;
     int beyond = 0;

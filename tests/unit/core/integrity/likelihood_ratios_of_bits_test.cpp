@@ -1,4 +1,5 @@
-// Ratios of bits of equal certainty, compared with those of weights of 127.
+// Likelihood ratios of bits of equal certainty, compared with the ratios of bits with the weight
+// 127.
 #include <algorithm>
 #include <cmath>
 #include <memory>

@@ -15,7 +15,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 33;
 
-/// The pose fitted to all dots, starting from that of the grid, and the fix at one pixel.
+/// The pose fitted to all dots, starting from the pose of the grid, and the fix at one pixel.
 struct Fitted {
     bool ok = false;
     PlaneFromImage pose;
