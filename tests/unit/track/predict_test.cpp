@@ -191,8 +191,8 @@ TEST(TrackerPredict, ExpectsNothingWhereTheFilterDoesNot) {
     robot = drive(200'000, driving);
     expect_as_seen(robot.predict(200'000), robot.fix);  // the time of the newest frame
     expect_as_seen(robot.predict(100'000), robot.fix);
-    expect_as_seen(robot.predict(270'000),
-                   robot.fix);  // the robot counts as lost 70 ms after the last sighting
+    // 70 ms after the last sighting, the robot counts as lost.
+    expect_as_seen(robot.predict(270'000), robot.fix);
     robot.tracker.update(300'000, nullptr);
     EXPECT_FALSE(robot.tracker.has_prior());
     expect_as_seen(robot.predict(305'000), robot.fix);
