@@ -1,4 +1,4 @@
-// The element alone, buffer by buffer: memory, times, states.
+// Tests the element alone, buffer by buffer: memory, times, states.
 #include <cstring>
 #include <string>
 #include <vector>
