@@ -123,8 +123,8 @@ inline int reach_cells(const Shot& shot) {
     return static_cast<int>(cells / 2);
 }
 
-/// The pattern up to a border, and beyond it a place `other` cells away, in the same or another
-/// section.
+/// The pattern up to a border. Beyond the border, the pattern of a place `other` cells away, in the
+/// same or another section.
 struct Joint {
     bool is_vertical;
     std::uint32_t border;

@@ -1,5 +1,5 @@
-// Frames designed to deceive: a fix must be the true pose. `dotpose_tables adversarial` runs any
-// number of them.
+// Frames designed to deceive `locate`: a fix must be the true pose. `dotpose_tables adversarial`
+// tests any number of such frames.
 #include <memory>
 #include <string>
 

@@ -92,7 +92,7 @@ TEST_F(AnyCode, two_places_are_told_where_both_explain_the_frame) {
 
 TEST_F(AnyCode, other_frames_of_the_call_decide) {
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::libdots}) {
-        // Two places that are unique to the code, then a place that is not.
+        // The first two places are unique to the code, and the third place is not.
         write_at("1.pgm", code, kCommon, kBorder);
         write_at("2.pgm", code, kBorder + kPeriod, kCommon);
         const Shot truth = write_at("3.pgm", code, kCommon, kShifted);

@@ -199,7 +199,8 @@ class EvaluateMeasured : public EvaluateCommand {
                       frame_of(sheet, x_mm, y_mm, 0.4 * i, static_cast<std::uint64_t>(i)).view());
             by_ruler << name << ",table," << x_mm << ',' << y_mm << ',' << 0.4 * i * kDegrees
                      << '\n';
-            // A stage with y up, rotated by a quarter turn, whose millimetres are 0.3 % longer.
+            // The stage has y up, is rotated by a quarter turn, and its millimetres are 0.3 %
+            // longer.
             by_stage << name << ',' << 1.003 * y_mm / 1000 << ',' << 1.003 * x_mm / 1000 << ','
                      << 90 - 0.4 * i * kDegrees << '\n';
         }

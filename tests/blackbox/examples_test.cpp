@@ -74,7 +74,7 @@ TEST_F(Examples, FollowSheetsTellsSheetPlaceAndSpeed) {
     ASSERT_EQ(ToolCommand::run("print -o table.svg --paper 80x60 --sheets s.json --name table"), 0)
         << errors_;
     const json sheet = json::parse(read_file(directory_ / "s.json"))["sheets"].at(0);
-    // 1 mm per frame, 100 frames per second.
+    // The robot moves by 1 mm per frame, at 100 frames per second.
     for (int i = 0; i < 10; ++i) {
         const std::string name = "f" + std::to_string(100 + i) + ".pgm";
         const auto seed = static_cast<std::uint64_t>(i);

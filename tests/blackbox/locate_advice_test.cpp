@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// About 7 x 7 clear dots, which are not enough to exclude all other places.
+// The view has about 7 x 7 clear dots, which do not suffice to exclude all other places.
 TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
     ASSERT_EQ(ToolCommand::run("simulate -o few --size 84x84 --frames 1 --preset clean --seed 3"),
               0);
@@ -130,7 +130,7 @@ TEST_F(LocateCommand, an_image_beyond_the_limit_is_reduced_and_that_is_told) {
     EXPECT_NEAR(record["x_grid"], x_grid(wide.pose), 0.005);
     EXPECT_NEAR(record["y_grid"], y_grid(wide.pose), 0.005);
     EXPECT_NEAR(record["spacing_px"], 24, 0.05);
-    // A reference point 1000 px away along the image x axis.
+    // The reference point is 1000 px away along the image x axis.
     run("--reference 3100,150 wide.pgm");
     const double along = 1000.0 / 24;
     EXPECT_NEAR(records().at(0)["x_grid"],

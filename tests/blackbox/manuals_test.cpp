@@ -1,4 +1,4 @@
-// Manual pages, and completions for shells (apps/shell).
+// Manual pages, and the completions for shells (apps/shell).
 #include <set>
 #include <sstream>
 #include <string>

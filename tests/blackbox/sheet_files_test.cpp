@@ -152,7 +152,7 @@ TEST_F(SheetFiles, a_frame_under_the_ruler_s_50_mm_lies_at_50_mm) {
         << output_;
     const GreyImage page = read_image((directory_ / "page.pgm").string());
     const auto px = [](double pt) { return static_cast<int>(pt * 1200 / 72); };
-    // The tick is 1.8 mm long and between the number and the dots.
+    // The tick is 1.8 mm long, and it is between the number and the dots.
     const int v = px(bottom_pt);
     const int u =
         darkest_column(page, px(left_pt), px(right_pt), v, v + static_cast<int>(1.8 * kPxPerMm));
@@ -340,7 +340,7 @@ TEST_F(SheetFiles, labels_beside_the_dots_contradict_nothing_where_the_sheet_is_
     const int first_u = static_cast<int>((frame.width_px - 1) / 2.0 + 1.5 * px_per_mm) + 3;
     std::mt19937 random(12);
     for (int n = 0; n < 40; ++n) {
-        // A blot of 2 x 2 pixels, like a small letter.
+        // Draws a blot of 2 x 2 pixels, like a small letter.
         const auto u = std::uniform_int_distribution(first_u, frame.width_px - 2)(random);
         const auto v = std::uniform_int_distribution(0, frame.height_px - 2)(random);
         for (const int at : {v * frame.width_px + u, (v + 1) * frame.width_px + u}) {

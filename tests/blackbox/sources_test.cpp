@@ -1,5 +1,5 @@
-// Sources of frames. All commands accept the same sources, and give the same results for the same
-// frames.
+// Sources of frames: checks that all commands accept the same sources, and give the same results
+// for the same frames.
 #include <algorithm>
 #include <cmath>
 #include <sstream>

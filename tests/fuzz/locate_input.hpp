@@ -16,7 +16,7 @@
 
 namespace dotpose::fuzz {
 
-/// Header in the byte order of the machine. All values must be harmless.
+/// Header of an input, in the byte order of the machine. No value of a member may cause a fault.
 struct LocateHeader {
     enum Flag : std::uint8_t {
         default_options = 1,

@@ -211,7 +211,7 @@ TEST_F(Window, ShowsTheFramesAndEndsWithAKey) {
                     "wait $watch"),
               0)
         << errors_ << file("told");
-    // The frame, 800 px wide, and a panel of 400 px.
+    // The recording consists of the frame, 800 px wide, and a panel of 400 px.
     EXPECT_THAT(output_, HasSubstr("Geometry: 1200x"));
 }
 

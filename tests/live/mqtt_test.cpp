@@ -1,5 +1,5 @@
-// Publishing to a real broker: the messages that arrive and the messages that are dropped, also
-// when the broker disconnects.
+// Publishing to a real broker: the messages that arrive and the messages that are dropped, even if
+// the broker disconnects.
 #include "publish/mqtt.hpp"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ TEST_F(Mqtt, ReadsUrls) {
 
 TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
     Broker broker(directory_);
-    // A persistent session, in which the broker keeps all messages that it accepted, in order.
+    // Opens a persistent session, in which the broker keeps all accepted messages in order.
     const std::string reader =
         fmt::format("mosquitto_sub -h 127.0.0.1 -p {} -c -i reader -q 1 -t t ", broker.port());
     shell(reader + "-E");
@@ -112,7 +112,8 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     shell("mkfifo frames");
     std::thread camera([&] {
         const GreyImage image = DriveCamera(188, 120).frame(Drive(), 0);
-        // Closed on exec, because the broker started meanwhile must not keep the pipe open.
+        // The pipe is closed on exec, because a broker that is started meanwhile must not keep the
+        // pipe open.
         std::FILE* pipe = std::fopen((directory_ / "frames").c_str(), "wbe");
         const auto begun = std::chrono::steady_clock::now();
         for (int i = 1; i <= kFrames; ++i) {

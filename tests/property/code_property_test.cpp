@@ -167,7 +167,7 @@ TEST(CodeProperty, EverySectionAtAndAcrossTheWrap) {
 }
 
 TEST(CodeProperty, EveryPositionOfOneSheet) {
-    // A page of 400 x 3 windows, each one step from the previous one.
+    // The page has 400 x 3 windows, each one step from the previous window.
     for (std::uint32_t x = 0; x < 400; ++x) {
         for (std::uint32_t y = 0; y < 3; ++y) {
             for (const CodeVariant code : kCodeVariants) {
@@ -179,7 +179,7 @@ TEST(CodeProperty, EveryPositionOfOneSheet) {
 }
 
 TEST(CodeProperty, TurningASymbolTurnsItsDisplacement) {
-    // Clockwise, as seen on the page: up, right, down, left.
+    // The order is clockwise, as seen on the page: up, right, down, left.
     EXPECT_EQ(turned(Symbol::up), Symbol::right);
     EXPECT_EQ(turned(Symbol::right), Symbol::down);
     EXPECT_EQ(turned(Symbol::down), Symbol::left);

@@ -129,8 +129,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     for (int dy = -kReach; dy <= kReach; ++dy) {
         for (int dx = -kReach; dx <= kReach; ++dx) {
             if (dx == 0 && dy == 0) continue;
-            // Half of the loss, because a contradicting bit is added to one sum and subtracted from
-            // the other.
+            // The loss is halved, because a contradicting bit is added to one sum and subtracted
+            // from the other sum.
             const double odds = std::exp2(view.odds_log2 / 127 * (total(dx, dy) - of_truth) / 2);
             for (int k = std::max(std::abs(dx), std::abs(dy)); k <= kReach; ++k)
                 sums[static_cast<std::size_t>(k)] += odds;

@@ -101,7 +101,7 @@ TEST(CheckPrint, finds_dots_that_run_together) {
 }
 
 TEST(CheckPrint, tells_other_print_from_faults) {
-    // Bars of 1 mm every 5 mm, as black as the dots, and a grey area.
+    // Draws bars of 1 mm every 5 mm, as black as the dots, and a grey area.
     const Sheet sheet = small_sheet();
     ScanSettings settings;
     GreyImage scan = scan_page(sheet, settings);

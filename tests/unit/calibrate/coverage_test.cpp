@@ -1,4 +1,5 @@
-// Views that a calibration still needs, and the accuracy of a lens in the corner.
+// Coverage of a calibration: the views that it still needs, and the accuracy of a lens in the
+// corner.
 #include <algorithm>
 #include <cmath>
 #include <optional>

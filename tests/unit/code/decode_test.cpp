@@ -230,7 +230,8 @@ TEST(Decode, NeverGuessesFromAChanged6x6) {
         ASSERT_TRUE(shows(CodeVariant::anoto, place, grid)) << describe(CodeVariant::anoto, place);
         ++elsewhere;
     }
-    // 70.6 % by an independent simulation in another language; standard deviation 0.3 %.
+    // An independent simulation in another language gives 70.6 %, with a standard deviation of 0.3
+    // %.
     EXPECT_NEAR(static_cast<double>(elsewhere) / kDraws, 0.706, 0.013);
 }
 

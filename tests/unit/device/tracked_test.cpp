@@ -179,7 +179,7 @@ TEST_F(DeviceTracked, FollowsNoWrongPrediction) {
         wrong[2].place = moved(CodeVariant::anoto, right.place, 0, -2);
         wrong[3].place.section.v = static_cast<std::uint8_t>((right.place.section.v + 5) % 63);
         wrong[4].place.cell.y = (right.place.cell.y + 12345) % kPositionsPerAxis;
-        // Rotated by a quarter turn.
+        // The prediction is rotated by a quarter turn.
         std::swap(wrong[5].pattern_from_image.du_q24, wrong[5].pattern_from_image.dv_q24);
         wrong[5].pattern_from_image.du_q24.x *= -1;
         wrong[5].pattern_from_image.du_q24.y *= -1;

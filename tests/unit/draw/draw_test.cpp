@@ -235,7 +235,7 @@ TEST(DrawFrame, names_the_sheet) {
     EXPECT_THAT(on_sheet, HasSubstr(">x on the sheet<"));
     EXPECT_THAT(on_sheet, HasSubstr("font-weight=\"bold\">12.500 mm<"));
     EXPECT_THAT(on_sheet, HasSubstr(">on sheet table; in the pattern: x "));
-    // In the world, y points up: 1 m - 30.25 mm.
+    // In the world, y points up, so the expected value is 1 m - 30.25 mm.
     entry.world = WorldPose{2, 1, 0};
     const std::string in_world = located.drawn({.place = place});
     EXPECT_THAT(in_world, HasSubstr(">y in the world<"));

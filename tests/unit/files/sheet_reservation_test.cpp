@@ -1,4 +1,4 @@
-// Regions that are reserved while their pages are written. No region is ever assigned twice.
+// Reservation of regions while their pages are written. No region may ever be assigned twice.
 #include <algorithm>
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// The accuracy of the filter, and of its covariance.
+// Tests the accuracy of the filter and of its covariance.
 #include "track/filter.hpp"
 
 #include <algorithm>
@@ -155,7 +155,7 @@ TEST(Filter, ItsCovarianceIsThatOfItsErrors) {
         for (std::size_t i = 0; i < 6; ++i)
             sum += error[i] * weighted[i];
     }
-    // Four standard deviations of the mean.
+    // The tolerance is four standard deviations of the mean.
     EXPECT_NEAR(sum / kRuns, 6, 4 * std::sqrt(12.0 / kRuns));
 }
 

@@ -78,7 +78,7 @@ TEST(AdaptiveThreshold, ThresholdsLieAtTheirSharesOfTheContrast) {
                               const double step = mean / 64 + 1;
                               const double low = mean - (mean - i) * options.low_q8 / 256;
                               const double high = mean - (mean - i) * options.high_q8 / 256;
-                              // Rounded down to an even level.
+                              // The value is rounded down to an even level.
                               ASSERT_NEAR(level.low, low - 0.5, step * options.low_q8 / 256 + 2);
                               ASSERT_EQ(level.low % 2, 0);
                               ASSERT_NEAR(level.high, high, step * options.high_q8 / 256 + 1.5);
@@ -189,7 +189,7 @@ TEST(AdaptiveThreshold, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
     SmallWorkspace w;
     ThresholdOptions options;
     options.min_contrast = 8;
-    // Two spots of noise with a spot of ink between them.
+    // The image has two spots of noise with a spot of ink between them.
     GreyImage image = blank(120, 120);
     fill(image, 18, 18, 20, 20, 190);
     fill(image, 98, 50, 100, 52, 80);
