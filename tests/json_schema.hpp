@@ -1,5 +1,5 @@
 /// Checks JSON against a JSON Schema (draft 2020-12), with the keywords used in docs/schema. A
-/// schema with any other keyword throws an exception, so that no part of it remains unchecked.
+/// schema with any other keyword throws an exception, to leave no part of the schema unchecked.
 #pragma once
 
 #include <algorithm>

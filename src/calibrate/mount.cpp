@@ -149,9 +149,8 @@ PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
     return pixel_from_image_centre(stations.camera, {offset_mm.x(), offset_mm.y()});
 }
 
-/// Returns the standard deviation, per axis, of a point that is due to the calibration of the lens:
-/// to the errors of place and direction of the image centre. `offset_mm` is relative to the image
-/// centre.
+/// Returns the standard deviation of a point, per axis, due to the calibration of the lens: the
+/// errors of place and direction of the image centre. `offset_mm` is relative to the image centre.
 double sigma_of_lens_mm(const Camera& camera, const Vector2d& offset_mm) {
     const auto sigma = [&](const char* key) {
         const auto found = camera.sigma.find(key);

@@ -20,7 +20,8 @@ using namespace std::chrono_literals;
 constexpr auto kPatience = 3s;
 /// Time between attempts to reach a broker that does not answer.
 constexpr auto kBetweenAttempts = 500ms;
-/// Maximum number of messages that libmosquitto has not sent yet. It sends them in order.
+/// Maximum number of messages that libmosquitto has not sent yet. libmosquitto sends messages in
+/// order.
 constexpr std::size_t kMaxUnderWay = 20;
 /// Quality of service of presence messages: at least once.
 constexpr int kPresenceQos = 1;

@@ -96,8 +96,8 @@ std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std:
     return result;
 }
 
-/// Returns the odds of all other places within reach relative to the true one, as products over all
-/// bits. sums[k] is the sum over the places at most k cells away along both axes.
+/// Returns the odds of all other places within reach relative to the true place, as products over
+/// all bits. sums[k] is the sum over the places at most k cells away along both axes.
 std::array<double, kReach + 1> odds_by_distance(View& view) {
     const auto& [cell, section] = view.place;
     const auto columns = starts(view.code, cell.x, section.u, cell.y);

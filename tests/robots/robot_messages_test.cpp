@@ -161,8 +161,8 @@ TEST(RobotMessages, VelocitiesAreThoseOfTheRobot) {
     EXPECT_NEAR(twist.twist.linear.x, 0.3, 1e-12);
     EXPECT_NEAR(twist.twist.linear.y, 0, 1e-12);
     EXPECT_EQ(twist.twist.angular.z, -0.5);
-    // Forwards is the y axis of the world. Sideways, an angle error of 1 adds 0.3 m/s; its variance
-    // is 3.
+    // Forwards is the y axis of the world. Sideways, an angle error of 1 rad adds 0.3 m/s. The
+    // variance of the angle is 3.
     EXPECT_NEAR(twist.covariance[0], 5, 1e-12);
     EXPECT_NEAR(twist.covariance[7], 4 + 0.3 * 0.3 * 3, 1e-12);
     EXPECT_NEAR(twist.covariance[35], 6, 1e-12);

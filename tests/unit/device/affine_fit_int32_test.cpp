@@ -188,9 +188,9 @@ TEST(AffineFitInt32, TargetsMayBePartsOfCells) {
         }
         PlaneFromImage plane;
         ASSERT_TRUE(fit_of(pairs).solve(bits, plane));
-        // Rounding displaces targets by 0.29 of the last bit rms, the mean of 400 targets by 1/20
-        // of that, and the ends of the shorter side by up to three times as much. The tolerance is
-        // five standard deviations.
+        // Rounding displaces targets by 0.29 of the last bit (rms). It displaces the mean of 400
+        // targets by 1/20 of this value, and the ends of the shorter side by up to 3/20. The
+        // tolerance is five standard deviations.
         const double tolerance = std::ldexp(5 * 0.29 / 20, -bits) + 1e-4;
         const Vec2 zero = mesh.inverse({0, 0});
         EXPECT_NEAR(real(plane.at_centre_q16, 16).x, zero.x, tolerance);

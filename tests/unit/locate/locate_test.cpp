@@ -322,8 +322,9 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             const double tolerance = 0.01 + length(offset) * 1e-4;
             EXPECT_NEAR(x, from_pose.x, tolerance);
             EXPECT_NEAR(y, from_pose.y, tolerance);
-            // Noise may be fitted as a slight tilt, which rotates the axes across the image: by the
-            // position error over half of the image, and more outside of the image.
+            // Noise may be fitted as a slight tilt, whose rotation of the axes varies across the
+            // image. The rotation is up to the position error over half of the image, and larger
+            // outside of the image.
             const double apart_rad =
                 std::remainder(fix.theta_rad() - at_centre.theta_rad(), 2 * std::numbers::pi);
             EXPECT_NEAR(apart_rad, 0, 1e-4 * std::max(1.0, length(offset) / 100));

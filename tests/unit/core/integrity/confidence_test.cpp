@@ -109,9 +109,9 @@ TEST(Chance, ChanceIsBoundedFromAboveAndNotFarOff) {
             const int bound = chance_log2(bits, odds);
             ASSERT_GE(bound, std::min(exact[static_cast<std::size_t>(e)], 37.0L) - 1e-9L);
             if (2 * e > n) continue;
-            // The tolerance contains Chernoff's bound, which is too large by a factor of up to
-            // sqrt(8 n p q), odds for two additional errors, which change the result by up to about
-            // (e + 2) log2((e + 2) / e), and rounding by 2 and n / 2^6.
+            // The tolerance has three parts: Chernoff's bound is too large by a factor of up to
+            // sqrt(8 n p q), the odds allow for two additional errors, which change the result by
+            // up to about (e + 2) log2((e + 2) / e), and rounding adds 2 and n / 2^6.
             const double slack = 0.5 * std::log2(8.0 * n) + 10 + n / 64.0;
             ASSERT_LE(bound, exact[static_cast<std::size_t>(e)] + slack);
         }

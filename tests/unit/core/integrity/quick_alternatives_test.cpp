@@ -82,8 +82,8 @@ TEST(QuickAlternatives, CountAllThatDifferInOneSequence) {
 }
 
 TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
-    // An alternative may share five consecutive lines, in `libdots` seven. Only these lines are
-    // certain here, and all others are weak.
+    // An alternative may share five consecutive lines, or seven lines in `libdots`. In this case,
+    // only these lines are certain, and all other lines are weak.
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 400; ++i) {

@@ -37,8 +37,8 @@ bool may_be_neighbours(const DetectedDot& a, const DetectedDot& b) {
 
 constexpr int kKinds = 6;
 
-/// Returns points of one of several kinds: scattered, in clumps, on a line, on a grid, some of them
-/// twice, or on a grid whose last row has a single dot when the list is full.
+/// Returns points of one of several kinds: scattered, in clumps, on a line, on a grid, partly
+/// duplicated, or on a grid whose last row has a single dot when the list is full.
 std::vector<DetectedDot> points(Rng& rng, int count, int kind) {
     std::vector<DetectedDot> dots;
     for (int i = 0; i < count; ++i) {
