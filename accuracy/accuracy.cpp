@@ -1,10 +1,10 @@
-// Measures every number of docs/accuracy.md. Run by `make accuracy`.
+// Measures all numbers of docs/accuracy.md. Run by `make accuracy`.
 //
 //   dotpose_tables accuracy [--quick] [--update docs/accuracy.md] [--seed S] [FOLDER]
 //
 // Writes tables.md, sweep-*.{csv,svg,png}, table-3.md and figure-*.{svg,png} to FOLDER
-// (accuracy-out). --update also replaces the generated parts of the document and the pictures
-// beside it. --quick takes a tenth of the frames, to test the program; its numbers are not exact.
+// (accuracy-out). --update also replaces the generated parts of the document and its pictures.
+// --quick locates a tenth of the frames, to test the program; its numbers are inaccurate.
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -27,7 +27,7 @@ struct AccuracyOptions {
     int share(int frames) const { return is_quick ? frames / 10 : frames; }
 };
 
-/// Options to locate with, as a user may choose them.
+/// A choice of decoder and effort, and its name in the tables.
 struct Way {
     const char* name;
     Decoder decoder;
@@ -55,7 +55,7 @@ std::string three(const Quantiles& quantiles, int decimals) {
 }
 
 std::string frame_row(Preset preset, const Way& way, const Score& score) {
-    // Devices report no covariance.
+    // Effort `device` does not compute a covariance.
     const auto& [x, y, theta] = score.normalised;
     const std::string normalised =
         std::isfinite(x) ? fmt::format("{:.2f} / {:.2f} / {:.2f}", x, y, theta) : "-";
@@ -75,7 +75,7 @@ std::string status_rows(Preset preset, const Score& score) {
     return rows;
 }
 
-/// Prints the tables of clean, nominal and hard frames, located in all ways.
+/// Prints the tables of clean, nominal and hard frames, located in all ways of `kWays`.
 void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     std::string frames =
         "| preset | decoder | frames | located | wrong | position error, µm: median / 95 % / max | "
@@ -104,9 +104,8 @@ void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     run.print_block("statuses", statuses);
 }
 
-/// Returns the last value up to which at least this share of the frames is located. It starts at
-/// the first value, which is the easiest one; for the spacing, it returns the range of values
-/// instead.
+/// Returns the last value up to which at least this share of the frames is located, counted from
+/// the first and easiest value. For the spacing, returns the range of values.
 std::string reach(const Sweep& sweep, Decoder decoder, double share) {
     const auto located = [&](std::size_t i) {
         const SweepPoint& point = sweep.points[i];
@@ -164,7 +163,7 @@ void print_protocol(const AccuracyOptions& accuracy, TableRun& run) {
 bool accuracy_table(TableRun& run) {
     AccuracyOptions options;
     std::string folder = "accuracy-out";
-    run.seed = 404;  // no test and no tuning uses it
+    run.seed = 404;  // not used by any test or for tuning
     run.command.add_option("FOLDER", folder, "Folder of tables and figures")->capture_default_str();
     run.command.add_flag("--quick", options.is_quick, "A tenth of the frames: not exact");
     run.add_update();

@@ -3,9 +3,9 @@
 //   dotpose_tables adversarial [--frames N] [--class NAME] [--code given|auto] [--seed S]
 //   [--threads N]
 //
-// The N frames are divided evenly among the classes of tests/adversarial_frames.hpp, or all are
-// of one class. The exit status is 1 if any fix is wrong. After Ctrl-C the table
-// has the frames located so far. Times are processor times.
+// Locates N frames: N is divided evenly among the classes of tests/adversarial_frames.hpp, or all
+// frames are of the class NAME. The exit status is 1 if any fix is wrong. After Ctrl-C the table
+// contains the frames located so far. Times are processor times.
 #include <algorithm>
 #include <array>
 #include <ctime>
@@ -37,7 +37,7 @@ double thread_seconds() {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Results and times of the frames of one class.
+/// Results and processor times of the frames of one class.
 struct ClassTally {
     Counts verdicts{};
     double rendering_s = 0;
@@ -69,10 +69,10 @@ struct AdversaryTally {
     }
 };
 
-/// Whether the code variant is given by the options of the frame or detected.
+/// How the locator gets the code variant: from the options of the frame, or by detection.
 enum class Code : std::uint8_t { given, automatic };
 
-/// Locates a frame. A code variant that is detected is stored in the options of the frame.
+/// Locates a frame. Stores a detected code variant in the options of the frame.
 Fix locate(test::AdversarialFrame& frame, Code code) {
     if (code == Code::given)
         return Locator(thread_memory(), frame.options).locate(frame.image.view());

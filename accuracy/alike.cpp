@@ -1,7 +1,7 @@
 // Measures the accuracy of frames in which all dots have the same position relative to the pixels:
-// spacings of whole pixels, no printing errors, and angles of 0, 45 and 90 degrees. They are
-// compared with frames at 7 degrees, in which the biases of single dots average out. Prints a table
-// of docs/accuracy.md in Markdown.
+// spacings of whole pixels, no printing errors, and angles of 0, 45 and 90 degrees. For comparison,
+// measures frames at 7 degrees, in which the biases of the dots average out. Prints a table of
+// docs/accuracy.md in Markdown.
 //
 //   dotpose_tables alike [--frames N] [--seed S] [--threads N] [--spacings P,...] [--dots D,...]
 //                        [--blurs B,...]
@@ -24,8 +24,8 @@ namespace {
 
 constexpr double kReference_deg = 7;
 constexpr std::array kAngles_deg{0.0, 45.0, 90.0};
-/// Limits outside of which cells are marked: of the ratio of the error to that at 7 degrees, and of
-/// the mean of error^2 / variance.
+/// The table marks values outside these limits: the maximum ratio of the error to the error at 7
+/// degrees, and the range of the mean of error^2 / variance.
 constexpr double kMaxErrorRatio = 2;
 constexpr std::array kNormalisedRange{0.7, 1.5};
 
@@ -36,7 +36,7 @@ struct AlikeOptions {
     std::vector<double> blurs_px{0.3, 0.5, 0.7, 1.0, 1.5};
 };
 
-/// Locates the frames of a condition.
+/// Returns the score of the frames of one condition.
 Score score_of_condition(const test::AlikeDots& condition, std::uint64_t frames,
                          const TableRun& run) {
     FrameRun frame_run;
@@ -59,7 +59,7 @@ bool agrees_with_covariance(const Score& score) {
     });
 }
 
-/// Prints a row and returns the number of wrong fixes.
+/// Prints one row of the table and returns the number of wrong fixes.
 int print_row(test::AlikeDots condition, std::uint64_t frames, const TableRun& run) {
     condition.angle_deg = kReference_deg;
     const Score reference = score_of_condition(condition, frames, run);

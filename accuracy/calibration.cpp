@@ -1,5 +1,5 @@
-// Measures the errors of calibrations, also relative to the standard deviations that they report,
-// in many simulated calibrations of each kind. Prints every number of docs/calibration.md.
+// Simulates many calibrations of each kind and measures their errors, absolute and relative to the
+// reported standard deviations. Prints all numbers of docs/calibration.md.
 //
 //   dotpose_tables calibration [--calibrations N] [--large N] [--spins N] [--tables N] [--seed S]
 //                              [--threads N]

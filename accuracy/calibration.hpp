@@ -12,7 +12,7 @@
 
 namespace dotpose::tables {
 
-/// Errors of one parameter, and the standard deviations that were reported with it.
+/// Errors of one parameter, and the standard deviations reported by the calibrations.
 struct Errors {
     double squares = 0;
     double normalised_squares = 0;
@@ -33,15 +33,15 @@ struct Errors {
         return *this;
     }
     double rms() const { return std::sqrt(squares / count); }
-    /// Returns the mean of error^2 / variance, which is 1 if the reported deviations are true, or
-    /// "-" if none are reported.
+    /// Returns the mean of error^2 / variance, which is 1 if the reported deviations are correct,
+    /// or "-" if none are reported.
     std::string normalised_text() const {
         return std::isnan(normalised_squares) ? "-"
                                               : fmt::format("{:.2f}", normalised_squares / count);
     }
 };
 
-/// The errors by the name of the parameter.
+/// Errors by the name of the parameter.
 using ErrorTable = std::map<std::string, Errors>;
 inline ErrorTable& operator+=(ErrorTable& table, const ErrorTable& other) {
     for (const auto& [key, errors] : other)
@@ -69,15 +69,16 @@ struct Numbers {
     double mean() const { return sum / count; }
 };
 
-/// Measures the parameters of lenses, the residuals, and positions located afterwards, and prints
-/// tables in Markdown.
+/// Measures the errors of lens parameters, the residuals, and the errors of positions located with
+/// the calibrated cameras. Prints tables in Markdown.
 void measure_lenses(std::uint64_t small_cameras, std::uint64_t large_cameras, const TableRun& run);
 
-/// Measures the reference point of robots that turn on the spot, and prints a table.
+/// Measures the errors of the reference point, calibrated by robots that turn on the spot. Prints a
+/// table.
 void measure_spins(std::uint64_t count, const TableRun& run);
 
-/// Measures the stitching of four sheets side by side that are printed to different scales, and
-/// prints a table.
+/// Measures the errors of stitching four adjacent sheets with different print scales. Prints a
+/// table.
 void measure_stitching(std::uint64_t count, const TableRun& run);
 
 /// Writes the frames of the example in docs/calibration.md.

@@ -17,7 +17,7 @@ Vec2 displacement_mm(const Page& page, Cell cell) {
     return {dx(symbol) * page.pattern.displacement_mm, dy(symbol) * page.pattern.displacement_mm};
 }
 
-/// Returns the printed dot that is nearest to an offset from the pose point.
+/// Returns the printed dot nearest to an offset from the pose point.
 TrueDot nearest_dot(const Shot& shot, Vec2 offset_mm) {
     const double mm = shot.page.pattern.spacing_mm;
     const CameraPose& pose = shot.pose;
@@ -41,7 +41,8 @@ TrueDot nearest_dot(const Shot& shot, Vec2 offset_mm) {
     return best;
 }
 
-/// An unknown parameter of a camera: its name, and a function that changes it by some steps.
+/// An unknown parameter of a camera: its name, the step of its numerical derivative, and a function
+/// that adds a value to the parameter.
 struct Parameter {
     const char* name;
     double step;
@@ -76,8 +77,9 @@ Vector2d on_paper_at(const Camera& camera, PixelPoint pixel) {
     return {point.x_mm, point.y_mm};
 }
 
-/// Returns the derivatives of a dot's position by the steps of all parameters. The last column is
-/// that by the length of its displacement, which depends on ink and blur.
+/// Returns the derivatives of a dot's position with respect to all parameters, per step. The last
+/// column is the derivative with respect to the length of the dot's displacement, which depends on
+/// ink and blur.
 MatrixXd jacobian(const Camera& camera, const TrueDot& dot,
                   const std::vector<Parameter>& parameters) {
     MatrixXd rows(2, static_cast<Eigen::Index>(parameters.size()) + 1);
@@ -125,7 +127,8 @@ std::map<std::string, double> min_sigmas(const Camera& camera, const std::vector
     for (const TrueDot& dot : dots) {
         const MatrixXd rows = jacobian(camera, dot, parameters);
         const Vector2d at = on_paper_at(camera, dot.pixel);
-        Eigen::Matrix<double, 2, 3> pose;  // derivatives by position and angle of the frame
+        // Derivatives with respect to the position and the angle of the frame.
+        Eigen::Matrix<double, 2, 3> pose;
         pose << 1, 0, -at.y(), 0, 1, at.x();
         FrameSums& frame = frames[dot.frame];
         if (frame.with_camera.cols() == 0) frame.with_camera.setZero(3, count);

@@ -1,5 +1,5 @@
-// Bounds for any calibration: the residual with the true parameters, and the Cramer-Rao bounds that
-// follow from the printer's jitter.
+// Bounds of any calibration: the residual with the true parameters, and the Cramer-Rao bounds for
+// the printer's jitter.
 #pragma once
 
 #include <map>
@@ -27,8 +27,8 @@ enum class Unknown {
     straight,  ///< lens, one scale
 };
 
-/// Returns the least standard deviations that an unbiased estimate from these dots can have, by the
-/// names of `Camera::sigma`, if their positions have errors of `jitter_mm` along each axis.
+/// Returns the minimum standard deviations of an unbiased estimate from these dots, by the names of
+/// `Camera::sigma`. `jitter_mm` is the standard deviation of a dot's position along each axis.
 std::map<std::string, double> min_sigmas(const Camera& camera, const std::vector<TrueDot>& dots,
                                          double jitter_mm, Unknown unknown);
 

@@ -22,7 +22,8 @@ void write_frames(const fs::path& folder, int frames, FrameAt frame_at) {
         write_pgm(folder / fmt::format("frame_{:06}.pgm", i), frame_at(i).view());
 }
 
-/// Writes the sheets of the table with poses as measured with a ruler.
+/// Writes the sheet file of the table. The poses are rounded to 1 mm, like measurements with a
+/// ruler.
 void write_sheets(const fs::path& path) {
     fs::remove(path);
     SheetFile file(path);
@@ -46,7 +47,8 @@ void write_example(const std::string& folder, std::uint64_t seed) {
         return robot_frame(camera, seed + 1, i, kPivot_x_mm, kPivot_y_mm, 30 * i * kDegree_rad);
     });
     write_frames(root / "line", 10, [&](int i) {
-        // The robot heads along x, and the image's x axis is a quarter turn to the left of that.
+        // The robot heads along x. The x axis of the image is a quarter turn to the left of the
+        // heading.
         return robot_frame(camera, seed + 2, i, kPivot_x_mm + 5 * i, kPivot_y_mm,
                            -90 * kDegree_rad);
     });

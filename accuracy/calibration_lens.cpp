@@ -22,11 +22,11 @@ constexpr int kLensFrames = 20;
 /// Print jitter of the preset `nominal`.
 constexpr double kJitter_mm = 0.010;
 
-/// A kind of camera that is calibrated.
+/// A kind of camera to calibrate.
 struct CameraKind {
     const char* title;
     CameraModel camera;
-    double tilt_deg = 0;  ///< largest tilt about both axes
+    double tilt_deg = 0;  ///< maximum tilt about each axis
     bool is_mounted = true;
 };
 
@@ -70,7 +70,7 @@ struct LensTally {
     }
 };
 
-/// All frames of one camera.
+/// The frames of one camera.
 struct Series {
     const CameraKind& kind;
     std::uint64_t seed;
@@ -98,7 +98,7 @@ struct Series {
     }
 };
 
-/// Returns the width of the image on the paper, through its middle.
+/// Returns the width of the middle row of the image on the paper.
 double field_mm(const Camera& camera) {
     const double v = (camera.height_px - 1) / 2.0;
     const CameraPoint left = on_paper(camera, undistorted(camera, {0, v}));
@@ -113,10 +113,11 @@ double field_mm(const CameraModel& model) {
     return std::hypot(right.x - left.x, right.y - left.y);
 }
 
-/// The error of a parameter, with its name, the key of its deviation and the unit for output.
+/// The error of a parameter, with its name, the key of its standard deviation and its unit in the
+/// table.
 struct ParameterError {
     const char* title;
-    const char* sigma;  ///< key in `Camera::sigma`; empty if no deviation is reported
+    const char* sigma;  ///< key in `Camera::sigma`; empty if no standard deviation is reported
     double error;
     double unit;
 };

@@ -16,7 +16,7 @@ using namespace calibrate_test;
 constexpr int kFramesOfCamera = 20;
 constexpr int kSpinFrames = 12;
 constexpr int kSeamFrames = 200;
-/// Largest error of the print scale along each axis, as a share.
+/// Maximum relative error of the print scale along each axis.
 constexpr double kPrintError = 0.003;
 
 void print_table(const std::string& title, const ErrorTable& table) {
@@ -60,7 +60,8 @@ Table draw_table(Rng& rng) {
         lying.print = {1 + rng.uniform(-kPrintError, kPrintError),
                        1 + rng.uniform(-kPrintError, kPrintError)};
     }
-    // The mean scale of the first sheet is the true one, as the sheet file gives it.
+    // The sheet file gives the true mean scale of the first sheet. Its scales along the two axes
+    // may differ.
     const double mean = std::sqrt(table[0].print.x * table[0].print.y);
     table[0].print = {table[0].print.x / mean, table[0].print.y / mean};
     return table;
@@ -90,7 +91,7 @@ Camera calibrated(const CameraModel& model, std::uint64_t seed) {
     return calibrate_lens(kFramesOfCamera, frame_at, {}).camera;
 }
 
-/// Calls `work(camera, model, seed, errors)` with the true camera file and with an estimated one.
+/// Calls `work(camera, model, seed, errors)` with the true camera and with a calibrated camera.
 template <typename Work>
 void measure_both(const std::string& what, std::uint64_t count, const CameraModel& model,
                   const TableRun& run, Work work) {

@@ -21,8 +21,9 @@ std::string read_document(const std::filesystem::path& path);
 /// written.
 void update_document(const std::filesystem::path& path, const Blocks& blocks);
 
-/// Writes the blocks to tables.md in `folder`. If a document is named, replaces its blocks too, and
-/// copies all SVG pictures of `folder` to the folder beside the document that has its name.
+/// Writes the blocks to tables.md in `folder`. If a document is given, also replaces its blocks,
+/// and copies all SVG pictures of `folder` to the folder with the document's name beside the
+/// document.
 void write_tables(const std::filesystem::path& folder, const Blocks& blocks,
                   const std::filesystem::path& document);
 

@@ -1,5 +1,5 @@
-// Measures how exactly a robot is tracked: the frames of the tests' simulated drive, at several
-// speeds and on paper with and without printing errors, are processed as in `dotpose watch`.
+// Measures the accuracy of tracking a robot. Processes the frames of the tests' simulated drive as
+// `dotpose watch` does, at several speeds, and on paper with and without printing errors.
 //
 //   dotpose_tables drive [--speeds V...] [--width W] [--height H] [--draw FILE] [--threads N]
 #include <array>
@@ -30,7 +30,7 @@ struct DriveOptions {
     std::string picture;
 };
 
-/// The paper and the camera of a drive.
+/// Printing errors and sensor noise of a drive.
 struct DriveKind {
     const char* name;
     bool has_printing_errors;
@@ -100,7 +100,7 @@ void print_drive_row(const DriveKind& kind, double speed_mm_s, const DriveErrors
 
 using plot::Point;
 
-/// One panel of the picture: curves of a quantity over time.
+/// One panel of the picture: curves of one quantity over time.
 struct Panel {
     const char* label;
     double max;

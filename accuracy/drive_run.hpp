@@ -8,11 +8,11 @@
 
 namespace dotpose::tables {
 
-/// Called for each frame that is followed, with its number in the drive.
+/// Called for each processed frame, with its index in the drive.
 using TakeFrame =
     std::function<void(int index, const test::DriveState& truth, const Followed& followed)>;
 
-/// Follows every `step`-th frame of the drive until Ctrl-C.
+/// Processes every `step`-th frame of the drive. Ctrl-C ends the run.
 void follow_drive(const test::Drive& drive, const test::DriveCamera& camera, int step,
                   const TakeFrame& take);
 

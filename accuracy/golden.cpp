@@ -1,11 +1,11 @@
-// Computes checksums by which changes of poses are detected, down to the last bit. Locates sets of
+// Computes checksums that detect every change of a pose, down to the last bit. Locates sets of
 // simulated frames with every attempt and prints one line for each set and attempt: a checksum of
 // the pixels, a checksum of all integers of the fixes, and the number of frames that were located.
 //
 //   dotpose_tables golden [--threads N]
 //
 // scripts/golden-frames compares the lines with accuracy/golden.txt. Covariances and residuals are
-// floating-point numbers that may differ between processors, and are left out.
+// not part of the checksums, because these floating-point numbers may differ between processors.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -52,7 +52,8 @@ void add(Checksum& sum, const PlaneFromImage& plane) {
     sum.add(plane.lens_q40);
 }
 
-/// Adds all integers of a fix to the checksum; without a fix, only those that have a meaning.
+/// Adds all integers of a fix to the checksum. If the status is not ok, adds only status and number
+/// of dots.
 void add(Checksum& sum, const Fix& fix) {
     sum.add(static_cast<std::int64_t>(fix.status));
     sum.add(fix.dots_seen);
@@ -70,7 +71,7 @@ void add(Checksum& sum, const Fix& fix) {
     add(sum, fix.pattern_from_image);
 }
 
-/// A frame and the frame after it, for which the fix of the first gives a prediction.
+/// A frame and the next frame. The fix of the frame gives the prediction for the next frame.
 struct FramePair {
     GreyImage image;
     GreyImage next;
@@ -84,21 +85,21 @@ struct GoldenWay {
 };
 constexpr std::size_t kMaxWays = 5;
 
-/// Frames that are drawn once and located in several ways.
+/// A set of frames, each rendered once and located in several ways.
 struct GoldenSet {
     std::uint64_t frames = 0;
     std::function<FramePair(std::uint64_t)> frames_at;
     std::vector<GoldenWay> ways;
 };
 
-/// Sums of checksums, which do not depend on the order of the frames.
+/// Sums of the checksums of all frames. The sums do not depend on the order of the frames.
 struct GoldenTally {
     struct Fixes {
         std::uint64_t checksum = 0;
         std::uint64_t located = 0;
     };
     std::uint64_t pixels = 0;
-    std::array<Fixes, kMaxWays> fixes;  ///< indexed by the number of the way
+    std::array<Fixes, kMaxWays> fixes;  ///< indexed as `GoldenSet::ways`
 
     GoldenTally& operator+=(const GoldenTally& other) {
         pixels += other.pixels;

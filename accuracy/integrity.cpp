@@ -1,14 +1,13 @@
-// Compares p_wrong, the bound that `verify` gives for the probability that a position is wrong,
-// with the frequency of wrong positions. Every frame is accepted, however doubtful, and counted by
-// its p_wrong.
+// Compares p_wrong, the upper bound of the probability that a position is wrong, with the frequency
+// of wrong positions. Accepts every reading, however doubtful, and counts it by its p_wrong.
 //
 //   dotpose_tables integrity [--grids N] [--doubtful N] [--frames N] [--seed S] [--threads N]
 //
-// Grids are bits with random errors that are given to the decoder directly. The errors are
-// independent of each other and the rarer the larger the weight, as in the model behind p_wrong.
-// Doubtful grids have so many errors that p_wrong is between 1e-3 and 1e-5, where counting can
-// refute it. Frames are rendered patterns with flipped bits, which `locate` reads. The exit status
-// is 1 if more positions are wrong than p_wrong predicts. After Ctrl-C the tables have the cases
+// Grids are bits with random errors, decoded without an image. As in the model of p_wrong, the
+// errors are independent of each other, and less frequent in bits of larger weight. Doubtful grids
+// have enough errors that p_wrong is between 1e-3 and 1e-5, a range in which counting can refute
+// p_wrong. Frames are rendered patterns with flipped bits, read by `locate`. The exit status is 1
+// if more positions are wrong than p_wrong predicts. After Ctrl-C the tables contain the cases
 // counted so far.
 #include "integrity.hpp"
 
@@ -87,17 +86,18 @@ double upper_limit(std::uint64_t count) {
     return high;
 }
 
-/// Whether the number of wrong positions is consistent with p_wrong, at a significance level of one
-/// in a thousand.
+/// Returns true if the number of wrong positions is consistent with p_wrong, at a significance
+/// level of one in a thousand.
 bool holds(const Bin& bin) {
     return static_cast<double>(bin.wrong) <= bin.predicted ||
            poisson_at_least(bin.wrong, bin.predicted) > 1e-3;
 }
 
-/// Prints all values of p_wrong in classes of a factor of 8. Returns whether all are consistent.
+/// Prints the counts of all readings, in classes of p_wrong by factors of 8. Returns true if all
+/// classes are consistent with p_wrong.
 bool print(std::string_view title, const IntegrityTally& tally) {
     constexpr std::size_t kWidth_log2 = 3;
-    constexpr std::size_t kLast = 34;  // this bin has all smaller values of p_wrong as well
+    constexpr std::size_t kLast = 34;  // the class of this bin and of all smaller values of p_wrong
     bool all_hold = true;
     fmt::print("\n{} ({} not read{})\n{:>17} {:>9} {:>7} {:>10} {:>10}\n", title, tally.unread,
                tally.skipped > 0 ? fmt::format(", {} skipped", tally.skipped) : "", "p_wrong",
@@ -121,8 +121,9 @@ bool print(std::string_view title, const IntegrityTally& tally) {
     return all_hold;
 }
 
-/// Prints the values of p_wrong near 1e-3, 1e-4 and 1e-5, each in a class of three powers of two,
-/// with confidence limits of the true rate. Returns whether all are consistent.
+/// Prints the counts of readings with p_wrong near 1e-3, 1e-4 and 1e-5, in one class of three
+/// powers of two each, with the upper confidence limit of the true rate. Returns true if all
+/// classes are consistent with p_wrong.
 bool print_doubtful(const IntegrityTally& tally) {
     bool all_hold = true;
     fmt::print("\n{:>15} {:>9} {:>7} {:>10} {:>16} {:>13}\n", "p_wrong", "read", "wrong", "rate",

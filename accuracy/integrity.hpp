@@ -10,10 +10,10 @@
 
 namespace dotpose::tables {
 
-/// Options with which every reading is accepted, however doubtful.
+/// Options that accept every reading, however doubtful.
 inline constexpr IntegrityOptions kAcceptAll{0, 256};
 
-/// Readings with the same or a similar p_wrong.
+/// Number of readings in a class of p_wrong.
 struct Bin {
     std::uint64_t frames = 0;
     std::uint64_t wrong = 0;
@@ -28,7 +28,7 @@ struct Bin {
 };
 
 struct IntegrityTally {
-    /// Bin n has the readings with p_wrong = 2^-n; the last bin has all smaller values as well.
+    /// Bin n counts the readings with p_wrong = 2^-n. The last bin also counts all smaller values.
     std::array<Bin, 64> bins;
     std::uint64_t unread = 0;
     std::uint64_t skipped = 0;  ///< number of grids that are not doubtful
@@ -39,7 +39,7 @@ struct IntegrityTally {
         bin.predicted += std::ldexp(1.0, p_wrong_log2);
         bin.wrong += is_wrong ? 1 : 0;
     }
-    /// Returns the sum of the bins `first` to `last`; bins that do not exist are empty.
+    /// Returns the sum of the bins `first` to `last`. Bins beyond the last one are empty.
     Bin sum(std::size_t first, std::size_t last) const {
         Bin sum;
         for (std::size_t n = first; n <= last && n < bins.size(); ++n)
@@ -60,8 +60,8 @@ enum class GridKind : std::uint8_t {
     doubtful,  ///< with enough errors that p_wrong is between 1e-3 and 1e-5
 };
 
-/// Draws grid `index` of a run, whose bits have random errors, decodes it without an image and
-/// counts the result. Thread-safe.
+/// Draws grid `index` of a run, with random errors of its bits, decodes the grid without an image
+/// and counts the result. Thread-safe.
 void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityTally& tally);
 
 }  // namespace dotpose::tables

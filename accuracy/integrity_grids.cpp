@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMaxSide = 16;
 
-/// Bits as they are read from a pattern, with the true position.
+/// Bits of a grid, as if read from a pattern, and their true position.
 struct Reading {
     std::array<GridCell, kMaxSide * kMaxSide> cells;
     core::Grid grid;
@@ -25,7 +25,7 @@ struct Reading {
     Place place;  ///< true place of grid cell (0, 0)
 };
 
-/// Returns the cell for which `core::turned` gives these bits.
+/// Returns the grid cell for which `core::turned` returns the bits x and y.
 GridCell cell_of(QuarterTurn turn, int x, int y) {
     const FixedVec grid = turn.quarters == 1   ? FixedVec{-y, x}
                           : turn.quarters == 3 ? FixedVec{y, -x}
@@ -36,8 +36,8 @@ GridCell cell_of(QuarterTurn turn, int x, int y) {
 
 /// Statistics of the errors of one reading.
 struct Noise {
-    double odds_log2;  ///< log2 of the odds that a bit of full weight is right
-    double missing;    ///< share of the cells that have no dot
+    double odds_log2;  ///< log2 of the odds that a bit of full weight is correct
+    double missing;    ///< fraction of the cells without a dot
     int min_weight;
 
     double chance_of_error(int weight) const {
@@ -49,8 +49,7 @@ struct Noise {
         const bool is_wrong = rng.uniform() < chance_of_error(weight);
         return (bit == 1) != is_wrong ? weight : -weight;
     }
-    /// Returns the information of a bit that was read with this weight: 1 - H(probability of
-    /// error).
+    /// Returns the information of a bit of this weight: 1 - H(probability of error).
     double information(int weight) const {
         const double q = chance_of_error(weight);
         return 1 + q * std::log2(q) + (1 - q) * std::log2(1 - q);
@@ -65,8 +64,8 @@ struct Noise {
 };
 
 /// Draws the odds of a bit for a doubtful reading with this number of cells. On one axis, log2 of
-/// the number of positions, sections and turns is 36.6; with about 30 bits of information more than
-/// that, p_wrong is about 2^-13.
+/// the number of positions, sections and turns is 36.6. With about 30 bits of information more than
+/// this, p_wrong is about 2^-13.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
     constexpr double kMaxOdds_log2 = 12;
@@ -100,7 +99,7 @@ void draw(GridKind kind, Rng& rng, Reading& reading) {
     core::Grid& grid = reading.grid;
     Noise noise{rng.uniform(2.5, 9), rng.below(2) == 0 ? 0 : rng.uniform(0, 0.25),
                 rng.below(2) == 0 ? 127 : 8};
-    // In a third of them, the paper is blank beyond a column.
+    // In a third of the grids, the paper is blank beyond a column.
     const int visible = rng.below(3) == 0 ? 6 + static_cast<int>(rng.below(3)) : grid.columns;
     if (kind == GridKind::doubtful) {
         const int cells = std::min(visible, grid.columns) * grid.rows;
@@ -121,7 +120,8 @@ void draw(GridKind kind, Rng& rng, Reading& reading) {
     }
 }
 
-/// Whether all cells of the grid have the same symbols at the decoded place as at the true one.
+/// Returns true if all cells of the grid have the same symbols at the decoded place as at the true
+/// place.
 bool is_right(const Reading& reading, const Decoding& decoding) {
     if (decoding.pattern_from_grid.quarters != reading.turn.quarters) return false;
     const core::Grid& grid = reading.grid;
@@ -138,8 +138,8 @@ bool is_right(const Reading& reading, const Decoding& decoding) {
     return true;
 }
 
-/// Returns the information of a reading's bits per axis, with the odds that `verify` estimates for
-/// them. It is a fast estimate of p_wrong that uses only what the decoder has.
+/// Returns the information of a reading's bits per axis, with the odds per bit that `verify`
+/// estimates. The information is a fast estimate of p_wrong from the results of the decoder.
 double apparent_information(const core::Grid& grid, const Decoding& decoding,
                             const core::Nominal& nominal) {
     core::Confidence confidence;
@@ -158,9 +158,9 @@ double apparent_information(const core::Grid& grid, const Decoding& decoding,
     return bits / 2;
 }
 
-/// Whether p_wrong is probably near 1e-5, the value that needs the most cases; enough of these
-/// readings have a p_wrong near 1e-4 and 1e-3. Only they are verified, because `verify` takes 20
-/// times as long as all steps before it.
+/// Returns true if p_wrong is probably near 1e-5, the value that needs the most cases. Enough of
+/// these readings have a p_wrong near 1e-4 and 1e-3. Only such readings are verified, because
+/// `verify` takes 20 times the time of all previous steps.
 bool looks_doubtful(const core::Grid& grid, const Decoding& decoding,
                     const core::Nominal& nominal) {
     const double bits = apparent_information(grid, decoding, nominal);

@@ -1,9 +1,10 @@
-// Measures how much frames may be degraded. Prints the table of docs/limits.md in Markdown.
+// Measures the share of degraded frames that are located. Prints the table of docs/limits.md in
+// Markdown.
 //
 //   dotpose_tables limits [--frames N] [--seed S] [--threads N]
 //
-// There are N frames for each condition of tests/limit_frames.hpp, but fewer for large images and
-// mirror images, which take long. The exit status is 1 if any fix is wrong.
+// Locates N frames for each condition of tests/limit_frames.hpp, but fewer large images and mirror
+// images, which take longer. The exit status is 1 if any fix is wrong.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,10 +21,11 @@
 namespace dotpose::tables {
 namespace {
 
-/// Minimum number of frames of a condition, unless fewer are wanted.
+/// Minimum number of frames of a condition, unless --frames is smaller.
 constexpr std::uint64_t kMinFrames = 4;
 
-/// Returns the number of frames that have as many pixels in all as `frames` images of 320 x 240.
+/// Returns the number of frames with the same total number of pixels as `frames` images of 320 x
+/// 240, but at least kMinFrames and at most `frames`.
 int frames_of(const CameraModel& camera, std::uint64_t frames) {
     constexpr std::uint64_t kFull_px = 320 * 240;
     const std::uint64_t area_px =
@@ -64,8 +66,8 @@ int print_limit(const test::Limit& limit, std::uint64_t frames, const TableRun& 
     return twice.wrong;
 }
 
-/// Prints how often mirror images are refused with the status `mirrored`, and returns the number of
-/// fixes, all of which are wrong.
+/// Prints the number of mirror images that are refused with the status `mirrored`. Returns the
+/// number of fixes, which are all wrong.
 int print_mirrored(std::uint64_t frames, const TableRun& run) {
     FrameRun frame_run;
     frame_run.frames = static_cast<int>(std::min(std::max(frames / 10, kMinFrames), frames));
@@ -95,7 +97,8 @@ bool limits_table(TableRun& run) {
     if (!run.parse()) return true;
 
     fmt::print(
-        "| condition | frames | located at once, % | located, % | wrong | median error, µm "
+        "| condition | frames | located by the first attempt, % | located, % | wrong | median "
+        "error, µm "
         "| 95 %, µm |\n|---|--:|--:|--:|--:|--:|--:|\n");
     int wrong = 0;
     for (const test::Limit& limit : test::all_limits())

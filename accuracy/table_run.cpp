@@ -40,7 +40,7 @@ void TableRun::add_update() {
 
 bool TableRun::parse() {
     if (!command.parse(argc_, argv_)) return false;
-    // A document that cannot be read is reported before the measurement, not an hour later.
+    // Reports a document that cannot be read before the measurement, and not an hour later.
     if (!document_.empty()) read_document(document_);
     return true;
 }

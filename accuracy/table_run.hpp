@@ -1,4 +1,4 @@
-/// The run of one table of dotpose_tables: its options, its work on all cores, its output.
+/// The run of one table of dotpose_tables: command line, work on all cores, output.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,14 @@
 
 namespace dotpose::tables {
 
-/// How much of some work is done.
+/// Progress of the work on a number of items.
 struct Done {
     std::uint64_t wanted = 0;  ///< number of items
-    std::uint64_t done = 0;    ///< number of items done; less than wanted if interrupted
+    std::uint64_t done = 0;    ///< number of completed items; less than `wanted` if interrupted
     double seconds = 0;
 
     bool is_complete() const { return done == wanted; }
-    /// Returns text such as "12000 frames in 60 s, 200 frames/s", and whether the work was
+    /// Returns a text such as "12000 frames in 60 s, 200 frames/s", with a note if the work was
     /// interrupted.
     std::string speed_text(const std::string& items) const;
 };
@@ -35,10 +35,10 @@ struct Count : Done {
     Tally tally;
 };
 
-/// A table adds its options, parses the command line, and measures.
+/// A table adds its options, parses the command line, measures, and prints the results.
 class TableRun {
   public:
-    /// `what` is the first line of the help; `argv[0]` is not an option.
+    /// `what` is the first line of the help. `argv[0]` is skipped.
     TableRun(const std::string& name, const std::string& what, int argc, const char* const* argv)
         : command(what, name), argc_(argc), argv_(argv) {}
 
@@ -52,7 +52,7 @@ class TableRun {
     void add_threads();
     /// Adds the option for the document whose generated parts `update_document` replaces.
     void add_update();
-    /// Parses the command line. Returns false if the help was asked for; it has been printed.
+    /// Parses the command line. Returns false if the help was requested and has been printed.
     /// Throws cli::UsageError, or Error if the document cannot be read.
     bool parse();
 
@@ -73,10 +73,10 @@ class TableRun {
     /// as progress. Throws Error if interrupted.
     std::vector<std::vector<Outcome>> evaluate(const std::string& what, FrameRun frames) const;
 
-    /// Prints a generated part of the document, and keeps it.
+    /// Prints a generated part of the document, and keeps it for `update_document`.
     void print_block(const std::string& name, const std::string& text);
     const Blocks& blocks() const { return blocks_; }
-    /// Replaces the parts of the document, if one was named, by those that were printed.
+    /// If a document was named, replaces its generated parts by the printed parts.
     void update_document() const;
     const std::string& document() const { return document_; }
 
@@ -87,17 +87,17 @@ class TableRun {
 
     int argc_;
     const char* const* argv_;
-    std::string document_;  ///< path; empty for none
+    std::string document_;  ///< path; empty if no document was named
     Blocks blocks_;
 };
 
-/// Returns a function that shows progress on a line and stops the work on Ctrl-C.
+/// Returns a function that shows the progress on `line` and stops the work on Ctrl-C.
 Progress shown_on(cli::ProgressLine& line);
 
-/// Memory for the locators of this thread.
+/// Returns the memory for the locators of this thread.
 LargeMemory& thread_memory();
 
-/// Returns the frame of a shot with its true pose, whose code is not given.
+/// Returns the frame of a shot with its true pose, but without its code.
 KnownFrame known_frame(const Shot& shot);
 
 /// Returns a setup of preset nominal with images of this size.

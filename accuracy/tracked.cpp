@@ -3,9 +3,9 @@
 //   dotpose_tables tracked [--part NAME] [--frames N] [--predictions N] [--seed S]
 //                          [--update docs/tracking.md]
 //
-// Prints four tables: drives that are tracked, predictions that are off, frames that change, and
-// wrong predictions by class. The exit status is 1 if any fix is wrong. After Ctrl-C the
-// tables have the frames located so far.
+// Prints four tables: tracked drives, predictions with errors, changes between two frames, and
+// wrong predictions by class. The exit status is 1 if any fix is wrong. After Ctrl-C the tables
+// contain the frames located so far.
 #include "tracked.hpp"
 
 #include <string>

@@ -1,4 +1,4 @@
-/// The parts of the table `tracked`, and the counts that all of them use.
+/// The parts of the table `tracked`, and their counts.
 #pragma once
 
 #include <algorithm>
@@ -45,13 +45,13 @@ inline double quantile(std::vector<double> values, double share) {
     return *at;
 }
 
-/// Results of one kind of predictions.
+/// Results for one kind of prediction.
 struct TrackedTally {
     std::uint64_t tracked = 0;        ///< right fixes that use the prediction
-    std::uint64_t afresh = 0;         ///< right fixes for which the prediction was refused
+    std::uint64_t afresh = 0;         ///< right fixes without the prediction, which was refused
     std::uint64_t none = 0;           ///< frames without a fix
     std::uint64_t tracked_wrong = 0;  ///< wrong fixes that use the prediction
-    std::uint64_t afresh_wrong = 0;   ///< wrong fixes for which the prediction was refused
+    std::uint64_t afresh_wrong = 0;   ///< wrong fixes without the prediction, which was refused
     std::vector<double> errors_um;    ///< position errors of right fixes that use the prediction
 
     /// Counts a fix. Without a true pose, every fix is wrong.
@@ -69,8 +69,8 @@ struct TrackedTally {
         }
     }
 
-    /// Returns two cells of a table, the median and the 95 % quantile of the errors; they are empty
-    /// if nothing was tracked.
+    /// Returns two cells of a table: the median and the 95 % quantile of the errors. The cells are
+    /// empty if no frame was tracked.
     std::string errors() const {
         if (errors_um.empty()) return " | ";
         return fmt::format("{:.2f} | {:.2f}", quantile(errors_um, 0.5), quantile(errors_um, 0.95));
@@ -92,7 +92,7 @@ struct TrackedTally {
     }
 };
 
-/// The tallies of all kinds of predictions, by their numbers.
+/// The tallies of all kinds of predictions, by index.
 struct TrackedTallies {
     std::vector<TrackedTally> kinds;
 
@@ -113,11 +113,11 @@ struct TrackedTallies {
     }
 };
 
-/// A table of a document, and the number of wrong fixes in it.
+/// A table of a document, and its number of wrong fixes.
 struct TrackedTable {
     std::string text;
     std::uint64_t wrong = 0;
-    bool is_complete = true;  ///< not interrupted
+    bool is_complete = true;  ///< false if interrupted
 };
 
 /// Returns the table of drives at several speeds and frame rates.
@@ -126,17 +126,18 @@ TrackedTable drives_table(const TableRun& run);
 /// Returns the table of nominal frames with predictions of increasing error.
 TrackedTable offsets_table(const TableRun& run, std::uint64_t frames);
 
-/// Returns the table of second frames that differ from the first, whose fix gives the prediction:
-/// other light, lifted, turned, put elsewhere, covered.
+/// Returns the table of changes between two frames: light, lifting, turning, another sheet, covered
+/// dots. The prediction is made from the fix of the first frame, before the change.
 TrackedTable changes_table(const TableRun& run, std::uint64_t frames);
 
-/// Returns the table of predictions of positions that are not in view; their number is distributed
-/// evenly over the classes.
+/// Returns the table of predictions of positions that are not in view. Each class gets the same
+/// number of predictions.
 TrackedTable wrong_predictions_table(const TableRun& run, std::uint64_t predictions);
 
-/// Returns the wrong position that shares the most of the `lines` columns from `place` on with it
-/// (or rows, if not `is_along_x`). It differs in the place in one secondary sequence along this
-/// axis and in the section. All lines of the other direction are the same.
+/// Returns the wrong position that shares the maximum number of lines with `place`, among the
+/// `lines` columns that begin at `place` (rows if not `is_along_x`). The wrong position differs in
+/// the place in one secondary sequence along this axis, and in the section. All lines of the other
+/// direction are equal.
 Place worst_alternative(CodeVariant code, const Place& place, bool is_along_x, int lines);
 
 }  // namespace dotpose::tables

@@ -9,7 +9,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// A drive at some speed, of whose 200 frames per second every n-th is taken.
+/// A drive at a constant speed. Uses every `every`-th of its 200 frames per second.
 struct DriveRate {
     double speed_mm_s;
     int every;
@@ -21,7 +21,7 @@ constexpr std::array kDrives{DriveRate{0, 1},   DriveRate{30, 1},  DriveRate{100
 /// Results of a drive.
 struct DriveTally {
     TrackedTally seen;
-    TrackedTally settled;  ///< frames from the third one on after the robot was put down
+    TrackedTally settled;  ///< frames after the robot was put down, without the first two
 };
 
 struct DriveTallies {

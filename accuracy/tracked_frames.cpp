@@ -43,7 +43,7 @@ Setup nominal(std::uint64_t seed) {
     return setup;
 }
 
-/// Locates a frame with predictions of increasing error. The first tally is that without a
+/// Locates a frame with predictions of increasing error. The first tally counts fixes without a
 /// prediction.
 void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     const GreyImage image = render(shot);
@@ -92,8 +92,8 @@ void turn(Shot& shot, const Shot&, Rng& rng) {
 /// The change between the first and the second frame.
 struct Change {
     const char* text;
-    /// Makes the first shot the second one; `other` is on another sheet. Null if the camera is
-    /// lifted.
+    /// Changes the first shot into the second shot. `other` is a shot of another sheet. Null if the
+    /// camera is lifted.
     void (*apply)(Shot& shot, const Shot& other, Rng& rng);
 };
 constexpr std::array kChanges{
@@ -121,7 +121,7 @@ void try_changes(const Setup& setup, std::uint64_t index, TrackedTallies& tallie
     Rng rng(first.seed, 78);
     for (std::size_t i = 0; i < kChanges.size(); ++i) {
         const bool is_lifted = kChanges[i].apply == nullptr;
-        // The noise of the second frame differs; the printing errors of the dots are the same.
+        // The second frame has different noise, but the same printing errors of the dots.
         Shot shot = first;
         shot.seed = rng.bits();
         if (!is_lifted) kChanges[i].apply(shot, other, rng);

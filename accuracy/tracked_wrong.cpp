@@ -21,8 +21,8 @@ std::int32_t between(std::uint32_t from, std::uint32_t to) {
     return static_cast<std::int32_t>(static_cast<std::int64_t>(to) - from);
 }
 
-/// Returns a prediction of the wrong position that shares the most of the 10 to 16 lines in the
-/// middle of the view, which shows 11 to 18 lines.
+/// Returns a prediction of the wrong position that shares the maximum number of lines with the true
+/// position, among the 10 to 16 lines in the middle of the view. The view shows 11 to 18 lines.
 template <bool is_along_x>
 Prediction worst(const LocatedPair& views, Rng& rng) {
     const Fix& fix = views.fix;
@@ -99,7 +99,7 @@ struct WrongClass {
     const char* name;
     Prediction (*predict)(const LocatedPair& views, Rng& rng);
     /// Draws an image of the same camera without a valid code, for which every prediction is wrong.
-    /// Null if the image is that of the shot.
+    /// Null if the class uses the image of the shot.
     GreyImage (*draw)(const Shot& shot, Rng& rng) = nullptr;
 };
 constexpr Prediction (*kRight)(const LocatedPair&, Rng&) = displaced<0, 0>;

@@ -1,11 +1,11 @@
-// Measures whether the covariance of a fix is right where the sheet is not one plane. Prints tables
-// of docs/integrity.md in Markdown, with N frames for each condition.
+// Compares the errors of fixes with their covariances on sheets that are not one plane. Prints
+// tables of docs/integrity.md in Markdown, with N frames for each condition.
 //
 //   dotpose_tables slips [--frames N] [--seed S] [--threads N]
 //   dotpose_tables seams [--frames N] [--seed S] [--threads N]
 //
-// Slips are halves of a sheet that are displaced against each other, and wrinkled paper. Seams are
-// two butted sheets, on frames that are rendered independently of the simulator.
+// Slips: the halves of the sheet are displaced relative to each other, or the paper is wrinkled.
+// Seams: two butted sheets, in frames that are rendered independently of the simulator.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,7 +41,7 @@ struct SheetFrames {
     Effort effort = Effort::twice;
 };
 
-/// Maximum error of a fix that agrees with its covariance, in standard deviations.
+/// Maximum error that agrees with the covariance of a fix, in standard deviations.
 constexpr double kMaxSigmas = 4;
 
 /// Returns the largest error of x, y and theta in units of their standard deviations.
@@ -70,8 +70,8 @@ void print_uneven_head() {
         "| wrong |\n|---|---|--:|--:|---|--:|---|---|---|--:|\n");
 }
 
-/// Locates that number of frames, prints their row and returns the number of wrong fixes. Throws
-/// Error if interrupted.
+/// Locates `frames` frames, prints their row and returns the number of wrong fixes. Throws Error if
+/// interrupted.
 int print_uneven_row(const SheetFrames& sheet, std::uint64_t frames, const TableRun& run) {
     FrameRun frame_run;
     frame_run.frames = static_cast<int>(frames);

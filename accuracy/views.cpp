@@ -1,13 +1,13 @@
-// Counts how many views of foreign sheets are located: views anywhere on images of pages, at any
-// angle, with the code given and detected. Prints the rows of a table of docs/integrity.md in
-// Markdown.
+// Counts the located views of sheets that dotpose did not print: views anywhere on images of pages,
+// at any angle, with the code given and with the code detected. Prints the rows of a table of
+// docs/integrity.md in Markdown.
 //
 //   dotpose_tables views PAGE... --code NAME [--dpi D] [--views N] [--seed S]
 //
-// PAGE is an image of a page at D dots per inch, or a text of symbols, one of u d l r for each dot,
-// row by row. The truth of a view is read in the page itself, with the code given, from many more
-// dots than the view has. There are N views of each size, from each page in turn. The exit status
-// is 1 if any fix is wrong.
+// PAGE is an image of a page at D dots per inch, or a text file of symbols, one of u d l r for each
+// dot, row by row. The true pose of a view is read from the page itself, with the code given, from
+// many more dots than are in the view. Locates N views of each size, from all pages in turn. The
+// exit status is 1 if any fix is wrong.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,9 +32,10 @@ namespace dotpose::tables {
 namespace {
 
 constexpr double kMmPerInch = 25.4;
-/// Side of the part of a page in which the truth of a view is read: of 1500 dots.
+/// Side of the part of a page from which the true pose of a view is read. The part contains about
+/// 1500 dots.
 constexpr double kSurroundings_grid = 40;
-/// Frames of one call after which its evidence of the code is expected to be complete.
+/// Number of frames of one run after which its evidence of the code is expected to be complete.
 constexpr int kFirstViews = 50;
 
 struct ScannedPage {
@@ -42,7 +43,7 @@ struct ScannedPage {
     double mm_per_px = 0;
 };
 
-/// Draws the dots of a text of symbols as solid discs.
+/// Draws one solid disc for each symbol of a text.
 GreyImage drawn(const std::vector<std::string>& rows, double dpi) {
     constexpr double kDisplacement_grid = 1.0 / 6;
     constexpr double kRadius_grid = 1.0 / 6;
@@ -96,7 +97,7 @@ struct View {
     Truth truth;
 };
 
-/// Returns what the page says at a point, none where its surroundings cannot be read.
+/// Returns the pose on the page at a point. None if the part around the point cannot be read.
 std::optional<Fix> pose_on_page(const ScannedPage& page, double x_px, double y_px,
                                 Locator& locator) {
     const int side_px =
@@ -144,13 +145,13 @@ std::optional<View> draw_view(const ScannedPage& page, int width_px, int height_
 /// Counts of the views of one size.
 struct ViewCounts {
     int views = 0;
-    int given = 0;      ///< located with the code given
-    int alone = 0;      ///< of these, located by itself without
-    int ambiguous = 0;  ///< of these, with the status ambiguous_code by itself
-    int later_given = 0;
-    int later = 0;  ///< of these, after the first views of a call, located by the call
+    int given = 0;        ///< located with the code given
+    int alone = 0;        ///< of `given`: located without a given code, each view alone
+    int ambiguous = 0;    ///< of `given`: status ambiguous_code without a given code
+    int later_given = 0;  ///< of `given`: after the first kFirstViews views
+    int later = 0;        ///< of `later_given`: located with the evidence of all earlier views
     int wrong = 0;
-    double max_against_log2 = 0;  ///< evidence of any view by itself against the code given
+    double max_against_log2 = 0;  ///< maximum evidence of one view alone against the given code
 };
 
 class ViewReader {
@@ -201,7 +202,7 @@ class ViewReader {
     CodeEvidence evidence_;
 };
 
-/// Reads `views` views of one size. Throws Error if interrupted.
+/// Locates `views` views of one size. Throws Error if interrupted.
 ViewCounts read_views(const std::vector<ScannedPage>& pages, int width_px, int height_px,
                       CodeVariant code, int views, std::uint64_t seed) {
     ViewCounts row;

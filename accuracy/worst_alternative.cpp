@@ -1,4 +1,4 @@
-// Finds the wrong position that resembles a true one most.
+// Finds the wrong position with the most lines in common with a true position.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// Position and section along an axis, and along the axis across it.
+/// Position and section along one axis, and along the axis across it (`cross`).
 struct Along {
     std::uint32_t position;
     std::uint8_t section;
@@ -22,8 +22,8 @@ struct Along {
 
 using Places = std::array<std::uint32_t, 4>;
 
-/// Returns how many lines have the same roll for two places of a secondary sequence. A difference
-/// that is common to all lines does not count, because it is another section.
+/// Returns the number of lines with equal rolls at two places of a secondary sequence. A constant
+/// roll offset does not count as a difference, because another section has the same effect.
 int shared_lines(const code::Secondary& sequence, std::uint32_t place, std::uint32_t other,
                  int lines) {
     std::array<int, kSections> counts{};
@@ -55,7 +55,7 @@ std::uint8_t section_of(int value) {
     return static_cast<std::uint8_t>((value % kSections + kSections) % kSections);
 }
 
-/// Returns the section in which most lines from `position` on have these rolls.
+/// Returns the section with the largest number of lines, from `position`, that have these rolls.
 std::uint8_t likest_section(CodeVariant code, std::uint32_t position, std::uint32_t cross,
                             const std::vector<std::uint8_t>& rolls) {
     std::vector<std::uint8_t> there(rolls.size());
@@ -78,8 +78,8 @@ Along worst(CodeVariant code, const Along& true_place, int lines) {
     Along alternative = true_place;
     alternative.position = code::position_at(basis, worst_places(basis, places, lines));
     alternative.section = likest_section(code, alternative.position, alternative.cross, rolls);
-    // The rolls of the lines across depend on the position along them. The section across is chosen
-    // so that they stay the same.
+    // The rolls of the crossing lines depend on the position along them. This choice of their
+    // section keeps the rolls unchanged.
     const auto residue = [](std::uint32_t position) {
         return static_cast<int>(position % static_cast<std::uint32_t>(kSections));
     };

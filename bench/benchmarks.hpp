@@ -101,7 +101,7 @@ std::string tilt_table(const std::vector<TiltTimes>& times);
 struct HardTimes {
     int frames = 0;
     int located = 0;
-    int by_first_attempt = 0;  ///< number of frames whose fix is that of the first attempt
+    int by_first_attempt = 0;  ///< number of frames with a fix of the first attempt
     double median_ms = 0;
     double p99_ms = 0;
     double longest_ms = 0;

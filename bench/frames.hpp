@@ -12,8 +12,8 @@ namespace dotpose::bench {
 /// Seed that is not used by any test or for tuning.
 inline constexpr std::uint64_t kSeed = 606;
 
-/// Returns nominal frames of a camera that the first attempt locates; more frames if they are
-/// small. The frames are rendered at the first call.
+/// Returns nominal frames of a camera that the first attempt locates. Returns more frames of small
+/// cameras. The frames are rendered at the first call.
 const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera);
 
 /// Returns true if the fix has a pose and the pose is correct.
@@ -31,7 +31,7 @@ std::vector<KnownFrame> render_frames(int count, const FrameSource& frame_at);
 /// Results of frames that were located individually.
 struct TimedFrames {
     int located = 0;
-    int by_first_attempt = 0;        ///< number of frames whose fix is that of the first attempt
+    int by_first_attempt = 0;        ///< number of frames with a fix of the first attempt
     std::vector<double> fastest_us;  ///< time of each frame in its fastest pass
 };
 /// Locates all frames `passes` times with `locate`. Throws Error if a fix is wrong.

@@ -1,4 +1,5 @@
-// Times hard frames individually. Most of them need the second attempt, whose time varies greatly.
+// Times hard frames individually. Most hard frames need the second attempt, whose time varies
+// greatly.
 #include <algorithm>
 #include <memory>
 

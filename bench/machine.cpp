@@ -1,4 +1,4 @@
-// Describes the machine on which a run was measured.
+// Describes the machine on which the benchmarks run.
 #include <array>
 #include <cstdlib>
 #include <fstream>

@@ -50,7 +50,7 @@ struct Located {
     static std::size_t size(int count) { return static_cast<std::size_t>(count); }
 };
 
-/// A function that runs a stage and returns whether its result is the same as in the pipeline.
+/// A function that runs a stage. Returns true if the result is the same as in the pipeline.
 using Stage = bool (*)(Located&);
 
 bool measure_light(Located& l) {

@@ -1,8 +1,8 @@
 include(CMakePackageConfigHelpers)
 
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dotpose)
-# The prefix in pkg-config files is relative, so it remains correct after `cmake --install --prefix`
-# or if the tree is moved.
+# The prefix in pkg-config files is relative. It remains correct after `cmake --install --prefix`
+# and if the tree is moved.
 file(RELATIVE_PATH DOTPOSE_PREFIX_FROM_PC
      /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 string(REGEX REPLACE "/$" "" DOTPOSE_PREFIX_FROM_PC "${DOTPOSE_PREFIX_FROM_PC}")
@@ -29,8 +29,8 @@ if(NOT BUILD_SHARED_LIBS)
     string(APPEND DOTPOSE_PC_TOOLS_LIBS " -lceres -lglog -pthread")
 endif()
 
-# Headers whose library is not built are not installed. A program that includes them would only fail
-# at link time.
+# Headers whose library is not built are not installed. Otherwise, a program that includes such a
+# header would fail only at link time.
 set(without)
 if(NOT DOTPOSE_HAS_FILES)
     list(APPEND without PATTERN files EXCLUDE)

@@ -13,8 +13,8 @@ set(firmware ${CMAKE_CURRENT_LIST_DIR}/../firmware/mips32r2)
 set(machine "-march=m14k -mmicromips -msoft-float -mno-abicalls -fno-pic -fno-pie -G0")
 set(CMAKE_ASM_FLAGS_INIT "${machine}")
 # The processor executes one instruction per cycle, in order. Scheduling would only increase the
-# register pressure. GCC's cost model of the 4Kc is closer to this processor than that of the M14K.
-# Divisors are known to be nonzero.
+# register pressure. GCC's cost model of the 4Kc fits this processor better than the cost model of
+# the M14K. Divisors are known to be nonzero.
 set(code "-mtune=4kc -fno-schedule-insns -mno-check-zero-division")
 set(CMAKE_CXX_FLAGS_INIT "${machine} ${code} -isystem ${firmware}/include -Wa,${firmware}/stores.s")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -no-pie")

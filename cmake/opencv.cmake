@@ -1,5 +1,5 @@
-# Uses only the parts of OpenCV that live use needs. Only Debian's package of the whole of OpenCV
-# contains the CMake files, and it is ten times as large.
+# Uses only the parts of OpenCV that live use needs. The CMake files are only in Debian's package of
+# the complete OpenCV, which is ten times larger.
 find_path(DOTPOSE_OPENCV_INCLUDE opencv2/videoio.hpp PATH_SUFFIXES opencv4)
 set(libraries)
 foreach(part IN ITEMS videoio highgui imgproc core)

@@ -10,9 +10,9 @@ set(DOTPOSE_PARTS ${default} CACHE STRING
     "Parts to build: CORE (none but the core), FOUND (those whose libraries are found), ALL (a missing library is an error)")
 set_property(CACHE DOTPOSE_PARTS PROPERTY STRINGS CORE FOUND ALL)
 
-# dotpose_dependency(TARGET DEBIAN package (PACKAGE name | MODULES module... | FILE file)): declares a library
-# that parts may need. The library is found by find_package, by pkg-config, or by a file of cmake/ that
-# defines the target.
+# dotpose_dependency(TARGET DEBIAN package (PACKAGE name | MODULES module... | FILE file)): declares
+# a library that parts may need, and how to find it: by find_package, by pkg-config, or by a file of
+# cmake/ that defines the target.
 macro(dotpose_dependency target)
     set(dotpose_how_${target} ${ARGN})
 endmacro()

@@ -1,5 +1,5 @@
 if(DOTPOSE_SANITIZE)
-    # No recovery, because a report that does not fail the test would go unnoticed.
+    # Disables recovery, because a report that does not fail the test would go unnoticed.
     add_compile_options(-fsanitize=${DOTPOSE_SANITIZE} -fno-sanitize-recover=all
                         -fno-omit-frame-pointer)
     # fuzzer-no-link only instruments. Each fuzz target links libFuzzer's main itself.

@@ -25,8 +25,7 @@ function(dotpose_layer name)
         target_link_libraries(${target} PUBLIC $<TARGET_NAME_IF_EXISTS:${used}>)
     endforeach()
     if(arg_PURE)
-        # With a unity build, changing one source would recompile several. Without, it takes
-        # seconds.
+        # A unity build would recompile several sources after a change of one source.
         set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
         target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti -fno-threadsafe-statics
                                                  -ffunction-sections -fdata-sections)
@@ -86,8 +85,8 @@ function(dotpose_set_up_library name)
     set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
 endfunction()
 
-# dotpose_sources(RESULT): for functions with the arguments SOURCES and EXCEPT. Sets RESULT to SOURCES
-# or, if they are not given, to all sources of the directory except those in EXCEPT.
+# dotpose_sources(RESULT): for functions with the arguments SOURCES and EXCEPT. Sets RESULT to
+# SOURCES or, without SOURCES, to all sources of the directory that are not in EXCEPT.
 macro(dotpose_sources result)
     set(${result} ${arg_SOURCES})
     if(NOT ${result})
@@ -98,9 +97,9 @@ macro(dotpose_sources result)
 endmacro()
 
 # dotpose_program(NAME [LIGHT] [SOURCES file...] [EXCEPT file...] [LIBRARIES part...] [USES target...]
-# [HEADERS_OF target]): defines a program from the given sources, or from all sources of the directory except
-# those in EXCEPT. LIGHT: see dotpose_compile_light. LIBRARIES: see dotpose_use_internals. HEADERS_OF: see
-# dotpose_share_headers.
+# [HEADERS_OF target]): defines a program from the given sources, or from all sources of the
+# directory that are not in EXCEPT. LIGHT: see dotpose_compile_light. LIBRARIES: see
+# dotpose_use_internals. HEADERS_OF: see dotpose_share_headers.
 function(dotpose_program name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT" "HEADERS_OF" "SOURCES;EXCEPT;LIBRARIES;USES")
     dotpose_sources(sources)
@@ -116,9 +115,9 @@ function(dotpose_program name)
 endfunction()
 
 # dotpose_objects(NAME [SOURCES file...] [EXCEPT file...] [USES target...] [HEADERS_OF target]): defines
-# an object library of sources that several programs share, compiled once with dotpose_compile_light. A
-# program lists all object libraries that it needs, including those that another one uses. HEADERS_OF:
-# see dotpose_share_headers.
+# an object library of sources that several programs share, compiled once with
+# dotpose_compile_light. A program lists all object libraries that it needs, directly or indirectly.
+# HEADERS_OF: see dotpose_share_headers.
 function(dotpose_objects name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADERS_OF" "SOURCES;EXCEPT;USES")
     dotpose_sources(sources)
@@ -166,7 +165,8 @@ function(dotpose_compile_light target)
 endfunction()
 
 # dotpose_use_internals(TARGET [LIBRARY...]): lets tests, benchmarks and the tool include headers of src/ as
-# well as include/, and links the libraries of the given parts; without arguments, those of all parts.
+# well as include/, and links the libraries of the given parts. Without arguments, links the
+# libraries of all parts.
 function(dotpose_use_internals name)
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/include
                                                ${PROJECT_SOURCE_DIR}/src)
@@ -181,7 +181,7 @@ function(dotpose_use_internals name)
 endfunction()
 
 # dotpose_allow_promotion(TARGET): disables the warning about promotions to double, which are harmless
-# outside of the core. GCC warns of unintended ones only, clang of all.
+# outside of the core. GCC warns only of unintended promotions, and clang of all promotions.
 function(dotpose_allow_promotion target)
     if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
         target_compile_options(${target} PRIVATE -Wno-double-promotion)

@@ -27,7 +27,7 @@ Fix PoseSender::locate(const board::Frame& frame) {
     Status begun = begin(frame);
     // An unusable prediction, for example after the robot was lifted, does not cost a frame.
     if (begun == Status::not_tracked) begun = locator_.begin(frame.width_px, frame.height_px);
-    // All rows are read, also of a refused frame, to stay synchronised with the camera.
+    // All rows are read, even if the frame was refused, to stay synchronised with the camera.
     for (int row = 0; row < frame.height_px; ++row) {
         const std::uint8_t* pixels = board::next_row();
         if (begun == Status::ok) locator_.push_row(pixels);

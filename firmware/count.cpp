@@ -4,9 +4,9 @@
 //
 // The plugin counts the instructions between the markers `resume` and `pause` of markers.hpp,
 // without the markers. The file of stages has lines "ADDRESS NAME" with hexadecimal addresses. The
-// instruction at an address begins the named stage, which lasts until the next stage begins. From
-// `resume` to the first stage, the stage is "other". The output has one line with the names of the
-// stages, and one line of counts for each marker `end_frame`.
+// instruction at an address begins the named stage, which lasts until the next stage begins.
+// Instructions between `resume` and the first stage count as the stage "other". The output has one
+// line with the names of the stages, and one line of counts for each marker `end_frame`.
 #include <algorithm>
 #include <array>
 #include <cstddef>

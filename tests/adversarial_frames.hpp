@@ -29,7 +29,7 @@ enum class Adversary : std::uint8_t {
     cut,         ///< two places of the pattern joined at a cut
     overlay,     ///< two patterns printed on top of each other
     mirrored,    ///< the mirrored pattern
-    replaced,    ///< 30 to 60 % of the symbols replaced by random ones
+    replaced,    ///< 30 to 60 % of the symbols replaced by random symbols
     flipped,     ///< 5 to 45 % of the bits flipped
     half_empty,  ///< a pattern printed on one side of the frame only
     few_lines,   ///< 5 to 8 columns or rows on blank paper
@@ -88,7 +88,8 @@ inline bool agrees(const Fix& fix, const Answer& answer) {
 }
 
 /// Returns true if the code of the options at the fix agrees with the printed code at the answer in
-/// at least three quarters of the surrounding bits. Nothing in the frame then contradicts the fix.
+/// at least three quarters of the surrounding bits. In this case, nothing in the frame contradicts
+/// the fix.
 inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
     if (frame.answers.empty() || frame.options.code == frame.printed.code) return false;
     const Answer& answer = frame.answers.front();
@@ -122,8 +123,8 @@ inline int reach_cells(const Shot& shot) {
     return static_cast<int>(cells / 2);
 }
 
-/// The pattern up to a border, and beyond it a place `other` cells away, in the same or another
-/// section.
+/// The pattern up to a border. Beyond the border, the pattern of a place `other` cells away, in the
+/// same or another section.
 struct Joint {
     bool is_vertical;
     std::uint32_t border;
@@ -203,7 +204,7 @@ inline void render_part(Adversary adversary, Shot shot, Rng& rng, AdversarialFra
     const int reach = reach_cells(shot);
     const bool has_few = adversary == Adversary::few_lines;
     std::uint32_t lines = has_few ? 5 + rng.below(4) : kFar;
-    // A few lines may be anywhere in view. Half of a pattern begins near the middle.
+    // A few lines may be anywhere in view. A half pattern begins near the middle.
     const int spread = has_few ? reach : reach / 3;
     const auto offset = static_cast<int>(rng.below(static_cast<unsigned>(2 * spread + 1))) - spread;
     const bool is_vertical = rng.below(2) == 0;

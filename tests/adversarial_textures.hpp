@@ -45,8 +45,8 @@ inline GreyImage noise(const Shot& shot, Rng& rng) {
     });
 }
 
-/// sin and cos of a + k * i for i = 0, 1, ... along one axis. Together with those of the other
-/// axis, they determine a plane wave.
+/// sin and cos of a + k * i for i = 0, 1, ... along one axis. The sines and cosines of both axes
+/// determine a plane wave.
 struct Phases {
     std::vector<double> sin, cos;
 

@@ -17,7 +17,7 @@ struct AlikeDots {
     double angle_deg = 0;  ///< at 0, 45 and 90 degrees, all dots have the same sub-pixel phase
 };
 
-/// Returns the camera: 188 x 120 px, or 640 x 480 px from 16 px per spacing on.
+/// Returns the camera: 188 x 120 px, or 640 x 480 px for at least 16 px per spacing.
 inline CameraModel camera_of(const AlikeDots& dots) {
     CameraModel camera;
     if (dots.spacing_px >= 16) {

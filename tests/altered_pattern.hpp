@@ -12,7 +12,7 @@ inline Vec2 displacement_of(Symbol symbol) {
     return {static_cast<double>(dx(symbol)), static_cast<double>(dy(symbol))};
 }
 
-/// Returns the random numbers of a cell. They are the same in every call.
+/// Returns the random numbers of a cell, which are the same in every call.
 inline Rng rng_of(std::uint64_t seed, Cell cell) {
     return Rng(seed, (std::uint64_t{cell.x} << 32) | cell.y);
 }

@@ -30,7 +30,7 @@ struct DriveState {
     bool has_graphics = false;
 };
 
-/// Times of the events of the drive, in s. All of them are at whole frames.
+/// Times of the events of the drive, in s. All events are at whole frames.
 struct DrivePlan {
     double start = 0.8;  ///< the robot rests before this time
     double lift = 2.0;

@@ -1,1 +1,1 @@
-// Source for which the headers shared by all tests are precompiled.
+// The headers shared by all tests are precompiled for this source.

@@ -1,5 +1,5 @@
 /// Checks JSON against a JSON Schema (draft 2020-12), with the keywords used in docs/schema. A
-/// schema with any other keyword throws an exception, so that no part of it remains unchecked.
+/// schema with any other keyword throws an exception, to leave no part of the schema unchecked.
 #pragma once
 
 #include <algorithm>
@@ -98,7 +98,7 @@ class JsonSchema {
         if (keyword == "type") return has_type(rule, value);
         if (keyword == "const") return value == rule;
         if (keyword == "enum") return std::ranges::find(rule, value) != rule.end();
-        // Other keywords do not apply to values of another type.
+        // The remaining keywords apply only to values of their type.
         const bool is_bound =
             keyword == "minimum" || keyword == "maximum" || keyword == "exclusiveMinimum";
         if (is_bound && !value.is_number()) return true;

@@ -44,7 +44,7 @@ inline Vec2 direction_of(const Shot& shot) {
 /// Returns the fraction of the frame that is covered by dirt and graphics.
 inline double covered_share(Shot shot) {
     constexpr double kPaper = 255;
-    // Half-way from the paper to the lightest dirt.
+    // The threshold is half-way between the paper and the lightest dirt.
     constexpr double kDark = 0.8 * kPaper;
     const Imperfections worse = shot.imperfections;
     shot.imperfections = {};
@@ -247,15 +247,15 @@ inline void add_partial(std::vector<Limit>& limits) {
         PartialView islands;
         islands.islands = 3;
         part("dots on 15 to 45 % of the area, the rest paper", {});
-        // At 20 px, some strips of seven rows are not certain enough.
+        // At 20 px, the certainty of some strips of seven rows is too low.
         limits.back().is_held = spacing_px < 20;
         part("the same, the rest a dark table", on_table);
         part("three islands of 60 dots and more", islands);
     }
 }
 
-/// Returns the image of a sheet with inverted contrast: its dots are as light as the paper of
-/// `shot`, and its paper is as dark as the ink.
+/// Returns the image of a sheet with inverted contrast: the dots have the grey level of the paper
+/// of `shot`, and the paper has the grey level of the ink.
 inline GreyImage white_on_black(const Shot& shot) {
     Shot blank = shot;
     blank.page.columns = blank.page.rows = 1;  // a single dot, far outside of the view

@@ -19,11 +19,11 @@ struct CalibrationStatus {
     explicit CalibrationStatus(const CalibrationCoverage& shown) : coverage(shown) {}
 
     CalibrationCoverage coverage;
-    std::vector<CalibrationNeed> needs;  ///< what is still missing, most urgent first
+    std::vector<CalibrationNeed> needs;  ///< unmet requirements, most urgent first
     /// Standard deviation at the corner, from the newest calibration.
     std::optional<double> corner_sigma_px;
     std::optional<double> theta_rad;  ///< direction of the newest frame, if it was located
-    std::string now;                  ///< what happened to the newest frame
+    std::string now;                  ///< result of the newest frame
     std::string remark;               ///< further remark; may be empty
     bool is_taken = false;            ///< true if the newest frame was taken
 };

@@ -29,7 +29,7 @@ class FailureHint {
         std::int64_t time_us = 0;
         bool has_failed = false;
     };
-    /// The frames that failed with one status: their number and a copy of one of them.
+    /// The frames that failed with one status: their number, and a copy of one frame.
     struct Failures {
         std::int64_t count = 0;
         Record record;

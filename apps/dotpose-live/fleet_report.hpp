@@ -10,9 +10,9 @@
 
 namespace dotpose::cli {
 
-/// Whether a fleet receives all states of its robots or shares them with other fleets. If the
-/// states are shared, a gap in the numbers does not mean a lost state, so missing states are not
-/// reported.
+/// Recipients of the states: one fleet receives all states of its robots, or several fleets share
+/// the states. If the states are shared, a gap in the numbers does not mean a lost state, so
+/// missing states are not reported.
 enum class Delivery { all, shared };
 
 /// Returns a table of the robots as text, with a header line and a summary line.

@@ -54,8 +54,8 @@ void FleetView::draw(const FleetState& fleet) {
     write_file(map_path_, draw::draw_map(map_of(fleet, map_shown(fleet), sheets_)));
 }
 
-/// Returns the name of the map to draw: the world of the sheets, or without sheets the plane of the
-/// first robot that has one.
+/// Returns the name of the map to draw: the world of the sheets or, without sheets, the plane of
+/// the first robot with a plane.
 std::string FleetView::map_shown(const FleetState& fleet) const {
     if (!map_id_.empty()) return map_id_;
     for (const auto& [name, robot] : fleet.robots()) {

@@ -14,7 +14,7 @@ namespace dotpose::cli {
 
 struct SaveOptions {
     std::string folder;  ///< empty: frames are not saved
-    /// Saves one of this many frames; 0: saves frames that show a new place.
+    /// Saves every n-th frame. 0: saves frames that show a new place.
     std::int64_t every = 0;
     ImageEncoding format = ImageEncoding::png;
 };

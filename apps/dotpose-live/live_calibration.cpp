@@ -244,10 +244,10 @@ std::optional<Camera> LiveCalibration::lens() const {
     return job_.newest() ? std::optional(job_.newest()->camera) : std::nullopt;
 }
 
-/// Returns true if another calibration would improve on the newest one. Each calibration takes
-/// longer than the previous one, so the next one waits for twice as many frames. If only the lens
-/// accuracy is missing, the number of frames that it needs may be smaller: deviations fall with the
-/// root of the number of frames.
+/// Returns true if another calibration would improve on the newest calibration. Each calibration
+/// takes longer than the previous calibration, so the next calibration waits for twice the number
+/// of frames. If only the accuracy of the lens is insufficient, fewer frames may suffice: standard
+/// deviations are inversely proportional to the root of the number of frames.
 bool LiveCalibration::is_worth_calibrating() const {
     if (taken_.size() < std::size_t{kWantedFrames} || taken_.size() == job_.frames()) return false;
     const std::vector<CalibrationNeed> missing = needs();
@@ -300,7 +300,7 @@ void LiveCalibration::finish_job() {
     }
 }
 
-/// Describes what is missing in the frames.
+/// Describes the requirements that the frames do not meet.
 std::string LiveCalibration::shortage() const {
     std::string text = fmt::format(
         "not enough was seen, and no file was written: of {} frames, {} were located and {} taken "

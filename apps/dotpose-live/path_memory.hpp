@@ -28,7 +28,7 @@ class PathMemory {
     static constexpr std::size_t kMax = 16384;
 
     std::vector<video::PathMark> marks_;
-    std::int64_t stride_ = 1;  ///< one of this many tracked frames is stored
+    std::int64_t stride_ = 1;  ///< step between stored frames, in tracked frames
     std::int64_t frames_ = 0;
     bool is_jump_ = true;
 };

@@ -16,7 +16,7 @@ namespace dotpose::cli {
 
 struct RobotOutputOptions {
     std::string mcap;         ///< MCAP file to record; empty for none
-    bool has_images = false;  ///< true if the frames are recorded, too
+    bool has_images = false;  ///< true to record the frames as well
     ImageEncoding image_format = ImageEncoding::png;
     std::optional<dds::PublisherOptions> dds;  ///< none if nothing is published over DDS
     std::string robot;

@@ -67,7 +67,7 @@ std::optional<RobotState> parse_state(std::string_view json);
 struct RobotConnection {
     std::string robot;            ///< name of the sender; empty in a parsed message
     std::uint64_t header_id = 0;  ///< number of the connection message, counted by the robot
-    /// As in RobotState; for a last will, the time at which the robot connected.
+    /// As in RobotState. In a last will, the time at which the robot connected.
     std::int64_t sent_us = 0;
     publish::Presence presence = publish::Presence::online;
 };

@@ -125,7 +125,7 @@ bool WatchOutputs::take(const capture::Frame& frame, const Reading& reading, std
     return !screen_.is_on() || show(frame, reading, dropped);
 }
 
-/// Writes a line. If the reader of the lines closed the output, the other outputs continue.
+/// Writes a line. If the reader of the lines has closed the output, the remaining outputs continue.
 void WatchOutputs::write_line(const std::string& line) {
     if (!lines_) return;
     try {

@@ -150,7 +150,7 @@ void keep_mount(const Camera& from, Camera& to) {
     }
 }
 
-/// Calibrates the lens, then the mount, each only if frames for it are given. Returns a report.
+/// Calibrates the lens and then the mount. Skips a calibration without frames. Returns a report.
 std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
     std::string report;
     std::optional<Camera> camera = arguments.camera.camera;

@@ -13,8 +13,8 @@ namespace dotpose::cli {
 inline constexpr const char* kMirrored =
     "the frames show the pattern mirrored: use --flip, which is then written into the camera file";
 
-/// All images that are named, and at most 50 frames of each video, camera or raw stream. The 50
-/// frames show different places. Images stay on disk; the chosen frames are kept in memory.
+/// All named images, and at most 50 frames of each video, camera or raw stream. These frames show
+/// different places. Images stay on disk; the chosen frames are kept in memory.
 class CalibrationFrames {
   public:
     /// Reads videos and raw frames to their end, and a camera until 50 places were seen. Ctrl-C

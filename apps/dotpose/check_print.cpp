@@ -125,7 +125,8 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
     for (const PrintField& field : check.fields) {
         // A sheet may be visible in several parts; the first one is the largest.
         if (!field.scale || !field.sheet || !fitted.insert(*field.sheet).second) continue;
-        // Read the entry again, because another process may have changed it during the check.
+        // Reads the entry again, because another process may have changed the entry during the
+        // check.
         const std::string& name = sheets[*field.sheet].name;
         const auto found = std::ranges::find(file.sheets(), name, &SheetEntry::name);
         if (found == file.sheets().end()) {

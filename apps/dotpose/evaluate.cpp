@@ -54,7 +54,7 @@ const char* name(PaperProtocol) {
     return "paper";
 }
 
-/// Whether the poses in truth.csv are poses of the image centre or of the robot.
+/// Reference of the poses in truth.csv: the image centre or the robot.
 enum class TruthOf : std::uint8_t { image, robot };
 constexpr std::array kTruths = {TruthOf::image, TruthOf::robot};
 const char* name(TruthOf truth) {
@@ -294,8 +294,8 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
 int run(EvaluateArguments& arguments) {
     const bool writes = arguments.sweep || arguments.protocol;
     const bool has_sources = arguments.sources.is_given();
-    // --preset selects what to evaluate only without --sweep and --protocol; with them, it sets
-    // their conditions.
+    // Without --sweep and --protocol, --preset selects the frames to evaluate. With either option,
+    // --preset sets the conditions of the sweep or of the protocol.
     const int jobs = static_cast<int>(has_sources) + static_cast<int>(arguments.sweep.has_value()) +
                      static_cast<int>(arguments.protocol) +
                      static_cast<int>(arguments.preset && !writes);

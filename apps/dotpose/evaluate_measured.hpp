@@ -18,7 +18,7 @@ namespace dotpose::cli {
 /// The options of an evaluation with a sheet file.
 struct MeasuredArguments {
     std::string sheets;      ///< sheet file; empty: poses are in the pattern frame
-    bool is_aligned = true;  ///< whether to align the found places to the true places
+    bool is_aligned = true;  ///< true to align the found places to the true places
     bool alignment_given = false;
     std::string residuals;  ///< CSV file with the error of each frame; empty for none
     std::string draw;       ///< folder for the figures; empty for none

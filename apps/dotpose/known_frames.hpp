@@ -13,7 +13,7 @@ namespace dotpose::cli {
 
 struct KnownFrames {
     std::vector<TruthRow> rows;  ///< true pose of each frame; `file` is its path or name
-    /// Returns a frame; if it cannot be read, its `problem` says why.
+    /// Returns a frame. If the frame cannot be read, its `problem` contains the reason.
     dotpose::FrameSource frame_at;
     /// Must be called after the last frame. Warns on standard error if there are more frames than
     /// poses.

@@ -1,5 +1,5 @@
-// Starts `dotpose-live` for the commands that only it implements, and for cameras and videos in all
-// commands that read frames.
+// Starts `dotpose-live` for commands that only dotpose-live implements, and for cameras and videos
+// in all commands that read frames.
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>

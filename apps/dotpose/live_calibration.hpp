@@ -15,10 +15,10 @@ struct LiveCalibrationOptions {
     std::string save;
 };
 
-/// Takes frames while the user moves the camera, shows what is still missing, and calibrates the
+/// Takes frames while the user moves the camera, shows the missing requirements, and calibrates the
 /// lens. Ends when the frames suffice, the source ends or the user stops it. In `dotpose`, replaces
 /// this process with dotpose-live. Throws Error if the source fails, or if the frames are too few
-/// for the verdict `good`; the message then says what was missing.
+/// for the verdict `good`. The message then names the missing requirements.
 LensCalibration calibrate_live(const SourceArguments& arguments, Sources& sources,
                                const CalibrateOptions& calibration,
                                const LiveCalibrationOptions& options);

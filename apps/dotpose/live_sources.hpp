@@ -17,12 +17,12 @@ void hand_over();
 /// Like `hand_over`, but returns if dotpose-live is missing.
 void hand_over_if_possible();
 
-/// Opens a camera or video. In `dotpose`, throws Error, which says what is missing.
+/// Opens a camera or video. In `dotpose`, throws Error, which names the missing program.
 std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
                                                 const capture::SourceOptions& options);
 
-/// Creates a video: H.264 if the name ends in .mp4, Motion JPEG if it ends in .avi. In `dotpose`,
-/// throws Error, which says what is missing.
+/// Creates a video: H.264 if the name ends in .mp4, Motion JPEG if the name ends in .avi. In
+/// `dotpose`, throws Error, which names the missing program.
 std::unique_ptr<video::GreyVideo> create_video(const std::string& path, double fps);
 
 }  // namespace dotpose::cli

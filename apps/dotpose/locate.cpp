@@ -168,8 +168,8 @@ class LocateRun {
           frames_(sources.open(options_of(arguments))),
           images_(sources.number_of_images()),
           progress_("locating", arguments.lines.out) {
-        // While the tool waits for a name from a pipe, a signal must end it immediately. No line is
-        // lost, because each line is flushed.
+        // While the tool waits for a name from a pipe, a signal must end the tool immediately. No
+        // line is lost, because each line is flushed.
         if (!sources.has_pipe()) catch_interrupts();
     }
 

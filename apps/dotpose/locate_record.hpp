@@ -18,9 +18,9 @@ struct Record {
     Fix fix;
     CodeReading reading;         ///< code and alternative places; `fix` is at the image centre
     bool code_is_given = false;  ///< true if the user or the sheets determine the code
-    double spacing_mm = 0;       ///< NaN if unknown; there are no fields in mm then
+    double spacing_mm = 0;       ///< NaN if unknown, in which case there are no fields in mm
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();  ///< as in Located
-    bool has_sheets = false;          ///< true if there is a sheet file; its fields are then output
+    bool has_sheets = false;          ///< true if the record has the fields of a sheet file
     std::optional<SheetPlace> place;  ///< the place on a sheet
     double elapsed_us = 0;            ///< time that `dotpose::locate` took
     std::string advice;               ///< advice if there is no fix; may be empty

@@ -172,8 +172,9 @@ double second_difference(ImageView image, int step_px) {
 }
 
 /// Returns true if the image has details, but only large ones. Compares the second difference over
-/// 2 px with the larger of those over 8 and 16 px. The ratio is at least 1/6 in a picture in focus,
-/// even at a tilt of 70 degrees, and less than 1/20 if the dots are too blurred to be read.
+/// 2 px with the larger of the second differences over 8 and 16 px. The ratio is at least 1/6 in a
+/// picture in focus, even at a tilt of 70 degrees, and less than 1/20 if the dots are too blurred
+/// to be read.
 bool is_out_of_focus(ImageView image) {
     constexpr double kMinDetail = 0.4;
     constexpr double kFocused = 0.06;

@@ -74,7 +74,7 @@ bool has_resolution(PrintFormat format) {
 }
 
 /// Returns the default margin in mm. The labels and rulers of a PDF need a wider margin than the
-/// one that printers cannot print.
+/// unprintable margin of a printer.
 double default_margin_mm(PrintFormat format, const Paper& paper) {
     constexpr double kWithLabels_mm = 10;
     constexpr double kSmallPage_mm = 60;

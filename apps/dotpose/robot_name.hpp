@@ -7,7 +7,7 @@ namespace dotpose::cli {
 
 class Command;
 
-/// Adds --robot NAME. Rejects names that are not valid in topics.
+/// Adds --robot NAME, which rejects names that are not valid in topics.
 void add_robot_option(Command& command, std::string& robot, const std::string& help);
 
 /// Adds --frame-prefix PREFIX. ros::with_prefix rejects prefixes that are not valid in ROS.

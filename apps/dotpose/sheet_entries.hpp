@@ -43,8 +43,8 @@ class SheetEntryArguments {
     /// Appends --origin to `command`, for a command that prints the dots of one page.
     static std::string with_origin(const std::string& command, Cell origin);
 
-    /// Returns the options that such a command must not contain: the page already has its region,
-    /// and the sheet file would reject the name.
+    /// Returns the options that a command for printing the dots of a page again must not contain:
+    /// the page already has its region, and the sheet file would reject the name.
     static std::set<std::string> options_of_entering();
 
     /// Marks the reserved pages as written to `out`. Throws Error if the file cannot be changed.

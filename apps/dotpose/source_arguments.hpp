@@ -26,7 +26,7 @@ struct SourceArguments {
 
     bool is_given() const { return !names.empty() || !list.empty(); }
 
-    /// Returns how many times standard input is named, as the list or for raw frames.
+    /// Returns the number of times that standard input is named, as the list or for raw frames.
     std::int64_t reads_of_standard_input() const;
 
     /// Adds the sources, --list and the options of cameras, videos and raw frames.

@@ -10,8 +10,8 @@ namespace dotpose::cli {
 
 using AddCommands = std::function<void(Command& app, int& exit_code)>;
 
-/// Parses the command line with the subcommands that `add` registers, and runs the named one.
-/// Converts exceptions into a message and an exit status.
+/// Parses the command line with the subcommands that `add` registers, and runs the named
+/// subcommand. Converts exceptions into a message and an exit status.
 int tool_main(int argc, char** argv, const AddCommands& add) noexcept;
 
 }  // namespace dotpose::cli

@@ -132,8 +132,8 @@ void set_up() {
 /// Stops the transfer of the rest of the previous frame.
 void stop() {
     pio_sm_set_enabled(pio0, machine, false);
-    // An aborted channel could start the other one. Both channels are therefore aborted together,
-    // and twice.
+    // An aborted channel could start the other channel. The two channels are therefore aborted
+    // together, and twice.
     const std::uint32_t both = 1U << channels[0] | 1U << channels[1];
     for (int i = 0; i < 2; ++i) {
         dma_hw->abort = both;
@@ -168,8 +168,8 @@ Frame start_frame(std::int64_t not_before_us) {
     pio_sm_set_enabled(pio0, machine, true);
     for (int row = 0; row < kTop; ++row)
         next_row();
-    // A row arrives at about the end of its exposure. The middle row of the frame is therefore half
-    // the height of the frame later.
+    // A row arrives at about the end of its exposure. The middle row of the frame therefore arrives
+    // half the height of the frame later.
     constexpr std::int64_t kRow_us = 66'667 / 510;
     return {kWidth_px, kHeight_px,
             static_cast<std::int64_t>(time_us_64()) + kRow_us * kHeight_px / 2};

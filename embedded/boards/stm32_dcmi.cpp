@@ -32,8 +32,8 @@ volatile std::uint32_t rows_filled = 0;  // rows of the frame, counted by the in
 volatile bool has_begun = false;
 std::uint32_t rows_read = 0;
 
-/// Returns a 64-bit clock in µs. TIM2 wraps after 71 minutes; the clock stays correct if it is read
-/// more often than that.
+/// Returns a 64-bit clock in µs. TIM2 wraps after 71 minutes, so the clock must be read more
+/// frequently.
 std::int64_t now_us() {
     static std::uint32_t last = 0;
     static std::int64_t total_us = 0;

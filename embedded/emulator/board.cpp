@@ -2,7 +2,7 @@
 // camera is replaced by a file of frames, which the emulator opens for the program.
 //
 // The file is a sequence of binary PGM images (P5, 8 bits, no comments). The simulated camera
-// delivers one frame every 20 ms, whether or not the program reads it.
+// delivers one frame every 20 ms, even if the program does not read the frame.
 #include "board.hpp"
 
 #include <array>

@@ -1,4 +1,5 @@
-# Functions that run once per frame are optimized for size, to leave flash for the rest.
+# Functions that run once per frame are optimized for size, to leave flash memory for other
+# functions.
 compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp device/locate.cpp core/row_locator.cpp core/math/plane.cpp
              device/attempt.cpp device/tracked.cpp core/steps.cpp
              core/integrity/likelihood_ratios.cpp core/decode/orientation.cpp core/decode/lines.cpp

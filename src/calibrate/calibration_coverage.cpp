@@ -34,7 +34,8 @@ double share_of(const ImageCoverage& image, std::size_t across, std::size_t down
     return static_cast<double>(covered) / parts;
 }
 
-/// Returns the undistorted position of a pixel relative to that of the middle of the image.
+/// Returns the undistorted position of a pixel, relative to the undistorted position of the middle
+/// of the image.
 PixelPoint from_middle(const Camera& camera, PixelPoint pixel) {
     const PixelPoint middle =
         undistorted(camera, {(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0});

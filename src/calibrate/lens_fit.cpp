@@ -57,8 +57,8 @@ struct Seen {
     }
 };
 
-/// Distance between the position of a dot in the image and its printed position, in px, for a
-/// mounted camera.
+/// Residual of a mounted camera: the distance between the position of a dot in the image and its
+/// printed position, in px.
 struct MountedResidual {
     Seen seen;
 
@@ -81,8 +81,9 @@ struct MountedResidual {
     }
 };
 
-/// Distance between the position of a dot in the image and its printed position, in px, for the
-/// camera model of simulate.hpp, extended by pixels that are not square.
+/// Residual of a hand-held camera: the distance between the position of a dot in the image and its
+/// printed position, in px, for the camera model of simulate.hpp, extended by pixels that are not
+/// square.
 struct HandheldResidual {
     Seen seen;
 

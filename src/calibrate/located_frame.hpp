@@ -22,7 +22,7 @@ struct LocatedDot {
 /// `trace.decoding.place`.
 std::vector<LocatedDot> dots_read(const Trace& trace);
 
-/// The dots of one frame. Pixels are those of the image, without correction of distortion.
+/// The dots of one frame. Pixels refer to the image, without correction of distortion.
 struct LocatedFrame {
     int index = 0;                  ///< index of the frame in the series
     Place place;                    ///< place of step (0, 0)

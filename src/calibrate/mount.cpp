@@ -149,9 +149,8 @@ PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
     return pixel_from_image_centre(stations.camera, {offset_mm.x(), offset_mm.y()});
 }
 
-/// Returns the standard deviation, per axis, of a point that is due to the calibration of the lens:
-/// to the errors of place and direction of the image centre. `offset_mm` is relative to the image
-/// centre.
+/// Returns the standard deviation of a point, per axis, due to the calibration of the lens: the
+/// errors of place and direction of the image centre. `offset_mm` is relative to the image centre.
 double sigma_of_lens_mm(const Camera& camera, const Vector2d& offset_mm) {
     const auto sigma = [&](const char* key) {
         const auto found = camera.sigma.find(key);
@@ -263,8 +262,9 @@ Vector2d direction_of_line(const std::vector<Station>& stations, const Vector2d&
     return along.dot(drive) < 0 ? Vector2d(-along) : along;
 }
 
-/// Throws Error unless the frames are in the order of the drive, and all places are as close to the
-/// line as those of a robot that turned by at most kMaxSwerve_rad in the middle of the drive.
+/// Throws Error unless the frames are in the order of the drive and all places are close to the
+/// line. The maximum distance is that of a robot that turned by kMaxSwerve_rad in the middle of the
+/// drive.
 void require_straight(const std::vector<Vector2d>& on_line, double length_mm) {
     const double max_mm = std::tan(kMaxSwerve_rad) * length_mm / 2;
     double farthest_mm = on_line.front().x();

@@ -67,8 +67,8 @@ void write_place(double x, double y, CodeVariant code, const Place& place, Fix& 
 }
 
 /// Sets the covariance at the reference point (`x`, `y`), in mm from the middle of the dots. The
-/// variance of the angle is that of the angle on the paper, which is nearly that of the nominal
-/// angle.
+/// variance of the angle on the paper is used for the nominal angle, because the two variances are
+/// nearly equal.
 void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& print, Fix& out) {
     const double c = fit.parameters[2];
     const double s = fit.parameters[3];

@@ -19,7 +19,7 @@ struct UnsharedBlock {
     MatrixXd squares;      ///< products within the block
 };
 
-/// J^T J, without the products of two different blocks that are not shared, which are 0.
+/// J^T J. The products of two different blocks that are not shared are 0 and not stored.
 struct Normal {
     ceres::CRSMatrix jacobian;  ///< columns of the shared blocks come first
     MatrixXd shared;

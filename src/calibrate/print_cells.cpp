@@ -168,7 +168,7 @@ class Trimmer {
         return line.right > kMinLength * longest;
     }
     /// Returns true if a line belongs to the field. A few correct cells of a cropped line or of
-    /// other print are not enough.
+    /// other print do not suffice.
     static bool is_enough(const Coverage& line, int longest) {
         return line.right >= kMinLineShare * line.seen &&
                line.right >= kMinRightShare * line.dots && is_long(line, longest);

@@ -17,7 +17,7 @@ constexpr double kAgreeShare = 0.05;
 
 using Group = std::vector<LocatedTile>;
 
-/// Returns true if the map of a tile is consistent with that of the nearest tile in a group.
+/// Returns true if the map of a tile is consistent with the map of the nearest tile in a group.
 bool continues(const Group& group, const LocatedTile& tile) {
     if (group.front().section != tile.section) return false;
     const auto distance_px2 = [&](const LocatedTile& other) {

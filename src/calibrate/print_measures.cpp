@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 constexpr double kInch_mm = 25.4;
 /// Darkness between two dots, relative to the dots, above which they are merged.
 constexpr double kMergedShare = 0.6;
-/// Minimum number of dots of a part of the page for which distortion is reported.
+/// Minimum number of dots in a part of the page for which distortion is reported.
 constexpr int kMinBinDots = 60;
 /// Quantile of the darkness of the dots that is used as the darkness of ink if it exceeds the
 /// expected darkness.

@@ -87,7 +87,8 @@ double TileLocator::find_spacing_px() {
     return 0;
 }
 
-/// Returns the median spacing in every `step`-th tile that shows the pattern; 0 if no tile does.
+/// Returns the median spacing in every `step`-th tile that shows the pattern; 0 if no tile shows
+/// the pattern.
 double TileLocator::probe_spacing_px(const Tiling& tiling, int step) {
     std::vector<double> spacings_px;
     for (int tile = 0; tile < tiling.count() && spacings_px.size() < kEnoughProbes; tile += step) {

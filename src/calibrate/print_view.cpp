@@ -9,11 +9,12 @@ namespace {
 using Eigen::Vector2d;
 
 /// Minimum relative change of lengths across the page that indicates a camera. A camera held
-/// straight by hand is tilted by about a degree, which changes lengths by 1 %. Scanners distort a
-/// page by less than a tenth of that.
+/// straight by hand is tilted by about a degree, which changes lengths by 1 %. Scanners change
+/// lengths by less than 0.1 %.
 constexpr double kMinSign = 0.003;
-/// Maximum residual of a camera's fit that indicates a camera, relative to that of a flat page.
-/// Uneven motion of a scanner's carriage displaces dots along one axis only.
+/// Maximum residual of the fit of a camera, relative to the residual of the fit of a flat page,
+/// that indicates a camera. Uneven motion of a scanner's carriage displaces dots along one axis
+/// only.
 constexpr double kMaxResidual = 0.8;
 
 /// Plane of the paper as seen by a camera with a given focal length and principal point.

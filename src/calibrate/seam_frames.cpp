@@ -96,7 +96,8 @@ void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
         points.emplace_back(point.x_mm, point.y_mm);
         view.middle += points.back() / static_cast<double>(dots.size());
     }
-    // The parameters are place, axes column by column, and displacement.
+    // Parameters: the position (x, y), the 2 x 2 matrix of the axes in column-major order, and the
+    // displacement.
     std::vector<DotEquation> equations;
     for (std::size_t i = 0; i < dots.size(); ++i) {
         const Eigen::Vector2d p = points[i] - view.middle;

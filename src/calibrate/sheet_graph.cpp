@@ -291,8 +291,8 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
                 pin_one(problem, node, k, 0, kPinned);
         }
         if (i == fixed_ && !has_scale()) {
-            // The views from parts of frames would determine the aspect, but all of them have the
-            // same error.
+            // The views from parts of frames would determine the aspect, but all these views have
+            // the same error.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }
         if (i == fixed_ && reference_.by == By::fixed_sheet) {

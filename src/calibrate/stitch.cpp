@@ -88,9 +88,9 @@ void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph
     }
 }
 
-/// Returns the index of the fixed sheet. It is the first sheet with a world pose among the sheets
-/// seen beside another sheet, or the first of them if no sheet has a world pose. Throws Error if
-/// only other sheets have a world pose.
+/// Returns the index of the fixed sheet. The fixed sheet is the first sheet with a world pose among
+/// the sheets seen beside another sheet, or the first of these sheets if no sheet has a world pose.
+/// Throws Error if only other sheets have a world pose.
 std::size_t fixed_sheet(const std::vector<SheetEntry>& sheets,
                         const std::vector<SheetView>& views) {
     std::set<std::size_t> joined;

@@ -37,7 +37,7 @@ void draw_connections(const FrameView& view, Svg& svg) {
     svg.add(R"(<g class="connections" stroke="{}" stroke-width="{:.2f}" )"
             R"(stroke-linecap="round" stroke-opacity="0.85">)",
             colour::kEdge, 3.5 * view.stroke());
-    // If the dots were measured again, the edges refer to dots that the list no longer contains.
+    // The edges refer to dots that the list no longer contains if the dots were measured again.
     if (view.reached().edges && !trace.seeds.empty() && !view.is_dense()) {
         for (const SeedEdge& edge : trace.edges) {
             svg.line(view.at_dot(dot_of_seed(trace, edge.from)),

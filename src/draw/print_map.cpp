@@ -16,8 +16,8 @@ using namespace dotpose::draw;
 constexpr double kMapMargin = 40;
 constexpr double kMapHead = 110;
 constexpr double kMaxMapSide = 1000;
-/// Maximum length of an arrow, in drawing units and relative to the distance between the arrows.
-/// The smaller limit applies.
+/// Maximum lengths of an arrow, in drawing units and relative to the distance between the arrows.
+/// The smaller maximum applies.
 constexpr double kMaxArrow = 45;
 constexpr double kMaxStep = 0.95;
 /// Distortion of the longest arrow if all distortions are smaller. Noise therefore looks small.

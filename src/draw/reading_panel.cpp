@@ -38,7 +38,7 @@ std::string quality_colour(double quality) {
                        mix(low.blue, high.blue));
 }
 
-/// Converts a symbol from the axes of the grid to those of the pattern.
+/// Converts a symbol from the axes of the grid to the axes of the pattern.
 Symbol turned(Symbol symbol, QuarterTurn pattern_from_grid) {
     const FixedVec d = pattern_from_grid({dx(symbol), dy(symbol)});
     return make_symbol((d.y - d.x + 1) / 2, (d.y + d.x + 1) / 2);

@@ -79,7 +79,8 @@ class SpinPicture {
         draw_cross(middle(0), colour::kBad);
     }
 
-    /// Draws the centre of rotation from each single frame.
+    /// Draws the centre of rotation computed from each frame alone, relative to the centre computed
+    /// from all frames.
     void draw_residuals() {
         double full_mm = kMinFullScale_mm;
         for (const SpinStation& station : spin_.stations)

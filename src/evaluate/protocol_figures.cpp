@@ -21,7 +21,7 @@ constexpr double kLeft = 80;
 constexpr double kTop = 150;
 constexpr double kHeight = kTop + kPanel + 150;
 
-/// One page of a figure, and the spread of its stations in the unit of the figure.
+/// One page of a figure, with the spread of its stations in the unit of the figure.
 struct FigurePage {
     std::string name;
     std::span<const Station> stations;

@@ -141,7 +141,7 @@ Sweep run_sweep(SweepKind kind, const SweepOptions& options) {
             const auto outcomes = evaluate(run);
             sweep.points.push_back({value, score_of(outcomes[0]), score_of(outcomes[1])});
         } catch (const Error&) {
-            // After an interrupt, keep the values that are complete.
+            // After an interrupt, keeps the completed values.
             if (goes_on || sweep.points.size() < 2) throw;
             break;
         }

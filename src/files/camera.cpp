@@ -51,7 +51,7 @@ void require_lens(const Camera& camera) {
 }
 
 void require_paper(const PaperScale& paper, const Camera& camera) {
-    // The range includes microscopes as well as cameras above a hall.
+    // The range extends from microscopes to cameras above a hall.
     const auto is_length = [](double mm) { return mm >= 1e-6 && mm <= 1e3; };
     require(is_length(paper.mm_per_px_x) && is_length(paper.mm_per_px_y), "mm_per_px",
             "must be from 0.000001 to 1000");

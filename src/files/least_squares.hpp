@@ -1,5 +1,5 @@
-/// Linear least squares by Givens rotations of the rows: as accurate as a QR decomposition of all
-/// rows, without storing the rows.
+/// Linear least squares by Givens rotations of the rows. The result has the accuracy of a QR
+/// decomposition of all rows, but the rows are not stored.
 #pragma once
 
 #include <array>

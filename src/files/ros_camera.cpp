@@ -21,8 +21,8 @@ constexpr double kMaxMisfit_px = 0.5;
 constexpr double kMaxPx = 1e6;
 constexpr double kMaxDistortion = 1e3;
 
-/// Returns the list under a key. The key `nested` is that of camera_calibration_parsers; `lower`
-/// and `upper` are those of printed messages.
+/// Returns the list under a key. camera_calibration_parsers writes the key `nested`; printed
+/// messages have the keys `lower` and `upper`.
 std::vector<double> coefficients(const YamlMap& file, const char* nested, const char* lower,
                                  const char* upper, std::size_t count) {
     if (file.has(nested)) return file.map(nested).numbers("data", count);

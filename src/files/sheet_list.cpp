@@ -17,7 +17,7 @@ namespace {
 constexpr double kMinPrintScale = 0.5;
 constexpr double kMaxPrintScale = 2;
 
-/// The cells from `first` to `end` - 1 along one axis.
+/// A range of cells along one axis, from `first` to `end` - 1.
 struct Range {
     std::int64_t first = 0;
     std::int64_t end = 0;

@@ -59,8 +59,8 @@ SheetReservation::~SheetReservation() {
 }
 
 void SheetReservation::confirm() {
-    // If removing fails, the entries remain in the file with their mark, and their regions are not
-    // assigned to other sheets.
+    // If the removal fails, the entries remain in the file with their mark, and their regions are
+    // not assigned to other sheets.
     const std::vector<SheetEntry> entries = std::move(entries_);
     entries_.clear();
     SheetFile file(path_, wait_);

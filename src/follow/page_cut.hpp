@@ -1,5 +1,5 @@
-/// Masks the part of a frame beyond the edge of a page. `locate` would otherwise confuse the dots
-/// of the next sheet with those of this sheet.
+/// Masks the part of a frame beyond the edge of a page. Otherwise `locate` would confuse the dots
+/// of the next sheet with the dots of this sheet.
 #pragma once
 
 #include <optional>

@@ -56,7 +56,7 @@ toff_t on_size(thandle_t handle) {
 }
 int on_error(TIFF*, void* user, const char*, const char* format, std::va_list arguments) {
     auto& message = static_cast<Input*>(user)->message;
-    // Keep the first error, which causes the later ones.
+    // Keeps the first error, which causes the later errors.
     if (message[0] == '\0') std::vsnprintf(message.data(), message.size(), format, arguments);
     return 1;
 }

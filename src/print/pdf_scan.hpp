@@ -18,7 +18,7 @@ struct PageContent {
     int unclosed_saves = 0;  ///< number of operators q without Q at the end
     int extra_restores = 0;  ///< number of operators Q without a preceding q
 
-    /// Return the operators that enclose the content in a graphics state of its own.
+    /// Return the operators that enclose the content in a separate graphics state.
     std::string before() const;
     std::string after() const;
 };

@@ -24,8 +24,8 @@ int diameter_px(const Sheet& sheet, double dpi) {
 }
 
 /// Returns the first pixel of a dot whose centre is nearest to `centre_mm`. Pixel k extends from k
-/// to k + 1. If rounding would move the dot beyond the edge of the page, it is moved back by one
-/// pixel.
+/// to k + 1. If rounding would move the dot beyond the edge of the page, the dot is moved back by
+/// one pixel.
 int first_px(double centre_mm, double dpi, int dot_px, int page_px) {
     const double first = centre_mm * dpi / kInch_mm - 0.5 * dot_px;
     return std::clamp(static_cast<int>(std::floor(first + 0.5 + kTie_px)), 0, page_px - dot_px);

@@ -20,7 +20,8 @@ using namespace std::chrono_literals;
 constexpr auto kPatience = 3s;
 /// Time between attempts to reach a broker that does not answer.
 constexpr auto kBetweenAttempts = 500ms;
-/// Maximum number of messages that libmosquitto has not sent yet. It sends them in order.
+/// Maximum number of messages that libmosquitto has not sent yet. libmosquitto sends messages in
+/// order.
 constexpr std::size_t kMaxUnderWay = 20;
 /// Quality of service of presence messages: at least once.
 constexpr int kPresenceQos = 1;
@@ -160,7 +161,8 @@ void MqttClient::start() {
     mosquitto_disconnect_callback_set(mosquitto_, Callbacks::on_disconnect);
     mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
     mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
-    // One more message than `publish` uses, because presence messages must not wait.
+    // One more than the number of messages that `publish` uses, because presence messages must not
+    // wait.
     mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMaxUnderWay + 1));
     // Messages are published by other threads than the thread of `run`.
     mosquitto_threaded_set(mosquitto_, true);

@@ -47,8 +47,8 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
     if (depth_mm <= 0) return kInvisible;
     const Vec2 undistorted{focal_px_ * camera_mm(0) / depth_mm,
                            focal_px_ * camera_mm(1) / depth_mm};
-    // Eq. 2 of the paper solved for r_d: k |r_u| |r_d|^2 - |r_d| + |r_u| = 0. The root is the one
-    // that tends to r_u as k tends to 0.
+    // Eq. 2 of the paper solved for r_d: k |r_u| |r_d|^2 - |r_d| + |r_u| = 0. Of the two roots,
+    // this root tends to r_u as k tends to 0.
     const double square = undistorted.x * undistorted.x + undistorted.y * undistorted.y;
     const double discriminant = 1 - 4 * k_ * square;
     if (discriminant < 0) return kInvisible;

@@ -119,7 +119,7 @@ void Raster::fill(double top, double bottom, double darkness, const ChordAt& cho
         float* out = row(row_index - band_top_);
         for (int x = touched_.from; x < touched_.to; ++x) {
             double& coverage = coverage_[static_cast<std::size_t>(x)];
-            // Overlapping shapes do not add up: the darker one determines the level.
+            // Overlapping shapes do not add up: the darker shape determines the level.
             out[x] = std::max(out[x], static_cast<float>(coverage * darkness));
             coverage = 0;
         }

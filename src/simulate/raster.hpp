@@ -26,7 +26,7 @@ class Raster {
     /// rows of the previous band must have been taken with `take_row`.
     void draw_band(int top);
 
-    /// The sub-pixels of one pixel in a sub-row.
+    /// The sub-pixels of one pixel in one sub-row.
     struct Spot {
         std::size_t pixel = 0;  ///< numbered from the left of the border
         /// Fraction of the light that the ink absorbs in each sub-pixel. Zero from index

@@ -250,8 +250,8 @@ MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting,
         const float pushed = push(i, dt_s, options);
         const float possible = squared(moved / kSurprise) / motion.scatter;
         const auto surprise = [&] { return possible - motion.covariance[i][i] - noise[i][i]; };
-        // If the filter lags behind the robot, successive innovations have the same sign. If it
-        // follows the noise, they alternate.
+        // If the filter lags behind the robot, successive innovations have the same sign. If the
+        // filter follows the noise, the signs alternate.
         const float agility = repeated > 0 ? old * kAgility_step : old / kAgility_step;
         const float needed = old + surprise() / (pushed * squared(effect[0]));
         motion.agility[i] = std::clamp(std::max(agility, needed), kMinAgility, 1.0F);

@@ -1,5 +1,5 @@
-// Frames designed to deceive: a fix must be the true pose. `dotpose_tables adversarial` runs any
-// number of them.
+// Frames designed to deceive `locate`: a fix must be the true pose. `dotpose_tables adversarial`
+// tests any number of such frames.
 #include <memory>
 #include <string>
 
@@ -28,8 +28,9 @@ TEST_P(AdversarialClass, FramesGiveNoWrongFix) {
     }
 }
 
-// Two patterns with the same orientation, about a fifth of the spacing apart. In each of these
-// frames, the columns of one pattern and the rows of the other were once decoded as a position.
+// Two patterns with the same orientation, about a fifth of the spacing apart. Regression: in each
+// of these frames, the columns of one pattern and the rows of the other pattern were decoded as a
+// position.
 TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     const auto memory = std::make_unique<LargeMemory>();
     struct Overlay {
@@ -46,8 +47,8 @@ TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     }
 }
 
-// A seam between two sections changes one step of one sequence. Elsewhere in that sequence, there
-// are exactly the resulting digits. Each of these frames was once located there.
+// A seam between two sections changes one step of one sequence. The resulting digits occur
+// elsewhere in this sequence. Regression: each of these frames was located at that other place.
 TEST(Adversarial, WhatASeamExplainsBetterIsNoFix) {
     const auto memory = std::make_unique<LargeMemory>();
     struct Seam {

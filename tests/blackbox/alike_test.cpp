@@ -45,8 +45,7 @@ TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Score score = score_of(outcomes);
     EXPECT_EQ(score.wrong, 0);
     EXPECT_GE(score.located, kFramesOfCase * 9 / 10);
-    // The mean of this number of squared standard normal numbers exceeds the limit once in 20,000
-    // times.
+    // The mean of n squared standard normal numbers exceeds this limit once in 20,000 cases.
     for (const double normalised : score.normalised)
         EXPECT_LT(normalised, 1.85);
     const double px = kDefaultSpacing_mm / GetParam().dots.spacing_px;

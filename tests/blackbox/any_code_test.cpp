@@ -1,4 +1,5 @@
-// Sheets whose code is not given: `dotpose locate` detects the code, or reports the alternatives.
+// Tests of `dotpose locate` on sheets whose code is not given: detection of the code, or a report
+// of the alternatives.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -91,7 +92,7 @@ TEST_F(AnyCode, two_places_are_told_where_both_explain_the_frame) {
 
 TEST_F(AnyCode, other_frames_of_the_call_decide) {
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::libdots}) {
-        // Two places that are unique to the code, then a place that is not.
+        // The first two places are unique to the code, and the third place is not.
         write_at("1.pgm", code, kCommon, kBorder);
         write_at("2.pgm", code, kBorder + kPeriod, kCommon);
         const Shot truth = write_at("3.pgm", code, kCommon, kShifted);
@@ -120,7 +121,7 @@ TEST_F(AnyCode, given_decides_and_another_that_explains_the_frame_is_a_warning) 
     EXPECT_EQ(wrong["other_code"], "libdots");
     EXPECT_TRUE(is_at(wrong, "other_x_mm", "other_y_mm", truth)) << wrong;
 
-    // If there is no place in the given code, the warning names the code that has one.
+    // If there is no place in the given code, the warning names a code with a place.
     run("--code microdots a.pgm");
     const json none = records().at(0);
     EXPECT_NE(none["status"], "ok");

@@ -149,8 +149,8 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json --dpi 600"), 0) << errors_;
 }
 
-// A photo taken straight from above is like a scan at the resolution that the phone wrote into the
-// file.
+// Without its EXIF data, a photo taken straight from above would be taken for a scan with the
+// resolution that the phone wrote into the file.
 TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     ASSERT_EQ(run("print --paper 60x50 -o a.svg --sheets sheets.json --name a"), 0);
     const std::string before = file("sheets.json");
@@ -175,8 +175,8 @@ TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     EXPECT_EQ(run("check-print photo.jpg --format json"), 0);
     EXPECT_EQ(json::parse(output_)["exif_of_camera"], true);
 
-    // EXIF data of a scanner have no exposure, so the 300 dpi of the file are used. --dpi is used
-    // as well.
+    // EXIF data of a scanner have no exposure, so the resolution of the file, 300 dpi, is used. The
+    // option --dpi has the same effect.
     write("scan.jpg", {test::date_taken, test::file_source});
     EXPECT_EQ(run("check-print scan.jpg"), 3);
     EXPECT_THAT(output_, HasSubstr("FAULT: the driver scaled the page to 110.0 %"));
@@ -322,7 +322,7 @@ TEST_F(CheckPrintCommandAtLength, test_page_is_printed_in_every_format_but_text)
         EXPECT_THAT(output_, HasSubstr("test page 148 x 210 mm, 20 patches"));
         EXPECT_TRUE(fs::exists(directory_ / name));
     }
-    // Two of the patches, as printed and scanned without errors.
+    // The image shows two of the patches, printed and scanned without errors.
     ASSERT_EQ(
         shell("qpdf --check test.pdf && pdftoppm -gray -r 600 -png -singlefile test.pdf scan"), 0)
         << output_ << errors_;

@@ -1,4 +1,4 @@
-// Conventions of all commands: `-o -` is standard output, and the options --format and --draw.
+// Conventions of all commands: `-o -` for standard output, and the options --format and --draw.
 #include <string>
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-/// The columns of CSV lines, which have the same values as JSON lines.
+/// Maps columns of CSV lines to the values of JSON lines.
 #pragma once
 
 #include <cstddef>

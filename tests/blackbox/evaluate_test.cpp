@@ -126,8 +126,8 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     const json image = result();
     EXPECT_EQ(image["located"], 5);
     EXPECT_LT(image["position_um"]["max"], 5);
-    // The view is used as well. The pose has five parameters instead of eight, so the angle is more
-    // accurate.
+    // The view of the camera is also used. The pose has five parameters instead of eight, so the
+    // angle is more accurate.
     EXPECT_NE(image["angle_deg"]["max"], lens_alone["angle_deg"]["max"]);
     ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
     EXPECT_EQ(result()["wrong"], 5);  // truth.csv contains the pose of the image centre
@@ -180,7 +180,7 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
     }
 }
 
-/// Frames on a sheet whose poses were measured by a stage, in a frame with another origin,
+/// Frames on a sheet. A stage measured their poses in a frame of reference with another origin,
 /// direction and unit.
 class EvaluateMeasured : public EvaluateCommand {
   protected:
@@ -199,7 +199,8 @@ class EvaluateMeasured : public EvaluateCommand {
                       frame_of(sheet, x_mm, y_mm, 0.4 * i, static_cast<std::uint64_t>(i)).view());
             by_ruler << name << ",table," << x_mm << ',' << y_mm << ',' << 0.4 * i * kDegrees
                      << '\n';
-            // A stage with y up, rotated by a quarter turn, whose millimetres are 0.3 % longer.
+            // The stage has y up, is rotated by a quarter turn, and its millimetres are 0.3 %
+            // longer.
             by_stage << name << ',' << 1.003 * y_mm / 1000 << ',' << 1.003 * x_mm / 1000 << ','
                      << 90 - 0.4 * i * kDegrees << '\n';
         }

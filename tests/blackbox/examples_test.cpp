@@ -59,7 +59,8 @@ TEST_F(Examples, FollowGoesWithTheRobot) {
         ASSERT_EQ(std::sscanf(lines[i].c_str(), "x %*f mm, y %*f mm, %lf and %lf mm/s", &vx, &vy),
                   2)
             << lines[i];
-        // A velocity needs two fixes. Before, the robot moves too far between frames to be tracked.
+        // A velocity needs two fixes. Without a velocity, the robot moves too far between frames to
+        // be tracked.
         EXPECT_EQ(lines[i].ends_with("tracked"), i >= 2) << lines[i];
         const DriveState truth = drive.at(first + static_cast<int>(i));
         if (i >= 4) {
@@ -73,7 +74,7 @@ TEST_F(Examples, FollowSheetsTellsSheetPlaceAndSpeed) {
     ASSERT_EQ(ToolCommand::run("print -o table.svg --paper 80x60 --sheets s.json --name table"), 0)
         << errors_;
     const json sheet = json::parse(read_file(directory_ / "s.json"))["sheets"].at(0);
-    // 1 mm per frame, 100 frames per second.
+    // The robot moves by 1 mm per frame, at 100 frames per second.
     for (int i = 0; i < 10; ++i) {
         const std::string name = "f" + std::to_string(100 + i) + ".pgm";
         const auto seed = static_cast<std::uint64_t>(i);

@@ -25,7 +25,8 @@ class Hostile : public ToolCommand {
     }
 };
 
-/// Sequences that set a terminal's title and colours and ring its bell, and a complete line.
+/// Sequences that set the title and the colours of a terminal and ring its bell, followed by a
+/// complete line.
 constexpr const char* kActs = "\x1b]0;OWNED\x07\x1b[31m\x7f\xc2\x9b\n{\"status\":\"ok\"}";
 
 void expect_harmless(const std::string& text) {
@@ -68,7 +69,7 @@ TEST_F(Hostile, OptionsRefuseWhatIsNoFiniteNumber) {
         EXPECT_EQ(run(command), 2) << command;
         EXPECT_THAT(errors_, HasSubstr("finite number")) << command;
     }
-    // A file may have this name.
+    // This text is a valid file name.
     put("nan", "P5 1 1 255\nx");
     run("locate nan");
     EXPECT_THAT(output_, HasSubstr("\"file\":\"nan\""));

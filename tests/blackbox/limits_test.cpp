@@ -1,4 +1,5 @@
-// The worst frames that are located according to docs/limits.md, tested through `locate` alone.
+// The worst frames that `locate` must locate according to docs/limits.md, tested through `locate`
+// alone.
 #include <algorithm>
 #include <cctype>
 #include <memory>

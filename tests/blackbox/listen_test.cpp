@@ -109,10 +109,10 @@ TEST_F(Listen, ReadsASerialDeviceUntilItGoes) {
     ASSERT_EQ(unlockpt(device), 0);
     const std::string name = ptsname(device);
     std::string stream;
-    for (std::uint16_t i = 0; i < 50; ++i)  // all bytes that a terminal would interpret
+    for (std::uint16_t i = 0; i < 50; ++i)  // every byte that a terminal interprets
         stream += on_the_line(packet_at(i, 0x0D0A0304U));
     std::thread sender([&] {
-        // Nobody reads the device until the tool has opened it.
+        // No program reads the device before the tool has opened it.
         while (!fs::exists(directory_ / "poses.jsonl"))
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         EXPECT_EQ(write(device, stream.data(), stream.size()), static_cast<ssize_t>(stream.size()));

@@ -1,5 +1,5 @@
-// `dotpose calibrate --live` without a display: it takes frames that add information, reports what
-// is missing, and ends automatically.
+// `dotpose calibrate --live` without a display: the tool takes frames that add information, reports
+// the missing requirements, and ends automatically.
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -70,7 +70,7 @@ TEST_F(LiveCalibration, EndsByItselfOnceNothingIsMissing) {
     EXPECT_GE(used(), 5);
     EXPECT_LT(used(), 45);
     EXPECT_EQ(std::distance(fs::directory_iterator(directory_ / "kept"), {}), used());
-    // The same frames as a video of a camera that rests at each place.
+    // The video shows the same frames, from a camera that rests at each place.
     const std::string report = output_;
     const std::string file_of_images = file("camera.yaml");
     put_raw("resting.raw");
@@ -131,11 +131,11 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
                   static_cast<std::streamsize>(image.pixels.size()));
     }
     raw.close();
-    // 60 frames in 6 s. For the first 3 s, the program waits for a frame at rest.
+    // There are 60 frames in 6 s. For the first 3 s, the program waits for a frame at rest.
     EXPECT_EQ(calibrate("--size 188x120 --fps 10 - <drive.raw"), 0) << errors_;
     EXPECT_TRUE(has_file());
     EXPECT_GE(used(), 10);
-    // In 2 s there is no frame at rest.
+    // There is no frame at rest for 2 s.
     fs::remove(directory_ / "camera.yaml");
     EXPECT_EQ(calibrate("--size 188x120 --fps 30 - <drive.raw"), 1);
     EXPECT_FALSE(has_file());

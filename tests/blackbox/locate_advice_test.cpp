@@ -1,4 +1,5 @@
-// Advice of `dotpose locate` on pictures that cannot be read, or only after a change.
+// Advice of `dotpose locate` on pictures that cannot be read, or that can be read only after a
+// change.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -15,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// About 7 x 7 clear dots, which are not enough to exclude all other places.
+// The view has about 7 x 7 clear dots, which do not suffice to exclude all other places.
 TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
     ASSERT_EQ(ToolCommand::run("simulate -o few --size 84x84 --frames 1 --preset clean --seed 3"),
               0);
@@ -101,7 +102,7 @@ TEST_F(LocateCommand, a_picture_that_is_tilted_out_of_focus_or_shaken_says_so) {
     run("blurred.pgm");
     EXPECT_NE(records().at(0)["status"], "ok") << output_;
     EXPECT_THAT(records().at(0)["message"], HasSubstr("the picture is out of focus, shaken"));
-    // Sharp pictures of other objects get neither advice.
+    // Sharp pictures of other objects get neither piece of advice.
     write_pgm(directory_ / "text.pgm", render_scene(Scene::text, clean_shot(14)).view());
     run("text.pgm");
     EXPECT_NE(records().at(0)["status"], "ok") << output_;
@@ -129,7 +130,7 @@ TEST_F(LocateCommand, an_image_beyond_the_limit_is_reduced_and_that_is_told) {
     EXPECT_NEAR(record["x_grid"], x_grid(wide.pose), 0.005);
     EXPECT_NEAR(record["y_grid"], y_grid(wide.pose), 0.005);
     EXPECT_NEAR(record["spacing_px"], 24, 0.05);
-    // A reference point 1000 px away along the image x axis.
+    // The reference point is 1000 px away along the image x axis.
     run("--reference 3100,150 wide.pgm");
     const double along = 1000.0 / 24;
     EXPECT_NEAR(records().at(0)["x_grid"],

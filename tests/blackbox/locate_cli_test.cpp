@@ -367,7 +367,7 @@ TEST_F(LocateCommand, white_dots_on_black_are_read_if_told) {
     EXPECT_EQ(pixels_in("inverted.svg"), pixels_in("usual.svg"));
 }
 
-// A spacing of half a millimetre, given in micrometres and in metres.
+// Spacings of half a millimetre in micrometres and in metres, and spacings just outside the range.
 TEST_F(LocateCommand, a_spacing_in_another_unit_is_refused) {
     write_frame("a.pgm", 0);
     for (const std::string spacing : {"508", "0.0005", "100.1", "0.0099"}) {

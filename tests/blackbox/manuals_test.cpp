@@ -1,4 +1,4 @@
-// Manual pages, and completions for shells (apps/shell).
+// Manual pages, and the completions for shells (apps/shell).
 #include <set>
 #include <sstream>
 #include <string>
@@ -102,8 +102,8 @@ TEST_F(Completions, OfFish) {
 
 TEST_F(Completions, OfZsh) {
     if (!has("zsh")) GTEST_SKIP() << "no zsh; scripts/setup packaging installs it";
-    // Types the first of each pair of arguments and a tab into a terminal, and waits for the
-    // second.
+    // Types the first argument of each pair and a tab into a terminal, and waits for the second
+    // argument.
     std::ofstream(directory_ / "try.zsh") << R"(
         zmodload zsh/zpty
         zpty -b typed zsh -f -i

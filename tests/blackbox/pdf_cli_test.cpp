@@ -39,7 +39,7 @@ TEST_F(PdfCommands, print_makes_pages_with_text_that_can_be_selected) {
 }
 
 TEST_F(PdfCommands, paper_sizes_and_landscape_are_true) {
-    // Sizes in points, 72 / 25.4 per mm, as rounded by pdfinfo.
+    // Sizes are in points, 72 / 25.4 per mm, rounded by pdfinfo.
     const std::array<std::array<const char*, 2>, 4> sizes = {
         {{"A0", "2383.94 x 3370.39"},
          {"A4 --landscape", "841.89 x 595.276"},
@@ -72,7 +72,7 @@ TEST_F(PdfCommands, overlay_says_which_region_each_page_got) {
     run("$T print -o in.pdf --pages 3 --paper 80x60 > /dev/null && "
         "$T overlay in.pdf -o out.pdf --pages 1,z --origin 5000,10 --spacing 1");
     EXPECT_EQ(exit_code_, 0);
-    // 70 mm and 50 mm between margins of 5 mm.
+    // Between margins of 5 mm there are 70 mm and 50 mm.
     EXPECT_THAT(output_, HasSubstr("out.pdf 1: page 80 x 60 mm, cells 5000,10 to 5069,59 "));
     EXPECT_THAT(output_, HasSubstr("out.pdf 3: page 80 x 60 mm, cells 5070,10 to 5139,59 "));
     EXPECT_THAT(output_, HasSubstr("warning: pages 1, 3: black text or drawings hide dots"));

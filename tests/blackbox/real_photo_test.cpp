@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Found by an independent decoder, with a homography fitted to 184 dots.
+// The expected values are from an independent decoder, with a homography fitted to 184 dots.
 constexpr double kX_grid = 129.157;
 constexpr double kY_grid = 3224.485;
 constexpr double kTheta_deg = -1.45;
@@ -55,7 +55,8 @@ TEST_P(RealPhoto, is_located_whatever_way_it_is_turned) {
     const double theta_deg = fix.theta_rad() * 180 / std::numbers::pi;
     const double expected_deg = kTheta_deg - 90 * GetParam();
     EXPECT_NEAR(std::remainder(theta_deg - expected_deg, 360), 0, 0.5);
-    // The section according to the definition in code.hpp. The bits agree with no other section.
+    // The expected section follows from the definition in code.hpp. The bits agree with no other
+    // section.
     EXPECT_EQ(fix.section, (Section{24, 32}));
     EXPECT_EQ(fix.bit_errors, 0);
 }

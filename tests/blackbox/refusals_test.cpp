@@ -1,4 +1,4 @@
-// Frames without a valid position, tested through `locate` alone. None may give a fix.
+// Frames without a valid position, tested through `locate` alone. No frame may give a fix.
 #include <memory>
 #include <string>
 

@@ -1,4 +1,4 @@
-// `dotpose replay`: figures of a log, compared with values computed by hand.
+// `dotpose replay`: the figures of a log, compared with values computed by hand.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -104,7 +104,7 @@ TEST_F(Replay, PrintsAndDraws) {
     const std::string picture = file("run.svg");
     EXPECT_THAT(picture, HasSubstr("speed [mm/s]"));
     EXPECT_THAT(picture, HasSubstr("</svg>"));
-    // Three gaps, one in each plot over time.
+    // There are three gaps, one in each plot over time.
     std::size_t bands = 0;
     for (std::size_t at = picture.find("fill-opacity=\"0.10\""); at != std::string::npos;
          at = picture.find("fill-opacity=\"0.10\"", at + 1)) {
@@ -114,8 +114,8 @@ TEST_F(Replay, PrintsAndDraws) {
 }
 
 TEST_F(Replay, NumbersTheAxesOfAPathFarFromTheOrigin) {
-    // 20 mm along x and 10 mm along y, which points down as in the pattern, about 10 km from its
-    // origin.
+    // The path is 20 mm along x and 10 mm along y, about 10 km from the origin of the pattern. y
+    // points down, as in the pattern.
     put(std::string(kHeader) +
         "0,0.0,,ok,150,1e-20,moving,fix,accepted,pattern,59957068.5,9667944,0,0\n"
         "1,0.1,,ok,150,1e-20,moving,,accepted,pattern,59957088.5,9667954,0,0\n");

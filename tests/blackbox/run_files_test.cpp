@@ -1,4 +1,4 @@
-// No command destroys one of its inputs, regardless of the names of its outputs.
+// Checks that no command destroys one of its inputs, regardless of the names of its outputs.
 #include <string>
 #include <vector>
 
@@ -142,14 +142,14 @@ TEST_F(RunFiles, other_names_are_taken_as_before) {
 }
 
 TEST_F(RunFiles, pictures_of_frames_are_outputs_too) {
-    // A list with the same name as the picture of one of its images.
+    // The list has the name of the picture of one of its images.
     ASSERT_EQ(shell("mkdir p; mv l p/frame_000000.svg"), 0);
     const std::string list = file("p/frame_000000.svg");
     EXPECT_EQ(run("locate --list p/frame_000000.svg --draw p"), 1);
     EXPECT_THAT(errors_, HasSubstr("would overwrite the input --list p/frame_000000.svg"));
     EXPECT_EQ(file("p/frame_000000.svg"), list);
     EXPECT_TRUE(fs::exists(directory_ / "p/frame_000001.svg"));
-    // If names differ in case only, their pictures differ, too.
+    // Images whose names differ only in case have different pictures.
     ASSERT_EQ(shell("cp g/frame_000000.pgm a.pgm && cp g/frame_000001.pgm A.pgm"), 0);
     EXPECT_EQ(run("locate a.pgm A.pgm --draw p"), 0) << errors_;
 }

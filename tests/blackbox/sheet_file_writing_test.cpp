@@ -1,4 +1,5 @@
-// Sheet files and their pages are written together or not at all, even with concurrent writers.
+// Checks that sheet files and their pages are written together or not at all, even with concurrent
+// writers.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -56,7 +57,7 @@ TEST_F(SheetFileWriting, a_refused_or_failed_print_changes_nothing) {
 TEST_F(SheetFileWriting, an_interrupted_print_adds_no_sheet) {
     ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0);
     const std::string before = read_file(directory_ / "sheets.json");
-    // A page that would take minutes.
+    // Printing this page would take minutes.
     const int status = print(
         "-o huge.png --paper 20000x20000 --dpi 1200 --sheets sheets.json --name b & tool=$!; "
         "until ls -A | grep huge > during || ! kill -0 $tool; do sleep 0.02; done; "
@@ -91,7 +92,7 @@ TEST_F(SheetFileWriting, no_page_is_written_where_its_entry_cannot_be) {
 }
 
 TEST_F(SheetFileWriting, a_page_that_cannot_be_written_leaves_no_entry) {
-    // The entry has about 700 bytes, and the page more than the limit of 2 KB.
+    // The entry has about 700 bytes, and the page exceeds the limit of 2 KB.
     EXPECT_EQ(
         shell("trap '' XFSZ; ulimit -f 4; $T print -o a.svg --paper 40x40 --sheets sheets.json "
               "--name a"),

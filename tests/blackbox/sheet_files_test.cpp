@@ -1,4 +1,4 @@
-// From a printed page to the place on the page and in the world, with the tool alone: `dotpose
+// Locates frames of printed pages on the page and in the world, with the tool alone: `dotpose
 // print` with a sheet file, frames of the pages, and `dotpose locate` with the sheet file.
 #include <algorithm>
 #include <cmath>
@@ -58,8 +58,8 @@ TEST_F(SheetFiles, tell_sheet_place_and_world_pose) {
         EXPECT_EQ(record.contains("x_m"), i % 2 == 1);
         EXPECT_EQ(record.contains("yaw_rad"), i % 2 == 1);
         if (i % 2 == 0) continue;
-        // The page's y axis points down and the world's up. The place in the world is therefore the
-        // conjugate, rotated and moved.
+        // The page's y axis points down, and the world's y axis points up. The place in the world
+        // is therefore the conjugate, rotated and moved.
         const std::complex<double> turn = std::polar(1.0, kYaw_rad);
         const std::complex<double> at =
             std::complex(1.25, -0.5) + turn * std::conj(std::complex(x_mm, y_mm)) / 1000.0;
@@ -152,7 +152,7 @@ TEST_F(SheetFiles, a_frame_under_the_ruler_s_50_mm_lies_at_50_mm) {
         << output_;
     const GreyImage page = read_image((directory_ / "page.pgm").string());
     const auto px = [](double pt) { return static_cast<int>(pt * 1200 / 72); };
-    // The tick is 1.8 mm long and between the number and the dots.
+    // The tick is 1.8 mm long, and it is between the number and the dots.
     const int v = px(bottom_pt);
     const int u =
         darkest_column(page, px(left_pt), px(right_pt), v, v + static_cast<int>(1.8 * kPxPerMm));
@@ -271,7 +271,7 @@ TEST_F(SheetFiles, the_print_scale_is_applied) {
 TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
     ASSERT_EQ(print("-o a.png --margin 0 --dpi 1200 --paper 30x30 --sheets sheets.json --name a"),
               0);
-    // The margin is wide enough for frames whose centre is on b but that only show dots of a.
+    // The margin is wide enough for frames with their centre on b that only show dots of a.
     ASSERT_EQ(print("-o b.png --margin 9 --dpi 1200 --paper 50x30 --sheets sheets.json --name b"),
               0);
     const GreyImage a = read_image((directory_ / "a.png").string());
@@ -340,7 +340,7 @@ TEST_F(SheetFiles, labels_beside_the_dots_contradict_nothing_where_the_sheet_is_
     const int first_u = static_cast<int>((frame.width_px - 1) / 2.0 + 1.5 * px_per_mm) + 3;
     std::mt19937 random(12);
     for (int n = 0; n < 40; ++n) {
-        // A blot of 2 x 2 pixels, like a small letter.
+        // Draws a blot of 2 x 2 pixels, like a small letter.
         const auto u = std::uniform_int_distribution(first_u, frame.width_px - 2)(random);
         const auto v = std::uniform_int_distribution(0, frame.height_px - 2)(random);
         for (const int at : {v * frame.width_px + u, (v + 1) * frame.width_px + u}) {

@@ -95,7 +95,7 @@ TEST_F(SheetsTool, reprint_makes_the_very_same_page) {
         EXPECT_THAT(errors_, IsEmpty());
         EXPECT_EQ(file("again-" + name), file(name)) << name;
     }
-    // One of several pages is reprinted with the same text and the same picture.
+    // Reprints one of several pages, with the same text and the same picture.
     ASSERT_EQ(sheets_tool("reprint tiles-2 -o again.pdf"), 0) << errors_;
     ASSERT_EQ(shell("pdftotext -f 2 -l 2 tiles.pdf before.txt && pdftotext again.pdf after.txt && "
                     "pdftoppm -r 300 -gray -f 2 -l 2 -singlefile tiles.pdf before && "

@@ -126,7 +126,7 @@ class SimulateDrive : public SheetsCommand {
 };
 
 TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
-    // The second page is to the right of the first one, rotated by 90 degrees.
+    // The second page is to the right of the first page, rotated by 90 degrees.
     ASSERT_EQ(print("-o a.svg --paper 60x40 --sheets sheets.json --name a"), 0) << errors_;
     ASSERT_EQ(print("-o b.svg --paper 40x60 --sheets sheets.json --name b"), 0) << errors_;
     ASSERT_EQ(ToolCommand::run("sheets place a --x 0 --y 0 --yaw 0"), 0);
@@ -147,7 +147,8 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
             continue;
         }
         sheets.insert(record["sheet"]);
-        // The figure eight has 120 x 40 mm, minus the view of the camera and 5 mm on each side.
+        // The size of the figure eight is 120 x 40 mm, minus the view of the camera and 5 mm on
+        // each side.
         EXPECT_GT(record["x_m"], 0.0095);
         EXPECT_LT(record["x_m"], 0.1105);
         if (last) {
@@ -159,7 +160,7 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
     }
     EXPECT_LE(between_sheets, 2);
     EXPECT_THAT(sheets, testing::ElementsAre("a", "b"));
-    // 20 mm along a curve.
+    // A step is 20 mm along a curve.
     for (const double step_mm : steps_mm) {
         EXPECT_LT(step_mm, 20.1);
         EXPECT_GT(step_mm, 12);

@@ -38,8 +38,8 @@ double sigmas_off(const Fix& fix, const Shot& shot) {
     return sigmas_off(fix, truth_of(shot));
 }
 
-// 99.8 % of the errors are within 4 sigmas. When small steps in the middle were not detected, 97.6
-// % were.
+// 99.8 % of the errors are within 4 sigmas. Before small steps in the middle were detected, the
+// fraction was 97.6 %.
 TEST(SeamedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     constexpr int kFrames = 400;
     constexpr double kAnywhere_px = std::numeric_limits<double>::infinity();
@@ -82,7 +82,7 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     // If the true fraction is 1 %, a fraction of more than 3 % of so few frames occurs by chance
     // once in 70 runs.
     EXPECT_LE(claim_too_much, fixes * 3 / 100);
-    // Many slips cut off only a corner, or displace dots by less than their scatter.
+    // Many slips affect only a corner, or displace dots by less than their scatter.
     EXPECT_GE(divided, fixes / 2);
 }
 
@@ -110,8 +110,8 @@ struct Claims {
     }
 };
 
-// Waves of 8 mm and more cannot be observed in a view of 9 x 6 mm. Before the mean residuals of
-// blocks were counted from 1.5 deviations on, 62 and 72 % of the errors were within 4 sigmas.
+// Waves of 8 mm and more cannot be observed in a view of 9 x 6 mm. Before mean residuals of blocks
+// above 1.5 standard deviations were counted, 62 and 72 % of the errors were within 4 sigmas.
 TEST(WrinkledSheet, MostErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Claims slightly(0.02);
     EXPECT_EQ(slightly.fixes, 150);

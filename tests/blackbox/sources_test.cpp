@@ -1,5 +1,5 @@
-// Sources of frames. All commands accept the same sources, and give the same results for the same
-// frames.
+// Sources of frames: checks that all commands accept the same sources, and give the same results
+// for the same frames.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -206,7 +206,8 @@ TEST_F(Sources, WrongOnesAreNamed) {
     EXPECT_THAT(errors_, HasSubstr("leaves the frame of 188x120 px"));
 }
 
-// The camera file is for whole frames, and the pose is that of the reference of the whole frame.
+// The camera file describes whole frames, and the pose refers to the reference point of the whole
+// frame.
 TEST_F(Sources, APartOfAFrameIsLocatedWithTheCameraFileOfTheWhole) {
     std::ofstream(directory_ / "camera.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: 0, "

@@ -48,9 +48,8 @@ GreyImage sheet_frame(const Shot& like, const SheetEntry& entry, double x_mm, do
     return render(shot);
 }
 
-/// Returns a frame of a place on the table, whose coordinates are those of the first sheet. Light
-/// and noise of both renderings are equal, so of each pair of pixels, the darker one belongs to a
-/// dot.
+/// Returns a frame of a place on the table, in the coordinates of the first sheet. Light and noise
+/// of both renderings are equal, so the darker pixel of each pair belongs to a dot.
 GreyImage table_frame(std::uint64_t index, double x_mm, double y_mm, double theta_rad) {
     Setup setup;
     setup.camera.width_px = 376;

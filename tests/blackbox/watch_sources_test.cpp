@@ -71,7 +71,7 @@ TEST_F(WatchSources, LooksAtAPartOfTheFrame) {
     put_video(2, "drive.avi");
     ASSERT_EQ(run(std::string("watch drive.avi --frames 1 --roi 60,60,200x120 ") + kTrack), 0);
     const json part = parsed(output_).at(0);
-    // The middle of the part is at (159.5, 119.5), the same as that of the whole frame.
+    // The part and the whole frame have the same middle, (159.5, 119.5).
     const DriveState truth = drive_.at(0);
     EXPECT_NEAR(part["x_m"].get<double>() * 1000, truth.x_mm, 0.02);
     EXPECT_LT(part["dots_seen"], 300);

@@ -1,6 +1,6 @@
-// Reads topics with the DDS implementation of another vendor, eProsima Fast DDS, as a ROS 2 node
-// with that implementation does. Prints each sample as a line: topic, ROS type, and the received
-// bytes in hexadecimal.
+// Reads topics with eProsima Fast DDS, the DDS implementation of another vendor, in the same way as
+// a ROS 2 node with Fast DDS. Prints each sample as a line: topic, ROS type, and the received bytes
+// in hexadecimal.
 //
 //   dotpose_dds_reader best-effort|reliable NAME TOPIC TYPE [TOPIC TYPE]...
 //

@@ -1,6 +1,7 @@
-// The device program of embedded/ in an emulator, from the frames of a drive to the lines of
-// `dotpose listen`. The packets must be bit-identical to those of the desktop program, the poses
-// equal to those of the device attempt on the desktop, all frames on time, and none lost.
+// Runs the device program of embedded/ in an emulator, from the frames of a drive to the lines of
+// `dotpose listen`. The packets must be bit-identical to the packets of the desktop program, and
+// the poses equal to the poses of the device attempt on the desktop. All frames must be on time,
+// and no frame may be lost.
 #include <algorithm>
 #include <array>
 #include <cerrno>

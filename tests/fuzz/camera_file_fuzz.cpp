@@ -1,4 +1,5 @@
-// Any file: `read_camera` returns a camera with which images can be located, or throws Error.
+// Fuzzes `read_camera` with any file. It must return a camera with which images can be located, or
+// throw Error.
 #include <cstdlib>
 
 #include "dotpose/files/camera_file.hpp"

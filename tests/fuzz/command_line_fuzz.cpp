@@ -1,5 +1,5 @@
-// Any command line, with one argument per line: options shared by several commands are accepted or
-// refused.
+// Fuzzes the options that several commands share, with one argument per line. They must be accepted
+// or refused.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

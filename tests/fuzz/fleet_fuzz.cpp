@@ -1,5 +1,5 @@
-// Any messages of a broker, one per line, with a tab between topic and payload: the fleet accepts
-// them or counts them as bad, and its table and map can be created.
+// Fuzzes a fleet with messages of a broker, one per line, with a tab between topic and payload. The
+// fleet must accept each message or count it as bad, and its table and map must remain printable.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

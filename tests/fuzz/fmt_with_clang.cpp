@@ -1,5 +1,5 @@
-// Defines a function of fmt 9 that clang mangles differently than GCC, with which the library was
-// compiled.
+// Defines a function of fmt 9 whose name clang mangles differently than GCC. The library was
+// compiled with GCC.
 #include <fmt/format.h>
 
 template void fmt::detail::vformat_to(buffer<char>&, string_view,

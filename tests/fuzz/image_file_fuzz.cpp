@@ -1,4 +1,5 @@
-// Any file: `read_image` returns an image and `read_origin` its origin, or they throw Error.
+// Fuzzes `read_image` and `read_origin` with any file. They must return an image and its origin, or
+// throw Error.
 #include <cstdint>
 #include <cstdlib>
 #include <string>

@@ -1,4 +1,4 @@
-// Any text: `next_line` returns its lines, each with limited length, or throws Error.
+// Fuzzes `next_line` with any text. It must return lines of limited length, or throw Error.
 #include <cstdint>
 #include <cstdlib>
 #include <sstream>

@@ -16,7 +16,7 @@
 
 namespace dotpose::fuzz {
 
-/// Header in the byte order of the machine. All values must be harmless.
+/// Header of an input, in the byte order of the machine. No value of a member may cause a fault.
 struct LocateHeader {
     enum Flag : std::uint8_t {
         default_options = 1,
@@ -110,8 +110,8 @@ struct Pixels {
 /// Number of symbols per row of cells, and of rows, in drawn images. Cell (0, 0) is in the middle.
 inline constexpr int kDrawnSide = 40;
 
-/// Draws dots that are a third of the spacing wide, with one symbol per byte. Bytes from 240 on
-/// draw no dot.
+/// Draws dots that are a third of the spacing wide, with one symbol per byte. Bytes of 240 and
+/// above draw no dot.
 inline void draw_dots(const LocateHeader& header, std::span<const std::uint8_t> symbols,
                       Pixels& image) {
     const double spacing = std::max(header.spacing_q8 / 256.0, 4.0);
@@ -139,7 +139,7 @@ inline void draw_dots(const LocateHeader& header, std::span<const std::uint8_t> 
     }
 }
 
-/// Returns the pixels of an image. Missing pixels are filled by repeating the given ones.
+/// Returns the pixels of an image. Missing pixels are filled by repeating the given pixels.
 inline Pixels pixels_of(const LocateHeader& header, std::span<const std::uint8_t> rest) {
     constexpr std::uint8_t kPaper = 200;
     Pixels image(header, kPaper);

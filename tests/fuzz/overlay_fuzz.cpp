@@ -1,5 +1,5 @@
-// Any document: `overlay_pdf` lays dots over it, with or without changes of its colours, or throws
-// Error.
+// Fuzzes `overlay_pdf` with any document, with or without changes of its colours. It must write the
+// document with dots, or throw Error.
 #include <filesystem>
 
 #include "dotpose/tools/overlay.hpp"
@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::filesystem::path kOut =
         std::filesystem::temp_directory_path() / ("overlay_fuzz-" + std::to_string(getpid()));
     OverlayOptions options;
-    // Few dots, and limits that short inputs can reach.
+    // The options give few dots, and limits that short inputs can reach.
     options.pattern.spacing_mm = 8;
     options.max_content_mb = 1;
     for (const bool changes_colours : {false, true}) {

@@ -1,4 +1,5 @@
-// Any bytes on a line: each packet found equals one that `encode` produces.
+// Fuzzes the packet reader with any bytes. Each packet found must equal a packet that `encode`
+// produces.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-/// Check of every reader of files: it returns, or throws Error with a message.
+/// The check of every reader of files: it must return, or throw Error with a message.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Any file: `read_log` returns rows from which figures and a picture can be computed, or throws
-// Error.
+// Fuzzes `read_log` with any file. It must return rows from which figures and a picture can be
+// computed, or throw Error.
 #include "reads_or_refuses.hpp"
 #include "run_log.hpp"
 

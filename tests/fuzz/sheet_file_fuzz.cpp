@@ -1,4 +1,4 @@
-// Any file: `read_sheets` returns sheets that can be printed, or throws Error.
+// Fuzzes `read_sheets` with any file. It must return sheets that can be printed, or throw Error.
 #include <cstdlib>
 
 #include "dotpose/files/sheet_file.hpp"

@@ -22,7 +22,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// Shell functions: wait until a number of lines of a file contain a word, while the tool is
+/// Shell functions that wait until a number of lines of a file contain a word, while the tool is
 /// running.
 constexpr const char* kWaiting =
     "has() { until [ $(grep -c \"$2\" $1) -ge $3 ]; do kill -0 $watch; sleep 0.05; done; }\n"
@@ -211,7 +211,7 @@ TEST_F(Window, ShowsTheFramesAndEndsWithAKey) {
                     "wait $watch"),
               0)
         << errors_ << file("told");
-    // The frame, 800 px wide, and a panel of 400 px.
+    // The recording consists of the frame, 800 px wide, and a panel of 400 px.
     EXPECT_THAT(output_, HasSubstr("Geometry: 1200x"));
 }
 

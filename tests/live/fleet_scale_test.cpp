@@ -35,8 +35,8 @@ class FleetScale : public Mqtt {
         return directory_ / name;
     }
 
-    /// Publishes `states` of each robot, 20 per second. Returns when the broker has received all of
-    /// them.
+    /// Publishes `states` of each robot, 20 per second. Returns when the broker has received all
+    /// states.
     void publish(const Broker& broker, int robots, int states, int first = 0) {
         const ShellOutcome outcome = run_shell(fmt::format(
             "'{}' --port {} --robots {} --hz 20 --seconds {} --first {}",
@@ -107,8 +107,8 @@ TEST_F(FleetScale, AGroupSharesTheStates) {
     publish(broker, 51, 40);
     wait_for_states(folders, 51 * 40);
     for (WatchedFleet* fleet : {&a, &b}) {
-        // A member does not know which states the other one received, so it reports no missing
-        // states.
+        // A member has no information about the states that the other member received, so it
+        // reports no missing states.
         EXPECT_THAT(fleet->table(),
                     testing::ContainsRegex("\n51 robots, [0-9]+ states, 0 bad, 0 repe"));
     }
@@ -146,7 +146,7 @@ TEST_F(FleetScale, BridgedBrokersPassOnEachStateOnce) {
                                   west.port()));
     WatchedFleet in_east(folders[0], "--qos 1 --log log.csv --mqtt " + east.url());
     WatchedFleet in_west(folders[1], "--qos 1 --log log.csv --mqtt " + west.url());
-    // The bridge works when a state gets across.
+    // The bridge works once a state has passed it.
     wait_until([&] {
         publish(west, 1, 1, 1000);
         std::this_thread::sleep_for(200ms);

@@ -1,5 +1,5 @@
-// Publishing to a real broker: the messages that arrive and the messages that are dropped, also
-// when the broker disconnects.
+// Publishing to a real broker: the messages that arrive and the messages that are dropped, even if
+// the broker disconnects.
 #include "publish/mqtt.hpp"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ TEST_F(Mqtt, ReadsUrls) {
 
 TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
     Broker broker(directory_);
-    // A persistent session, in which the broker keeps all messages that it accepted, in order.
+    // Opens a persistent session, in which the broker keeps all accepted messages in order.
     const std::string reader =
         fmt::format("mosquitto_sub -h 127.0.0.1 -p {} -c -i reader -q 1 -t t ", broker.port());
     shell(reader + "-E");
@@ -97,8 +97,8 @@ std::vector<int> header_ids(const std::string& lines) {
 }
 
 TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
-    // At 50 frames/s, or as fast as possible on this machine. The broker is stopped and started at
-    // given frames.
+    // Publishes at 50 frames/s, or at the maximum rate of a slow machine. The broker is stopped and
+    // started at given frames.
     constexpr int kFrames = 700;
     constexpr auto kFrame = 20ms;
     constexpr int kGone = 100;
@@ -112,7 +112,8 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     shell("mkfifo frames");
     std::thread camera([&] {
         const GreyImage image = DriveCamera(188, 120).frame(Drive(), 0);
-        // Closed on exec, because the broker started meanwhile must not keep the pipe open.
+        // The pipe is closed on exec, because a broker that is started meanwhile must not keep the
+        // pipe open.
         std::FILE* pipe = std::fopen((directory_ / "frames").c_str(), "wbe");
         const auto begun = std::chrono::steady_clock::now();
         for (int i = 1; i <= kFrames; ++i) {
@@ -146,8 +147,8 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
         << errors_;
     std::printf("%d states sent, %d dropped\n", sent, dropped);
     EXPECT_EQ(sent + dropped, kFrames);
-    // Minus the 50 states that are kept, and states published before the loss of the broker is
-    // detected.
+    // The minimum allows for the 50 states that are kept, and for states published before the loss
+    // of the broker is detected.
     EXPECT_GT(dropped, kBack - kGone - 100);
 
     // A state in transit when the broker was stopped may arrive twice.

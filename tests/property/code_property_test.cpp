@@ -1,4 +1,5 @@
-// Encode and decode agree on random windows, upright and turned. The nightly test checks a million.
+// Checks that decoding inverts encoding for random windows, upright and turned. The nightly test
+// checks a million windows.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -80,8 +81,8 @@ std::string check_turned(const Draw& draw, const Grid& upright) {
     if (draw.quarter_turns > 0) {
         Place place;
         const Status status = decode(draw.code, seen.window(), place);
-        // Turning reverses and flips the bits of at least one axis. 7 such bits do not occur in the
-        // main sequence.
+        // Turning reverses and flips the bits of at least one axis. A string of 7 such bits does
+        // not occur in the main sequence.
         if (draw.columns >= 7 && draw.rows >= 7 && status != Status::not_in_code) {
             return "a turned window was not refused";
         }
@@ -166,7 +167,7 @@ TEST(CodeProperty, EverySectionAtAndAcrossTheWrap) {
 }
 
 TEST(CodeProperty, EveryPositionOfOneSheet) {
-    // A page of 400 x 3 windows, each one step from the previous one.
+    // The page has 400 x 3 windows, each one step from the previous window.
     for (std::uint32_t x = 0; x < 400; ++x) {
         for (std::uint32_t y = 0; y < 3; ++y) {
             for (const CodeVariant code : kCodeVariants) {
@@ -178,7 +179,7 @@ TEST(CodeProperty, EveryPositionOfOneSheet) {
 }
 
 TEST(CodeProperty, TurningASymbolTurnsItsDisplacement) {
-    // Clockwise, as seen on the page: up, right, down, left.
+    // The order is clockwise, as seen on the page: up, right, down, left.
     EXPECT_EQ(turned(Symbol::up), Symbol::right);
     EXPECT_EQ(turned(Symbol::right), Symbol::down);
     EXPECT_EQ(turned(Symbol::down), Symbol::left);

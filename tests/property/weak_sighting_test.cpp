@@ -1,5 +1,5 @@
-// Weak sightings: compares, by enumeration, the probability that a place inside the tracker's gate
-// was mistaken for another one there with the bound that the tracker uses (docs/tracking.md).
+// Weak sightings: enumerates all other places inside the tracker's gate, sums their odds relative
+// to the true place, and compares the sum with the bound that the tracker uses (docs/tracking.md).
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -96,8 +96,8 @@ std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std:
     return result;
 }
 
-/// Returns the odds of all other places within reach relative to the true one, as products over all
-/// bits. sums[k] is the sum over the places at most k cells away along both axes.
+/// Returns the odds of all other places within reach relative to the true place, as products over
+/// all bits. sums[k] is the sum over the places at most k cells away along both axes.
 std::array<double, kReach + 1> odds_by_distance(View& view) {
     const auto& [cell, section] = view.place;
     const auto columns = starts(view.code, cell.x, section.u, cell.y);
@@ -129,8 +129,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     for (int dy = -kReach; dy <= kReach; ++dy) {
         for (int dx = -kReach; dx <= kReach; ++dx) {
             if (dx == 0 && dy == 0) continue;
-            // Half of the loss, because a contradicting bit is added to one sum and subtracted from
-            // the other.
+            // The loss is halved, because a contradicting bit is added to one sum and subtracted
+            // from the other sum.
             const double odds = std::exp2(view.odds_log2 / 127 * (total(dx, dy) - of_truth) / 2);
             for (int k = std::max(std::abs(dx), std::abs(dy)); k <= kReach; ++k)
                 sums[static_cast<std::size_t>(k)] += odds;
@@ -178,11 +178,11 @@ TEST(WeakSighting, NoPlaceInTheGateIsLikelierThanTheBound) {
 struct Repetition {
     std::uint32_t position = 0;
     int distance = 0;  ///< in lines
-    int roll = 0;      ///< roll of the later lines relative to the earlier ones, 0 to 62
+    int roll = 0;      ///< roll of the later lines relative to the earlier lines, 0 to 62
 };
 
-/// Returns all repetitions within reach. They are where the same four digits are repeated in all
-/// four sequences.
+/// Returns all repetitions within reach. A repetition occurs where the same four digits are
+/// repeated in all four sequences.
 std::vector<Repetition> repetitions(CodeVariant code) {
     const code::Basis& basis = code::basis(code);
     std::vector<Repetition> found;

@@ -64,7 +64,7 @@ let differ = false;
 for (const { name, definition, hash } of JSON.parse(await readFile("/dev/stdin", "utf8"))) {
   const type = name.replace("/msg/", "/");
   const parts = parse(definition, { ros2: true });
-  // These readers know the time without a definition, but files of ROS contain its definition.
+  // These readers need no definition of the type Time, but files of ROS contain its definition.
   const time = parts.find((part) => part.name === "builtin_interfaces/Time");
   if (members(time) !== "int32 sec, uint32 nanosec") {
     console.log(`${name}: a time is ${members(time)}`);

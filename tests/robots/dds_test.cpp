@@ -45,8 +45,8 @@ class Dds : public WatchCommand {
                                  const std::string& options, const std::string& environment = "") {
         const std::string watch = "'" + test::tool_path() + "' watch - " + kRaw + " " + kTrack +
                                   " --units ros --dds --robot anna -o lines " + options;
-        // The frames start when reader and writers have discovered each other. The reader signals
-        // when that is the case.
+        // The frames start when reader and writers have discovered each other, which the reader
+        // signals.
         const std::string ready =
             "until [ -e ready ] || ! kill -0 $reader; do sleep 0.1; done; sleep 1; ";
         std::ofstream(directory_ / "run.sh")
@@ -64,7 +64,7 @@ class Dds : public WatchCommand {
     }
 };
 
-/// Skips a test if something is missing that it needs.
+/// Skips a test if one of its requirements is missing.
 #define DOTPOSE_NEEDS_DDS()                                                                  \
     DOTPOSE_NEEDS_NPM();                                                                     \
     if (kReader == nullptr) GTEST_SKIP() << "built without Cyclone DDS or without Fast DDS"; \
@@ -93,7 +93,8 @@ TEST_F(Dds, SendsSensorDataAsRosDoes) {
 TEST_F(Dds, IsFoundOnThisComputerAloneIfRosSaysSo) {
     DOTPOSE_NEEDS_DDS();
     put_raw(20);
-    // The reader then receives no multicast, by which programs discover each other in a network.
+    // In this case, the reader receives no multicast, by which programs discover each other in a
+    // network.
     const auto messages = read_drive("cat drive.raw", "reliable", "--dds-reliable",
                                      "export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; ");
     EXPECT_EQ(of_topic(messages, "/anna/pose").size(), 20U);

@@ -129,7 +129,7 @@ inline void expect_odometry_of(const std::vector<nlohmann::json>& lines,
         EXPECT_NEAR(
             map["translation"]["y"].get<double>() + std::sin(angle) * x + std::cos(angle) * y,
             line["track_y_m"].get<double>(), 1e-9);
-        // At most 300 mm/s, with 5 ms per frame.
+        // The maximum speed is 300 mm/s, at 5 ms per frame.
         EXPECT_LT(std::hypot(x - before_x, y - before_y), 0.003);
         if (map != map_before) ++jumps;
         map_before = map;

@@ -1,4 +1,4 @@
-// MCAP files, read by the two readers of another program with all checksums.
+// MCAP files, read with all checksums by two independent readers.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -77,7 +77,7 @@ TEST_F(Mcap, IsCompleteAtEveryMoment) {
     DOTPOSE_NEEDS_NPM();
     McapFile file(path_);
     write(file, 456);
-    // The file is not finished, as after killing the program. The last second may be missing.
+    // The file is not finished, as if the program was killed. The last second may be missing.
     expect_poses(read_mcap(path_), 456 - 101, 456);
     file.finish();
     expect_poses(read_mcap(path_), 456, 456);
@@ -88,8 +88,8 @@ TEST_F(Mcap, CutOffAnywhereItHasAllFinishedChunks) {
     McapFile file(path_);
     write(file, 456);
     file.finish();
-    // The file is cut in the middle of the data, as by a full disk. It has neither an end nor an
-    // index.
+    // The file is cut in the middle of the data, as on a full disk. The file has neither an end nor
+    // an index.
     std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
     const auto messages = read_mcap(path_, "--stream");
     EXPECT_GT(messages.size(), 100U);

@@ -83,7 +83,7 @@ async function indexed(path, bytes) {
   };
   const reader = await McapIndexedReader.Initialize({ readable });
   if (reader.header.profile !== "ros2") fail(`profile ${reader.header.profile}`);
-  // The readers check the checksums of chunks and summary, but not that of all data.
+  // The readers check the checksums of chunks and summary, but not the checksum of all data.
   const data = bytes.subarray(0, Number(reader.dataEndOffset));
   if (reader.dataSectionCrc !== crc32(data)) fail("the check sum of the data is wrong");
   const decoder = new Decoder();

@@ -112,8 +112,8 @@ TEST_F(Recording, TellsWhereTheCameraSits) {
     const json& mount = mounts[0]["message"]["transforms"][0];
     EXPECT_EQ(mount["child_frame_id"], "camera_optical");
     EXPECT_NEAR(mount["transform"]["translation"]["x"], 0.00458, 1e-9);
-    // The quality of service with which `ros2 bag play` publishes it, transient local, is accepted
-    // by listeners of transforms.
+    // `ros2 bag play` publishes the topic with the recorded quality of service, transient local,
+    // which listeners of transforms accept.
     EXPECT_THAT(mounts[0]["offered"], HasSubstr("\n  durability: 1\n"));
     const auto poses = of_topic(recorded("run.mcap"), "/robot/pose");
     EXPECT_THAT(poses.at(0)["offered"], HasSubstr("\n  durability: 2\n"));

@@ -1,5 +1,5 @@
-// From fixes and tracks to messages: frames, units and covariances, compared with values computed
-// by hand.
+// Tests the conversion of fixes and tracks to messages: frames of reference, units and covariances,
+// compared with values computed by hand.
 #include "dotpose/tools/robot_messages.hpp"
 
 #include <cmath>
@@ -108,7 +108,8 @@ TEST(RobotMessages, OdometryBeginsWhereTheRobotIsFirstSeen) {
     expect_transform(start.tf->transforms[0], 2, 1, kRightAngle);
     expect_transform(start.tf->transforms[1], 0, 0, 0);
 
-    // 0.1 m north, which is forwards, and 0.2 m west, which is to the left.
+    // The robot is 0.1 m farther north, which is forwards, and 0.2 m farther west, which is to the
+    // left.
     PlanarMotion next = first;
     next.pose = {1.8, 1.1, kRightAngle + 0.25};
     const RobotMessages then = messenger.messages(update(next));
@@ -118,7 +119,7 @@ TEST(RobotMessages, OdometryBeginsWhereTheRobotIsFirstSeen) {
     EXPECT_EQ(then.odometry->child_frame_id, "base_link");
     EXPECT_NEAR(then.odometry->pose.pose.position.x, 0.1, 1e-12);
     EXPECT_NEAR(then.odometry->pose.pose.position.y, 0.2, 1e-12);
-    // The axes of odom are those of the world rotated by 90 degrees, so x and y are exchanged.
+    // The axes of odom are the axes of the world rotated by 90 degrees, so x and y are exchanged.
     EXPECT_NEAR(then.odometry->pose.covariance[0], 2, 1e-12);
     EXPECT_NEAR(then.odometry->pose.covariance[7], 1, 1e-12);
     EXPECT_NEAR(then.odometry->pose.covariance[35], 3, 1e-12);
@@ -160,8 +161,8 @@ TEST(RobotMessages, VelocitiesAreThoseOfTheRobot) {
     EXPECT_NEAR(twist.twist.linear.x, 0.3, 1e-12);
     EXPECT_NEAR(twist.twist.linear.y, 0, 1e-12);
     EXPECT_EQ(twist.twist.angular.z, -0.5);
-    // Forwards is the y axis of the world. Sideways, an angle error of 1 adds 0.3 m/s; its variance
-    // is 3.
+    // Forwards is the y axis of the world. Sideways, an angle error of 1 rad adds 0.3 m/s. The
+    // variance of the angle is 3.
     EXPECT_NEAR(twist.covariance[0], 5, 1e-12);
     EXPECT_NEAR(twist.covariance[7], 4 + 0.3 * 0.3 * 3, 1e-12);
     EXPECT_NEAR(twist.covariance[35], 6, 1e-12);

@@ -1,4 +1,4 @@
-// From a document to the place on its pages: `dotpose overlay`, a renderer instead of a printer,
+// Locates frames of the pages of a document: `dotpose overlay`, a renderer instead of a printer,
 // the simulated camera, and `dotpose locate`.
 #include <algorithm>
 #include <cmath>

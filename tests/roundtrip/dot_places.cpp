@@ -13,7 +13,7 @@ struct Point {
 };
 
 /// Returns the centroid of the ink around an intersection. The ink of a dot ends 0.25 spacings from
-/// its intersection, and that of its neighbours begins at 0.75.
+/// its intersection, and the ink of its neighbours begins at 0.75.
 std::optional<Point> centroid_px(const GreyPage& page, Point centre, double half_px) {
     double ink = 0;
     Point sum;

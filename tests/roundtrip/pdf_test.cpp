@@ -103,8 +103,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 class OddResolution : public testing::TestWithParam<const char*> {};
 
-// The reason why letters are used for whole pixels only: a renderer moves each letter to whole
-// pixels (or parts of pixels), but draws strokes at their exact places.
+// Shows why letters are used for whole pixels only: a renderer moves each letter to whole pixels
+// (or parts of pixels), but draws strokes at their exact places.
 TEST_P(OddResolution, moves_letters_and_leaves_strokes) {
     constexpr int kOdd_dpi = 310;  // a spacing of 6.2 pixels
     SheetOptions options;

@@ -3,8 +3,8 @@ declare const __FILES__: string[];
 declare const __BUILD__: string;
 
 /**
- * The parts of ServiceWorkerGlobalScope used here. Its TypeScript types conflict with those of a
- * page.
+ * The parts of ServiceWorkerGlobalScope used here. Its TypeScript types conflict with the types of
+ * a page.
  */
 interface WorkEvent extends Event {
     waitUntil(work: Promise<unknown>): void;

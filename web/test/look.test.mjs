@@ -41,8 +41,8 @@ async function runCamera(address, frames) {
 }
 
 /**
- * Returns the true pose of a line of the log. This is the nearest one, because frames of the
- * clip are metres apart.
+ * Returns the true pose of a line of the log. The true pose is the nearest pose of the clip,
+ * because the frames of the clip are metres apart.
  */
 function truthOf(line) {
     const near = (at) => Math.hypot(at.x_mm - line.x_mm, at.y_mm - line.y_mm);

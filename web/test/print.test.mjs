@@ -1,4 +1,4 @@
-// Print: the rendered PDF has the same dots as the PDF of the tool.
+// Print: checks that the rendered PDF has the same dots as the PDF of the tool.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";

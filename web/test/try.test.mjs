@@ -1,4 +1,4 @@
-// Try: the simulated camera is located after it is moved and its frames are degraded.
+// Try: checks that the simulated camera is located after it is moved and its frames are degraded.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { launch, open, serve } from "./browser.mjs";

@@ -1,5 +1,5 @@
-// Conversions between the structs of dotpose.h and those of the core. Conversions to the core check
-// every value, because a C caller can pass any value.
+// Conversions between the structs of dotpose.h and the structs of the core. Conversions to the core
+// check every value, because a C caller can pass any value.
 #pragma once
 
 #include <cstdint>

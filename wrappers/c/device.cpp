@@ -1,5 +1,5 @@
-// Initialisation of microcontroller locators. In a separate file, so that a program that uses only
-// these contains no other kinds.
+// Initialisation of microcontroller locators. This code is in a separate file, to keep other kinds
+// out of programs that use only these locators.
 #include "locator.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-// Writes frames and their fixes to the bit, with which the wrappers are compared.
+// Writes frames and the bits of their fixes. Tests compare the wrappers with these files.
 //
 //   dotpose_golden_files DIRECTORY
 //

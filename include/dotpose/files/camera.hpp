@@ -53,8 +53,8 @@ struct Camera {
     /// Tilt of a mounted camera; none if the calibration did not determine it.
     std::optional<Tilt> tilt;
 
-    /// Reference point of the pose: an undistorted pixel, which may be outside the image. None: the
-    /// image centre.
+    /// Reference point of the pose: an undistorted pixel, which may be outside the image. If there
+    /// is none, the reference point is the image centre.
     std::optional<PixelPoint> reference_px;
     /// Heading of the robot minus the angle of the image x axis at the image centre.
     double theta_offset_rad = 0;
@@ -109,9 +109,9 @@ PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
 
 /// Returns the camera of a part of its images. The part is the rectangle of `width_px` x
-/// `height_px` whose top left pixel is (`left_px`, `top_px`). Reference point and heading do not
-/// change, even if they are the defaults of `camera`. Throws BadArgument as `validate`, and if the
-/// part exceeds the image.
+/// `height_px` whose top left pixel is (`left_px`, `top_px`). Reference point and heading refer to
+/// the same point and direction as before, even if `camera` uses the defaults. Throws BadArgument
+/// as `validate`, and if the part exceeds the image.
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
 /// Sets lens and reference point for images of this size. If the view of the camera is known, the

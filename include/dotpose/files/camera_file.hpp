@@ -20,9 +20,9 @@ namespace dotpose {
 inline constexpr int kCameraFileVersion = 1;
 
 /// Reads a camera file, or a camera_info file of ROS. Throws Error, with the names of the file and
-/// the key, if the file cannot be read, is neither of the two or has another version; if a key is
-/// missing, unknown, of the wrong type or out of range; or if the distortion model is not
-/// plumb_bob, or eq. 2 cannot approximate it to 0.5 px rms.
+/// the key, if the file cannot be read, has another format or version, or has a key that is
+/// missing, unknown, of the wrong type or out of range. Also throws Error if the distortion model
+/// is not plumb_bob, or if eq. 2 cannot approximate the lens to 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 
 /// Reads a camera from the text of a camera file. `name` is the name of the file in messages.

@@ -37,11 +37,12 @@ struct CalibrateOptions {
     /// The printed pattern. Only its code variant and spacing are used. All measured lengths are
     /// proportional to the spacing, so an error of the spacing is an error of the lengths.
     Pattern pattern;
-    /// True to detect the code variant from the frames instead of using that of `pattern`. Ignored
-    /// by `stitch_sheets`, because each sheet has its own code variant.
+    /// True to detect the code variant from the frames instead of using the code variant of
+    /// `pattern`. Ignored by `stitch_sheets`, because each sheet has its own code variant.
     bool any_code = false;
-    /// Sheets that the frames may show, for example those of a sheet file. If there are any, the
-    /// spacing is the printed spacing of the sheet in most frames. Ignored by `stitch_sheets`.
+    /// Sheets that the frames may show, for example the sheets of a sheet file. If the list is not
+    /// empty, the spacing is the printed spacing of the sheet in most frames. Ignored by
+    /// `stitch_sheets`.
     std::vector<SheetEntry> sheets;
     /// Called after each part of the work. Returning false stops the work with an Error.
     std::function<bool(int done, int total)> progress;
@@ -108,7 +109,7 @@ struct SpinStation {
     double x_mm = 0;
     double y_mm = 0;
     double theta_rad = 0;
-    /// Centre of rotation from this frame alone minus the centre from all frames.
+    /// Centre of rotation from this frame alone, minus the centre from all frames.
     double off_x_mm = 0;
     double off_y_mm = 0;
 };

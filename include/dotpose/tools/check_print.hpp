@@ -38,9 +38,10 @@ struct CheckPrintOptions {
     /// The pattern that was printed. The section is read from the image. Patches of a test page
     /// encode their own settings, so only the code variant is used for them.
     Pattern pattern;
-    /// True to find the code variant from the whole page instead of using that of `pattern`.
+    /// True to find the code variant from the whole page instead of using the code variant of
+    /// `pattern`.
     bool any_code = false;
-    /// Sheets that the scan may contain, for example those of a sheet file. A field within the
+    /// Sheets that the scan may contain, for example the sheets of a sheet file. A field within the
     /// region of a sheet is checked against the pattern of that sheet. Only sheets with the code
     /// variant of `pattern` are found.
     std::vector<Sheet> sheets;
@@ -50,16 +51,16 @@ struct CheckPrintOptions {
     std::optional<Resolution> resolution;
     /// True if the image file states that a camera took it. The resolution is then ignored.
     bool is_photo = false;
-    /// Reflectance of solid ink relative to the paper, 0 to 0.9. It must be given because dots of a
-    /// few pixels do not show it. Measured diameters are those of discs of this ink that are as
-    /// dark as the dots.
+    /// Reflectance of solid ink relative to the paper, 0 to 0.9. The value must be given, because
+    /// it cannot be measured on dots of a few pixels. A measured diameter is the diameter of a disc
+    /// of this ink with the darkness of the dot.
     double ink_reflectance = 0.15;
     /// Called after each part of the work. Returning false stops the work with an Error.
     std::function<bool(int done, int total)> progress;
 };
 
-/// Scale and angles of a print on a flatbed scan, including those of the scanner. A second scan,
-/// with the page turned by 90 degrees, separates printer and scanner.
+/// Scale and angles of a print on a flatbed scan, including the scale and angles of the scanner. A
+/// second scan, with the page turned by 90 degrees, separates printer and scanner.
 struct PrintScale {
     double scale_x = 1;       ///< printed length over nominal length along the pattern's x axis
     double scale_y = 1;       ///< printed length over nominal length along the pattern's y axis

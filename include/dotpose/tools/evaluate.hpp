@@ -37,7 +37,7 @@ namespace dotpose {
 struct KnownFrame {
     GreyImage image;
     Truth truth;
-    /// Code variant of this frame, instead of that of the options.
+    /// Code variant of this frame. Replaces the code variant of the options.
     std::optional<CodeVariant> code;
     std::string problem;  ///< reason why there is no image; empty if there is one
 };

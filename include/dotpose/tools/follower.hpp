@@ -135,8 +135,8 @@ class Follower {
     void remember(const Found& found, const std::optional<Sighting>& sighting);
 
     FollowerOptions options_;
-    /// Code variants in the order in which they are tried, starting with that of the last fix.
-    /// Empty: all code variants.
+    /// Code variants in the order in which they are tried, starting with the code variant of the
+    /// last fix. Empty: all code variants.
     std::vector<CodeVariant> codes_;
     CodeEvidence evidence_;       ///< evidence of the previous images
     double unplaced_spacing_mm_;  ///< spacing for a fix on no sheet

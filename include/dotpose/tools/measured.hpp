@@ -6,8 +6,8 @@
 ///     const Measurement result = compare(std::move(frames), alignment);
 ///     write_measurement("figures", result);
 ///
-/// Lengths are in mm and angles in radians, in the frame of the true places: that of a sheet (y
-/// down, clockwise) or of the world (y up, counter-clockwise).
+/// Lengths are in mm and angles in radians, in the frame of the true places: the sheet (y down,
+/// clockwise) or the world (y up, counter-clockwise).
 #pragma once
 
 #include <array>
@@ -99,8 +99,8 @@ std::vector<std::pair<std::string, std::string>> described(const Measurement& me
 void write_errors_csv(std::ostream& out, const Measurement& measurement);
 
 /// Writes positions.csv, figure-13 and figure-14 and, if the true angles differ, angles.csv and
-/// figure-15. The figures are those of the paper, each as .svg and .png. Frames with the same true
-/// place are samples of one position.
+/// figure-15. The figures correspond to the figures of the paper. Each figure is written as .svg
+/// and .png. Frames with the same true place are samples of one position.
 void write_measurement(const std::filesystem::path& folder, const Measurement& measurement);
 
 }  // namespace dotpose

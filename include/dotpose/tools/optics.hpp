@@ -50,7 +50,7 @@ struct OpticsAdvice {
     std::string text;       ///< one sentence: the fault and the remedy
 };
 
-/// View of the pattern by the camera of a device.
+/// The view that the camera of a device has of the pattern.
 struct OpticsReport {
     double magnification = 0;
     double mm_per_px = 0;

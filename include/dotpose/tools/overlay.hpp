@@ -23,8 +23,8 @@ namespace dotpose {
 
 /// One page with dots. The frame of its sheet begins at the top left corner of the displayed page.
 struct OverlaidPage {
-    /// Number of the page among those of all copies, from 1. The pages of the second copy follow
-    /// the pages of the first copy.
+    /// Number of the page among the pages of all copies, from 1. The pages of the second copy
+    /// follow the pages of the first copy.
     int number = 0;
     Sheet sheet;
     int document_page = 0;  ///< number of the page in the document, from 1

@@ -8,15 +8,15 @@
 namespace dotpose {
 
 /// A model (not a measurement) of a printer's errors over a page: a smooth shift of low frequency.
-/// The amplitudes give the maximum errors of the paper (Table III) on the measured area; they are
-/// larger along y, the direction of paper feed.
+/// The amplitudes are chosen for the maximum errors of the paper (Table III) on the measured area.
+/// The errors are larger along y, the direction of paper feed.
 class PrintModel {
   public:
     /// Side of the square area to which the maximum errors apply.
     static constexpr double kSide_mm = 200;
 
     /// `worst_x_mm` and `worst_y_mm` are the maximum errors in the area, along x and y. The
-    /// defaults are those of Table III.
+    /// defaults are the values of Table III.
     PrintModel(double worst_x_mm = 0.15, double worst_y_mm = 0.27);
 
     /// Returns printed minus intended position, at a position relative to the middle of the area.

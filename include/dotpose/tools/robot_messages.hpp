@@ -8,10 +8,10 @@
 ///     if (messages.pose) publish(to_cdr(*messages.pose));
 ///
 /// Frames (ROS REP 103: metres, x forward, y left, z up, counter-clockwise; REP 105): `map` is the
-/// world of the sheet file. Without a sheet file, it is the pattern frame with y up and the same
+/// world of the sheet file. Without a sheet file, `map` is the pattern frame with y up and the same
 /// origin. `odom` begins at the first pose of the robot. While the robot is followed, the transform
-/// from `map` to `odom` does not change. When the robot is found again after it was lost or put
-/// elsewhere, `map` to `odom` jumps, and `odom` to `base_link` continues. `base_link` is the
+/// from `map` to `odom` does not change. When the robot is found again after it was lost or moved
+/// by hand, `map` to `odom` jumps, and `odom` to `base_link` continues. `base_link` is the
 /// reference point of the camera file on the paper, with the robot's heading; without a camera file
 /// it is the point under the image centre, with x along the image x axis.
 #pragma once
@@ -65,10 +65,10 @@ struct RobotUpdate {
     std::optional<PlanarFix> fix;        ///< none without a fix, or if its place is not known
     std::optional<PlanarMotion> motion;  ///< none while the robot is lost
     std::uint32_t plane = 0;             ///< poses in different planes are unrelated
-    bool is_found_again = false;         ///< true if the motion does not continue the previous one
-    std::string state;                   ///< "lost", "moving" or "stationary"
-    std::string problem;                 ///< reason why there is no fix; empty if there is one
-    std::vector<KeyValue> facts;         ///< further values of the frame
+    bool is_found_again = false;  ///< true if the motion does not continue the previous motion
+    std::string state;            ///< "lost", "moving" or "stationary"
+    std::string problem;          ///< reason why there is no fix; empty if there is one
+    std::vector<KeyValue> facts;  ///< further values of the frame
 };
 
 /// Returns the results of a frame. `is_in_world` is Follower::is_in_world.

@@ -6,7 +6,7 @@
 ///     const std::vector<std::uint8_t> bytes = to_cdr(message);
 ///
 /// robot_messages.hpp makes messages from fixes, mcap_file.hpp writes messages to files. Units and
-/// frames are those of ROS REP 103: metres, radians, seconds; x forward, y left, z up.
+/// frames follow ROS REP 103: metres, radians, seconds; x forward, y left, z up.
 #pragma once
 
 #include <array>

@@ -15,7 +15,7 @@
 
 namespace dotpose {
 
-/// Quantiles by the nearest-rank method: the smallest value that is at least as large as a given
+/// Quantiles by the nearest-rank method: the smallest value that is not exceeded by a given
 /// fraction of all values. Not a number if there are no values.
 struct Quantiles {
     double median = std::numeric_limits<double>::quiet_NaN();
@@ -34,7 +34,7 @@ struct Score {
     int wrong = 0;                                 ///< number of wrong fixes
     std::array<int, kStatusCount> by_status = {};  ///< `ok` counts correct and wrong fixes
 
-    // The following statistics are those of correct fixes.
+    // The following statistics are computed over the correct fixes.
     Quantiles position_um;  ///< distance in the plane
     Quantiles angle_deg;
     /// Mean of error^2 / variance, for x, y and theta: 1 if the covariance is correct, above 1 if

@@ -40,7 +40,7 @@ struct Vec2 {
     double y = 0;
 };
 
-/// Size and optics of the simulated camera. The defaults are those of the paper's device (III-A).
+/// Size and optics of the simulated camera. The defaults describe the paper's device (III-A).
 struct CameraModel {
     int width_px = 188;   ///< 1 to 16384
     int height_px = 120;  ///< 1 to 16384
@@ -52,7 +52,7 @@ struct CameraModel {
     /// Distance of the projection centre from the pose point, relevant only with tilt. Above 0.
     double working_distance_mm = 16;
     /// Motion of the scene in the image while a rolling shutter reads the rows, at most half the
-    /// image along each axis; the pose is that of the middle row. (0, 0) is a global shutter.
+    /// image along each axis. The pose applies to the middle row. (0, 0) is a global shutter.
     Vec2 readout_px;
 };
 
@@ -81,10 +81,12 @@ struct Imperfections {
     double ink_reflectance = 0.15;  ///< reflectance relative to paper
     double ink_variation = 0;  ///< standard deviation of a dot's reflectance, relative to paper
     /// Contrast of the palest ink relative to the darkest. Each direction of displacement may have
-    /// its own ink: the darkest has `ink_reflectance`, and the other two are evenly in between.
+    /// its own ink: the darkest ink has `ink_reflectance`, and the remaining two inks are evenly in
+    /// between.
     double palest_ink = 1;
     double vignetting = 0;  ///< loss of light in the image corners, growing with r^2
-    /// Linear change of light from one side to the other, relative to that at the centre; 0 to 2.
+    /// Linear change of light from one side to the opposite side, relative to the light at the
+    /// centre; 0 to 2.
     double fall = 0;
     double fall_direction_rad = 0;  ///< image direction of less light, from +u towards +v
     double blur_sigma_px = 0;

@@ -24,8 +24,8 @@ namespace dotpose {
 
 /// First cell, on both axes, of the region reserved for test pages.
 inline constexpr std::uint32_t kTestPageCell = 410'000'000;
-/// Distance in cells between the patches of adjacent settings; a patch has at most half as many
-/// cells per axis.
+/// Distance in cells between the patches of adjacent settings; a patch has at most half this number
+/// of cells per axis.
 inline constexpr std::uint32_t kTestPatchCells = 10'000;
 /// Unit of spacings and diameters on a test page.
 inline constexpr double kTestUnit_mm = 25.4 / 1200;

@@ -143,7 +143,7 @@ class Publisher::Writers {
         using Values = dds_sequence_diagnostic_msgs_msg_dds__KeyValue_;
         using States = dds_sequence_diagnostic_msgs_msg_dds__DiagnosticStatus_;
         std::vector<std::vector<diagnostic_msgs_msg_dds__KeyValue_>> values;
-        // No reallocation, because the states point into `values`.
+        // `values` must not be reallocated, because the states point into it.
         values.reserve(message.status.size());
         std::vector<diagnostic_msgs_msg_dds__DiagnosticStatus_> states;
         for (const ros::DiagnosticStatus& status : message.status) {

@@ -17,8 +17,8 @@ extern "C" {
 namespace dotpose::video {
 namespace {
 
-/// Only software encoders, because FFmpeg also lists encoders of graphics cards that are not
-/// installed.
+/// Only software encoders are used, because FFmpeg also lists encoders of graphics cards that are
+/// not installed.
 constexpr const char* kEncoders[] = {"libx264", "libopenh264"};
 
 const AVCodec* h264_encoder() {

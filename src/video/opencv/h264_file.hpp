@@ -18,7 +18,7 @@ class H264File {
     /// Creates the file. The file extension determines the container. Width and height must be
     /// even. Throws Error.
     H264File(const std::string& path, double fps, cv::Size size);
-    /// Completes the file as far as possible.
+    /// Completes the file and ignores errors.
     ~H264File();
     H264File(const H264File&) = delete;
     H264File& operator=(const H264File&) = delete;

@@ -49,7 +49,7 @@ bool calibrate(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// Uses each library that the tools depend on, to check that it is found, links and runs.
+// Uses each library on which the tools depend, to check that the library is found, links and runs.
 int main() {
     const std::filesystem::path folder = "consumer-out";
     std::filesystem::create_directories(folder);

@@ -101,7 +101,7 @@ TEST(CheckPrint, finds_dots_that_run_together) {
 }
 
 TEST(CheckPrint, tells_other_print_from_faults) {
-    // Bars of 1 mm every 5 mm, as black as the dots, and a grey area.
+    // Draws bars of 1 mm every 5 mm, as black as the dots, and a grey area.
     const Sheet sheet = small_sheet();
     ScanSettings settings;
     GreyImage scan = scan_page(sheet, settings);
@@ -244,7 +244,7 @@ GreyImage phone_photo(double tilt_rad, double mm_per_px = 0.06, double missing =
 
 TEST(CheckPrint, photos_of_a_flawless_print_have_no_faults_and_no_scale) {
     for (const double tilt_degrees : {1.0, 10.0, 25.0}) {
-        // The given resolution is that in the middle of the view.
+        // The given resolution applies in the middle of the view.
         const PrintCheck result = check(phone_photo(tilt_degrees * kDegree_rad), 25.4 / 0.06);
         ASSERT_EQ(result.fields.size(), 1U) << tilt_degrees;
         const PrintField& field = result.fields[0];

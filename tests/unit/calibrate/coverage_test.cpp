@@ -1,4 +1,5 @@
-// Views that a calibration still needs, and the accuracy of a lens in the corner.
+// Coverage of a calibration: the views that it still needs, and the accuracy of a lens in the
+// corner.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -34,7 +35,7 @@ std::vector<Kind> kinds(const std::vector<CalibrationNeed>& needs) {
 }
 
 /// Returns a frame at a place, in spacings of 10 px, with a dot in the middle of each part of the
-/// image except those in `empty`.
+/// image except the parts in `empty`.
 CalibrationView view_at(double x_grid, double y_grid, double theta_deg,
                         const std::vector<std::pair<int, int>>& empty = {}) {
     CalibrationView view;
@@ -98,7 +99,7 @@ TEST(CalibrationCoverage, CountsPlacesDirectionsAndNewParts) {
     EXPECT_TRUE(coverage.has_direction(1));
     EXPECT_TRUE(coverage.has_direction(7));
     EXPECT_FALSE(coverage.has_direction(4));
-    // The same place on another sheet.
+    // The second frame shows the same place on another sheet.
     CalibrationView other = view_at(0, 0, 0);
     other.section = {1, 0};
     coverage.add(other);
@@ -129,7 +130,7 @@ TEST(CalibrationCoverage, NamesThePartOfTheImageThatIsMissing) {
                                                      {2, 6}, {0, 7}, {1, 7}, {2, 7}};
     CalibrationCoverage coverage(kWidth_px, kHeight_px);
     coverage.add(view_at(0, 0, 0, corner));
-    // More than the fraction that a calibration needs, but not in every corner.
+    // The dots cover more than the fraction that a calibration needs, but not every corner.
     ASSERT_GT(coverage.image().share(), kMinCoverage);
     const auto needs = coverage.missing(std::nullopt);
     ASSERT_EQ(needs[0].kind, Kind::image);

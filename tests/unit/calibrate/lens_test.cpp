@@ -23,7 +23,8 @@ constexpr int kFrames = 20;
 /// noise.
 constexpr double kNominalResidual_px = 0.222;
 
-/// Limit of errors, in reported standard deviations. Chance exceeds it once in 16,000.
+/// Limit of errors, in reported standard deviations. By chance, one error in 16,000 exceeds the
+/// limit.
 constexpr double kMaxSigmas = 4;
 
 void expect_near_truth(const Camera& camera, const char* sigma, double value, double truth) {
@@ -78,8 +79,8 @@ TEST(CalibrateLens, FindsTheTiltOfAMountedCamera) {
     expect_near_truth(result.camera, "tilt_y_rad", result.camera.tilt->y_rad, -15 * kDegree_rad);
 }
 
-// With the dots that `locate` reads, the focal length of a slightly tilted camera was biased by
-// three standard deviations.
+// Regression: with only the dots that `locate` reads, the focal length of a slightly tilted camera
+// was biased by three standard deviations.
 TEST(CalibrateLens, ASlightTiltTellsAnUnbiasedFocalLength) {
     const CameraModel truth = paper_camera();
     const double focal_px = truth.working_distance_mm / truth.mm_per_px;
@@ -96,7 +97,7 @@ TEST(CalibrateLens, ASlightTiltTellsAnUnbiasedFocalLength) {
     EXPECT_LT(std::abs(normalised) / std::sqrt(kSeries), kMaxSigmas);
 }
 
-// The far corner has half as many px per spacing as the middle.
+// The far corner has half the px per spacing of the middle.
 TEST(CalibrateLensAtLength, AStrongTiltIsCoveredToTheCorners) {
     CameraModel truth;
     truth.width_px = 640;

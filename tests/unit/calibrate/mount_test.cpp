@@ -89,7 +89,7 @@ double off_mm(const RobotError& error) {
     return std::hypot(error.place_mm.x, error.place_mm.y);
 }
 
-// The uncertainty of the camera file adds to that of the reference: at a distance of 15.8 mm, 4 µm
+// The uncertainties of the camera file and of the reference add up: at a distance of 15.8 mm, 4 µm
 // and 3e-4 rad give 5.3 µm per axis.
 TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
     const CameraModel model = paper_camera();

@@ -1,4 +1,5 @@
-// The numbers in section III-A of the paper, and those of a thin lens.
+// Optics reports, compared with the numbers in section III-A of the paper and with the equations of
+// a thin lens.
 #include "dotpose/tools/optics.hpp"
 
 #include <cmath>
@@ -73,7 +74,8 @@ TEST(Optics, SaysWhatToChange) {
         return Contains(testing::AllOf(Field(&OpticsAdvice::is_fault, IsTrue()),
                                        Field(&OpticsAdvice::text, HasSubstr(words))));
     };
-    // 8 px: magnification 8 x 0.024 / 0.508 = 0.378, distance 5.5 (1 + 1 / 0.378) = 20.05.
+    // At 8 px, the magnification is 8 x 0.024 / 0.508 = 0.378, and the distance is 5.5 (1 + 1 /
+    // 0.378) = 20.05.
     EXPECT_THAT(faults, says("go closer (20.1 mm)"));
     EXPECT_THAT(faults, says("print larger dots"));
 

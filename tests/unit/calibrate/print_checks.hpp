@@ -1,4 +1,4 @@
-/// A small print, and the faults found on a scan of it.
+/// A small print, and the faults found on its scan.
 #pragma once
 
 #include <numbers>

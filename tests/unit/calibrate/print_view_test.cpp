@@ -1,5 +1,5 @@
-// Pages seen by cameras whose geometry is computed in the test, independently of the code under
-// test.
+// Print views: pages seen by cameras. The test computes the geometry of the cameras independently
+// of the code under test.
 #include "calibrate/print_view.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Four adjacent sheets with gaps and small rotations, and a camera over their seams.
+// Stitching of four adjacent sheets with gaps and small rotations, by a camera over their seams.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -131,7 +131,7 @@ TEST(StitchSheets, OnlyAReferenceMakesPrintScalesTrue) {
         EXPECT_NEAR(stitching.sheets[i].print_scale_y, y, 5 * sheet.sigma_scale_y) << i;
     };
     // The file contains a mean scale of 1 for the first sheet, which is kept. All other scales
-    // follow from it.
+    // follow from this scale.
     const auto relative = stitch_sheets(25, frame_at, sheets_of_table(), true_camera(model), {});
     expect_scale(relative, 0, 1.001, 0.999);
     expect_scale(relative, 1, 1.001 / 1.003, 1.003 / 1.003);
@@ -245,7 +245,8 @@ TEST(StitchSheets, KeepsTheSheetThatLiesInTheWorldAndNamesThoseNotSeen) {
     EXPECT_EQ(b.x_m, 1.25);
     EXPECT_EQ(b.y_m, -0.5);
     EXPECT_EQ(b.yaw_rad, 0.3);
-    // The pose of sheet a: from b's corner back by b's rotation, then into the world by b's yaw.
+    // The expected pose of sheet a: relative to b's corner, rotated back by b's rotation, then into
+    // the world by b's yaw.
     const WorldPose& a = stitching.sheets[0].world.value();
     const double yaw = 0.3 + kTable[1].turn_rad;
     EXPECT_NEAR(a.yaw_rad, yaw, 0.02 * kDegree_rad);

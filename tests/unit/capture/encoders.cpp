@@ -235,7 +235,7 @@ Bytes encode_bmp(const Raster& raster, const Bytes& palette) {
 Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     constexpr std::uint64_t kDirectoryAt = 8;
     constexpr std::uint64_t kEntries = 10;
-    // After the directory: the bits of each channel, then the palette, then the pixels.
+    // The directory is followed by the bits of each channel, the palette and the pixels.
     constexpr std::uint64_t kBitsAt = kDirectoryAt + 2 + kEntries * 12 + 4;
     constexpr std::uint64_t kPaletteAt = kBitsAt + 8;
     const Bytes colours = tiff_palette(palette, big_endian);
@@ -254,7 +254,7 @@ Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     tiff.integers(2, {kEntries});
     append_entry(tiff, {256, 1, number(raster.width_px), true});
     append_entry(tiff, {257, 1, number(raster.height_px), true});
-    // Two shorts fit into the entry itself, the first one in front.
+    // Two shorts fit into the entry itself. The first short precedes the second.
     const std::uint64_t two_bits = big_endian ? bits << 16 | bits : bits | bits << 16;
     append_entry(tiff, {258, channels, channels == 1 ? bits : channels == 2 ? two_bits : kBitsAt});
     append_entry(tiff, {259, 1, 1});

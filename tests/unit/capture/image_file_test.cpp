@@ -151,7 +151,7 @@ TEST_F(ImageFileTest, reads_the_pages_of_tiff) {
     EXPECT_EQ(read_origin(path, 2).resolution->x_dpi, 300);
     EXPECT_THROW(read_image(path, kDefaultImagePixels, 3), Error);
     EXPECT_EQ(count_pages(write(encode_png(kGrey))), 1);
-    // The directory of the second page refers to the first page as the next.
+    // The directory of the second page names the first page as the next page.
     std::string loop = test::tiff_of_pages({dark, light}, 300);
     const std::size_t second = loop.size() - 10 - 8 - 4 - 12 * 11 - 2;
     loop[second + 2 + 12 * 11] = 8;
@@ -178,7 +178,8 @@ TEST_F(ImageFileTest, reads_jpeg) {
     EXPECT_EQ(block_levels(grey), kGreyLevels);
     const Raster colour{3, 1, 3, 8, {0, 128, 128, 90, 128, 128, 255, 128, 128}};
     EXPECT_THAT(block_levels(read(encode_jpeg(colour))), ElementsAre(0, 90, 255));
-    // Stored inverted: no ink, all black, half black, the three coloured inks in full.
+    // The values are stored inverted: no ink, all black, half black, the three coloured inks in
+    // full.
     const Raster cmyk{4,
                       1,
                       4,
@@ -293,7 +294,7 @@ std::vector<Sample> samples() {
 TEST_F(ImageFileTest, refuses_files_cut_short) {
     for (const Sample& sample : samples()) {
         const std::size_t size = sample.bytes.size();
-        // A JPEG image ends with a marker of two bytes, and can be read without it.
+        // A JPEG image ends with a marker of two bytes. The image can be read without this marker.
         const std::size_t last = sample.format == std::string("JPEG") ? size - 3 : size - 1;
         for (const std::size_t kept : {size / 2, size * 95 / 100, last}) {
             Bytes cut = sample.bytes;
@@ -355,7 +356,8 @@ TEST_F(ImageFileTest, refuses_tiff_with_the_directory_cut) {
 }
 
 TEST_F(ImageFileTest, reads_headers_with_line_breaks_of_two_characters) {
-    // The first pixel is 10, like a line break. Only the size of the file distinguishes them.
+    // The first pixel is 10, like a line break. Only the size of the file distinguishes the pixel
+    // from a line break.
     const auto first_pixel = [this](const std::string& file) {
         std::ofstream(directory / "a.pgm", std::ios::binary) << file;
         return int{read_image(directory / "a.pgm").pixels.front()};
@@ -392,7 +394,7 @@ TEST_F(ImageFileTest, survives_random_damage) {
         int refused = 0;
         for (int round = 0; round < kRounds; ++round) {
             Bytes bytes = sample.bytes;
-            // Half of the damage is in the headers, where it has the largest effect.
+            // Half of the damage is in the headers, where damage has the largest effect.
             const std::size_t reach = round % 2 == 0 ? bytes.size() : std::size_t{200};
             for (std::uint32_t flips = 1 + random() % 8; flips > 0; --flips) {
                 bytes[random() % reach] = static_cast<std::uint8_t>(random());

@@ -1,4 +1,4 @@
-// Rarer kinds of image files than those of image_file_test.cpp.
+// Rare kinds of image files. image_file_test.cpp tests the common kinds.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -66,7 +66,7 @@ TEST(BmpKinds, StartAtTheTopWhenTheHeightIsNegative) {
 }
 
 TEST(BmpKinds, HaveFewBitsAndTheHeaderOfOs2) {
-    // 3 x 1 px, two colours of three bytes each: blue, and white.
+    // An image of 3 x 1 px with two colours of three bytes each: blue, and white.
     const Bytes file = Writer(false)
                            .text("BM")
                            .integers(4, {0, 0, 14 + 12 + 6, 12})
@@ -182,7 +182,7 @@ TEST_F(TiffKinds, HaveColoursThatAreMultipliedByTheirOpacity) {
 }
 
 TEST_F(TiffKinds, HaveFewBits) {
-    // Rows of bits. In fax encodings, 1 is black.
+    // The rows consist of bits. In fax encodings, 1 is black.
     const std::vector<std::uint16_t> bits(kHeight * kWidth / 16, 0xFF00);
     const auto fax = [](TIFF* tiff) {
         TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 1);

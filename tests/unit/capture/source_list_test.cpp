@@ -1,4 +1,4 @@
-// Kinds of sources, and lists of sources.
+// Detection of the kinds of sources, and lists of sources.
 #include "capture/source_list.hpp"
 
 #include <gtest/gtest.h>

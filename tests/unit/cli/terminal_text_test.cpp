@@ -1,4 +1,4 @@
-// Reports in colour, and durations in words.
+// Coloured reports, and durations in words.
 #include "terminal_text.hpp"
 
 #include <gtest/gtest.h>

@@ -230,7 +230,8 @@ TEST(Decode, NeverGuessesFromAChanged6x6) {
         ASSERT_TRUE(shows(CodeVariant::anoto, place, grid)) << describe(CodeVariant::anoto, place);
         ++elsewhere;
     }
-    // 70.6 % by an independent simulation in another language; standard deviation 0.3 %.
+    // An independent simulation in another language gives 70.6 %, with a standard deviation of 0.3
+    // %.
     EXPECT_NEAR(static_cast<double>(elsewhere) / kDraws, 0.706, 0.013);
 }
 
@@ -295,8 +296,8 @@ Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int 
 }
 
 TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
-    // One difference is wrong. Of 10 differences, the five on one side of it determine the
-    // position, which the wrong one contradicts.
+    // One of the 10 differences is wrong. The five differences on one side of the wrong difference
+    // determine the position, which the wrong difference contradicts.
     std::mt19937 rng(kSeed);
     int found_in_8 = 0;
     constexpr int kDraws = 20'000;
@@ -314,13 +315,13 @@ TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
         ASSERT_TRUE(shows(CodeVariant::anoto, place, eight)) << describe(CodeVariant::anoto, place);
         ++found_in_8;
     }
-    // Eight columns are not always enough. An independent simulation in another language (400,000
+    // Eight columns do not always suffice. An independent simulation in another language (400,000
     // draws) gives 0.75 %. The standard deviation here is 0.06 %.
     EXPECT_NEAR(static_cast<double>(found_in_8) / kDraws, 0.0075, 0.0025);
 }
 
-// The code variant must be that of the sheet. The windows were counted from the sequences by a
-// program in another language.
+// A window must be decoded in the code variant of its sheet. The windows were counted from the
+// sequences by a program in another language.
 TEST(Decode, TheOtherProfileReadsSomeWindowsWrong) {
     using Pair = std::pair<CodeVariant, CodeVariant>;
     for (const auto& [printed, read] : {Pair{CodeVariant::anoto, CodeVariant::libdots},

@@ -1,4 +1,5 @@
-// Every status has its identifier as its name, and one plain sentence as its message.
+// Names and messages of statuses: the name is the identifier, and the message is one plain
+// sentence.
 #include "dotpose/status.hpp"
 
 #include <cctype>

@@ -1,5 +1,5 @@
-// The table of lines that places of other code variants do not share, compared with the rolls of
-// the reference implementation.
+// The table of unshared lines of places in other code variants, compared with the rolls of the
+// reference implementation.
 #include "code/unshared_codes.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The table of lines that are not shared, checked by counting the lines.
+// The tables of unshared lines, compared with numbers obtained by counting lines.
 #include "code/unshared_lines.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Nothing is allocated after construction: a Locator uses only the memory passed to it.
+// Checks that nothing is allocated after construction: a Locator uses only the memory passed to it.
 // scripts/check-core-symbols checks the same in the object code, including malloc.
 #include <cstdlib>
 #include <memory>
@@ -27,8 +27,8 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-// The forms for arrays and the non-throwing forms call these. GCC warns of `new` and `free` if it
-// inlines only one of them.
+// The forms for arrays and the non-throwing forms call the forms below. GCC warns of `new` and
+// `free` if it inlines only one of the two functions.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     return counted(size, alignof(std::max_align_t));
 }

@@ -1,4 +1,4 @@
-// Every option has a range in which no stage can overflow. Values out of range are refused.
+// Ranges of options: no stage can overflow within the ranges, and values out of range are refused.
 #include <climits>
 #include <cstdint>
 #include <functional>

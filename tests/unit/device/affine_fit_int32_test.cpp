@@ -75,8 +75,8 @@ TEST(AffineFitInt32, IsTheLeastSquaresSolution) {
     Rng rng(kSeed);
     for (int i = 0; i < 300; ++i) {
         SCOPED_TRACE(testing::Message() << "fit " << i << ", seed " << kSeed);
-        // The number of dots varies from six to the maximum, and the view from a small window to
-        // the largest image.
+        // The number of dots varies from six to the maximum, and the size of the view varies from a
+        // small window to the largest image.
         const int count = i % 10 == 9 ? 1 << 14 : 6 + static_cast<int>(rng.below(400));
         const double reach = i % 3 == 0 ? 2048 : rng.uniform(40, 300);
         const auto pairs = random_pairs(rng, reach, i % 3 == 0 ? 6 : rng.uniform(6, 30), count);
@@ -188,9 +188,9 @@ TEST(AffineFitInt32, TargetsMayBePartsOfCells) {
         }
         PlaneFromImage plane;
         ASSERT_TRUE(fit_of(pairs).solve(bits, plane));
-        // Rounding displaces targets by 0.29 of the last bit rms, the mean of 400 targets by 1/20
-        // of that, and the ends of the shorter side by up to three times as much. The tolerance is
-        // five standard deviations.
+        // Rounding displaces targets by 0.29 of the last bit (rms). It displaces the mean of 400
+        // targets by 1/20 of this value, and the ends of the shorter side by up to 3/20. The
+        // tolerance is five standard deviations.
         const double tolerance = std::ldexp(5 * 0.29 / 20, -bits) + 1e-4;
         const Vec2 zero = mesh.inverse({0, 0});
         EXPECT_NEAR(real(plane.at_centre_q16, 16).x, zero.x, tolerance);
@@ -215,7 +215,7 @@ TEST(AffineFitInt32, PointsOnALineDetermineNothing) {
         for (int k = -40; k <= 40; ++k) {
             const FixedVec cell = fixed(k / 4.0 * along, 0);
             on_line.push_back({fixed(3.0 * k * along, 3), cell});
-            // The second set of points is a fifth as wide as it is long.
+            // The width of the second set of points is a fifth of its length.
             beside.push_back({fixed(3.0 * k * along + (k % 2 == 0 ? 15 : -15) * across, 3), cell});
         }
         PlaneFromImage plane;

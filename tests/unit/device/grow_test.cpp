@@ -81,7 +81,7 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), lattice_of(spoilt(mesh, rng)), plane),
                   Status::ok);
-        // Half of the dots are sufficient to distinguish cells in which dots are displaced by 1/6.
+        // Half of the dots suffice to distinguish cells in which dots are displaced by 1/6.
         // Spurious dots increase the errors.
         expect_grid(plane, placed, intersections(mesh, placed), 0.25);
         if (testing::Test::HasFatalFailure()) return;

@@ -67,9 +67,9 @@ TEST(Origin, IsThatOfAPlainGrid) {
 }
 
 TEST(Origin, IsTheMeanOfDisplacedDots) {
-    // The 9 x 9 dots are displaced by 1/6 along one random axis: by 0.12 on average, and their mean
-    // by 0.013, or by 0.035 if only a dozen are in view. If the grid were found half a cell beside
-    // its place, the error would be 0.5.
+    // The 9 x 9 dots are displaced by 1/6 along one random axis, which is 0.12 rms per axis. Their
+    // mean is displaced by 0.013, or by 0.035 if only a dozen dots are in view. If the grid were
+    // found half a cell beside its place, the error would be 0.5.
     for_many_grids([](const Mesh& mesh, Rng& rng) {
         const auto dots = dots_of(
             placed_dots(mesh, 20, kImage_px, [&](int, int) { return random_displacement(rng); }));
@@ -84,7 +84,7 @@ TEST(Origin, BearsDotsThatAreMissingOrFalse) {
              placed_dots(mesh, 20, kImage_px, [&](int, int) { return random_displacement(rng); })) {
             const double fate = rng.uniform();
             if (fate > 0.2) dots.push_back(dot_at(d.centre_px));
-            // One dot in ten is joined by one at a random place in its cell.
+            // One cell in ten has a second dot at a random place.
             if (fate < 0.9) continue;
             dots.push_back(dot_at(
                 mesh.at(d.cell.x + rng.uniform(-0.5, 0.5), d.cell.y + rng.uniform(-0.5, 0.5))));

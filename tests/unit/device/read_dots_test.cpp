@@ -1,4 +1,4 @@
-// Exactly those cells are read whose pixels are all in the image.
+// Reading of dots: checks that exactly the cells with all pixels in the image are read.
 #include "device/read_dots.hpp"
 
 #include <array>

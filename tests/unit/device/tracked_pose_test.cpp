@@ -70,7 +70,8 @@ TEST(TrackedPose, GoesThroughTheDots) {
         const double y0 = rng.uniform(-0.5, 0.5);
         const double yi = rng.uniform(-0.03, 0.03);
         const double yj = rng.uniform(-0.03, 0.03);
-        // Light makes dots on one side up to twice as dark. This must not change the fit.
+        // Uneven light makes the dots on one side up to twice as dark, which must not change the
+        // fit.
         const std::int32_t mass = round % 2 == 0 ? 1000 : 60;
         for (int j = 10; j <= 21; ++j) {
             for (int i = 9; i <= 24; ++i) {

@@ -1,5 +1,5 @@
-// The tracked attempt of devices: the predictions that it confirms, and that it never confirms a
-// wrong one.
+// The tracked attempt of devices: checks that it confirms correct predictions and refuses wrong
+// predictions.
 #include "device/tracked.hpp"
 
 #include <array>
@@ -35,7 +35,7 @@ double y_off(const Fix& fix, const Shot& shot) {
     return std::remainder(fix.y_grid() - y_grid(shot.pose), double{kPositionsPerAxis});
 }
 
-/// Returns true if the cell and section are those of the shot.
+/// Returns true if the cell and section are correct.
 bool is_right(const Fix& fix, const Shot& shot) {
     return std::hypot(x_off(fix, shot), y_off(fix, shot)) < 0.3 &&
            fix.section == shot.page.pattern.section;
@@ -126,7 +126,7 @@ TEST_F(DeviceTracked, LocatesAfreshWhatItRefuses) {
 }
 
 /// Returns the place whose columns, from 16 to the left of `place` to 16 to the right, share the
-/// maximum number of rolls with those of `place`.
+/// maximum number of rolls with the columns of `place`.
 Place worst_alternative(Place place) {
     constexpr std::size_t kLines = 20;
     const code::Basis& basis = code::basis(CodeVariant::anoto);
@@ -179,7 +179,7 @@ TEST_F(DeviceTracked, FollowsNoWrongPrediction) {
         wrong[2].place = moved(CodeVariant::anoto, right.place, 0, -2);
         wrong[3].place.section.v = static_cast<std::uint8_t>((right.place.section.v + 5) % 63);
         wrong[4].place.cell.y = (right.place.cell.y + 12345) % kPositionsPerAxis;
-        // Rotated by a quarter turn.
+        // The prediction is rotated by a quarter turn.
         std::swap(wrong[5].pattern_from_image.du_q24, wrong[5].pattern_from_image.dv_q24);
         wrong[5].pattern_from_image.du_q24.x *= -1;
         wrong[5].pattern_from_image.du_q24.y *= -1;
@@ -222,7 +222,7 @@ TEST_F(DeviceTracked, TakesPredictionsOfAnyBits) {
         Prediction prediction = Prediction::like(before);
         std::array<std::uint32_t, sizeof prediction / 4> words;
         std::memcpy(words.data(), &prediction, sizeof words);
-        // Either all words are random, or a few words of the correct prediction.
+        // Either all words of the prediction are random, or only a few.
         const int changes = i % 4 == 0 ? static_cast<int>(4 * words.size()) : 1 + i % 4;
         for (int n = 0; n < changes; ++n) {
             const auto word = static_cast<std::size_t>(rng_.below(words.size()));

@@ -1,5 +1,5 @@
-// Device workspaces for other frame sizes locate and track frames of these sizes, and refuse larger
-// frames.
+// Device workspaces for other frame sizes: checks that they locate and track frames of these sizes,
+// and refuse larger frames.
 #include "device/workspace.hpp"
 
 #include <cmath>
@@ -136,7 +136,7 @@ TYPED_TEST(DeviceWorkspace, RefusesLargerFrames) {
     constexpr int kWidth_px = TypeParam::kWidth_px;
     EXPECT_EQ(this->locator_.begin(kWidth_px + 1, 120), Status::image_too_large);
     EXPECT_EQ(this->locator_.begin(kWidth_px, 4097), Status::image_too_large);
-    // Frames that are both wide and high have more bands of tiles than there is room for.
+    // Frames that are both wide and high have more bands of tiles than the workspace can hold.
     const int max_px = kWidth_px == 320 ? 240 : 4096;
     EXPECT_EQ(this->locator_.begin(kWidth_px, max_px), Status::ok);
     EXPECT_EQ(this->locator_.begin(kWidth_px, max_px + 1), Status::image_too_large);

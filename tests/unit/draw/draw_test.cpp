@@ -112,7 +112,7 @@ std::vector<Mark> letters(const std::string& text, const GreyImage& image) {
     return marks;
 }
 
-/// Returns the intersection closest to a pixel, in cells relative to that of the pose.
+/// Returns the intersection closest to a pixel, in cells relative to the intersection of the pose.
 FixedVec nearest_cell(const Shot& shot, Vec2 pixel) {
     const double spacing_mm = shot.page.pattern.spacing_mm;
     const Vec2 offset_mm = Projection(shot.camera, shot.pose).offset_from_pixel(pixel);
@@ -235,7 +235,7 @@ TEST(DrawFrame, names_the_sheet) {
     EXPECT_THAT(on_sheet, HasSubstr(">x on the sheet<"));
     EXPECT_THAT(on_sheet, HasSubstr("font-weight=\"bold\">12.500 mm<"));
     EXPECT_THAT(on_sheet, HasSubstr(">on sheet table; in the pattern: x "));
-    // In the world, y points up: 1 m - 30.25 mm.
+    // In the world, y points up, so the expected value is 1 m - 30.25 mm.
     entry.world = WorldPose{2, 1, 0};
     const std::string in_world = located.drawn({.place = place});
     EXPECT_THAT(in_world, HasSubstr(">y in the world<"));
@@ -281,8 +281,9 @@ TEST(DrawFrame, head_and_note_of_a_panel_do_not_overlap) {
         const std::regex note(R"re(font-size="([0-9.]+)" text-anchor="end" [^>]*>([^<]*)<)re");
         int notes = 0;
         for (std::sregex_iterator found(svg.begin(), svg.end(), note), end; found != end; ++found) {
-            // In DejaVu Sans, the widest of the fonts, the longer heading is 562 of the 1200 units
-            // wide, and a letter of a note at most 0.634 of the font size.
+            // In DejaVu Sans, the widest of the fonts, the width of the longer heading is 562 of
+            // the 1200 units, and the width of a letter of a note is at most 0.634 of the font
+            // size.
             const double size = std::stod((*found)[1]);
             EXPECT_LT(562 + 0.634 * size * static_cast<double>((*found)[2].length()), 1200)
                 << (*found)[2];

@@ -1,4 +1,4 @@
-// Drawings in pixels: their size, and the place of their content.
+// Conversion of drawings to pixels: size, and place of the content.
 #include "evaluate/raster.hpp"
 
 #include <fstream>

@@ -99,7 +99,7 @@ TEST(sheet_map, shows_sheets_without_a_pose_beside_the_world) {
     for (std::size_t i = 1; i < found.size(); ++i) {
         for (const Corner corner : world)
             EXPECT_GT(found[i][0][0], corner[0]) << i;
-        // The page is twice as wide as it is high.
+        // The width of the page is twice its height.
         expect_step(found[i][0], found[i][2], found[i][1][0] - found[i][0][0],
                     (found[i][1][0] - found[i][0][0]) / 2);
         for (std::size_t j = 1; j < i; ++j)

@@ -87,7 +87,7 @@ TEST(ProtocolTest, MeasuresTheModelledPrinter) {
         EXPECT_EQ(station.wrong, 0);
         if (station.located == 0) continue;
         ++located;
-        // Where the ink is shifted to the right, the device measures too small values.
+        // Where the ink is shifted to the right, the measured values are too small.
         const Vec2 shift = print.shift_mm(station.place_mm);
         EXPECT_NEAR(station.x_mm.bias, -shift.x, 0.010);
         EXPECT_NEAR(station.y_mm.bias, -shift.y, 0.010);

@@ -225,7 +225,8 @@ TEST_F(CameraFile, ALensOfRosIsConvertedNotRelabelled) {
     EXPECT_NEAR(camera.focal_px.value(), 600, 1e-9);
     EXPECT_NEAR(camera.centre_px.u, 330, 2);
     EXPECT_NEAR(camera.centre_px.v, 236, 2);
-    // Straight lines are straight again all over the image, as far as a single coefficient allows.
+    // Straight lines are straight all over the image, up to the residual error of a single
+    // coefficient.
     for (const double offset : {-0.3, -0.1, 0.2, 0.3}) {
         for (const bool is_row : {true, false}) {
             const auto point = [&](double along) {
@@ -273,7 +274,8 @@ TEST_F(CameraFile, AMissingFileIsToldWithTheReason) {
     EXPECT_EQ(error, "cannot read nothere.yaml: No such file or directory");
 }
 
-// Drivers state this model for every camera. If its additional terms are zero, it equals plumb_bob.
+// Some drivers state this model for every camera. If its additional terms are zero, the model
+// equals plumb_bob.
 TEST_F(CameraFile, ARationalPolynomialWithoutItsOwnTermsIsPlumbBob) {
     const auto rational = [](const std::string& coefficients) {
         std::string text = kRos;

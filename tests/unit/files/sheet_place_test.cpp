@@ -195,8 +195,8 @@ Fix uncertain_fix() {
 using Matrix = std::array<std::array<double, 3>, 3>;
 
 /// Returns J C J^T. Column k of J is the change of the pose for a movement of the fix along
-/// coordinate k, in spacings and radians. It is computed from central differences, without formulas
-/// for the derivatives.
+/// coordinate k, in spacings and radians. The changes are computed from central differences,
+/// without formulas for the derivatives.
 template <typename PoseOf>
 Matrix expected_covariance(const Fix& fix, const PoseOf& pose_of) {
     const auto moved_by = [&fix](std::size_t coordinate, double sign) {

@@ -1,4 +1,4 @@
-// Regions that are reserved while their pages are written. No region is ever assigned twice.
+// Reservation of regions while their pages are written. No region may ever be assigned twice.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -39,7 +39,7 @@ TEST_F(SheetReservations, are_in_the_file_before_the_page_and_marked_until_it_is
     EXPECT_EQ(saved()["sheets"][0]["reserved"], true);
     ASSERT_EQ(read_sheets(path_).size(), 1U);
     EXPECT_TRUE(read_sheets(path_)[0].is_reserved);
-    // Another program reserves other regions meanwhile.
+    // Meanwhile, another program reserves other regions.
     SheetReservation other(path_, [](SheetFile& file) { file.allocate("b", page()); });
     reservation.confirm();
     other.confirm();

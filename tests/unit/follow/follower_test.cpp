@@ -108,7 +108,8 @@ TEST(Follower, AReferencePointReplacesThatOfTheCameraFile) {
     options.reference_px = PixelPoint{(model.width_px - 1) / 2.0, (model.height_px - 1) / 2.0};
     const Fix fix = Follower(options).locate(image).fix;
     ASSERT_EQ(fix.status, Status::ok);
-    // The distance from the image centre to the robot's centre is that of the camera on the robot.
+    // The distance from the image centre to the robot's centre is the distance of the camera on the
+    // robot.
     EXPECT_NEAR(std::hypot(fix.x_mm() - kPivot_x_mm, fix.y_mm() - kPivot_y_mm),
                 std::hypot(kCameraOnRobot_mm.x, kCameraOnRobot_mm.y), 0.01);
 }

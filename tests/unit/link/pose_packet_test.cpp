@@ -107,8 +107,8 @@ TEST(PosePacket, CrcIsThatOfTheCatalogue) {
 }
 
 TEST(PosePacket, NoFourBitsCancelInTheCrc) {
-    // The CRC is linear, so only the changes by single bits matter. If no two pairs of them are
-    // equal, no four bits or fewer cancel.
+    // The CRC is linear, so only the changes of the CRC by single bits matter. If no two pairs of
+    // changes are equal, no errors of up to four bits cancel.
     Bytes coded(link::kCodedBytes, 0);
     const unsigned none = link::crc16(coded);
     std::vector<unsigned> changes;
@@ -162,7 +162,7 @@ class DamagedStream : public testing::TestWithParam<int> {
         std::vector<PosePacket> undamaged;
         for (const std::size_t i : {0U, 1U, 2U}) {
             const bool is_hit = a / 256 == i || b / 256 == i;
-            // A packet whose predecessor lost its end mark cannot be separated from it.
+            // A packet cannot be separated from a predecessor that lost its end mark.
             const bool is_joined = i > 0 && (is_mark(a, i - 1) || is_mark(b, i - 1));
             if (!is_hit && !is_joined) undamaged.push_back(sent_[i]);
         }

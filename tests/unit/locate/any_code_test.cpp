@@ -1,4 +1,5 @@
-// Frames whose code variant is not given, compared with frames whose code variant is given.
+// Fixes without a given code variant, compared with fixes of the same frames with a given code
+// variant.
 #include <memory>
 
 #include <gtest/gtest.h>

@@ -77,8 +77,9 @@ TEST(CodeEvidence, FramesAgainstEachOtherCancelOut) {
     EXPECT_EQ(evidence.log2_q8(CodeVariant::anoto), evidence.log2_q8(CodeVariant::libdots));
 }
 
-// Views of the same bits, whose probability is one half in the true code variant and three quarters
-// in the others: log2 of 1.5 for the others, or of 2 against them. The views overlap.
+// Overlapping views of the same bits. The probability of a bit is one half in the true code variant
+// and three quarters in the other code variants. Each bit in view therefore adds log2(1.5) for the
+// other code variants, or log2(2) against them.
 TEST(CodeEvidence, IsSeldomMuchAgainstTheTruth) {
     constexpr std::size_t kBits = 40;
     constexpr std::size_t kSeen = 25;

@@ -172,7 +172,7 @@ TEST(Locate, LittleMemoryIsEnoughForADevice) {
         const Fix fix = pushed(frame, Locator(small, device));
         expect_same(pushed(frame, DeviceLocator(little)), fix);
         found += fix.status == Status::ok;
-        // Noise and graphics fill the memory. Afterwards, it must work as before.
+        // Noise and graphics fill the memory. Afterwards, the locator must work as before.
         const Shot hard = shot_of({.preset = Preset::hard}, kSeed, i);
         const Fix full = pushed(render(hard), DeviceLocator(little));
         if (full.status == Status::ok) {
@@ -261,7 +261,7 @@ TEST(Locate, RowsCountOnlyInAFrameThatWasBegun) {
     for (int v = 0; v < 3 * frame.height_px; ++v)
         locator.push_row(frame.view().row(v % frame.height_px));
     expect_same(locator.finish(), fix);
-    // A change of options in the middle of a frame drops it.
+    // A change of options in the middle of a frame drops the frame.
     ASSERT_EQ(locator.begin(frame.width_px, frame.height_px), Status::ok);
     locator.set_options({});
     EXPECT_EQ(locator.finish().status, Status::bad_argument);
@@ -322,8 +322,9 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             const double tolerance = 0.01 + length(offset) * 1e-4;
             EXPECT_NEAR(x, from_pose.x, tolerance);
             EXPECT_NEAR(y, from_pose.y, tolerance);
-            // Noise may be fitted as a slight tilt, which rotates the axes across the image: by the
-            // position error over half of the image, and more outside of the image.
+            // Noise may be fitted as a slight tilt, whose rotation of the axes varies across the
+            // image. The rotation is up to the position error over half of the image, and larger
+            // outside of the image.
             const double apart_rad =
                 std::remainder(fix.theta_rad() - at_centre.theta_rad(), 2 * std::numbers::pi);
             EXPECT_NEAR(apart_rad, 0, 1e-4 * std::max(1.0, length(offset) / 100));

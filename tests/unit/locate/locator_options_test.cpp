@@ -187,8 +187,8 @@ Fix pushed(const GreyImage& image, const LocatorOptions& options) {
 /// A way to locate a frame with options.
 using Way = std::function<Fix(const GreyImage&, const LocatorOptions&)>;
 
-/// Expects that an attempt locates a frame if the minimum contrast is a third of its contrast, and
-/// not if the minimum is twice its contrast.
+/// Expects that an attempt locates a frame if the minimum contrast is a third of the contrast of
+/// the frame, and refuses it if the minimum is twice the contrast.
 void expect_contrast_counts(const Way& locate, const GreyImage& image, Attempt attempt) {
     const int contrast = contrast_of(image);
     ASSERT_GT(contrast, 15);

@@ -58,7 +58,7 @@ TEST(PartialViews, IslandsAreLocatedAtOnce) {
 }
 
 /// The attempt of devices starts at the centroid of the dots. Noise on blank paper must not shift
-/// it.
+/// the centroid.
 TEST(PartialViews, BordersAndCornersAreLocatedByDevices) {
     const auto memory = std::make_unique<LargeMemory>();
     DeviceOptions options;

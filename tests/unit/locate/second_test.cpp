@@ -1,4 +1,5 @@
-// The second attempt: the frames that reach it, and the frames that only it locates.
+// The second attempt: the frames that reach this attempt, and the frames that only this attempt
+// locates.
 #include "locate/second.hpp"
 
 #include <gtest/gtest.h>
@@ -59,7 +60,8 @@ TEST(SecondAttempt, DotsThatFallOnThePixelsAlikeAreNotBiased) {
                         .read({}, core::SecondAttempt::Resampling::if_doubtful));
         const Fix fix = w.fix;
         EXPECT_EQ(fix.attempt, Attempt::second);
-        // With the bias, the error would be up to 0.01, which is 50 standard deviations.
+        // Without correction of the bias, the error would be up to 0.01, which is 50 standard
+        // deviations.
         EXPECT_LT(std::abs(fix.x_grid() - x_grid(shot.pose)), 5 * std::sqrt(fix.covariance[0][0]));
         EXPECT_LT(std::abs(fix.y_grid() - y_grid(shot.pose)), 5 * std::sqrt(fix.covariance[1][1]));
     }

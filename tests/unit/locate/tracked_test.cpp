@@ -257,7 +257,7 @@ Prediction garbled(Prediction p, Rng& rng) {
                              &p.displacement_q16,
                              &p.sigma_q16,
                              &p.sigma_theta_bam};
-    // One field is changed, or many.
+    // One or more fields are changed.
     const std::uint32_t share = rng.below(2) == 0 ? 1 : 8;
     const std::size_t one = rng.below(static_cast<std::uint32_t>(numbers.size() + 4));
     const auto is_hit = [&](std::size_t i) { return i == one || rng.below(16) < share - 1; };

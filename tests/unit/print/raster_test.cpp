@@ -40,8 +40,8 @@ Sheet small_sheet() {
 }
 
 // At 0.508 mm, all lengths are whole numbers. A margin of 2 mm and a reach of 0.127 mm are 25.12
-// pixels of 1/300 inch, so the first intersection is the centre of pixel 25, followed by one every
-// 6 pixels.
+// pixels of 1/300 inch, so the first intersection is the centre of pixel 25, and an intersection
+// follows every 6 pixels.
 constexpr int kFirst_px = 25;
 constexpr int kSpacing_px = 6;
 
@@ -86,7 +86,8 @@ TEST(write_raster, fills_whole_printer_pixels_with_the_default_spacing) {
 }
 
 TEST(write_raster, first_letters_are_those_of_the_code) {
-    // From the text vector at (217, 1134): "dddurddl". Independent of `symbol_at`.
+    // The symbols "dddurddl" of the text vector at (217, 1134), which is independent of
+    // `symbol_at`.
     const Bitmap page = print_and_read(small_sheet(), "page.png", 300);
     const Pixels expected = {{0, 1}, {0, 1}, {0, 1}, {0, -1}, {1, 0}, {0, 1}, {0, 1}, {-1, 0}};
     for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -173,8 +174,9 @@ TEST(write_raster, has_all_dots_without_a_margin) {
 }
 
 TEST(write_raster, keeps_dots_that_rounding_would_push_off_the_page) {
-    // The page is 100.4 pixels wide, and printed with 100. The centres of dots of the last column
-    // that are displaced to the right are at 100.1, so the nearest pixel would be past the end.
+    // The width of the page is 100.4 pixels, and the file has 100 pixels. The centres of dots of
+    // the last column that are displaced to the right are at 100.1, so the nearest pixel would be
+    // past the end.
     constexpr double kPixel_mm = 25.4 / 300;
     Sheet sheet;
     sheet.pattern.dot_mm = 0.6 * kPixel_mm;

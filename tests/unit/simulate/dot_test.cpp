@@ -128,8 +128,8 @@ TEST(Dot, InkMassIsTheDotsAreaWhateverBlursIt) {
     }
 }
 
-// Light is additive: many dots (apart, touching, or cut off by the frame) remove the sum of the
-// light that each removes alone.
+// Light is additive: many dots (apart, touching, or cut off by the frame) together remove the sum
+// of the light that they remove individually.
 TEST(Dot, ManyTakeAwayTheSumOfEach) {
     Rng rng(6);
     CameraModel camera;
@@ -144,7 +144,7 @@ TEST(Dot, ManyTakeAwayTheSumOfEach) {
     std::vector<double> sum(paper.begin(), paper.end());
     simulate::Ink all;
     for (int i = 0; i < 40; ++i) {
-        // Columns 3 px apart, so that dots do not cover each other, and any rows.
+        // Columns are 3 px apart, so dots do not cover each other. Rows are random.
         const double u = 3 * (i % 23) - 2.5;
         const double v = i < 23 ? rng.uniform(-2, 20) : rng.uniform(23, 45);
         simulate::Ink one;
@@ -174,7 +174,7 @@ TEST(Dot, BlurAndMotionWidenItAsTheyShould) {
     EXPECT_NEAR(dot.variance_u, still + 1.8 * 1.8 / 12, 0.01);
 }
 
-// The same cell from two poses: the error of the dot's place on the paper is the same.
+// Two poses see the same cell. The error of the dot's place on the paper must be the same.
 TEST(Dot, PrintingErrorsBelongToThePage) {
     Imperfections seen;
     seen.blur_sigma_px = 0.5;

@@ -1,4 +1,4 @@
-// A page given as an image must give the same frame as the page given as a pattern.
+// Pages given as images: checks that they give the same frames as pages given as patterns.
 #include <algorithm>
 #include <cmath>
 

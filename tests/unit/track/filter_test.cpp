@@ -1,4 +1,4 @@
-// The accuracy of the filter, and of its covariance.
+// Tests the accuracy of the filter and of its covariance.
 #include "track/filter.hpp"
 
 #include <algorithm>
@@ -40,8 +40,8 @@ Sighting at(int frame, const Pose& pose, const Matrix3& covariance) {
     return sighting;
 }
 
-/// Returns the covariance of a view of 8 mm: the same standard deviation along x and y, and that of
-/// the angle in proportion.
+/// Returns the covariance of a view of 8 mm: the same standard deviation along x and y, and a
+/// proportional standard deviation of the angle.
 Matrix3 round_covariance(double sigma_mm) {
     const auto variance = static_cast<float>(sigma_mm * sigma_mm);
     return {{{variance, 0, 0}, {0, variance, 0}, {0, 0, variance / 16}}};
@@ -155,7 +155,7 @@ TEST(Filter, ItsCovarianceIsThatOfItsErrors) {
         for (std::size_t i = 0; i < 6; ++i)
             sum += error[i] * weighted[i];
     }
-    // Four standard deviations of the mean.
+    // The tolerance is four standard deviations of the mean.
     EXPECT_NEAR(sum / kRuns, 6, 4 * std::sqrt(12.0 / kRuns));
 }
 
@@ -169,7 +169,7 @@ struct Errors {
 };
 
 /// Tracks a robot on a figure eight at up to `speed_mm_s` that is never lifted. The sightings have
-/// independent errors and a constant error. Errors count from 1 s on.
+/// independent errors and a constant error. The first second is not counted.
 Errors track_eight(double speed_mm_s, double sigma_mm, double constant_mm = 0) {
     Drive drive(
         {.put_down = 1e9, .second_put_down = 1e9, .stop = 9, .end = 10, .speed_mm_s = speed_mm_s});

@@ -54,7 +54,7 @@ class Device {
 
 TEST(FramePacer, TakesEveryFrameOfAMovingDevice) {
     Device device;
-    // 0.2 mm per second: slow, but more than the threshold within 5 s.
+    // A speed of 0.2 mm per second is slow, but exceeds the threshold within 5 s.
     device.run_until(60 * kSecond_us,
                      [](std::int64_t t) { return at(100 + 0.4e-6 * static_cast<double>(t)); });
     EXPECT_EQ(device.frames_us.size(), 60U * 50);
@@ -67,7 +67,7 @@ TEST(FramePacer, TakesAFrameASecondAfterFiveSecondsOfRest) {
     device.run_until(65 * kSecond_us, [](std::int64_t t) {
         return at(100 + (t / kFrame_us % 2 == 0 ? 0.01 : -0.01));
     });
-    // 0 s to 5 s, then 6 s, 7 s, ... 64 s.
+    // Frames are taken from 0 s to 5 s, then at 6 s, 7 s, ... 64 s.
     ASSERT_EQ(device.frames_us.size(), 251U + 59);
     EXPECT_EQ(device.frames_us[250], 5 * kSecond_us);
     EXPECT_EQ(device.motions[249], Motion::moving);
@@ -121,12 +121,12 @@ TEST(FramePacer, AMissedFrameIsNoMovement) {
 
 TEST(FramePacer, AddsUpWhatASlowDeviceCreeps) {
     Device device;
-    // A spacing per minute. Single frames are like those of a device at rest, but in 6 s the device
-    // moves by a tenth of a spacing.
+    // The device moves by a spacing per minute. From frame to frame, the device appears to be at
+    // rest, but in 6 s it moves by a tenth of a spacing.
     device.run_until(600 * kSecond_us,
                      [](std::int64_t t) { return at(100 + static_cast<double>(t) / 60e6); });
     const auto moving = std::ranges::count(device.motions, Motion::moving);
-    // 5 s of every 7 s have 50 frames per second.
+    // In 5 s of every 7 s, there are 50 frames per second.
     EXPECT_GT(moving, 60 * 240);
     EXPECT_GT(std::ranges::count(device.motions, Motion::stationary), 60);
 }
@@ -140,7 +140,7 @@ TEST(FramePacer, TakesItsThresholdsFromTheOptions) {
     device.run_until(20 * kSecond_us, [](std::int64_t t) {
         return t < 10 * kSecond_us ? at(100, 50, 0) : at(101.5, 50, 80);
     });
-    // 0, 0.1, ... 1 s, then 5, 9, 13, 17 s.
+    // Frames are taken at 0, 0.1, ... 1 s, then at 5, 9, 13, 17 s.
     ASSERT_EQ(device.frames_us.size(), 15U);
     EXPECT_EQ(device.frames_us[10], kSecond_us);
     EXPECT_EQ(device.frames_us[11], 5 * kSecond_us);

@@ -73,7 +73,8 @@ Pose driving(std::int64_t time_us) {
     return {5000 + driven * std::cos(kPi / 6), 7000 + driven * std::sin(kPi / 6), 0.4 + 3 * t};
 }
 
-/// Returns the sighting in a world whose x axis is that of the pattern rotated by 2 rad, with y up.
+/// Returns the sighting in a world with y up, whose x axis is the x axis of the pattern rotated by
+/// 2 rad.
 Sighting in_world(const Pose& pose, std::int64_t time_us) {
     constexpr double kYaw_rad = 2;
     Sighting sighting = sighting_of(fix_at(pose), time_us);
@@ -167,7 +168,7 @@ TEST(TrackerPredict, ARestingRobotIsExpectedWhereItWasAndAlmostSurely) {
     expect_near(pose_of(prediction), {10.75, 20.25, -3.1}, 0.001, 1e-4);
     EXPECT_LT(prediction.sigma_q16, Prediction{}.sigma_q16);
     EXPECT_LT(prediction.sigma_theta_bam, Prediction{}.sigma_theta_bam);
-    // A push is possible: half of 10 m/s^2 for 5 ms is 0.125 mm.
+    // A push is possible: an acceleration of 10 m/s^2 over 5 ms displaces the robot by 0.125 mm.
     EXPECT_GT(3 * prediction.sigma_q16, static_cast<std::int32_t>(0.125 / 0.508 * 65536));
     EXPECT_EQ(prediction.displacement_q16, robot.fix.displacement_q16);
 }
@@ -190,7 +191,8 @@ TEST(TrackerPredict, ExpectsNothingWhereTheFilterDoesNot) {
     robot = drive(200'000, driving);
     expect_as_seen(robot.predict(200'000), robot.fix);  // the time of the newest frame
     expect_as_seen(robot.predict(100'000), robot.fix);
-    expect_as_seen(robot.predict(270'000), robot.fix);  // the robot will be lost
+    // 70 ms after the last sighting, the robot counts as lost.
+    expect_as_seen(robot.predict(270'000), robot.fix);
     robot.tracker.update(300'000, nullptr);
     EXPECT_FALSE(robot.tracker.has_prior());
     expect_as_seen(robot.predict(305'000), robot.fix);

@@ -144,7 +144,7 @@ function drawPose(view: FrameView): void {
     context.stroke();
 }
 
-/** Draws a reading, and sets the aspect ratio of the canvas to that of the frame. */
+/** Draws a reading, and sets the aspect ratio of the canvas to the aspect ratio of the frame. */
 export function drawFrame(canvas: HTMLCanvasElement, reading: Reading, layers: Layers): void {
     const surface = surfaceOf(canvas, reading.width_px / reading.height_px);
     const view = new FrameView(surface, reading);

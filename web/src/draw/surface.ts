@@ -29,8 +29,8 @@ export interface Surface {
 }
 
 /**
- * Sets the resolution of the canvas to that of the screen. `aspect`, if given, also sets its
- * height.
+ * Sets the resolution of the canvas to the resolution of the screen. `aspect`, if given, also sets
+ * its height.
  */
 export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
     if (aspect !== undefined) canvas.style.aspectRatio = String(aspect);

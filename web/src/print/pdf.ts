@@ -1,5 +1,4 @@
-// The PDF of a sheet. Its dots are the same as those of `dotpose print` for 600 dpi, in black ink
-// only.
+// The PDF of a sheet, with the same dots as `dotpose print` for 600 dpi, in black ink only.
 //
 // Dots are glyphs of a font with four glyphs. At the default spacing, dots consist of whole printer
 // pixels at 300, 600 and 1200 dpi, and renderers place glyphs on whole pixels.
@@ -66,8 +65,8 @@ function dotFont(context: PDFContext): PDFRef {
 }
 
 /**
- * Returns the smallest shift for which all renderers round the origin of a glyph to the same pixel,
- * whether they truncate or round, and from which side of the page they count.
+ * Returns the smallest shift for which all renderers round the origin of a glyph to the same pixel.
+ * Renderers truncate or round, and count pixels from either side of the page.
  */
 function clearShift_px(near_px: number, far_px: number): number {
     const kClear_px = 0.05;

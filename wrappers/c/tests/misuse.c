@@ -1,4 +1,5 @@
-/* Misuse of a function returns a status that names the error, and has no other effect. */
+/* Checks that the misuse of a function returns a status that names the error, and has no other
+ * effect. */
 #include <dotpose.h>
 #include <float.h>
 #include <math.h>
@@ -222,7 +223,7 @@ static void pushing(dotpose_locator* locator) {
     EXPECT(NULL_POINTER, dotpose_finish(locator, NULL));
     EXPECT(NO_CONTRAST, dotpose_finish(locator, &fix));
     EXPECT(NO_FRAME, dotpose_finish(locator, &fix));
-    /* Other calls drop a frame that was begun. */
+    /* All other calls drop an unfinished frame. */
     EXPECT(OK, dotpose_begin(locator, WIDTH_PX, HEIGHT_PX, NULL));
     EXPECT(OK, dotpose_set_options(locator, NULL));
     EXPECT(NO_FRAME, dotpose_push_row(locator, pixels));

@@ -1,4 +1,4 @@
-// The functions of dotpose.h give the same results as those of the core.
+// Checks that the functions of dotpose.h give the same results as the functions of the core.
 #include <array>
 #include <cstring>
 #include <memory>

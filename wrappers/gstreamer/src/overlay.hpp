@@ -17,7 +17,7 @@ struct Luma {
 };
 
 /// Draws a ring around each dot and, if there is a fix, an arrow from the reference point along the
-/// pattern's x axis. The trace must be that of this frame, with all stages.
+/// pattern's x axis. The trace must belong to this frame and contain all stages.
 void draw_overlay(const Luma& luma, const Trace& trace);
 
 }  // namespace dotpose::gstreamer

@@ -1,5 +1,6 @@
-// The simulated drive over two sheets through the element, in all its formats. The poses equal
-// those of `dotpose watch`, no frame is lost, and times and pixels are unchanged.
+// Passes the simulated drive over two sheets through the element, in all its formats. The poses
+// must equal the poses of `dotpose watch`, no frame may be lost, and times and pixels must be
+// unchanged.
 #include <string>
 #include <vector>
 
@@ -110,7 +111,7 @@ TEST_F(GstreamerDrive, WithoutSheetsTheCodeIsFoundOut) {
     expect_lines(watch(""), run_element("drive.raw", format, ""));
     expect_lines(watch("--code anoto --spacing 0.5"),
                  run_element("drive.raw", format, "code=anoto spacing-mm=0.5"));
-    // No frame can be located in another code, and the messages report that.
+    // No frame can be located in another code, and the messages report this.
     expect_lines(watch("--code microdots"), run_element("drive.raw", format, "code=microdots"));
 }
 

@@ -1,4 +1,4 @@
-// The element as used through the tools of GStreamer and from Python.
+// Tests the element with the tools of GStreamer and from Python.
 #include <cstdlib>
 #include <fstream>
 #include <string>

@@ -1,4 +1,4 @@
-/// The Python classes Fix and Prediction: those of C++ with additional data.
+/// The Python classes Fix and Prediction: the C++ types with additional data.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ struct SeenFix {
     std::optional<OtherPlace> other;
     /// The reference point of the pose, in 2^-8 px from the image centre.
     FixedVec reference_q8;
-    std::shared_ptr<StageSource> source;   ///< who located the frame
-    std::uint64_t number = 0;              ///< of the frame, among those of `source`
+    std::shared_ptr<StageSource> source;   ///< the locator of the frame
+    std::uint64_t number = 0;              ///< number of the frame, among the frames of `source`
     std::string fault;                     ///< option outside of its range; empty if none is
     std::shared_ptr<const Stages> stages;  ///< null until requested
 

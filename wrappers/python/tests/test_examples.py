@@ -41,7 +41,7 @@ def test_webcam_is_15_lines_and_follows_a_video(tmp_path, monkeypatch, capsys):
         writer.write(cv2.cvtColor(frame.image, cv2.COLOR_GRAY2BGR))
     writer.write(cv2.cvtColor(frames[0].image * 0 + 200, cv2.COLOR_GRAY2BGR))
     writer.release()
-    # There is no screen here.
+    # The test has no screen.
     shown = []
     monkeypatch.setattr(cv2, "imshow", lambda title, image: shown.append(image))
     monkeypatch.setattr(cv2, "waitKey", lambda delay_ms: -1)
@@ -60,7 +60,7 @@ def test_figure_13(tmp_path):
     pytest.importorskip("matplotlib")
     out = run("figure_13.py", tmp_path / "figure.png", 2)
     assert "2 samples at each of 121 positions" in out
-    # Table III of the paper, whose printer the simulated one is like: 0.15 mm at most.
+    # The simulated printer has the errors of Table III of the paper: at most 0.15 mm.
     assert 50 < float(out.split()[-2]) < 200
     assert dotpose.read_image(tmp_path / "figure.png").shape == (450, 1100)
 

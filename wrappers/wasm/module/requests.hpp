@@ -1,5 +1,6 @@
 // Requests of JavaScript to the tools. All members are doubles, in the order in which
-// src/requests.ts writes them, so both sides agree on every offset. Integers up to 2^53 are exact.
+// src/requests.ts writes them, so C++ and JavaScript agree on every offset. Integers up to 2^53 are
+// exact.
 #pragma once
 
 namespace dotpose::wasm {

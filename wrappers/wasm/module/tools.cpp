@@ -2,8 +2,8 @@
 // tool.
 //
 // A function that fails sets the message of `dotpose_tools_error` and ends the instance with a
-// trap. The loader then throws the message in JavaScript and starts another instance. Therefore
-// nothing is unwound, and the module needs no support for exceptions.
+// trap. The loader then throws the message in JavaScript and starts another instance. The stack is
+// therefore not unwound, and the module needs no support for exceptions.
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -61,7 +61,7 @@ Sheet sheet_of(const wasm::SheetRequest& sheet) {
     return make_sheet(options);
 }
 
-/// Returns a page on a table. The edges of the page are those of the paper.
+/// Returns a page on a table. The page extends to the edges of the paper.
 Page page_on_table(const Sheet& sheet, double table_reflectance) {
     Page page = page_of(sheet);
     const double spacing_mm = sheet.pattern.spacing_mm;

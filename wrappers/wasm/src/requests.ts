@@ -3,7 +3,7 @@
 import { codeNumber, type Cell, type Code, type Section } from "./names.js";
 
 /**
- * A page with the pattern. The defaults are those of the tool: A4, margins of 5 mm, spacing
+ * A page with the pattern. The defaults are the defaults of the tool: A4, margins of 5 mm, spacing
  * 0.508 mm.
  */
 export interface SheetOptions {
@@ -25,7 +25,7 @@ export interface SheetOptions {
     margin_mm?: number;
 }
 
-/** Size and optics of the simulated camera. The defaults are those of the device in the paper. */
+/** Size and optics of the simulated camera. The defaults describe the device in the paper. */
 export interface Camera {
     width_px?: number;
     height_px?: number;

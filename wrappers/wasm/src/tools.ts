@@ -79,7 +79,7 @@ export class Tools {
         return new TextDecoder().decode(this.#bytes("dotpose_tools_svg", sheetFields(sheet)));
     }
 
-    /** Returns the pixels of the sheet, the same as those of `dotpose print -o sheet.png`. */
+    /** Returns the pixels of the sheet, the same pixels as in `dotpose print -o sheet.png`. */
     raster(sheet: SheetOptions = {}, dpi = 600): Raster {
         const bits = this.#bytes("dotpose_tools_raster", sheetFields(sheet), dpi);
         const px = (mm: number) => Math.round((mm * dpi) / kInch_mm);

@@ -37,7 +37,7 @@ export class WorkerLocator {
         this.#worker.onerror = (event) => this.#fail(new Error(event.message || "the worker did not start"));
     }
 
-    /** Starts a worker with a locator. The options are those of Locator.create. */
+    /** Starts a worker with a locator. Takes the options of Locator.create. */
     static async create(options: LocatorOptions = {}): Promise<WorkerLocator> {
         const locator = new WorkerLocator();
         try {

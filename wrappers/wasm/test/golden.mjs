@@ -60,8 +60,8 @@ function lineOf(fix) {
 }
 
 /**
- * Locates the frames of a set in the ways of its lines. Returns the number of frames, and the
- * lines that differ in any bit.
+ * Locates the frames of a set in all ways for which the golden file has lines. Returns the number
+ * of frames, and the lines that differ in any bit.
  */
 export async function compareSet({ Locator }, frames, csv, wasm) {
     const images = [...imagesOf(frames)];

@@ -1,5 +1,5 @@
-// Weighted correlation with the main sequence (paper section II-B.7), compared with loops over its
-// text.
+// Weighted correlation with the main sequence (paper section II-B.7), compared with loops over the
+// text of the sequence.
 #include "core/decode/correlation.hpp"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ TEST(Correlation, LinesOfTheSequenceAgreeWithItWholly) {
 }
 
 TEST(Correlation, ContradictionIsMeasuredLikeAgreement) {
-    // Maximum weights in all cells, of either sign, are the worst case of the sums.
+    // Maximum weights of either sign in all cells are the worst case for the sums.
     LineScores scores;
     for (std::size_t roll = 0; roll < 63; ++roll) {
         std::vector<std::int8_t> line;

@@ -100,7 +100,7 @@ TEST(Likelihood, TheMiddleOfALargerGridIsKept) {
     EXPECT_EQ(owned.grid.j0, -5);
     EXPECT_EQ(owned.grid.i0, -8);
     EXPECT_EQ(owned.grid.at(3, 2).dot, 2);
-    // If all cells are on one side of the origin, the cells nearest to it are kept.
+    // If all cells are on one side of the origin, the cells nearest to the origin are kept.
     ASSERT_EQ(assign_likelihoods(corners(2, -5, 40, 12), kPlane, owned.grid), Status::ok);
     EXPECT_EQ(owned.grid.i0, 2);
     ASSERT_EQ(assign_likelihoods(corners(-45, -5, 40, 12), kPlane, owned.grid), Status::ok);

@@ -98,7 +98,7 @@ TEST(Position, TheMirrorImageIsKnown) {
         for (const PlacedDot& d : pattern_dots(view)) {
             dots.push_back(dot_at({view.image_px.x - 1 - d.centre_px.x, d.centre_px.y}));
         }
-        // The grid of the mirrored view has the same spacing and the negated angle.
+        // The mirrored grid has the same spacing and the negated angle.
         View behind = view;
         behind.theta_rad = -view.theta_rad;
         Mesh mesh = view.mesh();

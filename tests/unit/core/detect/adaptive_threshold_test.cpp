@@ -78,7 +78,7 @@ TEST(AdaptiveThreshold, ThresholdsLieAtTheirSharesOfTheContrast) {
                               const double step = mean / 64 + 1;
                               const double low = mean - (mean - i) * options.low_q8 / 256;
                               const double high = mean - (mean - i) * options.high_q8 / 256;
-                              // Rounded down to an even level.
+                              // The value is rounded down to an even level.
                               ASSERT_NEAR(level.low, low - 0.5, step * options.low_q8 / 256 + 2);
                               ASSERT_EQ(level.low % 2, 0);
                               ASSERT_NEAR(level.high, high, step * options.high_q8 / 256 + 1.5);
@@ -89,7 +89,8 @@ TEST(AdaptiveThreshold, ThresholdsLieAtTheirSharesOfTheContrast) {
 
 TEST(AdaptiveThreshold, LevelsAreTheSameInAllColumnsOfATile) {
     LargeWorkspace w;
-    // Tiles are low and high, whole and cut; the light changes from tile to tile.
+    // Tiles have several heights, and some are cut by the border. The light changes from tile to
+    // tile.
     for (const auto& [width, height] :
          {std::pair{120, 80}, std::pair{101, 64}, std::pair{400, 256}, std::pair{397, 250}}) {
         SCOPED_TRACE(testing::Message() << width << " x " << height);
@@ -147,7 +148,7 @@ TEST(AdaptiveThreshold, ADefectPixelIsHalfAsDarkAsInk) {
                 });
                 const bool is_pair = width == 2 && u % 2 == 0;
                 // The tile of the mark and its eight neighbours count as dark. If the mark is split
-                // over two tiles, both tiles and their ten neighbours do.
+                // over two tiles, the two tiles and their ten neighbours count as dark.
                 const bool is_split = width == 2 && u == 31;
                 EXPECT_EQ(dark_tiles, min_contrast == 100 && !is_pair ? 0
                                       : is_split                      ? 12
@@ -188,7 +189,7 @@ TEST(AdaptiveThreshold, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
     SmallWorkspace w;
     ThresholdOptions options;
     options.min_contrast = 8;
-    // Two spots of noise with a spot of ink between them.
+    // The image has two spots of noise with a spot of ink between them.
     GreyImage image = blank(120, 120);
     fill(image, 18, 18, 20, 20, 190);
     fill(image, 98, 50, 100, 52, 80);

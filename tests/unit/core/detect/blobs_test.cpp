@@ -41,8 +41,7 @@ TEST(Blobs, ABlurredDotIsFoundAtEverySubPixelPhase) {
         double squares = 0;
         for (int phase = 0; phase < 64; ++phase) {
             const Vec2 centre{40 + phase % 8 / 8.0, 33 + phase / 8 / 8.0};
-            // Dots of this size have such a large spacing that only large images contain enough of
-            // them.
+            // Dots of this size have a large spacing, so only large images contain enough dots.
             GreyImage image = sigma < 4 ? blank(80, 64) : blank(256, 256);
             darken(image, centre, sigma, 0.7);
             const auto dots = blobs_of(image);
@@ -97,7 +96,7 @@ void expect_one(std::initializer_list<std::string_view> picture) {
         ASSERT_EQ(dots.size(), 1u) << shape << "at " << u0;
         EXPECT_EQ(dots[0].area_px, 4 * area) << shape << "at " << u0;
         const Vec2 centre = Vec2{u0 + 0.5, 30.5} + 2.0 / area * sum;
-        // Levels vary by some percent from tile to tile, and the weights with them.
+        // Levels and weights vary by some percent from tile to tile.
         EXPECT_LT(nearest_px(dots, centre), 0.3) << shape << "at " << u0;
     }
 }
@@ -136,7 +135,7 @@ TEST(Blobs, WhatTouchesTheBorderIsNoDot) {
 
 TEST(Blobs, FoundInUnevenLight) {
     // The dots are 9.3 px apart. The light decreases to a third from one corner to the opposite
-    // one.
+    // corner.
     GreyImage image = blank(190, 120);
     std::vector<Vec2> centres;
     for (double y = 7.2; y < 113; y += 9.3) {
@@ -237,7 +236,7 @@ TEST(Blobs, NoMoreRunsAreLookedAtThanTheWorkspaceSays) {
         w.open.max_runs = rows * 20;
         EXPECT_EQ(static_cast<int>(blobs_of(image, w).size()), rows * 10);
     }
-    // If a row has more runs than there is room for, the remaining dots end in this row.
+    // If a row has more runs than the table can hold, the remaining dots end in this row.
     w.open.max_runs = 3 * 20 + 5;
     EXPECT_EQ(blobs_of(image, w).size(), 35u);
 }
@@ -297,7 +296,7 @@ void compare_with_flooding(GreyImage image) {
                 continue;
             }
             ++all;
-            // The dots of any lens and spacing are smaller than this.
+            // The dots of any lens and spacing are smaller than this limit.
             if (blob.right - blob.left > 30 || blob.bottom - blob.top > 30) continue;
             ++least;
             ASSERT_TRUE(contains(blob))
@@ -367,7 +366,7 @@ TEST(Blobs, TheSizeFilterIsRelativeToTheMedianDot) {
 }
 
 TEST(Blobs, SaltAndPepperIsSiftedOut) {
-    // Dots have about nine pixels. 1 % of the pixels are isolated dark or light ones.
+    // Dots have about nine pixels. 1 % of the pixels are isolated dark or light pixels.
     Rng rng(kSeed);
     GreyImage image = blank(188, 120);
     std::vector<Vec2> centres;

@@ -34,7 +34,7 @@ TEST(Patch, LiesAroundItsCentreWithinTheImage) {
         EXPECT_GE(patch->top_px, 0);
         EXPECT_LE(patch->left_px + patch->width_px * scale, image.width_px);
         EXPECT_LE(patch->top_px + patch->height_px * scale, image.height_px);
-        // The patch is as close to the centre as the image allows.
+        // The patch has the minimum distance from the centre that the image allows.
         const double off_u = double{core::middle_u_px(*patch)} - u;
         if (patch->left_px > 0 && patch->left_px + patch->width_px * scale < image.width_px) {
             EXPECT_LE(std::abs(off_u), 1);
@@ -69,7 +69,7 @@ std::unique_ptr<Patch> lit_patch(int width_px, int height_px, int paper, int dar
 TEST(PatchContrast, IsThatOfTheTypicalTile) {
     for (const int darkest : {20, 60, 100, 140, 170}) {
         const auto patch = lit_patch(160, 96, 200, darkest);
-        // A few tiles are black, and a few blank.
+        // A few tiles are black, and a few tiles are blank.
         for (std::size_t i = 0; i < 3; ++i)
             patch->darkness[i] = 255;
         for (std::size_t i = 5; i < 8; ++i)

@@ -1,4 +1,4 @@
-// The pixels of a blob are exactly those darker than the threshold of their tile.
+// Checks that blobs consist of exactly the pixels that are darker than the threshold of their tile.
 #include <algorithm>
 #include <utility>
 
@@ -21,7 +21,7 @@ struct Set {
     bool passes_high = false;
 };
 
-/// Pixels compared with the thresholds of their tiles.
+/// Compares pixels with the thresholds of their tiles.
 struct Marked {
     std::vector<char> is_dark;
     std::vector<char> is_below_high;
@@ -139,7 +139,8 @@ TEST(PixelSets, AreThoseDarkerThanTheirTilesLevel) {
 }
 
 TEST(PixelSets, RunsBeginAndEndAtAnyColumn) {
-    // Bars of every length, from every column of eight, each with a gap of one pixel in one row.
+    // Bars of every length that begin at each of eight columns. Each bar has a gap of one pixel in
+    // one row.
     for (int length = 2; length <= 26; ++length) {
         GreyImage image = blank(200, 140);
         std::size_t bars = 0;

@@ -1,4 +1,4 @@
-// The results of the second attempt's filter on drawn images.
+// The filter of the second attempt, applied to drawn images.
 #include "core/detect/smooth.hpp"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST(Smooth, SinglePixelsVanish) {
         const GreyImage found = smoothed(image);
         for (int v = 0; v < 120; ++v) {
             for (int u = 0; u < 188; ++u) {
-                // The mean of at least 5 x 5 pixels around includes the bright pixel: 55 / 25.
+                // The mean of at least 5 x 5 surrounding pixels includes the bright pixel: 55 / 25.
                 ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 3) << u << ", " << v;
             }
         }

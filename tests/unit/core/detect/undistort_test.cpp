@@ -74,7 +74,7 @@ TEST(Undistort, TheLensMayBeCentredElsewhere) {
     }
 }
 
-// Regression: the fuzzer found a plane seen edge-on, which has such points.
+// Regression: the fuzzer found such points, on a plane seen edge-on.
 TEST(Undistort, PointsFarOutsideTheImageKeepTheirDirection) {
     for (const std::int32_t k_q40 : {-385875968, INT32_MIN, INT32_MAX}) {
         const FixedLens lens{k_q40};

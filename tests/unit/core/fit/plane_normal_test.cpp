@@ -270,7 +270,7 @@ TEST(PlaneNormal, CountsAPointOfWeightThreeThreeTimes) {
 }
 
 TEST(PlaneNormal, LeavesOutWhatThePointsDoNotDetermine) {
-    // For points on one line, the terms with y cannot be distinguished from others.
+    // For points on one line, the terms with y cannot be distinguished from the other terms.
     Rng rng(kSeed);
     Problem problem({0.01F, -0.02F, 0.03F, 0.01F}, rng, true);
     ASSERT_TRUE(problem.normal.decompose());

@@ -135,7 +135,7 @@ TEST(ExpectedAlternatives, OfOneLineAreAllInProportion) {
     odds[0] = 1;
     odds[17] = 0.25F;
     // The number of alternatives that differ in two or more sequences: (1 + a1) ... (1 + a4), minus
-    // the reading itself and those that differ in one sequence.
+    // the reading itself and the alternatives that differ in one sequence.
     const double alternatives = 237.0 * 234 * 32 * 242 - 1 - (236 + 233 + 31 + 241);
     EXPECT_NEAR(static_cast<double>(sum_of(7, 4, {odds})) / (1.25 * alternatives), 1, 1e-5);
 }

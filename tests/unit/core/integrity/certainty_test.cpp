@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 79;
 
-/// Judges the bits as those of a block at `claimed`.
+/// Judges the bits as the bits of a block at `claimed`.
 Verdict judge(const Block& block, const Place& claimed, const IntegrityOptions& options = {}) {
     core::BitBlock words;
     core::Evidence evidence;
@@ -77,8 +77,9 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
     }
 }
 
-/// Returns bits between two alternatives: in columns in which they differ, half of the
-/// distinguishing bits are those of the alternative. Both then explain the view equally well.
+/// Returns bits between two alternatives: where the columns of the two alternatives differ, half of
+/// the distinguishing bits belong to each. The two alternatives therefore explain the view equally
+/// well.
 Block between(const Block& block, const std::vector<int>& own,
               const std::vector<int>& alternative) {
     Block mixed = block;
@@ -105,7 +106,7 @@ TEST(IsCertain, RefusesWhatAnAlternativeExplainsAsWell) {
         const Block block = cut_block(code_test::kCodeVariants[static_cast<std::size_t>(i % 3)],
                                       any_place(rng), 11, 12);
         const auto own = rolls_of(block, true, 0, 0, 0);
-        // The worst alternative is the one that differs in the fewest bits.
+        // The worst alternative differs in the minimum number of bits.
         std::vector<int> worst;
         int fewest = INT32_MAX;
         const auto texts = code_test::secondary_texts(block.code);

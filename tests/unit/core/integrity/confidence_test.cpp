@@ -109,9 +109,9 @@ TEST(Chance, ChanceIsBoundedFromAboveAndNotFarOff) {
             const int bound = chance_log2(bits, odds);
             ASSERT_GE(bound, std::min(exact[static_cast<std::size_t>(e)], 37.0L) - 1e-9L);
             if (2 * e > n) continue;
-            // The tolerance contains Chernoff's bound, which is too large by a factor of up to
-            // sqrt(8 n p q), odds for two additional errors, which change the result by up to about
-            // (e + 2) log2((e + 2) / e), and rounding by 2 and n / 2^6.
+            // The tolerance has three parts: Chernoff's bound is too large by a factor of up to
+            // sqrt(8 n p q), the odds allow for two additional errors, which change the result by
+            // up to about (e + 2) log2((e + 2) / e), and rounding adds 2 and n / 2^6.
             const double slack = 0.5 * std::log2(8.0 * n) + 10 + n / 64.0;
             ASSERT_LE(bound, exact[static_cast<std::size_t>(e)] + slack);
         }
@@ -130,7 +130,7 @@ TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
             const double fine = chance_log2_q8(bits, odds, kThree_q8) / 256.0;
             ASSERT_GE(fine, exact[static_cast<std::size_t>(e)] + std::log2(3.0L) - 1e-9L);
             ASSERT_LE(fine, chance_log2(bits, odds) + kThree_q8 / 256.0);
-            // Without errors, the optimum odds are those of bits that are certain.
+            // Without errors, the optimum odds are the odds of certain bits.
             if (e == 0) {
                 ASSERT_LE(fine, exact[0] + std::log2(3.0L) + 0.05L);
             }
@@ -159,7 +159,7 @@ TEST(Chance, EachBitThatAgreesHasItsFactor) {
 }
 
 TEST(Chance, EachBitThatContradictsHasItsFactor) {
-    // The factor of a contradicting bit is 2^y times that of an agreeing bit.
+    // The factor of a contradicting bit is 2^y times the factor of an agreeing bit.
     constexpr int kBits = 1 << 12;
     for (const int weight : {12, 60, 124}) {
         const Confidence agree = confidence(kBits, weight, 0);
@@ -194,8 +194,8 @@ TEST(Chance, WeakBitsThatContradictSayLittle) {
 }
 
 TEST(Chance, ChanceHoldsForRandomBits) {
-    // Counts the random bits of random weights that agree as well as a claim of 2^-8 requires, for
-    // one hypothesis.
+    // Counts the trials, with random bits of random weights, whose agreement suffices for a claim
+    // of 2^-8 for one hypothesis.
     Rng rng(kSeed);
     constexpr int kTrials = 200'000;
     int beyond = 0;

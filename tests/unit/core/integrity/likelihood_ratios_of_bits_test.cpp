@@ -1,4 +1,5 @@
-// Ratios of bits of equal certainty, compared with those of weights of 127.
+// Likelihood ratios of bits of equal certainty, compared with the ratios of bits with the weight
+// 127.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -155,7 +156,8 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSingleAlternatives) {
 }
 
 /// Returns the expected odds of one set of far alternatives (docs/integrity.md, the quick estimate)
-/// in double precision: of the alternatives that share a run of lines, and of all others together.
+/// in double precision: the odds of the alternatives that share a run of lines, and of all other
+/// alternatives together.
 double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
     const auto power = [](int log2_q8) { return std::exp2(log2_q8 / 256.0); };
     const double equal = power(set.equal_q8 + kUnevenness_q8);
@@ -178,8 +180,8 @@ double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
     return sum * power(set.alternatives_q8);
 }
 
-/// The estimate is an upper bound for any certainty of the reading and any limit. With so few
-/// lines, the other sets have about the same odds as the first.
+/// The estimate is an upper bound for any certainty of the reading and any limit. With this small
+/// number of lines, the other sets have about the odds of the first set.
 TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     Rng rng(11);
     int doubtful = 0;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 79;
 
-/// Judges only the bits, as those of a block at `claimed`.
+/// Judges only the bits, as the bits of a block at `claimed`.
 Verdict judge_plainly(const Block& block, const Place& claimed,
                       const IntegrityOptions& options = {}) {
     Block there = block;

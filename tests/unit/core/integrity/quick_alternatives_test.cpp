@@ -26,8 +26,8 @@ RatiosCase random_case(Rng& rng) {
     return c;
 }
 
-/// Returns the odds of all places of one sequence except that of the reading, at every shift that
-/// shares a line.
+/// Returns the odds of all places of one sequence except the place of the reading, at every shift
+/// that shares a line.
 double sum_of_singles(const RatiosCase& c) {
     const auto texts = code_test::secondary_texts(c.code);
     const std::size_t count = c.rolls.size();
@@ -82,8 +82,8 @@ TEST(QuickAlternatives, CountAllThatDifferInOneSequence) {
 }
 
 TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
-    // An alternative may share five consecutive lines, in `libdots` seven. Only these lines are
-    // certain here, and all others are weak.
+    // An alternative may share five consecutive lines, or seven lines in `libdots`. In this case,
+    // only these lines are certain, and all other lines are weak.
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 400; ++i) {

@@ -45,7 +45,7 @@ inline ScoredLine scored_line(int roll, int bits, double wrong, int most, Rng& r
     return line;
 }
 
-/// Returns the rolls of lines at a random place. The lines must still be added.
+/// Returns a case with the rolls of lines at a random place. The caller adds the lines.
 inline RatiosCase at_random_place(Rng& rng, int lines) {
     RatiosCase c;
     c.code = code_test::kCodeVariants[rng.below(3)];
@@ -111,7 +111,7 @@ inline double odds_of_rolls(const RatiosCase& c, const std::vector<int>& rolls) 
     return std::max(std::exp2(-lost * c.odds_q8 / 256 / 254), 0x1p-64);
 }
 
-/// Returns the first line in which both have the same roll.
+/// Returns the first line in which the two lists of rolls agree.
 inline std::size_t first_shared(const RatiosCase& c, const std::vector<int>& rolls) {
     std::size_t line = 0;
     while (line < rolls.size() && rolls[line] != c.rolls[line])

@@ -17,7 +17,7 @@ constexpr std::uint64_t kSeed = 57;
 constexpr double kSeamLog2 = -32;
 constexpr double kMinLog2 = -8;
 
-/// A place in a sequence, and the difference of its roll to that of the reading for each line.
+/// A place in a sequence, and its roll offset from the reading for each line.
 struct Alternative {
     std::size_t sequence;
     std::size_t place;

@@ -1,5 +1,4 @@
-// Similar places of alternatives: 32 places at a time, compared with the definition for single
-// places.
+// Similar places of alternatives, found 32 at a time, compared with the definition for each place.
 #include "core/integrity/similar_places.hpp"
 
 #include <algorithm>

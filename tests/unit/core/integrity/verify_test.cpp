@@ -89,7 +89,7 @@ TEST(Verify, RefusesWhatMissesTheAskedCertainty) {
         Verdict verdict = judge(reading, options, how);
         EXPECT_EQ(verdict.status, Status::ok);
         EXPECT_EQ(verdict.fix.p_wrong_log2, usual.fix.p_wrong_log2);
-        // If the limit is lowered once more, the exact sums may still confirm the position.
+        // If the limit is lowered further, the exact sums may still confirm the position.
         int looks = 0;
         for (; verdict.status == Status::ok; ++looks) {
             ASSERT_LE(verdict.fix.p_wrong_log2, options.max_p_wrong_log2);

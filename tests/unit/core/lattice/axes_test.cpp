@@ -61,8 +61,8 @@ TEST(Axes, AreFoundAtAnyAngleAndSpacing) {
         }
     }
     // Displacements change an edge by up to a third of its length, but half of the edges have no
-    // displacement along or across them. 5 % over the 4 cells from which the refinement starts is
-    // 1/5 cell.
+    // displacement along or across them. The refinement starts from 4 cells, over which an error of
+    // 5 % is 1/5 cell.
     const auto worst = [](std::vector<double>& errors, double share) {
         std::sort(errors.begin(), errors.end());
         return errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))];

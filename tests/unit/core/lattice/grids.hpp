@@ -9,7 +9,7 @@
 
 namespace dotpose::core_test {
 
-/// Returns the mesh with errors in length, angle and place, as large as those of a first estimate.
+/// Returns the mesh with the maximum errors of a first estimate, in length, angle and place.
 inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
     const auto turned = [&](Vec2 a) {
         const double angle = radians(rng.uniform(-1, 1));
@@ -23,7 +23,7 @@ inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
 }
 
 /// Expects the plane to map every dot to its cell, and intersections to their places within a
-/// tolerance in spacings. The origin of the grid may be another intersection than that of the mesh.
+/// tolerance in spacings. The origins of grid and mesh may be different intersections.
 inline void expect_grid(const PlaneFromImage& plane, const std::vector<PlacedDot>& dots,
                         const std::vector<Vec2>& intersections_px, double tolerance) {
     const auto at = [&](Vec2 p) { return real(core::plane_point_q16(plane, fixed(p, 8)), 16); };

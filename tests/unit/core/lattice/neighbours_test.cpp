@@ -1,4 +1,4 @@
-// Seeds, neighbours and symmetric edges, compared with brute force.
+// Seeds, neighbours and symmetric edges, compared with an exhaustive search.
 #include "core/lattice/neighbours.hpp"
 
 #include <numeric>
@@ -37,8 +37,8 @@ bool may_be_neighbours(const DetectedDot& a, const DetectedDot& b) {
 
 constexpr int kKinds = 6;
 
-/// Returns points of one of several kinds: scattered, in clumps, on a line, on a grid, some of them
-/// twice, or on a grid whose last row has a single dot when the list is full.
+/// Returns points of one of several kinds: scattered, in clumps, on a line, on a grid, partly
+/// duplicated, or on a grid whose last row has a single dot when the list is full.
 std::vector<DetectedDot> points(Rng& rng, int count, int kind) {
     std::vector<DetectedDot> dots;
     for (int i = 0; i < count; ++i) {
@@ -89,8 +89,8 @@ TEST(Neighbours, AreTheFourNearestOfAll) {
                 }
                 ASSERT_GE(neighbour, 0);
                 ASSERT_NE(neighbour, static_cast<int>(s));
-                // Any of several dots at the same distance may be chosen, so distances are
-                // compared.
+                // If several dots have the same distance, any of them may be chosen, so the test
+                // compares distances.
                 ASSERT_EQ(squared_distance(dots[seeds[s]],
                                            dots[seeds[static_cast<std::size_t>(neighbour)]]),
                           expected[n]);
@@ -133,7 +133,7 @@ TEST(Neighbours, EdgesAreThosePairsThatBothEndsCount) {
             const FixedVec from = dots[static_cast<std::size_t>(edge.from)].centre_q8;
             const FixedVec to = dots[static_cast<std::size_t>(edge.to)].centre_q8;
             ASSERT_EQ(edge.step_q8, (FixedVec{to.x - from.x, to.y - from.y}));
-            // As in Fig. 4, all edges point down, and horizontal ones to the right.
+            // As in Fig. 4, all edges point down, and horizontal edges point to the right.
             ASSERT_TRUE(edge.step_q8.y > 0 || (edge.step_q8.y == 0 && edge.step_q8.x >= 0));
         }
         ASSERT_EQ(static_cast<int>(found.size()), count);  // each edge once

@@ -1,4 +1,5 @@
-// Grids of dots in double precision, seen by tilted cameras, and dots that do not form a grid.
+// Growing of grids: dots of grids seen by tilted cameras, computed in double precision, and dots
+// that do not form a grid.
 #include "core/lattice/outwards.hpp"
 
 #include <memory>

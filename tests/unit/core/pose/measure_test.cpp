@@ -102,7 +102,8 @@ TEST(MeasureDots, FindsBadlyPrintedOnesWhereTheyAre) {
             Vec2& at = placed[d].centre_px;
             at = at + 0.15 * view.spacing_px * Vec2{std::cos(direction), std::sin(direction)};
         }
-        // A dot may be as close as half a spacing to a neighbour, whose rim is then in the window.
+        // A dot may be half a spacing away from a neighbour. In this case, the rim of the neighbour
+        // is in the window.
         expect_measured(view, placed, i % 4, 7, 0.14, rng);
     }
 }

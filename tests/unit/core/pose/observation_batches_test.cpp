@@ -1,4 +1,5 @@
-// The batches visited in the rounds of a fit, compared with the grid itself.
+// Observation batches: checks that they contain the same dots, in the same order, as
+// `Observations`.
 #include "core/pose/observation_batches.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ TEST(ObservationBatches, ShowsAllDotsInOrder) {
     Rng rng(kSeed);
     for (int i = 0; i < 40; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
-        // Some views have fewer dots than fit into one batch, others have more.
+        // Half of the views have fewer dots than a batch can hold, and half have more.
         View view = random_view(rng);
         view.spacing_px = i % 2 == 0 ? 12 : 6;
         const Reading reading(view, QuarterTurn{i % 4});

@@ -15,7 +15,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 33;
 
-/// The pose fitted to all dots, starting from that of the grid, and the fix at one pixel.
+/// The pose fitted to all dots, starting from the pose of the grid, and the fix at one pixel.
 struct Fitted {
     bool ok = false;
     PlaneFromImage pose;
@@ -239,8 +239,8 @@ struct HalfDark {
 
 TEST(Pose, DotsInTheDarkCountLess) {
     // Noise of 0.02 px in the light part corresponds to 0.08 px in the dark part. With two halves
-    // of 1 and 16 times the variance, the plain mean has 8.5 times the variance of the better half,
-    // and the weighted mean 1.9 times.
+    // of 1 and 16 times the variance, the variance of the plain mean is 8.5 times the variance of
+    // the better half, and the variance of the weighted mean is 1.9 times.
     Rng rng(kSeed);
     const HalfDark paper;
     const View view = random_view(rng);

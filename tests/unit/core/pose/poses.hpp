@@ -1,5 +1,5 @@
 // Views of the pattern whose dots have several kinds of errors, and checks that the fitted pose is
-// that of the camera.
+// the pose of the camera.
 #pragma once
 
 #include <cmath>
@@ -25,7 +25,7 @@ inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec
     const Vec2 error = error_at(reading, found, pixel);
     EXPECT_NEAR(error.x, 0, tolerance);
     EXPECT_NEAR(error.y, 0, tolerance);
-    // The error of a slope over half of the image may be as large as that of a position.
+    // Over half the image height, a slope error may add up to the position tolerance.
     const View& view = reading.view;
     const double slope = 2 * tolerance / view.image_px.y;
     const PlaneFromImage flat = core::tangent(found, fixed(pixel, 8));
@@ -35,7 +35,8 @@ inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec
     EXPECT_NEAR(real(flat.dv_q24, 24).y, view.dv().y, slope);
 }
 
-/// Returns exact dots of any code variant, with a slightly inaccurate grid, which must not matter.
+/// Returns exact dots of a random view. `i` selects the code variant and the turn. The grid is
+/// slightly inaccurate, which must not affect the result.
 inline Reading reading_off_grid(int i, Rng& rng) {
     View view = random_view(rng);
     view.spacing_px = rng.uniform(6, 11);

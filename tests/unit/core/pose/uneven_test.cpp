@@ -130,8 +130,8 @@ TEST(FitUneven, LeavesOpenWhichSideAReferencePointAtTheLineIsOn) {
 }
 
 // A plane absorbs most of a small step in the middle, and the residuals of rows that the step
-// crosses have a mean of 0. Both together caused errors of up to 24 sigma on a sheet classified as
-// even.
+// crosses have a mean of 0. Regression: these two effects together caused errors of up to 24 sigma
+// on a sheet classified as even.
 TEST(FitUneven, SeesASmallStepInTheMiddle) {
     Rng rng(kSeed);
     int claim_too_much = 0;
@@ -152,8 +152,9 @@ TEST(FitUneven, SeesASmallStepInTheMiddle) {
     EXPECT_LE(claim_too_much, 2);
 }
 
-// Words hide dots, and dirt of letters disturbs others, in rows, and more at one end of the view
-// than at the other. Such sheets were classified as divided, with the pose of a part of their dots.
+// Words hide some dots, and parts of letters disturb other dots. The disturbed dots are in rows,
+// with more of them at one end of the view. Regression: such sheets were classified as divided,
+// with the pose of a part of their dots.
 TEST(FitUneven, WordsDivideNoSheet) {
     Rng rng(kSeed);
     for (int trial = 0; trial < 40; ++trial) {

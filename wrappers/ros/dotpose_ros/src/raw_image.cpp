@@ -95,8 +95,8 @@ class Levels {
     }
 
     /// Replaces each pixel by the mean over 3 x 3 pixels with the weights 1 2 1 along both axes.
-    /// Around every pixel of a mosaic, green then has half of the weight, red and blue a quarter
-    /// each.
+    /// Around every pixel of a mosaic, green has half of the weight, and red and blue have a
+    /// quarter each.
     void mix_colours() {
         std::vector<std::uint16_t> mixed(levels_.size());
         for (std::size_t v = 0; v < height_; ++v) {
