@@ -2,7 +2,7 @@
 // large.
 #pragma once
 
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 #include "locate/workspace.hpp"
 
 namespace dotpose::core {

@@ -6,7 +6,7 @@
 
 #include "core/decode/bit_lines.hpp"
 #include "core/known_sheets.hpp"
-#include "dotpose/options.hpp"
+#include "dotpose/device_options.hpp"
 
 namespace dotpose::core {
 
