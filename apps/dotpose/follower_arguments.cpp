@@ -54,9 +54,13 @@ void add_follower_options(Command& command, FollowerArguments& arguments,
     FollowerOptions& options = arguments.options;
     add_spacing_option(command, options.spacing_mm);
     add_code_option(command, options.code);
-    add_sheets_option(command, arguments.sheets, sheets_help)
-        ->excludes(command.get_option("--spacing"))
-        ->excludes(command.get_option("--code"));
+    Option* const sheets = add_sheets_option(command, arguments.sheets, sheets_help)
+                               ->excludes(command.get_option("--spacing"))
+                               ->excludes(command.get_option("--code"));
+    command
+        .add_flag("--only-sheets", options.has_only_sheets,
+                  "No other sheet than those of --sheets can be in view: smaller views suffice")
+        ->needs(sheets);
     command.add_flag("--inverted", arguments.is_inverted, "The dots are white on black");
     add_camera_option(command, arguments.camera,
                       "Camera file from 'dotpose calibrate' or ROS: lens, reference, heading")

@@ -186,8 +186,8 @@ std::string plain_reason(const Record& record) {
         case Status::image_too_small:
             if (record.width_px == 0) return "the camera gives no image";
             return fmt::format("the image is {} x {} px; at least {} x {} are needed",
-                               record.width_px, record.height_px, kMinFrameSide_px,
-                               kMinFrameSide_px);
+                               record.width_px, record.height_px, record.min_side_px(),
+                               record.min_side_px());
         case Status::image_too_large:
             if (std::int64_t{record.width_px} * record.height_px > kDefaultImagePixels) {
                 return fmt::format("the image is {} x {} px; at most {} million px are read",

@@ -22,8 +22,9 @@ struct Record {
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();  ///< as in Located
     bool has_sheets = false;          ///< true if the record has the fields of a sheet file
     std::optional<SheetPlace> place;  ///< the place on a sheet
-    double elapsed_us = 0;            ///< time that `dotpose::locate` took
-    std::string advice;               ///< advice if there is no fix; may be empty
+    int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }
+    double elapsed_us = 0;  ///< time that `dotpose::locate` took
+    std::string advice;     ///< advice if there is no fix; may be empty
     int width_px = 0;
     int height_px = 0;
     int min_dots = 0;          ///< minimum number of dots for an attempt to locate

@@ -35,6 +35,15 @@ enum class Surface : std::uint8_t {
 /// Returns the identifier, such as "divided".
 const char* name(Surface surface) noexcept;
 
+/// The places that counted as possible when the probability of a wrong fix was computed.
+enum class Prior : std::uint8_t {
+    plane,        ///< all places of the code
+    sheets,       ///< places on known sheets; an unknown sheet is improbable by its bits
+    only_sheets,  ///< places on known sheets, because no other sheet can be in view
+};
+/// Returns the identifier, such as "plane".
+const char* name(Prior prior) noexcept;
+
 /// Result of Locator::locate. Unless `status` is ok, only `status`, `dots_seen` and the counts of
 /// the stages that the frame reached are valid.
 ///
@@ -45,6 +54,7 @@ struct Fix {
     Status status = Status::not_run;
     Attempt attempt = Attempt::first;
     Surface surface = Surface::even;  ///< always `even` from a DeviceLocator
+    Prior prior = Prior::plane;       ///< see Locator::set_known
 
     Cell cell;                         ///< intersection to the upper left of the reference point
     std::uint16_t fraction_x_q16 = 0;  ///< from `cell` to the right, in 1/65536 spacing

@@ -16,11 +16,13 @@
 #pragma once
 
 #include <concepts>
+#include <span>
 
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/device_options.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/image.hpp"
+#include "dotpose/known_region.hpp"
 #include "dotpose/locator_options.hpp"
 #include "dotpose/memory.hpp"
 #include "dotpose/prediction.hpp"
@@ -109,6 +111,13 @@ class Locator : public RowLocator {
     void set_options(const Fixed& options) {
         set_fixed_options(options);
     }
+
+    /// Sets the regions of the code plane on the sheets that may be in view. Views of about 30 dots
+    /// then suffice. `regions` must stay valid; an empty span makes all places possible again.
+    /// Returns bad_argument, and keeps the previous regions, if a region is empty or not inside the
+    /// plane, or if its code or section does not exist. Effort::device does not use the regions.
+    Status set_known(std::span<const KnownRegion> regions,
+                     OtherSheets others = OtherSheets::possible);
 
     /// Returns the pose of an image; see Fix. If the options do not set the code, the code is
     /// detected from all images so far, and `options().code` is the code that was read. The same

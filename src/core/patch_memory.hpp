@@ -30,6 +30,10 @@ struct Patch {
     static constexpr int kTiles = kTilesPerRow * kMaxHeight_px / kTileHeight_px;
     static constexpr int kStrips = kMaxWidth_px / 32;
 
+    /// Minimum side on unknown sheets: 8 dots at a spacing of 6 px.
+    static constexpr int kMinSide_px = 48;
+
+    int min_side_px = kMinSide_px;
     int left_px = 0;  ///< in px of the image
     int top_px = 0;
     int scale = 1;  ///< side of a patch pixel, in px of the image

@@ -42,6 +42,18 @@ Prediction moved(const Prediction& prediction, CodeVariant code, FixedVec by_q16
     return next;
 }
 
+const char* name(Prior prior) noexcept {
+    switch (prior) {
+        case Prior::sheets:
+            return "sheets";
+        case Prior::only_sheets:
+            return "only_sheets";
+        case Prior::plane:
+            break;
+    }
+    return "plane";
+}
+
 const char* name(Surface surface) noexcept {
     switch (surface) {
         case Surface::even:

@@ -1,5 +1,7 @@
 #include "core/steps.hpp"
 
+#include <algorithm>
+
 #include "core/decode/orientation.hpp"
 #include "core/decode/window.hpp"
 #include "core/detect/undistort.hpp"
@@ -24,9 +26,10 @@ bool are_valid(const DeviceOptions& options) {
 
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w) {
     if (!are_valid(options)) return Status::bad_argument;
-    if (width_px < kMinFrameSide_px || height_px < kMinFrameSide_px) {
+    // Only the first and the tracked attempt locate images smaller than usual.
+    const bool may_be_small = options.effort != Effort::device && options.decoder == Decoder::all;
+    if (std::min(width_px, height_px) < (may_be_small ? w.min_side_px : kMinFrameSide_px))
         return Status::image_too_small;
-    }
     if (width_px > w.max_width_px || height_px > w.max_height_px) return Status::image_too_large;
     return Status::ok;
 }

@@ -21,6 +21,7 @@ namespace dotpose::core {
 
 /// Memory and results of the stages that desktops and devices share, as spans.
 struct Workspace {
+    std::int16_t min_side_px = kMinFrameSide_px;
     std::int16_t max_width_px = 0;
     std::int16_t max_height_px = kMaxFrameSide_px;
     /// True if each stage has its own memory, which keeps the results of every stage.

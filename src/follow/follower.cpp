@@ -31,7 +31,14 @@ void Follower::use_sheets() {
             unplaced_spacing_mm_ = std::numeric_limits<double>::quiet_NaN();
         }
         if (entry.world) is_in_world_ = true;
+        known_.push_back({pattern.code, pattern.section, entry.sheet.origin,
+                          static_cast<std::uint32_t>(entry.sheet.columns),
+                          static_cast<std::uint32_t>(entry.sheet.rows)});
     }
+    const OtherSheets others =
+        options_.has_only_sheets ? OtherSheets::impossible : OtherSheets::possible;
+    if (locator_.set_known(known_, others) != Status::ok)
+        throw BadArgument("a sheet is not in the plane of the code");
 }
 
 void Follower::use_options_for(int width_px, int height_px) {

@@ -8,6 +8,7 @@
 #include "core/integrity/certainty.hpp"
 #include "core/integrity/coded_block.hpp"
 #include "core/integrity/codes_in_view.hpp"
+#include "core/integrity/known_places.hpp"
 #include "core/pose/covariance.hpp"
 #include "core/pose/float_fit.hpp"
 #include "core/pose/subgrid.hpp"
@@ -29,12 +30,12 @@ float half_side_px(const ImageView& image) {
 
 /// Returns true if most measured dots agree with the expected bits.
 bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOptions& options,
-                  bool is_partial_view) {
+                  int min_dots, bool is_partial_view) {
     const bool is_full = 4 * bits.seen >= dots.count || is_partial_view;
     const auto exceeds_error_rate = [&](int wrong) {
         return 256 * wrong > bits.read * options.integrity.max_bit_error_q8;
     };
-    return bits.read >= options.lattice.min_dots && is_full && 2 * bits.read >= bits.seen &&
+    return bits.read >= min_dots && is_full && 2 * bits.read >= bits.seen &&
            !exceeds_error_rate(bits.wrong_x) && !exceeds_error_rate(bits.wrong_y);
 }
 
@@ -58,6 +59,16 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
     return {confidence_in(bits.read, bits.wrong_x), confidence_in(bits.read, bits.wrong_y)};
 }
 
+/// Returns true if the place is on a known sheet and certain there. Sets `p_wrong_log2` and `prior`
+/// of the fix.
+bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
+                          const BitBlock& block, const KnownSheets& known, Fix& fix) {
+    const float wrong = known_place_wrong(kernels, block, known, options.code, place);
+    if (!is_within_limit(wrong, options.integrity.max_p_wrong_log2, fix)) return false;
+    fix.prior = known.are_all() ? Prior::only_sheets : Prior::sheets;
+    return true;
+}
+
 /// Judges the place by the bits of all dots near the centre. Returns ok or uncertain.
 Confirmation confirm_place(const Kernels& kernels, const DeviceOptions& options,
                            const Hypothesis& hypothesis, const CellsInView& view,
@@ -65,10 +76,16 @@ Confirmation confirm_place(const Kernels& kernels, const DeviceOptions& options,
     w.decoding.bits = 2 * bits.read;
     const auto confidences = confidences_in(bits);
     OtherCodes* others = wanted_codes(w);
+    if (w.known.are_all() && !shows_sheet(w.known, options.code, hypothesis.place, block))
+        return Confirmation::uncertain;
     const CodedBlock coded(options.code, hypothesis.place, view, block);
     if (passes_hard_bit_test(
             kernels, {coded.axis(Axis::x, confidences[0]), coded.axis(Axis::y, confidences[1])},
             options.code, options.integrity, w.fix, others)) {
+        return Confirmation::ok;
+    }
+    if (w.known.any() &&
+        is_certain_on_sheets(kernels, options, hypothesis.place, block, w.known, w.fix)) {
         return Confirmation::ok;
     }
     const Evidence evidence =
@@ -298,7 +315,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
         BitBlock block;
         BitsRead bits = reader.read(view, hypothesis,
                                     decides || (is_last && codes != nullptr) ? &block : nullptr);
-        if (!is_plausible(bits, dots, options, hypothesis.is_partial_view))
+        if (!is_plausible(bits, dots, options, min_dots(options, w), hypothesis.is_partial_view))
             return Confirmation::implausible;
         if (!is_clean(bits)) {
             if (hypothesis.is_exact) return Confirmation::implausible;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <span>
 
 #include "core/decode/bit_lines.hpp"
 #include "core/decode/exact_lines.hpp"
 #include "core/detect/patch.hpp"
+#include "core/integrity/known_places.hpp"
 #include "core/lattice/outwards.hpp"
 #include "core/steps.hpp"
 #include "locate/confirm.hpp"
@@ -38,6 +40,12 @@ FloatVec middle_of(const Patch& patch, const ImageView& image) {
             middle_v_px(patch) - static_cast<float>(image.height_px - 1) / 2};
 }
 
+/// Places a patch around a point of the image, in px. Returns false if it is too small for a grid.
+bool place_patch(const ImageView& image, FixedVec around_px, int scale, DesktopWorkspace& w) {
+    return place_patch(image, around_px.x, around_px.y, kPatchWidth_px * scale,
+                       kPatchHeight_px * scale, scale, *w.patch);
+}
+
 /// Finds the dots of the patch. Returns false if the patch has no contrast. Sets the status for the
 /// case that no patch contains a grid.
 bool find_patch_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
@@ -49,12 +57,47 @@ bool find_patch_dots(const Kernels& kernels, const ImageView& image, const Devic
     if (!measure_contrast(patch)) return false;
     kernels.find_minima(patch);
     w.fix.dots_seen = std::max(w.fix.dots_seen, patch.dots.count);
-    const bool are_few = w.fix.dots_seen < std::max(options.lattice.min_dots, 1);
+    const bool are_few = w.fix.dots_seen < std::max(min_dots(options, w), 1);
     w.fix.status = are_few ? Status::too_few_dots : Status::no_grid;
     return true;
 }
 
-/// Finds a place in the code from the dots of a patch. Dots and hypothesis are relative to
+/// Finds the place of a block on the known sheets. Returns false if there is none in this code that
+/// explains the bits.
+bool find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
+                          const BitBlock& block, const KnownSheets& known, int& quarters,
+                          Place& place) {
+    const auto found = find_known_place(kernels, block, known);
+    if (!found || found->code != options.code || !found->is_plausible(options.integrity))
+        return false;
+    quarters = found->quarters;
+    place = found->place;
+    return true;
+}
+
+/// Finds the turn and the place in the code of a block of bits: of the turned block's cell (0, 0).
+/// Places on known sheets come first. Returns false if there is none.
+bool find_turn_and_place(const Kernels& kernels, const DeviceOptions& options,
+                         const BitBlock& block, DesktopWorkspace& w, int& quarters, Place& place) {
+    quarters = likeliest_turn(kernels, block);
+    const BitBlock upright = turned(quarters, block);
+    const bool is_exact = find_place_exactly(options.code, upright, place);
+    if (w.known.any() && !(is_exact && shows_sheet(w.known, options.code, place, upright))) {
+        int quarters_on_sheet = 0;
+        Place place_on_sheet;
+        if (find_place_on_sheets(kernels, options, block, w.known, quarters_on_sheet,
+                                 place_on_sheet)) {
+            quarters = quarters_on_sheet;
+            place = place_on_sheet;
+            return true;
+        }
+        if (w.known.are_all()) return false;
+    }
+    return is_exact ||
+           find_place(options.code, score_block(kernels, upright, w.line_scores), place);
+}
+
+/// Finds a place in the code from the dots of a patch. The dots and the hypothesis are relative to
 /// `from_centre`. Returns false if no place is found.
 bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const PatchView& view,
                      FloatVec from_centre, DesktopWorkspace& w, Hypothesis& hypothesis) {
@@ -64,12 +107,8 @@ bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const
     BitBlock block;
     kernels.read_cells(patch.dots, grid.grid_from_image, grid.displacement, block.columns,
                        block.rows);
-    const int quarters = likeliest_turn(kernels, block);
-    const BitBlock upright = turned(quarters, block);
-    if (!find_place_exactly(options.code, upright, hypothesis.place) &&
-        !find_place(options.code, score_block(kernels, upright, w.line_scores), hypothesis.place)) {
-        return false;
-    }
+    int quarters = 0;
+    if (!find_turn_and_place(kernels, options, block, w, quarters, hypothesis.place)) return false;
     hypothesis.pattern_from_image = turned(quarters, grid.grid_from_image);
     hypothesis.from_centre = from_centre;
     hypothesis.displacement = grid.displacement;
@@ -109,7 +148,9 @@ bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Devic
     if (!find_patch_dots(kernels, image, options, w)) return false;
     const FloatVec middle = middle_of(patch, image);
     if (options.lens.k_q40 != 0) undistort(options.lens, middle, patch.dots);
-    if (!read_hypothesis(kernels, options, whole_view(patch), middle, w, hypothesis)) return false;
+    PatchView view = whole_view(patch);
+    view.min_dots = min_dots(options, w);
+    if (!read_hypothesis(kernels, options, view, middle, w, hypothesis)) return false;
     hypothesis.pattern_from_image =
         recentred(hypothesis.pattern_from_image, {-middle.x, -middle.y});
     hypothesis.from_centre = {};
@@ -126,9 +167,7 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
     Patch& patch = *w.patch;
     PatchView view;
     FloatVec from_middle;
-    if (!place_patch(image, around_px.x, around_px.y, kPatchWidth_px * scale,
-                     kPatchHeight_px * scale, scale, patch) ||
-        !find_patch_dots(kernels, image, options, w)) {
+    if (!place_patch(image, around_px, scale, w) || !find_patch_dots(kernels, image, options, w)) {
         return false;
     }
     keep_isolated(patch);
@@ -139,9 +178,12 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
     const FloatVec from_centre{middle.x + from_middle.x, middle.y + from_middle.y};
     if (options.lens.k_q40 != 0) undistort(options.lens, from_centre, patch.dots);
     hypothesis.is_partial_view = true;
+    const auto spacings = w.known.any() ? std::span<const float>(tuned::kSpacingsOfKnown)
+                                        : std::span<const float>(tuned::kSpacings);
     for (const float central_dots : tuned::kCentralDots) {
-        for (const float by : tuned::kSpacings) {
-            const PatchView other{by * view.spacing_px, view.full_reach_px, central_dots};
+        for (const float by : spacings) {
+            const PatchView other{by * view.spacing_px, view.full_reach_px, central_dots,
+                                  min_dots(options, w)};
             if (read_hypothesis(kernels, options, other, from_centre, w, hypothesis)) return true;
         }
     }
@@ -195,10 +237,7 @@ Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
 Confirmation locate_outwards(const Kernels& kernels, const ImageView& image,
                              const DeviceOptions& options, DesktopWorkspace& w) {
     for (const int scale : {1, 2, 4}) {
-        if (!place_patch(image, image.width_px / 2, image.height_px / 2, kPatchWidth_px * scale,
-                         kPatchHeight_px * scale, scale, *w.patch)) {
-            break;
-        }
+        if (!place_patch(image, {image.width_px / 2, image.height_px / 2}, scale, w)) break;
         Hypothesis hypothesis;
         auto confirmation = Confirmation::implausible;
         if (find_hypothesis(kernels, image, options, w, hypothesis)) {

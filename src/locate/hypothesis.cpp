@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "code/rolls.hpp"
+#include "locate/tuning.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -68,6 +69,12 @@ CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
     view.displacement = hypothesis.displacement;
     // A dot that touches the border of the image is incomplete.
     view.margin_px = std::max(1.7F, 0.15F * spacing_px(hypothesis.pattern_from_image));
+    // The bits of known sheets are read closer to the border where the view has few dots.
+    const auto shorter_px = static_cast<float>(std::min(image.width_px, image.height_px));
+    if (w.known.any() &&
+        shorter_px < tuning::known::kSmallView * spacing_px(hypothesis.pattern_from_image)) {
+        view.margin_px = tuning::known::kMargin_px;
+    }
     const float half_width = std::min(centre.x + std::abs(hypothesis.from_centre.x) + 1, reach_px);
     const float half_height = std::min(centre.y + std::abs(hypothesis.from_centre.y) + 1, reach_px);
     float min_x = 0, min_y = 0, max_x = 0, max_y = 0;

@@ -8,6 +8,7 @@
 // A frame whose code is known is a frame with one possible code.
 #include "locate/locate.hpp"
 
+#include <algorithm>
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -71,7 +72,11 @@ class Cascade {
     }
 
   private:
-    bool may_try_twice() const { return options_.effort == Effort::twice; }
+    /// The second attempt needs images of a minimum size.
+    bool may_try_twice() const {
+        return options_.effort == Effort::twice &&
+               std::min(image_.width_px, image_.height_px) >= kMinFrameSide_px;
+    }
 
     CodeReading locate_afresh() {
         const bool is_paper = options_.decoder == Decoder::window;
@@ -308,7 +313,25 @@ SmallMemory::SmallMemory() : workspace_(core::make_workspace<core::SmallWorkspac
 LargeMemory::LargeMemory() : workspace_(core::make_workspace<core::LargeWorkspace>(bytes_)) {}
 
 Locator::Locator(core::DesktopWorkspace* workspace, const DeviceOptions& options)
-    : RowLocator(workspace, options) {}
+    : RowLocator(workspace, options) {
+    // The memory may have served another locator.
+    workspace->set_known({});
+}
+
+Status Locator::set_known(std::span<const KnownRegion> regions, OtherSheets others) {
+    const auto is_in_plane = [](std::uint32_t first, std::uint32_t size) {
+        return size > 0 && first < kPositionsPerAxis && size <= kPositionsPerAxis - first;
+    };
+    for (const KnownRegion& region : regions) {
+        if (static_cast<int>(region.code) >= kCodeVariantCount || region.section.u >= kSections ||
+            region.section.v >= kSections || !is_in_plane(region.first.x, region.columns) ||
+            !is_in_plane(region.first.y, region.rows)) {
+            return Status::bad_argument;
+        }
+    }
+    workspace().set_known({regions, others});
+    return Status::ok;
+}
 
 void Locator::set_fixed_options(const DeviceOptions& options) {
     RowLocator::set_options(options);

@@ -14,6 +14,7 @@
 #include "core/steps.hpp"
 #include "locate/dot_reader.hpp"
 #include "locate/fitted_pose.hpp"
+#include "locate/on_sheets.hpp"
 #include "locate/tracked.hpp"
 #include "locate/tuning.hpp"
 
@@ -81,6 +82,8 @@ Status read_position(const DeviceOptions& options, DesktopWorkspace& w) {
         status = verify(w.grid, options.code, wanted_codes(w), w.decoding, options.integrity,
                         w.line_scores, w.fix);
     }
+    if (status == Status::ok && !is_possible(options.code, w)) status = Status::not_certain;
+    if (status != Status::ok && w.known.any() && read_on_sheets(options, w)) status = Status::ok;
     return status == Status::ok ? status : refused(status, w);
 }
 
@@ -124,6 +127,7 @@ Status read_filtered_with(const DeviceOptions& filtered, const ImageView& image,
 /// threshold.
 Status read_filtered(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     DeviceOptions filtered = for_filtered(options);
+    filtered.lattice.min_dots = min_dots(options, w);
     const Status status = read_filtered_with(filtered, image, w);
     const int pale = (options.threshold.min_contrast + tuned::kPaleParts - 1) / tuned::kPaleParts;
     const bool may_be_pale = (status == Status::no_contrast || status == Status::too_few_dots) &&

@@ -8,12 +8,14 @@
 #include <span>
 
 #include "core/detect/smooth.hpp"
+#include "core/known_sheets.hpp"
 #include "core/other_codes.hpp"
 #include "core/patch_memory.hpp"
 #include "core/workspace.hpp"
 #include "device/workspace.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/prediction.hpp"
+#include "locate/tuning.hpp"
 
 namespace dotpose::core {
 
@@ -60,9 +62,23 @@ struct DesktopWorkspace : DeviceWorkspace {
     std::span<std::uint8_t> row_rolls;
     Smoothing smoothing;
     OtherCodes other_codes;
+    KnownSheets known;
     PushedImage pushed;
     bool is_mirrored = false;  ///< true if an attempt found the mirrored code
+
+    /// Sets the known sheets. Smaller images and patches can then be located.
+    void set_known(const KnownSheets& sheets) {
+        known = sheets;
+        min_side_px = sheets.any() ? kMinKnownFrameSide_px : kMinFrameSide_px;
+        patch->min_side_px = sheets.any() ? kMinKnownFrameSide_px : Patch::kMinSide_px;
+    }
 };
+
+/// Returns the minimum number of dots of a grid. On known sheets, fewer dots determine a place.
+inline int min_dots(const DeviceOptions& options, const DesktopWorkspace& w) {
+    return w.known.any() ? std::min(options.lattice.min_dots, tuning::known::kMinDots)
+                         : options.lattice.min_dots;
+}
 
 /// Returns the storage for the odds of other codes, or null if they are not wanted.
 inline OtherCodes* wanted_codes(DesktopWorkspace& w) {

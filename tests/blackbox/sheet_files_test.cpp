@@ -81,6 +81,29 @@ TEST_F(SheetFiles, a_place_on_no_sheet_is_a_warning) {
     EXPECT_THAT(record["warning"], HasSubstr("this place is on no sheet of the sheet file"));
 }
 
+TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
+    ASSERT_EQ(print("-o table.svg --paper 80x60 --sheets sheets.json --name table"), 0) << errors_;
+    json sheet = sheets().at(0);
+    const GreyImage frame = frame_of(sheet, 40, 30, 0.3, 1);
+    // The middle of the frame, six to seven cells wide and high.
+    constexpr int kSide_px = 72;
+    const ImageView whole = frame.view();
+    const std::uint8_t* first =
+        whole.row((whole.height_px - kSide_px) / 2) + (whole.width_px - kSide_px) / 2;
+    write_pgm(directory_ / "small.pgm", {first, kSide_px, kSide_px, whole.stride_bytes});
+    run("small.pgm");
+    EXPECT_NE(records().at(0)["status"], "ok");
+    run("--sheets sheets.json --only-sheets small.pgm");
+    EXPECT_EQ(records().at(0)["status"], "ok") << records().at(0);
+    EXPECT_EQ(records().at(0)["sheet"], "table");
+    EXPECT_EQ(records().at(0)["prior"], "only_sheets");
+
+    sheet["origin_x"] = sheet["origin_x"].get<int>() + 5000;
+    write_pgm(directory_ / "other.pgm", frame_of(sheet, 40, 30, 0, 1).view());
+    run("--sheets sheets.json --only-sheets other.pgm");
+    EXPECT_NE(records().at(0)["status"], "ok") << records().at(0);
+}
+
 /// Returns the image of a camera above the printed page, cut out of the printed file. Each camera
 /// pixel covers 2 x 2 printer pixels, and the image centre is at the corner of the printer pixels
 /// (u, v). The table around the page is white.

@@ -105,8 +105,9 @@ dotpose_status to_core(const dotpose_fix* read, Fix& fix) {
     std::memcpy(&given, read, read->size);
     const dotpose_place place{given.cell_x, given.cell_y, given.section_u, given.section_v};
     if (!is_one_of(given.status, kStatusCount - 1) || !is_one_of(given.attempt, Attempt::device) ||
-        !is_one_of(given.surface, Surface::uneven) || !is_place(place) || !is_place(given.place) ||
-        given.fraction_x_q16 > UINT16_MAX || given.fraction_y_q16 > UINT16_MAX) {
+        !is_one_of(given.surface, Surface::uneven) || !is_one_of(given.prior, Prior::only_sheets) ||
+        !is_place(place) || !is_place(given.place) || given.fraction_x_q16 > UINT16_MAX ||
+        given.fraction_y_q16 > UINT16_MAX) {
         return DOTPOSE_BAD_VALUE;
     }
 #define FIX_STATUS(type, name, member, doc) assign(given.name, fix.member);

@@ -191,7 +191,17 @@ enum {
     DOTPOSE_SURFACE_UNEVEN = 2
 };
 
-/* The pose computed from one frame, with its evidence: 240 bytes. The members are listed in
+/* The places that counted as possible: see `prior`. */
+enum {
+    /* All places of the code. */
+    DOTPOSE_PRIOR_PLANE = 0,
+    /* Places on known sheets; an unknown sheet is improbable by its bits. */
+    DOTPOSE_PRIOR_SHEETS = 1,
+    /* Places on known sheets, because no other sheet can be in view. */
+    DOTPOSE_PRIOR_ONLY_SHEETS = 2
+};
+
+/* The pose computed from one frame, with its evidence: 248 bytes. The members are listed in
  * include/dotpose/fix_fields.def.
  *
  * The pose is the pattern position at the reference point of the image, by default the image
@@ -256,6 +266,10 @@ typedef struct dotpose_fix {
     int32_t displacement_q16; /* 200 */
     /* Covariance of x, y and theta, row by row, in spacings and rad. */
     float covariance_grid[9]; /* 204 */
+    /* Places that counted as possible in p_wrong: DOTPOSE_PRIOR_. */
+    int32_t prior; /* 240 */
+    /* Zero. */
+    int32_t reserved; /* 244 */
 } dotpose_fix;
 
 /* Sets up a fix before the first call that writes to it. `bytes` is sizeof(dotpose_fix) in the

@@ -35,4 +35,5 @@ static const golden_column golden_columns[] = {
     {'i', 11, offsetof(dotpose_fix, pattern_from_image)},
     {'i', 1, offsetof(dotpose_fix, displacement_q16)},
     {'f', 9, offsetof(dotpose_fix, covariance_grid)},
+    {'i', 1, offsetof(dotpose_fix, prior)},
 };

@@ -32,6 +32,9 @@ struct FollowerOptions {
     DeviceOptions locate;
     /// The sheets that may be in view. If empty, poses are in the pattern frame.
     std::vector<SheetEntry> sheets;
+    /// Whether only these sheets can be in view. Otherwise other sheets are located, too, where
+    /// enough of them is seen. See Locator::set_known.
+    bool has_only_sheets = false;
     /// The code variant; none to detect it from all images together. Not used if there are sheets,
     /// which have their own code variants.
     std::optional<CodeVariant> code;
@@ -145,6 +148,7 @@ class Follower {
     ImageView image_;
     GreyImage flipped_;
     GreyImage reduced_;
+    std::vector<KnownRegion> known_;  ///< regions of the sheets
     Locator locator_{DeviceOptions{}};
     Tracker tracker_;
     std::optional<Seen> seen_;  ///< none if it is too old for a prediction

@@ -41,7 +41,7 @@ bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int w
     patch.height_px = std::min({height_px, image.height_px, Patch::kMaxHeight_px * scale}) / scale;
     patch.left_px = begin_of(centre_u_px, patch.width_px * scale, image.width_px);
     patch.top_px = begin_of(centre_v_px, patch.height_px * scale, image.height_px);
-    return patch.width_px >= tuned::kMin_px && patch.height_px >= tuned::kMin_px;
+    return std::min(patch.width_px, patch.height_px) >= patch.min_side_px;
 }
 
 bool measure_contrast(Patch& patch) {
@@ -63,7 +63,8 @@ bool measure_contrast(Patch& patch) {
         }
     }
     const int dark_tiles = rows * columns - counts[kFlat];
-    if (dark_tiles < tuned::kMinTiles) return false;
+    const bool is_small = std::min(patch.width_px, patch.height_px) < tuned::kSmall_px;
+    if (dark_tiles < (is_small ? rows * columns / 2 : tuned::kMinTiles)) return false;
     std::size_t median = 0;
     for (int below = counts[0]; 2 * below <= dark_tiles; below += counts[++median]) {
     }

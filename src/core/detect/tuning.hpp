@@ -40,10 +40,10 @@ inline constexpr int kMinLevel_5ths = 4;
 
 /// Patch of the image (detect/patch).
 namespace patch {
-/// Minimum side of a patch, in px: 8 dots at a spacing of 6 px.
-inline constexpr int kMin_px = 48;
+/// Side of a patch, in px, below which its number of tiles is too small for `kMinTiles`.
+inline constexpr int kSmall_px = 48;
 /// Minimum darkness of a smoothed dot, in grey levels, and minimum number of tiles with at least
-/// this darkness. Tiles with less darkness count as blank.
+/// this darkness; half of the tiles in a small patch. Tiles with less darkness count as blank.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
 /// Minimum darkness of a dot, in units of 1/256 of the darkness of a typical dot. Lighter minima of

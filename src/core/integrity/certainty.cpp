@@ -208,13 +208,6 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     return sum + seam_alternatives(kernels, unshared);
 }
 
-bool is_within_limit(float wrong, int limit_log2, Fix& fix) {
-    int exponent = 0;
-    std::frexp(wrong, &exponent);  // wrong < 2^exponent
-    fix.p_wrong_log2 = std::min(exponent, 0);
-    return fix.p_wrong_log2 <= limit_log2;
-}
-
 /// Returns true if both axes are certain. Sets the odds of the other codes unless `Query::others`
 /// is null.
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
@@ -257,6 +250,13 @@ std::array<AxisReading, 2> readings_at(const Place& corner, CodeVariant code) {
 }
 
 }  // namespace
+
+bool is_within_limit(float wrong, int limit_log2, Fix& fix) {
+    int exponent = 0;
+    std::frexp(wrong, &exponent);  // wrong < 2^exponent
+    fix.p_wrong_log2 = std::min(exponent, 0);
+    return fix.p_wrong_log2 <= limit_log2;
+}
 
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
                           CodeVariant code, const IntegrityOptions& options, Fix& fix,

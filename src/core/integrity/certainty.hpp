@@ -53,6 +53,10 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr);
 
+/// Sets `p_wrong_log2` of the fix to log2 of a probability, rounded up. Returns true if it is at
+/// most the limit.
+bool is_within_limit(float wrong, int limit_log2, Fix& fix);
+
 /// Sets the odds of the other codes, without judging the position.
 void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                        OtherCodes& others);

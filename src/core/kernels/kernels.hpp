@@ -228,6 +228,10 @@ struct Kernels {
                        BitLines& columns, BitLines& rows);
     /// Scores 64 cells of a line against the main sequence at each roll.
     void (*score_line)(std::uint64_t bits, std::uint64_t valid, ScoredLine& line);
+    /// Sums the scores of adjacent lines for `positions` positions of the first line. `rolls` are
+    /// those of the line at the first position and of the lines that follow.
+    void (*sum_rolls)(const RollScores& scores, const std::uint8_t* rolls, int positions,
+                      RollSums* sums);
     /// Lists the cells in view, with the centres of their windows, the symbols of their dots and,
     /// in `x` and `y`, the places of the dots in the image, including lens distortion.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);

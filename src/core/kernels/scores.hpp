@@ -27,4 +27,18 @@ struct ScoredLine {
     BestScore best;
 };
 
+/// Number of entries in a table by roll: kSections, rounded up to whole vectors. The last one is
+/// not used.
+inline constexpr std::size_t kRollEntries = 64;
+
+/// Scores of up to kMaxLines adjacent lines at each roll: the number of cells that agree.
+/// They are stored twice around, to be read from any roll on.
+struct RollScores {
+    int count = 0;  ///< number of lines
+    std::array<std::array<std::uint16_t, 2 * kRollEntries>, kMaxLines> lines;
+};
+
+/// Sums of the scores of all lines, by the roll that is added to those of all lines.
+using RollSums = std::array<std::uint16_t, kRollEntries>;
+
 }  // namespace dotpose::core

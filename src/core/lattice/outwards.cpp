@@ -218,7 +218,7 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
 }
 
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid) {
-    if (patch.dots.count < tuned::kMinDots) return false;
+    if (patch.dots.count < view.min_dots) return false;
     const std::optional<Waves> waves = find_waves(kernels, patch, view);
     if (!waves) return false;
     FloatPlane& plane = grid.grid_from_image;

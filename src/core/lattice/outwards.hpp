@@ -24,6 +24,7 @@ struct PatchView {
     float full_reach_px = 0;  ///< maximum distance of a dot along an axis, in px of the image
     /// Approximate number of dots near the middle that are used to search waves, at most 64.
     float central_dots = 30;
+    int min_dots = 40;  ///< minimum number of dots in the patch
 };
 
 /// Returns the view of a patch with dots everywhere.

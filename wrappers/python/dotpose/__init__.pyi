@@ -122,6 +122,8 @@ class Fix:
     @property
     def residual_px(self) -> float: ...
     @property
+    def prior(self) -> Literal["plane", "sheets", "only_sheets"]: ...
+    @property
     def _bits(self) -> list[Any]: ...
     @property
     def dots(self) -> Floats: ...
@@ -351,6 +353,7 @@ class Follower:
         camera: Optional[Camera] = None,
         reference_px: Optional[Pixel] = None,
         options: Options = ...,
+        only_sheets: bool = False,
         keep_stages: bool = False,
         **track: float,
     ) -> None: ...

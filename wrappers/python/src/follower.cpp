@@ -70,12 +70,13 @@ class FollowerOfPython {
 std::unique_ptr<FollowerOfPython> new_follower(
     const std::vector<SheetEntry>& sheets, const std::string& code, double spacing_mm,
     const std::optional<Camera>& camera, const std::optional<std::array<double, 2>>& reference,
-    const LocatorOptions& options, bool keep_stages, const py::kwargs& track) {
+    const LocatorOptions& options, bool only_sheets, bool keep_stages, const py::kwargs& track) {
     FollowerOptions all;
     all.locate = checked(options);
     all.locate.show_stages |= keep_stages;
     all.locate.spacing_nm = rounded(spacing_mm * 1e6);
     all.sheets = sheets;
+    all.has_only_sheets = only_sheets;
     all.code = code_or_auto(code);
     all.spacing_mm = spacing_mm;
     all.camera = camera;
@@ -116,10 +117,11 @@ void define_follower(py::module_& module) {
         .def(py::init(&new_follower), "sheets"_a = py::list(), "code"_a = "auto",
              "spacing_mm"_a = kDefaultSpacing_mm, py::kw_only(), "camera"_a = py::none(),
              "reference_px"_a = py::none(), py::arg_v("options", LocatorOptions{}, "Options()"),
-             "keep_stages"_a = false,
+             "only_sheets"_a = false, "keep_stages"_a = false,
              "Make a follower.\n\n"
              "sheets: entries of the pages that may be in view; without sheets, poses are in the "
              "pattern frame.\ncode, spacing_mm: code and spacing of the pattern without sheets.\n"
+             "only_sheets: whether no other sheet can be in view; smaller views suffice then.\n"
              "camera, reference_px, options, keep_stages: as in Locator.\n"
              "Options of the tracker are given by name, as in Tracker.")
         .def("locate", &FollowerOfPython::locate, "image"_a,

@@ -19,6 +19,10 @@ export const kSurfaces = ["even", "divided", "uneven"] as const;
 /** Flatness of the paper in view, as determined from the dots. */
 export type Surface = (typeof kSurfaces)[number];
 
+export const kPriors = ["plane", "sheets", "only_sheets"] as const;
+/** The places that counted as possible for `p_wrong`. */
+export type Prior = (typeof kPriors)[number];
+
 /** Section of the code, 0 to 62 per axis. There are 63 x 63 sections, each with all cells. */
 export interface Section {
     u: number;

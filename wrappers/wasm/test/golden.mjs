@@ -41,6 +41,7 @@ const kColumns = [
     ["int", 11, 156], // pattern_from_image
     ["int", 1, 200], // displacement_q16
     ["float", 9, 204], // covariance_grid
+    ["int", 1, 240], // prior
 ];
 
 /** Returns the numbers of a fix in the format of the lines of the golden files. */

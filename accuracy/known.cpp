@@ -1,0 +1,149 @@
+// Counts how many small views of known sheets are located, and how many views of unknown sheets are
+// located on the known ones. Prints tables in Markdown.
+//
+//   dotpose_tables known [--frames N] [--foreign N] [--sheets N] [--seed S]
+//
+// The exit status is 1 if a fix is wrong.
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "dotpose/tools/simulate.hpp"
+#include "tables.hpp"
+
+namespace dotpose::tables {
+namespace {
+
+/// An A4 page as `dotpose print` makes it.
+constexpr std::uint32_t kColumns = 393;
+constexpr std::uint32_t kRows = 564;
+constexpr std::uint32_t kGap = 1024;
+
+/// Views of one size.
+struct ViewSize {
+    double spacing_px;
+    int width_px;
+    int height_px;
+};
+
+std::vector<KnownRegion> sheets_of(std::uint64_t count) {
+    std::vector<KnownRegion> sheets;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const auto x = static_cast<std::uint32_t>(kGap + i * (kColumns + kGap));
+        sheets.push_back({CodeVariant::anoto, {}, {x, kGap}, kColumns, kRows});
+    }
+    return sheets;
+}
+
+struct KnownTally {
+    std::uint64_t frames = 0;
+    std::uint64_t located = 0;
+    std::uint64_t wrong = 0;
+    double claimed = 0;  ///< sum of p_wrong
+
+    void operator+=(const KnownTally& other) {
+        frames += other.frames;
+        located += other.located;
+        wrong += other.wrong;
+        claimed += other.claimed;
+    }
+};
+
+Setup setup_of(const ViewSize& size, std::uint64_t seed) {
+    Setup setup = tables::setup_of(seed, size.width_px, size.height_px);
+    setup.camera.mm_per_px = setup.pattern.spacing_mm / size.spacing_px;
+    return setup;
+}
+
+/// Draws a view of a page with the whole view on it.
+Shot draw_on_page(const ViewSize& size, std::uint64_t seed, std::uint64_t index,
+                  std::span<const KnownRegion> sheets) {
+    Shot shot = draw_shot(setup_of(size, seed), index);
+    Rng rng(shot.seed, 1);
+    const KnownRegion& sheet = sheets[rng.below(static_cast<std::uint32_t>(sheets.size()))];
+    const auto reach = static_cast<std::uint32_t>(
+        std::hypot(size.width_px, size.height_px) / 2 / size.spacing_px + 1);
+    shot.page.pattern.section = sheet.section;
+    shot.pose.cell = {sheet.first.x + reach + rng.below(sheet.columns - 2 * reach),
+                      sheet.first.y + reach + rng.below(sheet.rows - 2 * reach)};
+    return shot;
+}
+
+void locate(const Shot& shot, std::span<const KnownRegion> sheets, OtherSheets others,
+            KnownTally& tally) {
+    Locator locator(thread_memory(), DeviceOptions{});
+    static_cast<void>(locator.set_known(sheets, others));
+    Outcome outcome;
+    const GreyImage image = render(shot);
+    outcome.fix = locator.locate(image.view());
+    outcome.truth = truth_of(shot);
+    ++tally.frames;
+    tally.located += outcome.is_fix();
+    tally.wrong += outcome.is_wrong();
+    if (outcome.is_fix()) tally.claimed += outcome.fix.p_wrong();
+}
+
+/// Prints a row of a table. Returns true if no fix is wrong.
+bool print_row(const ViewSize& size, const Count<KnownTally>& count) {
+    const KnownTally& tally = count.tally;
+    fmt::print("| {} | {} x {} | {} | {:.2f} | {} | {:.1e} | {:.0f} |\n", size.spacing_px,
+               size.width_px, size.height_px, tally.frames,
+               100.0 * static_cast<double>(tally.located) / static_cast<double>(tally.frames),
+               tally.wrong, tally.claimed, 1e6 * count.seconds / static_cast<double>(tally.frames));
+    std::fflush(stdout);
+    return tally.wrong == 0 && count.is_complete();
+}
+
+void print_head(const char* what) {
+    fmt::print(
+        "\n{}\n\n| spacing, px | view, px | frames | located, % | wrong | claimed | time, us |\n"
+        "|--:|--:|--:|--:|--:|--:|--:|\n",
+        what);
+}
+
+constexpr std::array kSizes{ViewSize{11, 58, 58}, ViewSize{11, 62, 62},   ViewSize{11, 66, 66},
+                            ViewSize{11, 72, 72}, ViewSize{11, 77, 77},   ViewSize{11, 88, 88},
+                            ViewSize{11, 96, 96}, ViewSize{11, 120, 120}, ViewSize{6, 36, 36},
+                            ViewSize{6, 40, 40},  ViewSize{6, 44, 44}};
+
+}  // namespace
+
+bool known_table(TableRun& run) {
+    std::uint64_t frames = 2000;
+    std::uint64_t foreign = 2000;
+    std::uint64_t sheet_count = 1;
+    run.add_count("--frames", frames, "Number of frames of each size");
+    run.add_count("--foreign", foreign, "Number of frames of unknown sheets");
+    run.add_count("--sheets", sheet_count, "Number of known sheets");
+    run.add_seed();
+    run.add_threads();
+    if (!run.parse()) return true;
+    const std::vector<KnownRegion> sheets = sheets_of(std::max<std::uint64_t>(sheet_count, 1));
+
+    bool is_right = true;
+    for (const OtherSheets others : {OtherSheets::impossible, OtherSheets::possible}) {
+        print_head(others == OtherSheets::possible ? "Other sheets are possible"
+                                                   : "Other sheets are impossible");
+        for (const ViewSize& size : kSizes) {
+            if (frames == 0) break;
+            is_right &= print_row(
+                size, run.count<KnownTally>("frames", frames, [&](std::uint64_t i, KnownTally& t) {
+                    locate(draw_on_page(size, run.seed, i, sheets), sheets, others, t);
+                }));
+        }
+    }
+    print_head("Frames of unknown sheets, anywhere");
+    const ViewSize size{11, 77, 77};
+    if (foreign > 0) {
+        is_right &= print_row(
+            size, run.count<KnownTally>("frames", foreign, [&](std::uint64_t i, KnownTally& t) {
+                locate(draw_shot(setup_of(size, run.seed), i), sheets, OtherSheets::impossible, t);
+            }));
+    }
+    return is_right;
+}
+
+}  // namespace dotpose::tables

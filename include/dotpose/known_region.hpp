@@ -1,0 +1,33 @@
+/// Known regions: the parts of the code plane on the sheets that may be in view. A Locator that
+/// knows them reads views that are too small to be unique on the whole plane.
+///
+///     static constexpr KnownRegion kSheets[] = {{.first = {1024, 1024}, .columns = 393, .rows =
+///     563}}; locator.set_known(kSheets, OtherSheets::impossible);
+#pragma once
+
+#include <cstdint>
+
+#include "dotpose/code.hpp"
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+/// A printed rectangle of the code plane.
+struct KnownRegion {
+    CodeVariant code = CodeVariant::anoto;
+    Section section;
+    Cell first;  ///< upper left intersection
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+};
+
+/// Whether sheets other than the known ones may be in view.
+enum class OtherSheets : std::uint8_t {
+    possible,    ///< other sheets are located, too, where enough of them is seen
+    impossible,  ///< only places on known sheets are possible
+};
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop

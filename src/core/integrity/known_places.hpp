@@ -1,0 +1,42 @@
+// Known places: the likeliest place of a block of bits on known sheets, and the probability that a
+// place is wrong, from the odds of all places. docs/integrity.md derives the sums.
+#pragma once
+
+#include <optional>
+
+#include "core/decode/bit_lines.hpp"
+#include "core/known_sheets.hpp"
+#include "dotpose/device_options.hpp"
+
+namespace dotpose::core {
+
+/// A place on a known sheet, in one of the four turns of a block.
+struct KnownPlace {
+    CodeVariant code = CodeVariant::anoto;
+    int quarters = 0;            ///< quarter turns from the block to the pattern, as for `turned`
+    Place place;                 ///< place of cell (0, 0) of the turned block
+    int bits = 0;                ///< number of bits of the block, two per dot
+    std::array<int, 2> wrong{};  ///< number of x bits and of y bits that contradict the place
+
+    /// Returns true if the bits contradict the place less than chance does.
+    bool is_plausible(const IntegrityOptions& options) const {
+        return 512 * std::max(wrong[0], wrong[1]) <= bits * options.max_bit_error_q8;
+    }
+};
+
+/// Returns true if some bits of an upright block, with this place of cell (0, 0), are on a known
+/// sheet.
+bool shows_sheet(const KnownSheets& sheets, CodeVariant code, const Place& place,
+                 const BitBlock& block);
+
+/// Returns the place on the sheets, of any code and turn, that agrees best with the bits of a
+/// block. Returns nullopt without bits.
+std::optional<KnownPlace> find_known_place(const Kernels& kernels, const BitBlock& block,
+                                           const KnownSheets& sheets);
+
+/// Returns an upper bound of the probability that cell (0, 0) of an upright block is at another
+/// place on the sheets, or the view on none of them. Returns 1 if `place` is not on the sheets.
+float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
+                        CodeVariant code, const Place& place);
+
+}  // namespace dotpose::core

@@ -1,0 +1,73 @@
+#include "locate/on_sheets.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/integrity/certainty.hpp"
+#include "core/integrity/known_places.hpp"
+#include "core/kernels/select.hpp"
+#include "locate/tuning.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Returns the hard bits of the cells of the region that are read clearly. Cell (0, 0) of the block
+/// is the cell `middle` of the grid.
+BitBlock bits_of(const Grid& grid, const GridRegion& region, FixedVec middle) {
+    BitBlock block;
+    const auto is_clear = [](int weight) { return std::abs(weight) >= tuning::known::kMinWeight; };
+    for (int j = region.j0; j < region.j0 + region.rows; ++j) {
+        for (int i = region.i0; i < region.i0 + region.columns; ++i) {
+            const auto column = static_cast<std::size_t>(i - middle.x + BitBlock::kMiddle);
+            const auto row = static_cast<std::size_t>(j - middle.y + BitBlock::kMiddle);
+            const GridCell& cell = grid.at(i, j);
+            if (std::max(column, row) >= BitBlock::kSide || !is_clear(cell.x) || !is_clear(cell.y))
+                continue;
+            block.columns.valid[column] |= std::uint64_t{1} << row;
+            block.columns.bits[column] |= std::uint64_t{cell.x > 0} << row;
+            block.rows.valid[row] |= std::uint64_t{1} << column;
+            block.rows.bits[row] |= std::uint64_t{cell.y > 0} << column;
+        }
+    }
+    return block;
+}
+
+/// Returns the cell of a turned block at which its cell (0, 0) is.
+FixedVec origin_after(int quarters) {
+    return {quarters == 1 || quarters == 2 ? -1 : 0, quarters >= 2 ? -1 : 0};
+}
+
+}  // namespace
+
+bool is_possible(CodeVariant code, const DesktopWorkspace& w) {
+    if (!w.known.are_all()) return true;
+    const GridRegion& region = w.decoding.region;
+    const QuarterTurn& turn = w.decoding.pattern_from_grid;
+    const FixedVec a = turn({region.i0, region.j0});
+    const FixedVec b = turn({region.i0 + region.columns - 1, region.j0 + region.rows - 1});
+    const Place corner = moved(code, w.decoding.place, std::min(a.x, b.x), std::min(a.y, b.y));
+    return w.known.show(code, corner, std::abs(b.x - a.x) + 1, std::abs(b.y - a.y) + 1);
+}
+
+bool read_on_sheets(const DeviceOptions& options, DesktopWorkspace& w) {
+    const GridRegion& region = w.decoding.region;
+    const FixedVec middle{region.i0 + region.columns / 2, region.j0 + region.rows / 2};
+    const BitBlock block = bits_of(w.grid, region, middle);
+    const auto found = find_known_place(kernels(), block, w.known);
+    if (!found || found->code != options.code || !found->is_plausible(options.integrity))
+        return false;
+    w.fix.bit_errors = found->wrong[0] + found->wrong[1];
+    const float wrong = known_place_wrong(kernels(), turned(found->quarters, block), w.known,
+                                          found->code, found->place);
+    if (!is_within_limit(wrong, options.integrity.max_p_wrong_log2, w.fix)) return false;
+    w.fix.prior = w.known.are_all() ? Prior::only_sheets : Prior::sheets;
+    const QuarterTurn turn{found->quarters};
+    const FixedVec to_origin = origin_after(found->quarters) - turn(middle);
+    w.decoding.pattern_from_grid = turn;
+    w.decoding.place = moved(found->code, found->place, to_origin.x, to_origin.y);
+    w.decoding.bits = found->bits;
+    w.decoding.lines_are_scored = false;
+    return true;
+}
+
+}  // namespace dotpose::core

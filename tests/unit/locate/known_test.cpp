@@ -1,0 +1,130 @@
+// Locators that know their sheets: views that are too small for the whole plane.
+#include <array>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "shots.hpp"
+
+namespace dotpose::core_test::known_test {
+namespace {
+
+constexpr std::uint64_t kSeed = 4242;
+/// A page of A4.
+constexpr KnownRegion kSheet{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
+
+/// Draws a view of the sheet.
+Shot shot_on_sheet(const ShotSize& size, std::uint64_t index) {
+    Shot shot = shot_of(size, kSeed, index);
+    Rng rng(shot.seed, 1);
+    shot.page.pattern.section = kSheet.section;
+    shot.pose.cell = {kSheet.first.x + 20 + rng.below(kSheet.columns - 40),
+                      kSheet.first.y + 20 + rng.below(kSheet.rows - 40)};
+    return shot;
+}
+
+class Known : public testing::Test {
+  protected:
+    void know(OtherSheets others) {
+        ASSERT_EQ(locator_.set_known({&kSheet, 1}, others), Status::ok);
+    }
+
+    std::unique_ptr<LargeMemory> memory_ = std::make_unique<LargeMemory>();
+    Locator locator_{*memory_, DeviceOptions{}};
+};
+
+TEST_F(Known, SixCellsSufficeIfNoOtherSheetIsPossible) {
+    know(OtherSheets::impossible);
+    int located = 0;
+    constexpr int kFrames = 40;
+    for (std::uint64_t i = 0; i < kFrames; ++i) {
+        const Shot shot = shot_on_sheet({.width_px = 66, .height_px = 66}, i);
+        const Fix fix = locator_.locate(render(shot).view());
+        if (fix.status != Status::ok) continue;
+        ++located;
+        EXPECT_TRUE(is_right(fix, shot)) << "frame " << i;
+        EXPECT_EQ(fix.prior, Prior::only_sheets);
+        EXPECT_LE(fix.p_wrong_log2, -30);
+    }
+    EXPECT_GE(located, kFrames - 1);
+}
+
+TEST_F(Known, SmallFramesAreLocatedOnKnownSheetsOnly) {
+    const ShotSize size{.spacing_px = 6, .width_px = 40, .height_px = 40};
+    const GreyImage image = render(shot_on_sheet(size, 0));
+    EXPECT_EQ(locator_.locate(image.view()).status, Status::image_too_small);
+    know(OtherSheets::impossible);
+    int located = 0;
+    for (std::uint64_t i = 0; i < 20; ++i) {
+        const Shot shot = shot_on_sheet(size, i);
+        const Fix fix = locator_.locate(render(shot).view());
+        located += fix.status == Status::ok ? 1 : 0;
+        if (fix.status == Status::ok) EXPECT_TRUE(is_right(fix, shot)) << "frame " << i;
+    }
+    EXPECT_GE(located, 19);
+    // No image is too small for the memory that the kernels read.
+    for (int side = kMinKnownFrameSide_px; side < 40; ++side)
+        static_cast<void>(locator_.locate({image.pixels.data(), side, side, image.width_px}));
+    EXPECT_EQ(locator_.set_known({}), Status::ok);
+    EXPECT_EQ(locator_.locate(image.view()).status, Status::image_too_small);
+}
+
+TEST_F(Known, SevenCellsSufficeIfOtherSheetsArePossible) {
+    know(OtherSheets::possible);
+    int located = 0;
+    for (std::uint64_t i = 0; i < 20; ++i) {
+        const Shot shot = shot_on_sheet({.width_px = 80, .height_px = 80}, i);
+        const Fix fix = locator_.locate(render(shot).view());
+        if (fix.status != Status::ok) continue;
+        ++located;
+        EXPECT_TRUE(is_right(fix, shot)) << "frame " << i;
+        EXPECT_EQ(fix.prior, Prior::sheets);
+    }
+    EXPECT_GE(located, 19);
+}
+
+TEST_F(Known, OtherSheetsAreLocatedByTheWholePlane) {
+    const Shot elsewhere = shot_of({}, kSeed, 3);
+    const GreyImage image = render(elsewhere);
+    know(OtherSheets::possible);
+    const Fix fix = locator_.locate(image.view());
+    ASSERT_EQ(fix.status, Status::ok);
+    EXPECT_TRUE(is_right(fix, elsewhere));
+    EXPECT_EQ(fix.prior, Prior::plane);
+    know(OtherSheets::impossible);
+    EXPECT_NE(locator_.locate(image.view()).status, Status::ok);
+}
+
+TEST_F(Known, PredictionsAreConfirmedOnKnownSheets) {
+    know(OtherSheets::impossible);
+    const Shot shot = shot_on_sheet({.width_px = 80, .height_px = 80}, 5);
+    const GreyImage image = render(shot);
+    const Fix first = locator_.locate(image.view());
+    ASSERT_EQ(first.status, Status::ok);
+    const Fix tracked = locator_.locate(image.view(), Prediction::like(first));
+    ASSERT_EQ(tracked.status, Status::ok);
+    EXPECT_EQ(tracked.attempt, Attempt::tracked);
+    EXPECT_EQ(tracked.prior, Prior::only_sheets);
+    EXPECT_TRUE(is_right(tracked, shot));
+}
+
+TEST_F(Known, RegionsOutsideThePlaneAreRefused) {
+    const auto is_refused = [&](KnownRegion region) {
+        return locator_.set_known({&region, 1}) == Status::bad_argument;
+    };
+    EXPECT_TRUE(is_refused({.columns = 0, .rows = 10}));
+    EXPECT_TRUE(is_refused({.first = {kPositionsPerAxis - 9, 0}, .columns = 10, .rows = 10}));
+    EXPECT_TRUE(is_refused({.section = {63, 0}, .columns = 10, .rows = 10}));
+    EXPECT_TRUE(is_refused({.code = static_cast<CodeVariant>(3), .columns = 10, .rows = 10}));
+}
+
+TEST_F(Known, MemoryOfAnotherLocatorKnowsNoSheets) {
+    know(OtherSheets::impossible);
+    Locator next(*memory_, DeviceOptions{});
+    EXPECT_EQ(next.locate(render(shot_of({}, kSeed, 3)).view()).prior, Prior::plane);
+    const GreyImage small = render(shot_on_sheet({.width_px = 40, .height_px = 40}, 0));
+    EXPECT_EQ(next.locate(small.view()).status, Status::image_too_small);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test::known_test
