@@ -175,7 +175,7 @@ void measure_parameters(const Series& series, const LensCalibration& found,
 void measure_residual(const LensCalibration& found, const std::vector<Shot>& shots,
                       const std::vector<TrueDot>& dots, LensTally& tally) {
     Locator locator{DeviceOptions{}};
-    // In the unit of the calibration: px at the middle of each frame.
+    // The unit of the calibration's residual is px in the middle of each frame.
     std::vector<double> mm_per_px(shots.size(), NAN);
     for (std::size_t i = 0; i < shots.size(); ++i) {
         DeviceOptions options;

@@ -115,8 +115,8 @@ Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expe
 Follower::Found Follower::without_neighbours(const Found& found) {
     Found guess = found;
     if (found.seen.status == Status::not_certain) {
-        // If the image shows two patterns, a fix of the better one is sufficient here, because it
-        // only determines the edge of the page.
+        // If the image shows two patterns, a fix on the clearer pattern suffices here, because this
+        // fix only determines the edge of the page.
         DeviceOptions any = used_;
         any.integrity = {.max_p_wrong_log2 = 0, .max_bit_error_q8 = 128};
         guess = look(image_, any, {});

@@ -49,8 +49,8 @@ struct DrawOptions {
     std::string reason{};
 };
 
-/// Draws the last frame of a Locator, whatever stage it reached. `image` must be the located image,
-/// and `DeviceOptions::show_stages` must be set.
+/// Draws the last frame of a Locator, with the stages that the frame reached. `image` must be the
+/// located image, and `DeviceOptions::show_stages` must be set.
 ///
 /// The left panel shows, over the image (paper Fig. 2 and 3), a ring around each dot, the symmetric
 /// connections of the neighbour search, and the centre of the intact neighbourhood. Below the

@@ -52,7 +52,7 @@ TEST(BmpKinds, HaveFieldsOfBits) {
     EXPECT_THAT(pixels_of(bmp_with_masks(32, 3, {0xFF0000, 0xFF00, 0xFF, 0xFF000000},
                                          {0xFFFF0000, 0x80000000})),
                 ElementsAre(76, 127));
-    // Five, six and five bits: white, and pure green.
+    // Pixels of five, six and five bits: white, and pure green.
     EXPECT_THAT(pixels_of(bmp_with_masks(16, 3, {0xF800, 0x07E0, 0x001F, 0}, {0xFFFF, 0x07E0})),
                 ElementsAre(255, 150));
     // Without masks, the fourth byte has no meaning.
