@@ -69,7 +69,8 @@ struct DesktopWorkspace : DeviceWorkspace {
     /// Sets the known sheets. Smaller images and patches can then be located.
     void set_known(const KnownSheets& sheets) {
         known = sheets;
-        min_side_px = sheets.any() ? kMinKnownFrameSide_px : kMinFrameSide_px;
+        min_side_px =
+            static_cast<std::int16_t>(sheets.any() ? kMinKnownFrameSide_px : kMinFrameSide_px);
         patch->min_side_px = sheets.any() ? kMinKnownFrameSide_px : Patch::kMinSide_px;
     }
 };

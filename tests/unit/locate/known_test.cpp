@@ -58,8 +58,9 @@ TEST_F(Known, SmallFramesAreLocatedOnKnownSheetsOnly) {
     for (std::uint64_t i = 0; i < 20; ++i) {
         const Shot shot = shot_on_sheet(size, i);
         const Fix fix = locator_.locate(render(shot).view());
-        located += fix.status == Status::ok ? 1 : 0;
-        if (fix.status == Status::ok) EXPECT_TRUE(is_right(fix, shot)) << "frame " << i;
+        if (fix.status != Status::ok) continue;
+        ++located;
+        EXPECT_TRUE(is_right(fix, shot)) << "frame " << i;
     }
     EXPECT_GE(located, 19);
     // No image is too small for the memory that the kernels read.
@@ -109,13 +110,16 @@ TEST_F(Known, PredictionsAreConfirmedOnKnownSheets) {
 }
 
 TEST_F(Known, RegionsOutsideThePlaneAreRefused) {
-    const auto is_refused = [&](KnownRegion region) {
+    const auto is_refused = [&](auto change) {
+        KnownRegion region = kSheet;
+        change(region);
         return locator_.set_known({&region, 1}) == Status::bad_argument;
     };
-    EXPECT_TRUE(is_refused({.columns = 0, .rows = 10}));
-    EXPECT_TRUE(is_refused({.first = {kPositionsPerAxis - 9, 0}, .columns = 10, .rows = 10}));
-    EXPECT_TRUE(is_refused({.section = {63, 0}, .columns = 10, .rows = 10}));
-    EXPECT_TRUE(is_refused({.code = static_cast<CodeVariant>(3), .columns = 10, .rows = 10}));
+    EXPECT_TRUE(is_refused([](KnownRegion& region) { region.columns = 0; }));
+    EXPECT_TRUE(is_refused([](KnownRegion& region) { region.first.x = kPositionsPerAxis - 9; }));
+    EXPECT_TRUE(is_refused([](KnownRegion& region) { region.section.u = kSections; }));
+    EXPECT_TRUE(is_refused(
+        [](KnownRegion& region) { region.code = static_cast<CodeVariant>(kCodeVariantCount); }));
 }
 
 TEST_F(Known, MemoryOfAnotherLocatorKnowsNoSheets) {
