@@ -42,7 +42,7 @@ constexpr Mistake kMistakes[] = {
     {"NoImage", "locate", 2, "no source of frames given", "name images, a folder, a video"},
     {"NoSuchImage", "locate nothere.png", 1, "cannot read nothere.png", "no such file"},
     {"EmptyFolder", "locate empty", 1, "cannot read empty", "no images in this folder"},
-    {"TextAsImage", "locate notes.txt", 1, "cannot read notes.txt", "PNM, PNG, JPEG, BMP or TIFF"},
+    {"TextAsImage", "locate notes.txt", 1, "cannot read notes.txt", "not a PNM, PNG, JPEG, BMP"},
     {"DrawingAsImage", "locate sheet.svg", 1, "a drawing", "rsvg-convert"},
     {"PdfAsImage", "locate sheet.pdf", 1, "a PDF", "pdftoppm"},
     {"SheetFileAsImage", "locate sheets.json", 1, "JSON", "--sheets"},
