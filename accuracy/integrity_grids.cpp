@@ -34,7 +34,7 @@ GridCell cell_of(QuarterTurn turn, int x, int y) {
     return {static_cast<std::int8_t>(grid.x), static_cast<std::int8_t>(grid.y), 0};
 }
 
-/// Statistics of the errors of one reading.
+/// Parameters of the random errors in a simulated reading.
 struct Noise {
     double odds_log2;  ///< log2 of the odds that a bit of full weight is correct
     double missing;    ///< fraction of the cells without a dot

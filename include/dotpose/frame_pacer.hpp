@@ -62,7 +62,9 @@ class FramePacer {
     PacerOptions options_;
     Motion motion_ = Motion::moving;
     bool has_begun_ = false;
-    Fix rest_;  ///< fix where the device came to rest; not ok without a fix since it moved
+    /// Fix at the place where the device came to rest. Its status is not ok if no frame has had a
+    /// fix since the device last moved.
+    Fix rest_;
     std::int64_t rest_since_us_ = 0;
 };
 

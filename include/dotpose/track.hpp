@@ -129,7 +129,7 @@ enum class Verdict : std::uint8_t {
     accepted,  ///< sufficiently certain alone, and physically possible
     /// Weak, but accepted because it is sufficiently certain together with the prior.
     with_prior,
-    gated,     ///< physically impossible, and not confirmed yet
+    gated,     ///< outside the gate, and not confirmed yet by consistent sightings
     too_weak,  ///< weak, and the prior does not help
 };
 /// Number of values of Verdict.

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/math/fixed.hpp"
-#include "device/tracking.hpp"
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 

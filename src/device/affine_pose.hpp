@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/pose/observations.hpp"
-#include "device/tracking.hpp"
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 

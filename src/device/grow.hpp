@@ -4,9 +4,9 @@
 // noise. The reach grows in each round.
 #pragma once
 
-#include "device/tracking.hpp"
 #include "dotpose/device_options.hpp"
 #include "dotpose/status.hpp"
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 

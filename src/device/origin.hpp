@@ -4,7 +4,7 @@
 // transform.
 #pragma once
 
-#include "device/tracking.hpp"
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 

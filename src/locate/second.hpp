@@ -1,5 +1,5 @@
-// Second: the second attempt. Filters an image against noise and uneven light, fits the grid to all
-// dots, and reads the bits at each cell of the image.
+// Second: the second attempt. Removes noise and uneven light from the image, fits the grid to all
+// dots, and reads the bits in each grid cell.
 #pragma once
 
 #include "dotpose/device_options.hpp"

@@ -31,9 +31,9 @@ inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
 
 /// Constants of the tracked attempt (locate/tracked).
 namespace tracked {
-/// Maximum distance, in spacings, from a point to the dots that determine the error of the
-/// prediction at this point. With this distance, an angular error does not match a dot to the wrong
-/// intersection.
+/// Radius, in spacings, around the point at which a prediction is corrected. The dots within this
+/// radius determine the error of the prediction there. The radius is small enough that the angular
+/// error of a prediction cannot match a dot to the wrong intersection.
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots that determine a correction of the prediction.
 inline constexpr int kMinNear = 10;

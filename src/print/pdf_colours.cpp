@@ -82,8 +82,8 @@ bool convert_palette(InkChange change, QPDFObjectHandle dict, QPDFObjectHandle s
     return true;
 }
 
-/// Converts the grey levels of an image to a palette. The pixels do not change, independent of
-/// their compression.
+/// Replaces the grey colour space of an image with a palette. The pixel data do not change,
+/// regardless of their compression.
 bool convert_grey(InkChange change, QPDFObjectHandle dict, ColourKind kind) {
     QPDFObjectHandle depth = dict.getKey("/BitsPerComponent");
     if (!depth.isInteger() || depth.getIntValue() > 8 || depth.getIntValue() < 1) return false;

@@ -150,8 +150,8 @@ TEST(SlippedSheet, PredictionsAreNoHelpToTheOtherSide) {
     EXPECT_LT(sigmas_off(tracked, shot), 4);
 }
 
-// Blurred dots are pale, so the bias caused by a gradient of the background light is large. With
-// one slope for the whole image, and no slope in darker corners, the mean squares were 2.9 and 2.4.
+// Blurred dots have low contrast, so a gradient of the background causes a comparatively large
+// bias.
 TEST(BlurredFrames, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     constexpr int kFrames = 150;
     const auto memory = std::make_unique<LargeMemory>();

@@ -34,8 +34,10 @@ const char* name(SweepKind kind);
 
 /// Options of a sweep, for all values of the condition.
 struct SweepOptions {
-    Setup setup;                 ///< all other conditions
-    int frames_per_value = 200;  ///< number of frames, which are the same for each value
+    Setup setup;  ///< all other conditions
+    /// Number of frames per value. Frame i is the same at every value, except for the condition
+    /// that is varied.
+    int frames_per_value = 200;
     /// Options of `locate`; `decoder` is ignored, because both decoders are run.
     DeviceOptions locate;
     int threads = 0;

@@ -90,8 +90,8 @@ namespace turns {
 inline constexpr int kVoters = 4;
 /// Number of lines per axis that vote if bits are hard, an odd number.
 inline constexpr int kVotersOfBits = 5;
-/// Difference between the scores of the two directions at which the vote ends early, equal to 8
-/// bits. A line of 14 bits contributes about 5.
+/// The vote ends early when the summed scores of the two reading directions, forwards and
+/// backwards, differ by at least this value, which equals 8 bits.
 inline constexpr int kLandslide = 8 * 127;
 /// Minimum agreement with the mirrored pattern, in fourths of the agreement with the upright
 /// pattern, at which the image is mirrored. Lines of random bits have about 60 % of the agreement

@@ -69,9 +69,8 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
     }
 }
 
-/// Returns half the side of the surroundings, which contain two spacings if 8 dots are in view.
-/// Near the border the surroundings are smaller but still symmetric around the pixel, which cancels
-/// a gradient of the light.
+/// Returns half the side, along one axis, of the window whose mean is the local light level. Near
+/// the border the window shrinks but stays centred on the pixel, to cancel a gradient of the light.
 int half_side(int at, int length, int max_half) {
     return std::max(std::min({max_half, at, length - 1 - at}), tuned::kMinHalf_px);
 }

@@ -6,7 +6,7 @@
 
 namespace dotpose::core::tuning {
 
-/// Paper level by blocks (detect/paper).
+/// Measurement of the paper level in blocks of the image (detect/paper).
 namespace paper {
 /// Side of a block, as a part (1/n) of the shorter side of the image. A block contains several
 /// spacings even if few dots are in view, but is small compared with the shading of lamps and

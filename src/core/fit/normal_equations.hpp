@@ -47,7 +47,8 @@ class NormalEquations {
             minima[i] = min_determined * columns_[i].at(i);
         for (std::size_t i = 0; i < N; ++i) {
             Column& column = columns_[i];
-            // A parameter that no equation contains has the element 0 and is also left out.
+            // If no equation contains a parameter, its diagonal element is 0, and the parameter is
+            // also left out.
             if (!(column.at(i) > minima[i])) {
                 if (i < required) return false;
                 leave_out(i);

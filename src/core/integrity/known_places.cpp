@@ -49,8 +49,8 @@ class ScoredAxis {
 
     int count() const { return scores_.count; }
 
-    /// Returns the number of bits that agree if the first line is at a position, and `added` is
-    /// added to the rolls of section 0.
+    /// Returns the number of bits that agree with the code if the first line is at `position` and
+    /// its rolls are those of section 0 plus `added`.
     int agreeing(CodeVariant code, std::uint32_t position, std::size_t added) const {
         std::array<std::uint8_t, BitBlock::kSide> rolls;
         code::follow_rolls(code, position, roll(code, position),

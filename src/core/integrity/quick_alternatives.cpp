@@ -156,7 +156,7 @@ class ByShift {
     struct Loss {
         std::uint16_t least;  ///< minimum loss of the alternatives that do not share the line
         std::uint8_t line;
-        /// The part of the roll of the line that comes from the place of the reading.
+        /// Contribution of the sequence, at the place of the reading, to the roll of the line.
         std::uint8_t own = 0;
     };
 

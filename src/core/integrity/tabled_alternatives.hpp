@@ -7,11 +7,11 @@
 
 namespace dotpose::core {
 
-/// Returns an upper bound on the odds of the single alternatives that share a line. For each
-/// sequence, uses the table with the most lines whose bound is at most `max_odds`. `widest` uses
-/// the table with the most lines. `sequences` has one bit per sequence to be bounded. A bit remains
-/// set if no table gives a bound of at most `max_odds`. The odds of this sequence are not included
-/// in the result.
+/// Returns an upper bound on the summed odds of the single alternatives that share a line. Each bit
+/// set in `sequences` requests the bound of one sequence. Tries the tables in order of decreasing
+/// number of lines, beginning with `widest`, until the bound of the sequence is at most `max_odds`.
+/// Then adds the bound to the result and clears the bit. Sequences whose bit is still set on return
+/// are not included in the result.
 float tabled_alternatives(const Kernels& kernels, const UnsharedLines& widest, float max_odds,
                           unsigned& sequences);
 

@@ -56,9 +56,11 @@ struct Losses {
 
     /// Unit of losses. Losses are rounded down to this unit, because their sum must fit in 16 bits.
     static constexpr int kUnit = 8;
-    int loss_limit;                           ///< loss from which a place is skipped
-    int all = 0;                              ///< loss of places that share no line, in units
-    int at_best = 0;                          ///< `all` minus the gains, in score
+    int loss_limit;  ///< loss from which a place is skipped
+    int all = 0;     ///< loss of places that share no line, in units
+    /// Minimum loss of a place at a shift that shares no line: the sum of the minimum losses of all
+    /// lines, including negative losses (gains), in units of the score.
+    int at_best = 0;
     std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units
 };
 

@@ -34,10 +34,10 @@ inline constexpr int kPlaceRounds = 2;
 
 /// First grid of the second attempt, from the periodogram (lattice/periodogram_search).
 namespace periodogram_search {
-/// Half the side, in spacings, of the square of dots that are summed: kNear_cells in the first
-/// search, kWider_cells in later searches. Fewer cells give a wider peak, which the coarse raster
-/// cannot miss. More cells give a more precise maximum. With kNear_cells = 3: 1,964; with 10:
-/// 1,993.
+/// Half the side, in spacings, of the central square whose dots enter the periodogram: kNear_cells
+/// in the first search, kWider_cells in later searches. A smaller square gives a wider peak, which
+/// the coarse search grid cannot miss. A larger square gives a more precise maximum. Frames located
+/// with kNear_cells = 3: 1,964; with 10: 1,993.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
 /// Search raster around the first estimate: degrees per step, spacing step as a part (1/n) of the

@@ -97,8 +97,8 @@ class Round {
     }
 
   private:
-    /// Returns the plane relative to its `at_centre`, which may have more digits than a float
-    /// holds.
+    /// Returns the plane with `at_centre` set to 0, because `at_centre` may need more bits than a
+    /// float has.
     static FloatPlane from_its_at(PlaneFromImage plane) {
         plane.at_centre_q16 = {};
         return float_plane(plane);

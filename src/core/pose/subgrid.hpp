@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dotpose/fix.hpp"
-#include "dotpose/geometry.hpp"
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 

@@ -12,7 +12,8 @@
 namespace dotpose::code_test::unshared_codes_test {
 namespace {
 
-/// Returns, for each line from `place` on, the sum that the digits of a4 before it add to the roll.
+/// Returns the contribution of a4 to the roll of each of `lines` lines, starting at `place`: the
+/// weighted sum of all preceding digits of a4, modulo 63.
 std::vector<int> a4_rolls(CodeVariant code, std::size_t place, int lines) {
     const std::string_view a4 = secondary_texts(code)[3];
     std::vector<int> rolls;

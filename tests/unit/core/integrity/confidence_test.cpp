@@ -65,7 +65,8 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
 }
 
 TEST(OddsPerBit, GrowWithTheWeightOfWhatIsRight) {
-    // If weak bits are correct, full bits are even more certain, in proportion to their weights.
+    // Weak bits that are correct imply even higher odds for bits of full weight, in proportion to
+    // the weights.
     const double full = odds_per_bit_q8(confidence(1000, 124, 50));
     const double half = odds_per_bit_q8(confidence(1000, 60, 50));
     EXPECT_GT(half, 1.7 * full);
