@@ -67,7 +67,8 @@ std::optional<RobotState> parse_state(std::string_view json);
 struct RobotConnection {
     std::string robot;            ///< name of the sender; empty in a parsed message
     std::uint64_t header_id = 0;  ///< number of the connection message, counted by the robot
-    /// As in RobotState. In a last will, the time at which the robot connected.
+    /// Time of sending, in microseconds since 1970 by the system clock of the sender. In a last
+    /// will, the time at which the robot connected.
     std::int64_t sent_us = 0;
     publish::Presence presence = publish::Presence::online;
 };

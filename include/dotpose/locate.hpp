@@ -184,7 +184,7 @@ class DeviceLocator : public RowLocator {
     /// The rules for memory and options are the same as for Locator.
     explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
-    /// As the functions of Locator with the same names.
+    /// Returns the pose of an image, in the code of the options.
     Fix locate(const ImageView& image);
     Fix locate(const ImageView& image, const Prediction& prediction);
 

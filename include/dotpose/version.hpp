@@ -2,6 +2,8 @@
 /// read the version from here.
 #pragma once
 
+#include "dotpose/language.hpp"
+
 /// The version as text.
 #define DOTPOSE_VERSION "0.2.0"
 /// The version as one number that increases: 10000 for each major version, 100 for each minor

@@ -21,7 +21,7 @@ enum class Stand {
 /// the image are in px from the image centre; `reach` is half the diagonal of the image.
 struct SharedModel {
     std::array<double, 3> lens{};  ///< k reach^2, and the distortion centre in px
-    /// As in PaperScale, with the perspective multiplied by reach.
+    /// Members of PaperScale, with the perspective multiplied by `reach`.
     std::array<double, 5> paper{};
     std::array<double, 3> shape{0, 1, 0};  ///< by hand only: reach / focal length, aspect, skew
     double displacement = 1.0 / 6;         ///< displacement of the dots in the image, in spacings

@@ -71,8 +71,7 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
             static_cast<std::uint32_t>(width_px * width_px + height_px * height_px);
         const int cells = static_cast<int>(square_root(squared_px)) * 128 / spacing_q8 + 3;
         if (cells <= kMaxComparedLines / 2) {
-            // The same number of pixels is cropped from opposite sides, so the image centre does
-            // not change.
+            // Crops equally many pixels from opposite sides, so the image centre does not change.
             tracking.left_out_px = static_cast<std::int16_t>((tracking.width_px - width_px) >> 1);
             tracking.rows_above = static_cast<std::int16_t>((tracking.height_px - height_px) >> 1);
             tracking.height_px = height_px;

@@ -17,6 +17,7 @@
 #include "core/steps.hpp"
 #include "locate/dot_reader.hpp"
 #include "locate/fitted_pose.hpp"
+#include "locate/on_sheets.hpp"
 #include "locate/tuning.hpp"
 
 namespace dotpose::core {
@@ -46,27 +47,9 @@ bool is_clean(const BitsRead& bits) {
                std::max(tuned::kMaxWrong, bits.read / tuned::kDotsPerWrong);
 }
 
-/// Returns the confidence of one axis from the number of its bits and the number of wrong bits.
-Confidence confidence_in(int bits, int wrong) {
-    constexpr int kWeight = 127;
-    Confidence confidence;
-    confidence.add(kWeight, false, bits - wrong);
-    confidence.add(kWeight, true, wrong);
-    return confidence;
-}
-
 std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
-    return {confidence_in(bits.read, bits.wrong_x), confidence_in(bits.read, bits.wrong_y)};
-}
-
-/// Returns true if the place is on a known sheet and certain there. Sets `p_wrong_log2` and `prior`
-/// of the fix.
-bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
-                          const BitBlock& block, const KnownSheets& known, Fix& fix) {
-    const float wrong = known_place_wrong(kernels, block, known, options.code, place);
-    if (!is_within_limit(wrong, options.integrity.max_p_wrong_log2, fix)) return false;
-    fix.prior = known.are_all() ? Prior::only_sheets : Prior::sheets;
-    return true;
+    return {Confidence::of_hard_bits(bits.read, bits.wrong_x),
+            Confidence::of_hard_bits(bits.read, bits.wrong_y)};
 }
 
 /// Judges the place by the bits of all dots near the centre. Returns ok or uncertain.

@@ -12,6 +12,7 @@
 #include "core/lattice/outwards.hpp"
 #include "core/steps.hpp"
 #include "locate/confirm.hpp"
+#include "locate/on_sheets.hpp"
 #include "locate/tuning.hpp"
 
 namespace dotpose::core {
@@ -62,19 +63,6 @@ bool find_patch_dots(const Kernels& kernels, const ImageView& image, const Devic
     return true;
 }
 
-/// Finds the place of a block on the known sheets. Returns false if there is none in this code that
-/// explains the bits.
-bool find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
-                          const BitBlock& block, const KnownSheets& known, int& quarters,
-                          Place& place) {
-    const auto found = find_known_place(kernels, block, known);
-    if (!found || found->code != options.code || !found->is_plausible(options.integrity))
-        return false;
-    quarters = found->quarters;
-    place = found->place;
-    return true;
-}
-
 /// Finds the turn and the place in the code of a block of bits: of the turned block's cell (0, 0).
 /// Places on known sheets come first. Returns false if there is none.
 bool find_turn_and_place(const Kernels& kernels, const DeviceOptions& options,
@@ -83,12 +71,9 @@ bool find_turn_and_place(const Kernels& kernels, const DeviceOptions& options,
     const BitBlock upright = turned(quarters, block);
     const bool is_exact = find_place_exactly(options.code, upright, place);
     if (w.known.any() && !(is_exact && shows_sheet(w.known, options.code, place, upright))) {
-        int quarters_on_sheet = 0;
-        Place place_on_sheet;
-        if (find_place_on_sheets(kernels, options, block, w.known, quarters_on_sheet,
-                                 place_on_sheet)) {
-            quarters = quarters_on_sheet;
-            place = place_on_sheet;
+        if (const auto found = find_place_on_sheets(kernels, options, block, w.known)) {
+            quarters = found->quarters;
+            place = found->place;
             return true;
         }
         if (w.known.are_all()) return false;

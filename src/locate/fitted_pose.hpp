@@ -20,7 +20,8 @@ bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 bool fit_pattern(const DeviceOptions& options, const ImageView& image, DesktopWorkspace& w,
                  PoseFit& fit);
 
-/// As `fit_pattern`, and writes the pose into the fix. Errors: no_grid, not_certain.
+/// Calls `fit_pattern` and writes the pose and its covariance into the fix. Errors: no_grid,
+/// not_certain.
 Status measure_pose(const DeviceOptions& options, const ImageView& image, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

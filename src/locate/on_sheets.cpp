@@ -4,7 +4,6 @@
 #include <cstdlib>
 
 #include "core/integrity/certainty.hpp"
-#include "core/integrity/known_places.hpp"
 #include "core/kernels/select.hpp"
 #include "locate/tuning.hpp"
 
@@ -49,22 +48,37 @@ bool is_possible(CodeVariant code, const DesktopWorkspace& w) {
     return w.known.show(code, corner, std::abs(b.x - a.x) + 1, std::abs(b.y - a.y) + 1);
 }
 
+std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
+                                               const BitBlock& block, const KnownSheets& known) {
+    const auto found = find_known_place(kernels, block, known);
+    const bool explains_bits =
+        found && found->code == options.code && found->is_plausible(options.integrity);
+    return explains_bits ? found : std::nullopt;
+}
+
+bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
+                          const BitBlock& block, const KnownSheets& known, Fix& fix) {
+    const float wrong = known_place_wrong(kernels, block, known, options.code, place);
+    if (!is_within_limit(wrong, options.integrity.max_p_wrong_log2, fix)) return false;
+    fix.prior = known.are_all() ? Prior::only_sheets : Prior::sheets;
+    return true;
+}
+
 bool read_on_sheets(const DeviceOptions& options, DesktopWorkspace& w) {
     const GridRegion& region = w.decoding.region;
     const FixedVec middle{region.i0 + region.columns / 2, region.j0 + region.rows / 2};
     const BitBlock block = bits_of(w.grid, region, middle);
-    const auto found = find_known_place(kernels(), block, w.known);
-    if (!found || found->code != options.code || !found->is_plausible(options.integrity))
-        return false;
+    const auto found = find_place_on_sheets(kernels(), options, block, w.known);
+    if (!found) return false;
     w.fix.bit_errors = found->wrong[0] + found->wrong[1];
-    const float wrong = known_place_wrong(kernels(), turned(found->quarters, block), w.known,
-                                          found->code, found->place);
-    if (!is_within_limit(wrong, options.integrity.max_p_wrong_log2, w.fix)) return false;
-    w.fix.prior = w.known.are_all() ? Prior::only_sheets : Prior::sheets;
+    if (!is_certain_on_sheets(kernels(), options, found->place, turned(found->quarters, block),
+                              w.known, w.fix)) {
+        return false;
+    }
     const QuarterTurn turn{found->quarters};
     const FixedVec to_origin = origin_after(found->quarters) - turn(middle);
     w.decoding.pattern_from_grid = turn;
-    w.decoding.place = moved(found->code, found->place, to_origin.x, to_origin.y);
+    w.decoding.place = moved(options.code, found->place, to_origin.x, to_origin.y);
     w.decoding.bits = found->bits;
     w.decoding.lines_are_scored = false;
     return true;

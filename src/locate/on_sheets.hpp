@@ -1,7 +1,10 @@
-// On sheets: the position of the second attempt on known sheets, where the whole plane is too
+// On sheets: the places of the attempts on known sheets, for views in which the whole plane is too
 // large.
 #pragma once
 
+#include <optional>
+
+#include "core/integrity/known_places.hpp"
 #include "dotpose/device_options.hpp"
 #include "locate/workspace.hpp"
 
@@ -10,6 +13,16 @@ namespace dotpose::core {
 /// Returns true if the position read is possible: on a known sheet, unless other sheets may be in
 /// view.
 bool is_possible(CodeVariant code, const DesktopWorkspace& w);
+
+/// Returns the place of a block on the known sheets. Returns nullopt if no place in the code of the
+/// options explains the bits.
+std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
+                                               const BitBlock& block, const KnownSheets& known);
+
+/// Returns true if the place of an upright block is certain on the known sheets. Sets
+/// `p_wrong_log2` of the fix, and `prior` if the place is certain.
+bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
+                          const BitBlock& block, const KnownSheets& known, Fix& fix);
 
 /// Finds the position of the grid on the known sheets. Returns true if it is certain there. Sets
 /// the place and the turn of the decoding, and `bit_errors`, `p_wrong_log2` and `prior` of the fix.

@@ -24,8 +24,8 @@ inline constexpr int kMaxTries = 4;
 /// combinations find the grid.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
-/// The same on known sheets, where a strip of three rows may be certain. The spacing is estimated
-/// from the density around a dot, which is lower in a strip.
+/// Factors of the spacing if sheets are known. A strip of three rows may then be certain, but its
+/// spacing is overestimated, because the estimate uses the number of dots around a dot.
 inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
 }  // namespace first
 

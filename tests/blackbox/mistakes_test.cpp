@@ -42,12 +42,13 @@ constexpr Mistake kMistakes[] = {
     {"NoImage", "locate", 2, "no source of frames given", "name images, a folder, a video"},
     {"NoSuchImage", "locate nothere.png", 1, "cannot read nothere.png", "no such file"},
     {"EmptyFolder", "locate empty", 1, "cannot read empty", "no images in this folder"},
-    {"TextAsImage", "locate notes.txt", 1, "cannot read notes.txt", "not a PNM, PNG, JPEG, BMP"},
+    {"TextAsImage", "locate notes.txt", 1, "cannot read notes.txt",
+     "PNM, PNG, JPEG, BMP, TIFF, WebP or HEIC"},
     {"DrawingAsImage", "locate sheet.svg", 1, "a drawing", "rsvg-convert"},
     {"PdfAsImage", "locate sheet.pdf", 1, "a PDF", "pdftoppm"},
     {"SheetFileAsImage", "locate sheets.json", 1, "JSON", "--sheets"},
     {"CutImage", "locate cut.pgm", 1, "cut.pgm", "cut short"},
-    {"PhoneFormat", "locate photo.heic", 1, "HEIC or AVIF", "photo.heic"},
+    {"PhoneFormat", "locate photo.jxl", 1, "JPEG XL", "djxl"},
     {"NoSuchCameraFile", "locate --camera no.yaml a.pgm", 1, "cannot read no.yaml",
      "No such file or directory"},
     {"NoSuchList", "locate --list no.txt", 1, "cannot read the list no.txt",
@@ -103,13 +104,12 @@ void PrintTo(const Mistake& mistake, std::ostream* out) {
 class Mistakes : public ToolCommand, public testing::WithParamInterface<Mistake> {};
 
 TEST_P(Mistakes, NameTheCauseAndTheNextStep) {
-    ASSERT_EQ(
-        shell("$T simulate -o frames --frames 4 && cp frames/frame_000000.pgm a.pgm && "
-              "mkdir empty plain && cp a.pgm plain && head -c 300 a.pgm > cut.pgm && "
-              "echo hello > notes.txt && printf '\\0\\0\\0\\030ftypheic\\0\\0\\0\\0' > photo.heic "
-              "&& $T print -o sheet.pdf --paper 40x30 && "
-              "$T print -o sheet.svg --paper 40x30 --sheets sheets.json --name table"),
-        0)
+    ASSERT_EQ(shell("$T simulate -o frames --frames 4 && cp frames/frame_000000.pgm a.pgm && "
+                    "mkdir empty plain && cp a.pgm plain && head -c 300 a.pgm > cut.pgm && "
+                    "echo hello > notes.txt && printf '\\377\\012' > photo.jxl "
+                    "&& $T print -o sheet.pdf --paper 40x30 && "
+                    "$T print -o sheet.svg --paper 40x30 --sheets sheets.json --name table"),
+              0)
         << errors_;
     EXPECT_EQ(run(GetParam().arguments), GetParam().exit_code) << errors_;
     EXPECT_THAT(errors_, StartsWith("dotpose: "));

@@ -240,7 +240,7 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
         EXPECT_EQ(lines[i]["verdict"], "accepted") << i;
     }
     EXPECT_GE(with_prior, 3);
-    // As a single frame, without a track, the same view is refused.
+    // If all frames show only this view, there is no track, and no frame is accepted with a prior.
     ASSERT_EQ(run(std::string("watch - --size 188x120 --fps 200 --max-p-wrong 1e-13 --roi "
                               "56,22,76x76 ") +
                       kTrack,

@@ -374,7 +374,8 @@ dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
  * function does not contain the other kinds, if its linker removes unused sections. */
 dotpose_status dotpose_device_init(void* memory, size_t bytes, const dotpose_options* options,
                                    dotpose_locator** locator);
-/* As above, for DOTPOSE_KIND_DEVICE_160X120 and DOTPOSE_KIND_DEVICE_320X240. */
+/* Set up a locator of DOTPOSE_KIND_DEVICE_160X120 or DOTPOSE_KIND_DEVICE_320X240 in the same way.
+ */
 dotpose_status dotpose_device_160x120_init(void* memory, size_t bytes,
                                            const dotpose_options* options,
                                            dotpose_locator** locator);

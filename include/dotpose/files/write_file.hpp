@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "dotpose/language.hpp"
+
 #pragma GCC visibility push(default)
 
 namespace dotpose {

@@ -23,8 +23,8 @@ AxisReading reading_of_first(CodeVariant code, std::uint32_t position, int roll,
 /// not_in_code if no reading occurs in the code.
 Status find_axis(CodeVariant code, const Lines& lines, AxisReading& best);
 
-/// As `find_axis`, but reads only a few runs with a few readings each, for first attempts. A
-/// position that takes longer to find is rarely certain.
+/// Variant of `find_axis` for first attempts. Reads only a few runs with a few readings each,
+/// because a position that takes longer to find is rarely certain.
 Status find_axis_briefly(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

@@ -35,6 +35,19 @@ void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step)
 
 }  // namespace
 
+ScaledPlane scaled_from_centre(const PlaneFromImage& plane, int reach_px) {
+    PlaneFromImage from_centre = plane;
+    from_centre.at_centre_q16 = {};
+    return {float_plane(from_centre), static_cast<float>(reach_px)};
+}
+
+PlaneFromImage stepped(const PlaneFromImage& plane, const ScaledPlane& scaled,
+                       const Parameters& step) {
+    PlaneFromImage next = fixed_plane(scaled.changed(step), plane.centre_q8);
+    next.at_centre_q16 = next.at_centre_q16 + plane.at_centre_q16;
+    return next;
+}
+
 bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step,
            float& moved) {
     PlaneNormal& normal = fit.normal;

@@ -23,6 +23,13 @@ struct PoseFit {
     std::array<std::array<float, 3>, 3> uneven{};
 };
 
+/// Returns the plane for the computation of a step, with `at_centre` set to 0, because `at_centre`
+/// may need more bits than a float has.
+ScaledPlane scaled_from_centre(const PlaneFromImage& plane, int reach_px);
+/// Returns the plane after a step. `scaled` is the result of `scaled_from_centre` for the plane.
+PlaneFromImage stepped(const PlaneFromImage& plane, const ScaledPlane& scaled,
+                       const Parameters& step);
+
 /// Solves the normal equations of `fit` for the step to the least-squares plane, and shrinks the
 /// distortion terms to their posterior means. `distortions` contains the distortion terms of the
 /// current plane, and `unit` is the scale of the current plane. Sets `moved` to the squared length

@@ -14,6 +14,14 @@ class Confidence {
     static constexpr int kLevels = 16;
     /// Returns the weight that represents a level.
     static constexpr int weight_of(int level) { return 8 * level + 4; }
+    /// Returns the histogram of hard bits, which all have the maximum weight.
+    static Confidence of_hard_bits(int bits, int wrong) {
+        constexpr int kMaxWeight = 127;
+        Confidence confidence;
+        confidence.add(kMaxWeight, false, bits - wrong);
+        confidence.add(kMaxWeight, true, wrong);
+        return confidence;
+    }
 
     /// Adds `bits` bits of the same weight, in [-127, 127].
     void add(int weight, bool is_wrong, int bits = 1) {

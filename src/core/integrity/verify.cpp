@@ -190,8 +190,7 @@ TrackedAxis tracked_axis(CodeVariant code, std::span<const ComparedLine> columns
         seen += bits_in(line.seen);
         wrong += bits_in(line.wrong);
     }
-    result.confidence.add(127, false, seen - wrong);
-    result.confidence.add(127, true, wrong);
+    result.confidence = Confidence::of_hard_bits(seen, wrong);
     // The reading belongs to the first line in view, at the first cell of that line.
     const auto ahead = static_cast<std::int32_t>(begin);
     result.reading = axis == Axis::x ? reading_of(code, moved(code, corner, ahead, 0), axis)

@@ -21,14 +21,14 @@ namespace dotpose::core {
 Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
-/// As `verify`, but in integers only and in bounded time. Refuses a position if the bound of
-/// quick_alternatives.hpp exceeds the limit.
+/// Variant of `verify` that uses only integers and takes bounded time. Refuses a position if the
+/// bound of quick_alternatives.hpp exceeds the limit.
 Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
-/// As `verify`, but for a tracked frame, in which all bits have the same weight. The first half of
-/// `lines` contains the columns, the second half the rows. `corner` is the place of the first
-/// column and row.
+/// Variant of `verify_quickly` for a tracked frame, in which all bits have the same weight. The
+/// first half of `lines` contains the columns, the second half the rows. `corner` is the place of
+/// the first column and row.
 Status verify_tracked(CodeVariant code, std::span<const ComparedLine> lines, const Place& corner,
                       const IntegrityOptions& options, Decoding& decoding, Fix& fix);
 

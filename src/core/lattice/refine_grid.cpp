@@ -74,12 +74,8 @@ int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
 /// target of a dot whose GridPoint is g.
 template <typename TargetOf>
 void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, TargetOf target_of) {
-    // Relative to the value of the plane at its centre, which may have more digits than a float
-    // holds.
-    PlaneFromImage from_centre = plane;
-    from_centre.at_centre_q16 = {};
     const int reach = reach_px(dots, plane.centre_q8);
-    const ScaledPlane scaled(float_plane(from_centre), static_cast<float>(reach));
+    const ScaledPlane scaled = scaled_from_centre(plane, reach);
     PlaneSums sums;
     for (std::size_t i = 0; i < dots.size(); i += 4) {
         Four u{};
@@ -104,10 +100,8 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
     fit.normal = PlaneNormal(sums.all());
     Parameters step;
     float moved = 0;
-    if (!solve(scaled.distortions(), scaled.scale(), fit, step, moved)) return;
-    const FixedVec at_centre_q16 = plane.at_centre_q16;
-    plane = fixed_plane(scaled.changed(step), plane.centre_q8);
-    plane.at_centre_q16 = plane.at_centre_q16 + at_centre_q16;
+    if (solve(scaled.distortions(), scaled.scale(), fit, step, moved))
+        plane = stepped(plane, scaled, step);
 }
 
 /// Fits the plane to the dots within reach. differs: eq. 6 continues with median lengths between

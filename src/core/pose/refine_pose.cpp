@@ -52,9 +52,7 @@ class Scatter {
 class Round {
   public:
     Round(const ObservationBatches& batches, const PlaneFromImage& pose)
-        : batches_(batches),
-          pose_(pose),
-          plane_(from_its_at(pose), static_cast<float>(batches.reach_px())) {
+        : batches_(batches), pose_(pose), plane_(scaled_from_centre(pose, batches.reach_px())) {
         const ObservationBatch& sample = batches.sample();
         ObservationBatch::Values<std::int32_t> x_q16;  // offsets from the intersections
         ObservationBatch::Values<std::int32_t> y_q16;
@@ -91,19 +89,11 @@ class Round {
         fit.displacement = static_cast<float>(displacement_q16_) / 65536.0F;
         Parameters step;
         if (!core::solve(plane_.distortions(), plane_.scale(), fit, step, moved)) return false;
-        pose = fixed_plane(plane_.changed(step), pose_.centre_q8);
-        pose.at_centre_q16 = pose.at_centre_q16 + pose_.at_centre_q16;
+        pose = stepped(pose_, plane_, step);
         return true;
     }
 
   private:
-    /// Returns the plane with `at_centre` set to 0, because `at_centre` may need more bits than a
-    /// float has.
-    static FloatPlane from_its_at(PlaneFromImage plane) {
-        plane.at_centre_q16 = {};
-        return float_plane(plane);
-    }
-
     static std::int32_t squared_q30(FixedVec residual_q16) {
         return static_cast<std::int32_t>(
             std::min<std::int64_t>(squared(residual_q16) >> 2, INT32_MAX));

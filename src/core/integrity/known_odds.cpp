@@ -1,0 +1,186 @@
+// The probability that a place on the known sheets is wrong.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "core/integrity/confidence.hpp"
+#include "core/integrity/known_lines.hpp"
+#include "core/integrity/known_places.hpp"
+#include "core/math/odds.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Odds of a position relative to the place that is judged, by the number of bits that agree. Each
+/// bit counts as much, so the logarithm is linear.
+class OddsOfBits {
+  public:
+    /// `agreeing` is the number of bits that agree with the place judged.
+    OddsOfBits(int odds_per_bit_q8, int agreeing)
+        : agreeing_(agreeing),
+          // Odds below the first limit count as that limit. Odds above the second limit refuse the
+          // place in any case, because their products with the first limit do.
+          min_(-52 * 256 / odds_per_bit_q8 - 1),
+          max_(60 * 256 / odds_per_bit_q8),
+          per_bit_(odds_per_bit_q8 << 15) {}
+
+    /// Interpolates linearly between powers of two, which exceeds the exact odds by up to 9 %.
+    float operator()(int agreeing) const {
+        const int more = std::clamp(agreeing - agreeing_, min_, max_);
+        return __builtin_bit_cast(float, kOne + more * per_bit_);
+    }
+
+  private:
+    static constexpr int kOne = 127 << 23;  // the bits of 1.0F
+    int agreeing_;
+    int min_;
+    int max_;
+    int per_bit_;  ///< log2 of the odds of a bit, in 2^-23
+};
+
+/// A position of the first line, and a roll.
+struct PositionAndRoll {
+    std::uint32_t position;
+    std::size_t roll;
+};
+
+/// Sums of the odds of the positions of each class modulo 63.
+class OddsByClass {
+  public:
+    OddsByClass(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,
+                const OddsOfBits& odds_of,
+                const std::optional<PositionAndRoll>& left_out = std::nullopt) {
+        for (auto& odds : odds_)
+            odds.fill(0);
+        axis.visit(code, range, [&](std::uint32_t position, const RollSums& sums) {
+            auto& odds = odds_[class_of(position)];
+            const bool leaves_out = left_out && position == left_out->position;
+            const float before = leaves_out ? odds[left_out->roll] : 0;
+            for (std::size_t roll = 0; roll < odds.size(); ++roll)
+                odds[roll] += odds_of(sums[roll]);
+            if (leaves_out) odds[left_out->roll] = before;
+        });
+    }
+    float operator()(std::size_t of_class, std::size_t roll) const { return odds_[of_class][roll]; }
+
+  private:
+    std::array<std::array<float, kRollEntries>, kSections> odds_;
+};
+
+/// Returns an upper bound of the probability that at most `wrong` of `bits` random bits contradict
+/// one place. The terms of the binomial sum fall at least as fast as a geometric series.
+float random_agreement(int bits, int wrong) {
+    if (3 * wrong >= bits) return 1;
+    float term = 1;  // number of combinations of k wrong bits, divided by 2^exponent
+    int exponent = -bits;
+    for (int k = 0; k < wrong; ++k) {
+        int growth = 0;
+        term = std::frexp(term * static_cast<float>(bits - k) / static_cast<float>(k + 1), &growth);
+        exponent += growth;
+    }
+    const float ratio = static_cast<float>(wrong) / static_cast<float>(bits - wrong + 1);
+    return term * power_of_two_exactly(exponent) / (1 - ratio);
+}
+
+/// Returns the probability that the bits of a view that is on none of the sheets agree with a place
+/// on them. `bits` is the number of bits of each axis, `lines` the largest number of lines.
+float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
+                      int lines) {
+    float places = 0;
+    float columns = 0;
+    float rows = 0;
+    for (const KnownRegion& region : sheets.regions) {
+        const PositionRange x(region.first.x, region.columns, lines);
+        const PositionRange y(region.first.y, region.rows, lines);
+        places += static_cast<float>(x.count) * static_cast<float>(y.count);
+        columns += static_cast<float>(x.count / kSections + 1);
+        rows += static_cast<float>(y.count / kSections + 1);
+    }
+    // A tracked attempt tests one place, but chooses among up to 2^10 planes.
+    const float trials = std::max(kTurns * places, 1024.0F);
+    const float anywhere = trials * random_agreement(2 * bits, wrong[0] + wrong[1]);
+    if (sheets.are_all()) return anywhere;
+    // An unknown sheet may have the columns or the rows of a known one. The bits of one axis then
+    // agree, and they determine turn, roll and position of that axis.
+    return anywhere + columns * random_agreement(bits, wrong[0]) +
+           rows * random_agreement(bits, wrong[1]);
+}
+
+/// The place of the first column and the first row of a block.
+struct CornerPlace {
+    CodeVariant code;
+    Place place;
+
+    PositionAndRoll column() const {
+        return {place.cell.x, sum_of_rolls(place.section.u, class_of(place.cell.y))};
+    }
+    PositionAndRoll row() const {
+        return {place.cell.y, sum_of_rolls(place.section.v, class_of(place.cell.x))};
+    }
+};
+
+/// Returns the sum of the odds of all places of a region, given the odds of its columns and rows.
+float sum_of_odds(const KnownRegion& region, const OddsByClass& columns, const OddsByClass& rows) {
+    float sum = 0;
+    visit_classes(region.section, [&](std::size_t column, std::size_t column_roll, std::size_t row,
+                                      std::size_t row_roll) {
+        sum += columns(column, column_roll) * rows(row, row_roll);
+    });
+    return sum;
+}
+
+/// Returns the same sum without `best`, which is on the region and has the odds 1.
+float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const OddsOfBits& x_odds,
+                    const OddsOfBits& y_odds, const CornerPlace& best) {
+    const auto [x, column_roll] = best.column();
+    const auto [y, row_roll] = best.row();
+    const OddsByClass columns(turn.columns, region.code, turn.columns_of(region), x_odds,
+                              best.column());
+    const OddsByClass rows(turn.rows, region.code, turn.rows_of(region), y_odds, best.row());
+    // The last terms are the best column with other rows of the class of the best row, and the
+    // reverse.
+    return sum_of_odds(region, columns, rows) + columns(class_of(x), column_roll) +
+           rows(class_of(y), row_roll);
+}
+
+}  // namespace
+
+float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
+                        CodeVariant code, const Place& place) {
+    const int bits = number_of_bits(block.columns);  // of each axis
+    const ScoredTurn upright(kernels, block);
+    const CornerPlace best{code, moved(code, place, upright.columns_range.first - BitBlock::kMiddle,
+                                       upright.rows_range.first - BitBlock::kMiddle)};
+    const int x_agreeing =
+        upright.columns.agreeing(code, best.column().position, best.column().roll);
+    const int y_agreeing = upright.rows.agreeing(code, best.row().position, best.row().roll);
+    const std::array wrong{bits - x_agreeing, bits - y_agreeing};
+    const int odds_q8 = odds_per_bit_q8(Confidence::of_hard_bits(2 * bits, wrong[0] + wrong[1]));
+    if (odds_q8 == 0) return 1;
+    const OddsOfBits x_odds(odds_q8, x_agreeing);
+    const OddsOfBits y_odds(odds_q8, y_agreeing);
+    float others = 0;
+    bool is_included = false;
+    for (int quarters = 0; quarters < kTurns; ++quarters) {
+        const ScoredTurn turn(kernels, turned(quarters, block));
+        KeptTable<OddsByClass> columns;
+        KeptTable<OddsByClass> rows;
+        for (const KnownRegion& region : sheets.regions) {
+            const PositionRange x = turn.columns_of(region);
+            const PositionRange y = turn.rows_of(region);
+            const bool is_best = !is_included && quarters == 0 && region.code == code &&
+                                 region.section == best.place.section &&
+                                 x.contains(best.place.cell.x) && y.contains(best.place.cell.y);
+            is_included |= is_best;
+            others += is_best
+                          ? sum_of_others(region, turn, x_odds, y_odds, best)
+                          : sum_of_odds(region, columns.of(turn.columns, region.code, x, x_odds),
+                                        rows.of(turn.rows, region.code, y, y_odds));
+        }
+    }
+    const int lines = std::max(upright.columns.count(), upright.rows.count());
+    return is_included ? std::min(others + chance_of_known(sheets, bits, wrong, lines), 1.0F) : 1;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,105 @@
+// Locator: memory, options, the evidence for the codes, and pushed rows. locate.cpp locates.
+#include <algorithm>
+#include <span>
+
+#include "dotpose/locate.hpp"
+#include "locate/locate.hpp"
+#include "locate/workspace.hpp"
+
+namespace dotpose {
+
+SmallMemory::SmallMemory() : workspace_(core::make_workspace<core::SmallWorkspace>(bytes_)) {}
+LargeMemory::LargeMemory() : workspace_(core::make_workspace<core::LargeWorkspace>(bytes_)) {}
+
+Locator::Locator(core::DesktopWorkspace* workspace, const DeviceOptions& options)
+    : RowLocator(workspace, options) {
+    // The memory may have served another locator.
+    workspace->set_known({});
+}
+
+Status Locator::set_known(std::span<const KnownRegion> regions, OtherSheets others) {
+    const auto is_in_plane = [](std::uint32_t first, std::uint32_t size) {
+        return size > 0 && first < kPositionsPerAxis && size <= kPositionsPerAxis - first;
+    };
+    for (const KnownRegion& region : regions) {
+        if (static_cast<int>(region.code) >= kCodeVariantCount || region.section.u >= kSections ||
+            region.section.v >= kSections || !is_in_plane(region.first.x, region.columns) ||
+            !is_in_plane(region.first.y, region.rows)) {
+            return Status::bad_argument;
+        }
+    }
+    workspace().set_known({regions, others});
+    return Status::ok;
+}
+
+void Locator::set_fixed_options(const DeviceOptions& options) {
+    RowLocator::set_options(options);
+    detects_code_ = false;
+    evidence_ = {};
+}
+
+core::DesktopWorkspace& Locator::workspace() {
+    return static_cast<core::DesktopWorkspace&>(*workspace_);
+}
+
+Fix Locator::locate(const ImageView& image) {
+    if (detects_code_) return detected(locate_in_any_code(image, evidence_));
+    core::locate(image, options_, nullptr, workspace());
+    return finished();
+}
+
+Fix Locator::locate(const ImageView& image, const Prediction& prediction) {
+    if (detects_code_) return detected(locate_in_any_code(image, prediction, evidence_));
+    core::locate(image, options_, &prediction, workspace());
+    return finished();
+}
+
+Fix Locator::detected(const CodeReading& reading) {
+    evidence_ = reading.evidence;
+    return reading.fix;
+}
+
+CodeReading Locator::finished(CodeReading reading) {
+    options_.code = reading.code;
+    workspace().fix = reading.fix;
+    reading.fix = finished();
+    return reading;
+}
+
+CodeReading Locator::locate_in_any_code(const ImageView& image, const CodeEvidence& evidence) {
+    return finished(core::locate_in_any_code(image, options_, nullptr, evidence, workspace()));
+}
+
+CodeReading Locator::locate_in_any_code(const ImageView& image, const Prediction& prediction,
+                                        const CodeEvidence& evidence) {
+    return finished(core::locate_in_any_code(image, options_, &prediction, evidence, workspace()));
+}
+
+CodeReading Locator::locate_in_code(const ImageView& image) {
+    return finished(core::locate_in_code(image, options_, workspace()));
+}
+
+Status Locator::begin(int width_px, int height_px) {
+    const Status status = core::begin_image(width_px, height_px, options_, workspace());
+    return note_begin(status, height_px);
+}
+
+Status Locator::begin(int width_px, int height_px, const Prediction& prediction) {
+    const Status status = begin(width_px, height_px);
+    workspace().pushed.has_prediction = true;
+    workspace().pushed.prediction = prediction;
+    return status;
+}
+
+void Locator::push_row(const std::uint8_t* pixels) {
+    if (takes_row()) workspace().pushed.add_row(pixels);
+}
+
+Fix Locator::finish() {
+    if (!has_rows()) return finished();
+    core::PushedImage& pushed = workspace().pushed;
+    const ImageView image = pushed.completed();
+    return pushed.has_prediction ? locate(image, pushed.prediction) : locate(image);
+}
+
+}  // namespace dotpose
