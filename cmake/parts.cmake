@@ -25,7 +25,7 @@ dotpose_dependency(PNG::PNG                  libpng-dev                    PACKA
 dotpose_dependency(TIFF::TIFF                libtiff-dev                   PACKAGE TIFF)
 dotpose_dependency(JPEG::JPEG                libjpeg-dev                   PACKAGE JPEG)
 dotpose_dependency(PkgConfig::Exif           libexif-dev                   MODULES libexif)
-dotpose_dependency(PkgConfig::WebP           libwebp-dev                   MODULES libwebpdemux)
+dotpose_dependency(PkgConfig::WebP           libwebp-dev                   MODULES libwebp libwebpdemux)
 dotpose_dependency(PkgConfig::Heif           libheif-dev                   MODULES libheif)
 dotpose_dependency(PkgConfig::Qpdf           libqpdf-dev                   MODULES libqpdf)
 dotpose_dependency(PkgConfig::Rsvg           librsvg2-dev                  MODULES librsvg-2.0)
