@@ -29,6 +29,11 @@ std::string csv_string(const std::string& text) {
     return quoted + '"';
 }
 
+std::string json_value(const Field& field) {
+    if (field.text.empty()) return "null";
+    return field.is_string ? json_string(field.text) : field.text;
+}
+
 }  // namespace
 
 std::string decimal(double value, int decimals) {
@@ -55,8 +60,8 @@ std::string json_line(const std::vector<Field>& fields) {
     std::string line = "{";
     std::string_view open_array;
     for (const Field& field : fields) {
-        if (field.text.empty()) continue;
-        const std::string value = field.is_string ? json_string(field.text) : field.text;
+        if (field.text.empty() && !field.is_null_if_empty) continue;
+        const std::string value = json_value(field);
         if (!open_array.empty() && field.array == open_array) {
             line += ',' + value;
             continue;

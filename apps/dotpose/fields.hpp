@@ -23,6 +23,8 @@ struct Field {
     /// Name of the JSON array that contains the field. Adjacent fields with the same name form one
     /// array. In CSV, each field is a column.
     std::string array = {};
+    /// True if JSON contains null, instead of omitting the field, if `text` is empty.
+    bool is_null_if_empty = false;
 };
 
 /// Formats a number. Returns an empty text for NaN and infinity, which JSON cannot represent.
@@ -34,8 +36,8 @@ std::string degrees(double angle_rad);
 /// Formats an upper bound of a probability with three digits, rounded up to remain an upper bound.
 std::string p_wrong_text(double p_wrong);
 
-/// Format fields as one line with a line break. JSON contains only the fields with a value; CSV
-/// contains all columns. In JSON, bytes that are not UTF-8 are replaced.
+/// Format fields as one line with a line break. JSON omits fields without a value, unless they are
+/// null; CSV contains all columns. In JSON, bytes that are not UTF-8 are replaced.
 std::string json_line(const std::vector<Field>& fields);
 std::string csv_header(const std::vector<Field>& fields);
 std::string csv_line(const std::vector<Field>& fields);

@@ -38,13 +38,17 @@ std::optional<PlanePose> in_frame_of(Units units, const std::optional<PlanePose>
     return pose && units == Units::ros ? std::optional(with_other_y(*pose)) : pose;
 }
 
-/// Returns the fields that `--sheets` adds.
-std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place, Units units) {
+/// Returns the fields that `--sheets` adds. The sheet of a fix on no known sheet is null.
+std::vector<Field> sheet_fields(const Record& record, Units units) {
+    const std::optional<SheetPlace>& place = record.place;
     std::optional<PlanePose> pose;
     if (place) pose = PlanePose{place->x_mm, place->y_mm, place->theta_rad, place->covariance};
     pose = in_frame_of(units, pose);
     const PoseNames names = sheet_names(units);
-    std::vector<Field> fields = {{"sheet", place ? place->entry->name : std::string(), true}};
+    std::vector<Field> fields = {{.name = "sheet",
+                                  .text = place ? place->entry->name : std::string(),
+                                  .is_string = true,
+                                  .is_null_if_empty = record.fix.status == Status::ok}};
     append(fields, pose_fields(names, units, pose));
     append(fields, covariance_fields(names, units, pose));
     append(fields, world_fields(place ? world_place(*place) : std::nullopt));
@@ -284,7 +288,7 @@ std::vector<Field> fields(const Record& record, Units units) {
     append(all, covariance_fields(names, units, pose));
     append(all, image_fields(record));
     append(all, code_fields(record, units));
-    if (record.has_sheets) append(all, sheet_fields(record.place, units));
+    if (record.has_sheets) append(all, sheet_fields(record, units));
     return all;
 }
 

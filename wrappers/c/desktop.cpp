@@ -1,9 +1,13 @@
-// Detection of the code of a sheet, and the dots of the last frame. Not available on devices.
+// Functions that device locators do not have: known sheets, detection of the code, and the dots of
+// the last frame.
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
+#include <span>
 #include <type_traits>
 
 #include "dotpose/code_evidence.hpp"
+#include "dotpose/known_region.hpp"
 #include "locator.hpp"
 
 namespace {
@@ -43,6 +47,16 @@ dotpose_status read_evidence(const dotpose_code_evidence* given, CodeEvidence& e
     return DOTPOSE_OK;
 }
 
+// The core reads the regions where the caller keeps them.
+static_assert(sizeof(dotpose_region) == sizeof(KnownRegion));
+static_assert(offsetof(dotpose_region, code) == offsetof(KnownRegion, code));
+static_assert(offsetof(dotpose_region, section_u) == offsetof(KnownRegion, section.u));
+static_assert(offsetof(dotpose_region, section_v) == offsetof(KnownRegion, section.v));
+static_assert(offsetof(dotpose_region, first_x) == offsetof(KnownRegion, first.x));
+static_assert(offsetof(dotpose_region, first_y) == offsetof(KnownRegion, first.y));
+static_assert(offsetof(dotpose_region, columns) == offsetof(KnownRegion, columns));
+static_assert(offsetof(dotpose_region, rows) == offsetof(KnownRegion, rows));
+
 void give(const CodeReading& reading, dotpose_code_reading* result) {
     if (result == nullptr) return;
     result->code = static_cast<std::int32_t>(reading.code);
@@ -61,6 +75,19 @@ dotpose_status check_desktop(const dotpose_locator* locator) {
 }  // namespace
 
 extern "C" {
+
+dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region* regions,
+                                 size_t count, int32_t others) {
+    const dotpose_status status = check_desktop(locator);
+    if (status != DOTPOSE_OK) return status;
+    if (regions == nullptr && count != 0) return DOTPOSE_NULL_POINTER;
+    if (!c::is_one_of(others, OtherSheets::impossible)) return DOTPOSE_BAD_VALUE;
+    c::drop_frame(*locator);
+    const std::span known{reinterpret_cast<const KnownRegion*>(regions), count};
+    const Status set =
+        locator->actions->set_known(*locator->locator, known, static_cast<OtherSheets>(others));
+    return set == Status::ok ? DOTPOSE_OK : DOTPOSE_BAD_VALUE;
+}
 
 dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* pixels,
                                        int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,

@@ -393,6 +393,34 @@ void dotpose_locator_destroy(dotpose_locator* locator);
 /* Changes the options. Drops a frame that was begun and not finished. */
 dotpose_status dotpose_set_options(dotpose_locator* locator, const dotpose_options* options);
 
+/* A printed rectangle of the code plane: 20 bytes. */
+typedef struct dotpose_region {
+    uint8_t code;      /*  0: DOTPOSE_CODE_ of the sheet */
+    uint8_t section_u; /*  1: section of the code, 0 to 62 */
+    uint8_t section_v; /*  2 */
+    uint8_t reserved;  /*  3: zero */
+    uint32_t first_x;  /*  4: upper left intersection */
+    uint32_t first_y;  /*  8 */
+    uint32_t columns;  /* 12: at least 1 */
+    uint32_t rows;     /* 16: at least 1 */
+} dotpose_region;
+
+/* Whether sheets other than the known ones may be in view. */
+enum {
+    /* Other sheets are located, too, where enough of them is seen. */
+    DOTPOSE_OTHERS_POSSIBLE = 0,
+    /* Only places on known sheets are possible. */
+    DOTPOSE_OTHERS_IMPOSSIBLE = 1
+};
+
+/* Sets the regions of the sheets that may be in view. Views of about 30 dots, in images from 24 x
+ * 24 px, then suffice. The locator reads `regions` in each frame, so the array must stay valid and
+ * unchanged. With a `count` of 0, all places are possible again. Drops a frame that was begun.
+ * Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not inside the plane,
+ * or has a code or section that does not exist. Not for devices: WRONG_KIND. */
+dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region* regions,
+                                 size_t count, int32_t others);
+
 /* Locates the pattern in an 8-bit grey image with dark dots on light paper. Row v begins at
  * pixels + v * stride_bytes. `prediction` may be null. Returns the status of the fix. */
 dotpose_status dotpose_locate(dotpose_locator* locator, const uint8_t* pixels, int32_t width_px,

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
+#include <span>
 #include <type_traits>
 
 #include "convert.hpp"
@@ -13,7 +14,7 @@
 namespace dotpose::c {
 
 /// Functions that differ between kinds of locators. They are function pointers, so a program
-/// contains only the kinds that it creates. The last two are null for devices.
+/// contains only the kinds that it creates. The last three are null for devices.
 struct Actions {
     void (*set_options)(RowLocator& locator, const LocatorOptions& options);
     Fix (*locate)(RowLocator& locator, const ImageView& image, const Prediction* prediction);
@@ -23,6 +24,8 @@ struct Actions {
     CodeReading (*locate_in_any_code)(RowLocator& locator, const ImageView& image,
                                       const Prediction* prediction, const CodeEvidence& evidence);
     CodeReading (*locate_in_code)(RowLocator& locator, const ImageView& image);
+    Status (*set_known)(RowLocator& locator, std::span<const KnownRegion> regions,
+                        OtherSheets others);
 };
 
 /// Returns the actions of a Locator or a DeviceLocator.
@@ -56,6 +59,10 @@ constexpr Actions actions_of() {
         };
         actions.locate_in_code = [](RowLocator& locator, const ImageView& image) {
             return static_cast<Kind&>(locator).locate_in_code(image);
+        };
+        actions.set_known = [](RowLocator& locator, std::span<const KnownRegion> regions,
+                               OtherSheets others) {
+            return static_cast<Kind&>(locator).set_known(regions, others);
         };
     }
     return actions;

@@ -301,6 +301,27 @@ static void predictions(void) {
     EXPECT(BAD_VALUE, dotpose_prediction_move(&prediction, 0, 0, 0, 0, 0, 0));
 }
 
+static void known_sheets(dotpose_locator* large, dotpose_locator* device) {
+    dotpose_region sheet = {DOTPOSE_CODE_ANOTO, 0, 0, 0, 1024, 2048, 393, 564};
+    EXPECT(WRONG_KIND, dotpose_set_known(device, &sheet, 1, DOTPOSE_OTHERS_POSSIBLE));
+    EXPECT(NULL_POINTER, dotpose_set_known(NULL, &sheet, 1, DOTPOSE_OTHERS_POSSIBLE));
+    EXPECT(NULL_POINTER, dotpose_set_known(large, NULL, 1, DOTPOSE_OTHERS_POSSIBLE));
+    EXPECT(BAD_VALUE, dotpose_set_known(large, &sheet, 1, 2));
+    EXPECT(BAD_VALUE, dotpose_set_known(large, &sheet, 1, -1));
+    EXPECT(OK, dotpose_set_known(large, &sheet, 1, DOTPOSE_OTHERS_POSSIBLE));
+    sheet.section_v = 63;
+    EXPECT(BAD_VALUE, dotpose_set_known(large, &sheet, 1, DOTPOSE_OTHERS_POSSIBLE));
+    sheet.section_v = 62;
+    sheet.code = 3;
+    EXPECT(BAD_VALUE, dotpose_set_known(large, &sheet, 1, DOTPOSE_OTHERS_POSSIBLE));
+    sheet.code = DOTPOSE_CODE_MICRODOTS;
+    sheet.rows = 0;
+    EXPECT(BAD_VALUE, dotpose_set_known(large, &sheet, 1, DOTPOSE_OTHERS_POSSIBLE));
+    sheet.rows = UINT32_MAX;
+    EXPECT(BAD_VALUE, dotpose_set_known(large, &sheet, 1, DOTPOSE_OTHERS_POSSIBLE));
+    EXPECT(OK, dotpose_set_known(large, NULL, 0, DOTPOSE_OTHERS_POSSIBLE));
+}
+
 static void any_code(dotpose_locator* large, dotpose_locator* device) {
     dotpose_code_evidence evidence = {{0}};
     dotpose_code_reading reading;
@@ -488,6 +509,7 @@ int main(void) {
     pushing(large);
     sizes(large, device);
     predictions();
+    known_sheets(large, device);
     any_code(large, device);
     trackers(large);
     packets();

@@ -346,6 +346,28 @@ TEST(C, PacesFramesAsThePacerDoes) {
     EXPECT_EQ(rests, 6);
 }
 
+TEST(C, LocatesSmallViewsOfKnownSheets) {
+    const dotpose_region sheet{
+        .code = DOTPOSE_CODE_ANOTO, .first_x = 1024, .first_y = 2048, .columns = 393, .rows = 564};
+    const KnownRegion region{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
+    Locator core(DeviceOptions{});
+    ASSERT_EQ(core.set_known({&region, 1}, OtherSheets::impossible), Status::ok);
+    const CLocator locator = make_locator();
+    ASSERT_EQ(dotpose_set_known(locator.get(), &sheet, 1, DOTPOSE_OTHERS_IMPOSSIBLE), DOTPOSE_OK);
+    Setup setup;
+    setup.camera.width_px = 66;
+    setup.camera.height_px = 66;
+    Shot shot = draw_shot(setup, 3);
+    shot.page.pattern.section = {};
+    shot.pose.cell = {1100, 2200};
+    const GreyImage image = render(shot);
+    const Fix expected = core.locate(image.view());
+    ASSERT_EQ(expected.status, Status::ok);
+    EXPECT_TRUE(same(locate(locator.get(), image), as_c(expected)));
+    ASSERT_EQ(dotpose_set_known(locator.get(), nullptr, 0, DOTPOSE_OTHERS_POSSIBLE), DOTPOSE_OK);
+    EXPECT_NE(locate(locator.get(), image).status, DOTPOSE_OK);
+}
+
 TEST(C, FindsTheCodeOfASheet) {
     const auto memory = std::make_unique<LargeMemory>();
     Locator core(*memory, DeviceOptions{});

@@ -9,6 +9,6 @@ export {
     type Image,
     type LocatorOptions,
 } from "./locator.js";
-export type { Attempt, Cell, Code, Prior, Section, Surface } from "./names.js";
+export type { Attempt, Cell, Code, KnownRegion, Prior, Section, Surface } from "./names.js";
 export { kDisplacements, patternBits, type PatternPart } from "./pattern.js";
 export { WorkerLocator, type Located } from "./worker_locator.js";

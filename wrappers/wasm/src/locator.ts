@@ -3,7 +3,7 @@ import { coreModule } from "./core.js";
 import { fixOf, type Fix } from "./fix.js";
 import { kAt, kFixBytes } from "./fix_fields.js";
 import { Instance, type WasmSource } from "./instance.js";
-import { codeNumber, type Code } from "./names.js";
+import { codeNumber, type Code, type KnownRegion } from "./names.js";
 
 /** An 8-bit grey image with dark dots on light paper. Row v begins at `data[v * stride]`. */
 export interface Image {
@@ -36,6 +36,13 @@ export interface LocatorOptions {
     attempts?: 1 | 2;
     /** Maximum probability of a wrong position. Other positions are refused. Default: 1e-9. */
     max_p_wrong?: number;
+    /**
+     * Sheets that may be in view. Views of about 30 dots then suffice, in images from 24 x 24 px.
+     * Default: none, which makes all places possible.
+     */
+    sheets?: readonly KnownRegion[];
+    /** True if only places on `sheets` are possible. Default: false. */
+    only_sheets?: boolean;
     /** True to include the centres of the dots in a fix, which takes time. Default: false. */
     dots?: boolean;
     /** The module of the core, as URL, bytes or module. Default: the file beside this one. */
@@ -61,10 +68,11 @@ const kPredictionBytes = 72;
 const kEvidenceBytes = 36;
 const kReadingBytes = 28;
 const kDotBytes = 16;
+const kRegionBytes = 20;
 const kMaxDots = 16384;
 const kPointerBytes = 4;
 
-/** Minimum and maximum width and height of an image. */
+/** Minimum and maximum width and height of an image. With known sheets the minimum is 24. */
 export const kMinFrameSide_px = 64;
 export const kMaxFrameSide_px = 4096;
 
@@ -104,6 +112,7 @@ export class Locator {
         this.#reading = core.reserve(kReadingBytes);
         this.#dots = options.dots ? core.reserve(kMaxDots * kDotBytes + kPointerBytes) : 0;
         this.#locator = this.#init(options);
+        if (options.sheets?.length) this.#know(options.sheets, options.only_sheets ?? false);
     }
 
     /** Creates a locator. Asynchronous, because the first call loads and compiles the module. */
@@ -149,6 +158,25 @@ export class Locator {
         const pointer = core.reserve(kPointerBytes);
         this.#require(core.call("dotpose_large_init", memory, bytes, given, pointer));
         return core.view(pointer, kPointerBytes).getUint32(0, true);
+    }
+
+    /** Sets the sheets that may be in view. The module reads them in each frame. */
+    #know(sheets: readonly KnownRegion[], only_sheets: boolean): void {
+        const regions = this.#core.reserve(sheets.length * kRegionBytes);
+        const view = this.#core.view(regions, sheets.length * kRegionBytes);
+        sheets.forEach((sheet, i) => {
+            const { code = "anoto", section = { u: 0, v: 0 }, first, columns, rows } = sheet;
+            const inByte = [codeNumber(code), section.u, section.v];
+            const inWord = [first.x, first.y, columns, rows];
+            const is = (max: number) => (n: number) => Number.isInteger(n) && n >= 0 && n <= max;
+            if (!inByte.every(is(0xff)) || !inWord.every(is(0xffffffff)))
+                throw new RangeError(`sheets[${i}] is not a rectangle of the code`);
+            inByte.forEach((n, j) => view.setUint8(i * kRegionBytes + j, n));
+            inWord.forEach((n, j) => view.setUint32(i * kRegionBytes + 4 * (j + 1), n, true));
+        });
+        this.#require(
+            this.#core.call("dotpose_set_known", this.#locator, regions, sheets.length, only_sheets ? 1 : 0),
+        );
     }
 
     /**

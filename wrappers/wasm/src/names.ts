@@ -34,3 +34,15 @@ export interface Cell {
     x: number;
     y: number;
 }
+
+/** A printed rectangle of the code plane. */
+export interface KnownRegion {
+    /** Default: "anoto". */
+    code?: Code;
+    /** Default: 0, 0. */
+    section?: Section;
+    /** Upper left intersection. */
+    first: Cell;
+    columns: number;
+    rows: number;
+}

@@ -71,6 +71,22 @@ describe("Locator", () => {
         assert.equal(fix.ok ? fix.code : fix.status, fix.ok ? "microdots" : "ambiguous_code");
     });
 
+    test("a known sheet needs only a small view", async () => {
+        const camera = { width_px: 66, height_px: 66 };
+        const image = tools.render({ ...kScene, camera });
+        assert.equal((await Locator.create()).locate(image).ok, false);
+        const sheets = [{ first: { x: 1000, y: 2000 }, columns: 393, rows: 564 }];
+        const fix = (await Locator.create({ sheets, only_sheets: true })).locate(image);
+        assert.equal(fix.status, "ok");
+        assert.equal(fix.prior, "only_sheets");
+        assert.ok(Math.abs(fix.x_mm - 560) < 0.01 && Math.abs(fix.y_mm - 1070) < 0.01, `${fix.x_mm}, ${fix.y_mm}`);
+        const elsewhere = [{ first: { x: 5000, y: 2000 }, columns: 393, rows: 564 }];
+        assert.equal((await Locator.create({ sheets: elsewhere, only_sheets: true })).locate(image).ok, false);
+        const create = (sheet) => Locator.create({ sheets: [{ ...sheets[0], ...sheet }] });
+        await assert.rejects(create({ columns: 0 }), RangeError);
+        await assert.rejects(create({ rows: -1 }), /sheets\[0\] is not a rectangle/);
+    });
+
     test("a frame without a pattern is a fix with a reason", async () => {
         const fix = (await Locator.create()).locate({ data: new Uint8Array(188 * 120).fill(200), width: 188, height: 120 });
         assert.equal(fix.ok, false);

@@ -1,5 +1,5 @@
 // Compiled against the installed package, to check its types.
-import { Locator, patternBits, WorkerLocator, type Fix } from "dotpose";
+import { Locator, patternBits, WorkerLocator, type Fix, type KnownRegion } from "dotpose";
 import { Tools, type Scene } from "dotpose/tools";
 
 const scene: Scene = { pose: { x_mm: 1, y_mm: 2 }, imperfections: { noise_sigma: 2 } };
@@ -11,6 +11,8 @@ const next: Fix = locator.locate(image, { prediction: fix });
 export const position: [number, number] = [next.x_mm, next.covariance[0]!];
 export const back: ArrayBufferLike = (await (await WorkerLocator.create()).locate(image)).image.data.buffer;
 export const bits: Uint8Array = await patternBits({ cell: { x: 1, y: 2 }, columns: 8, rows: 8 });
+const sheet: KnownRegion = { first: { x: 0, y: 0 }, columns: 393, rows: 564 };
+await Locator.create({ sheets: [sheet], only_sheets: true });
 
 // @ts-expect-error: unknown code
 await Locator.create({ code: "morse" });
