@@ -13,15 +13,17 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of adjacent lines that two distinct positions share. One more shared line would
-/// make five adjacent digits equal, and five digits determine the position.
+/// Maximum number of adjacent lines that two distinct positions share in the codes `anoto` and
+/// `microdots`. With one more shared line, five consecutive digits of each sequence would be equal,
+/// and five digits determine the place in a sequence. In `libdots`, some positions share more
+/// lines. The sum of the near alternatives includes these positions.
 constexpr int kMaxSharedInARow = code::kOrder;
-/// Expected odds above which the fix cannot become certain, even if more alternatives are counted
-/// one by one.
+/// Expected odds above which more alternatives are not counted one by one, because the fix would
+/// not become certain.
 constexpr float kBeyondHelp = 1e-4F;
 
-/// Returns the expected odds of the far alternatives that differ in at least `min_different`
-/// sequences and share fewer than `shared_lines` adjacent lines.
+/// Returns the expected sum of the odds of the far alternatives: those that differ in at least
+/// `min_different` sequences and share fewer than `shared_lines` adjacent lines.
 float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int min_different) {
     ExpectedAlternatives expected(lines.ratios.basis, lines.ratios.position, shared_lines - 1,
                                   min_different);
@@ -30,8 +32,8 @@ float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int mi
     return expected.sum();
 }
 
-/// Returns the summed odds of the same position in the other sections, in which all rolls differ by
-/// the same shift.
+/// Returns the summed odds of the same position in the other sections. In each of these sections,
+/// the rolls of all lines differ from the reading by the same shift.
 float sum_of_other_sections(const LikelihoodRatios& ratios) {
     float sum = 0;
     for (int shift = 1; shift < kSections; ++shift) {
@@ -54,15 +56,16 @@ int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2) {
     float sum = known + expected;
     const float limit = std::ldexp(1.0F, limit_log2);
     const float far_below_doubt = std::ldexp(1.0F, std::min(limit_log2, -30) - 10);
-    // Counting more alternatives one by one reduces the number of alternatives that are only
-    // estimated.
+    // Counts more alternatives one by one, which reduces the part of the sum that is only an
+    // expectation.
     if (sum > far_below_doubt && expected > known && expected < kBeyondHelp) {
         sum = known + sum_of_far_alternatives(lines, kMaxSharedInARow - 1, 3);
         // Skips the slowest sums if the other sums already exceed the limit.
         if (sum < limit) sum += sum_of_near_alternatives(lines, kMaxSharedInARow - 1);
         if (sum < limit) {
-            // At most an eighth of the remaining margin to the limit, because the estimated odds
-            // alone must not cause a refusal.
+            // Expected odds that are small enough to remain uncounted: an eighth of the sum, but at
+            // most an eighth of the margin to the limit, because an expectation alone must not
+            // cause a refusal.
             const float negligible = std::min(std::max(sum, far_below_doubt), limit - sum) / 8;
             sum += sum_of_double_alternatives(lines, negligible, limit - sum);
         }

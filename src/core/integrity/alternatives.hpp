@@ -1,13 +1,15 @@
-// Alternatives: the odds of all positions other than the position read, for example positions that
-// share some columns with it. docs/integrity.md derives the sums.
+// Alternatives: the summed odds of all positions other than the position read. Most of the sum is
+// due to positions that share lines with the position read. docs/integrity.md derives the sum.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
 
 namespace dotpose::core {
 
-/// Returns log2 of an upper bound on the summed odds of all alternatives, at most 0. The bound is
-/// computed only precisely enough to compare the sum with 2^limit_log2.
+/// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up, at
+/// most 0. The odds of the far alternatives are an expectation, the other odds are upper bounds.
+/// The sum is only as precise as necessary for a comparison with 2^limit_log2. Returns 0 if there
+/// are too few lines to tell alternatives from the reading.
 int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// Compared lines: the bits read in a column or row, next to the bits of the code.
+// Compared lines: the bits read in a column or row, and the bits of the code in the same cells.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@ namespace dotpose::core {
 /// Maximum number of columns, and of rows, that are compared bit by bit.
 inline constexpr int kMaxComparedLines = 32;
 
-/// A column (or row), with one bit per cell.
+/// A column or row. Each word has one bit per cell. Bit 0 is the first cell.
 struct ComparedLine {
     std::uint32_t code = 0;   ///< bits of the code
-    std::uint32_t seen = 0;   ///< 1 if a dot was read
-    std::uint32_t wrong = 0;  ///< 1 if the dot read contradicts the code
+    std::uint32_t seen = 0;   ///< 1 if the bit of the cell was read
+    std::uint32_t wrong = 0;  ///< 1 if the bit was read and contradicts the code
 };
 
 }  // namespace dotpose::core

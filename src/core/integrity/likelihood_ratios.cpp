@@ -10,8 +10,8 @@ namespace dotpose::core {
 
 namespace {
 
-/// Returns the Hamming distance of two substrings of the main sequence, given by the indices of
-/// their first bits.
+/// Returns the Hamming distance of two substrings of the main sequence, which begin at the bits
+/// `first` and `other`.
 constexpr int distance_of(std::size_t first, std::size_t other, std::size_t length) {
     const std::uint32_t all = length == 0 ? 0 : ~std::uint32_t{0} >> (32 - length);
     return bits_in((code::kMainWords[first] ^ code::kMainWords[other]) & all);
@@ -36,9 +36,10 @@ constexpr NearestSubstrings nearest_of(std::size_t first, std::size_t length) {
     return nearest;
 }
 
-/// Minimum distances of the substrings of the main sequence, by first index. Bit i is 1 if the
-/// distance grows when the substring is extended by its bit i. The distance grows by at most one
-/// with each bit.
+/// Minimum distances of the substrings of the main sequence, indexed by the first bit of the
+/// substring. Bit i of an element is 1 if the minimum distance of the substring with i + 1 bits
+/// exceeds the minimum distance of the substring with i bits. The excess is at most one, so the
+/// number of ones among the first n bits is the minimum distance of the substring with n bits.
 constexpr auto kGrowingDistances = [] {
     std::array<std::uint32_t, kSections> grows{};
     for (std::size_t first = 0; first < grows.size(); ++first) {
@@ -59,8 +60,8 @@ static_assert([] {
     return true;
 }());
 
-/// Upper bounds, by length, of log2 of the number of substrings at the minimum distance from a
-/// substring, in units of 2^-8.
+/// Upper bounds on log2 of the number of substrings at the minimum distance from any substring,
+/// indexed by length, in units of 2^-8.
 constexpr auto kLog2OfNearest = [] {
     std::array<std::uint16_t, kMaxComparedLines + 1> log2{};
     for (std::size_t length = 0; length < log2.size(); ++length) {
@@ -180,8 +181,7 @@ std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOff
     const int base = offsets[static_cast<std::size_t>(shared)];
     const int count = ratios.count();
     int lost = 0;
-    // Visits first the lines after the shared line, where the loss grows fastest, then the lines
-    // before it.
+    // Visits the lines after the shared line first, and then the lines before the shared line.
     for (int i = 1, line = shared + 1; i < count; ++i, ++line) {
         if (line == count) line = 0;
         const int shift = offsets[static_cast<std::size_t>(line)] - base;

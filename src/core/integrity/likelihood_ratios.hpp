@@ -13,29 +13,33 @@
 
 namespace dotpose::core {
 
-/// Maximum number of adjacent lines that two positions share in the misprinted code (libdots).
+/// Maximum number of adjacent lines that two distinct positions share in the code `libdots`, whose
+/// a4 is misprinted. In the other codes, the maximum is `code::kOrder`.
 inline constexpr int kMaxShared = 7;
 
 /// log2 of the number of other rolls (62), in units of 2^-8, rounded up.
 inline constexpr int kOtherRolls_q8 = 1525;
 
-/// Odds below 2^-64 count as 2^-64.
+/// Minimum odds of an alternative: 2^-64, as log2 in units of 2^-8 and as a number. Smaller odds
+/// count as 2^-64.
 inline constexpr int kNegligible_q8 = -64 * 256;
 inline constexpr float kNegligible = 5.5e-20F;
 
 /// Losses and odds of alternatives, line by line. The loss of an alternative in a line is the score
-/// of the reading minus the score of the alternative. A line is shared if reading and alternative
-/// have the same roll in this line. The loss in a shared line is 0.
+/// of the reading minus the score of the alternative. A negative loss is a gain. A line is shared
+/// if the reading and the alternative have the same roll in this line. The loss in a shared line is
+/// 0.
 class LikelihoodRatios {
   public:
     /// Computes the ratios of scored lines. Requires odds_per_bit_q8 > 0.
     LikelihoodRatios(CodeVariant code, const Lines& lines_, const AxisReading& reading,
                      int odds_per_bit_q8);
-    /// Computes the ratios of hard bits: each bit either is not read or has the weight 127.
+    /// Computes the ratios of hard bits. A hard bit is either not read or has the weight 127.
     LikelihoodRatios(CodeVariant code, std::span<const ComparedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8);
 
-    /// Computes the ratios of hard bits, for lines whose rolls are already known.
+    /// Computes the ratios of hard bits for lines whose rolls are already known. `rolls` contains
+    /// the roll of each line.
     LikelihoodRatios(CodeVariant code, std::span<const ComparedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8,
                      std::span<const std::uint8_t> rolls);
@@ -45,7 +49,7 @@ class LikelihoodRatios {
     bool is_of_bits() const { return !bits_.empty(); }
 
     /// Returns the loss of an alternative in a line. The roll of the alternative is the roll of the
-    /// reading plus `shift`; |shift| < 63.
+    /// reading plus `shift`, modulo 63, with |shift| < 63.
     int loss(int line, int shift) const {
         const int own = rolls_[static_cast<std::size_t>(line)];
         const int moved = own + shift;
@@ -64,29 +68,32 @@ class LikelihoodRatios {
         return std::span(min_losses_)
             .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
     }
-    /// Returns the minimum loss of an alternative whose digit differs in the step from `line` to
-    /// the next line. Such an alternative does not share at least one of the two lines. The result
-    /// is not negative.
+    /// Returns the minimum loss of an alternative whose digit differs from that of the reading in
+    /// the step from `line` to the next line. Such an alternative does not share at least one of
+    /// the two lines. Negative minimum losses of lines count as 0.
     int min_loss_of_step(int line) const {
         return std::max(std::min(min_loss(line), min_loss(line + 1)), 0);
     }
-    /// Returns log2 of an upper bound on the summed odds of all other rolls, divided by the odds of
-    /// the best of these rolls, in units of 2^-8. For hard bits only.
+    /// Returns log2 of an upper bound on the ratio of two odds in a line, in units of 2^-8: the
+    /// summed odds of all rolls except the roll of the reading, divided by the odds of the best of
+    /// these rolls. For hard bits only.
     int log2_of_nearest_q8(int line) const;
-    /// Returns the maximum score that an alternative gains in lines that other rolls fit better.
+    /// Returns the maximum gain of an alternative, summed over all lines that another roll fits
+    /// better than the roll of the reading.
     int max_gain() const { return max_gain_; }
-    /// Returns the maximum number of adjacent lines that an alternative shares.
+    /// Returns the maximum number of adjacent lines that an alternative shares with the reading.
     int max_shared() const { return basis[3].has_twins ? kMaxShared : code::kOrder; }
     /// Returns the odds of an alternative with this loss, as log2 in units of 2^-8.
     int log2_odds_q8(int lost) const {
-        // A lost score is twice the weight of the bits. 129 / 2^15 is about 1 / (2 * 127). Losses
-        // above kMaxLost do not change the result.
+        // A loss is twice the weight of the bits that cause it. 129 / 2^15 is about 1 / (2 * 127).
+        // Losses are limited to kMaxLost, because the product must fit in 32 bits.
         constexpr int kMaxLost = 1 << 18;
         return -(((std::min(lost, kMaxLost) * odds_per_bit_q8_) >> 8) * 129 >> 7);
     }
-    /// Returns the smallest loss with odds of at most 2^(log2_odds_q8 / 256).
+    /// Returns the loss with odds of 2^(log2_odds_q8 / 256), rounded up.
     int loss_for(int log2_odds_q8) const { return -log2_odds_q8 * 254 / odds_per_bit_q8_ + 1; }
-    /// Returns the odds of a loss as a number, from 2^-64 to 2^64.
+    /// Returns the odds of an alternative with this loss as a number, limited to between 2^-64 and
+    /// 2^64.
     float odds(int lost) const {
         const int log2_q8 = std::clamp(log2_odds_q8(lost), kNegligible_q8, -kNegligible_q8);
         const int whole = log2_q8 >> 8;
@@ -96,8 +103,8 @@ class LikelihoodRatios {
             __builtin_bit_cast(float, static_cast<std::uint32_t>(whole - 16 + 127) << 23);
         return static_cast<float>(exp2_q16(log2_q8 - whole * 256)) * power;
     }
-    /// Returns true if an alternative with this loss is negligible, regardless of its gains in
-    /// other lines.
+    /// Returns true if an alternative that has already lost `lost` is negligible, regardless of its
+    /// gains in the remaining lines.
     bool is_hopeless(int lost) const { return lost > hopeless_score_; }
 
     const code::Basis& basis;
@@ -114,13 +121,14 @@ class LikelihoodRatios {
     void follow_rolls(CodeVariant code, const AxisReading& reading);
     void set_min_losses_of_bits();
     void set_min_loss(int line, int min_loss);
-    /// Returns the number of bits that contradict another roll minus the number of bits that
-    /// contradict the reading.
+    /// Returns the number of bits of a line that contradict the code at `roll`, minus the number of
+    /// bits that contradict the reading.
     int loss_of_bits(int line, int roll) const;
-    /// The rolls with the minimum loss in a line, except the roll of the reading.
+    /// The nearest rolls of a line: the rolls with the minimum loss, except the roll of the
+    /// reading.
     struct Nearest {
-        int lost_bits = 0;      ///< number of bits that these rolls lose
-        int log2_count_q8 = 0;  ///< upper bound on log2 of the number of these rolls, in 2^-8
+        int lost_bits = 0;      ///< loss of these rolls, in bits
+        int log2_count_q8 = 0;  ///< upper bound on log2 of their number, in units of 2^-8
     };
     Nearest nearest(int line) const;
 
@@ -131,20 +139,22 @@ class LikelihoodRatios {
     int hopeless_score_ = 0;
     std::array<std::uint8_t, kMaxLines> rolls_{};
     std::array<std::int16_t, kMaxLines> min_losses_{};
-    std::array<std::int16_t, kMaxComparedLines> log2_of_nearest_q8_;  ///< for hard bits only
+    /// `Nearest::log2_count_q8` of each line. For hard bits only.
+    std::array<std::int16_t, kMaxComparedLines> log2_of_nearest_q8_;
 };
 
-/// Roll offsets of an alternative, by line: its roll minus the roll of the reading, modulo 63. The
-/// offsets are known up to a common shift.
+/// Roll offsets of an alternative, by line: the roll of the alternative minus the roll of the
+/// reading, modulo 63. The offsets are determined only up to a shift that is common to all lines.
 using RollOffsets = std::array<std::uint8_t, kMaxLines>;
 
-/// Returns the roll offset of a line, from 0 to 62, given both rolls. Computed in bytes, which
-/// allows vectors.
+/// Returns the roll offset of a line, from 0 to 62. `own` is the roll of the reading. The
+/// computation in bytes allows compilers to vectorise loops over lines.
 constexpr std::uint8_t roll_offset(std::uint8_t own, std::uint8_t alternative) {
     return static_cast<std::uint8_t>(alternative - own + (alternative < own ? kSections : 0));
 }
 
-/// Sets the roll offsets of a single alternative.
+/// Sets the roll offsets of the single alternative with the place `alternative_place` in
+/// `sequence`.
 inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequence,
                              std::uint32_t alternative_place, RollOffsets& offsets) {
     static_assert(kMaxLines <= code::kLinesAhead);
@@ -156,8 +166,8 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
 }
 
 /// Returns the loss of an alternative at the shift at which it shares the line `shared`. Stops
-/// adding as soon as the alternative is hopeless. Returns nullopt if the alternative also shares an
-/// earlier line, because it was counted at that line.
+/// adding as soon as the alternative is hopeless. Returns nullopt if an earlier line is shared at
+/// the same shift, because the alternative was counted at that line.
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
                                    int shared);
 

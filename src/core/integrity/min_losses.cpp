@@ -8,10 +8,11 @@ MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last) {
     const int count = ratios.count();
     const int max_shared = ratios.max_shared();
     MinLosses min_loss;
-    // Minimum loss of the alternatives that do not share the last of the n lines, for each n.
+    // Element n: minimum loss in the first n lines of the alternatives that do not share the last
+    // of these lines.
     MinLosses unshared_last;
     unshared_last[0] = 0;
-    int lowest = 0;  // index of the smallest element, at most `max_shared` lines back
+    int lowest = 0;  // index of the smallest of the last `max_shared` + 1 elements
     for (int n = 0;; ++n) {
         const int last = unshared_last[static_cast<std::size_t>(n)];
         if (last <= unshared_last[static_cast<std::size_t>(lowest)]) {

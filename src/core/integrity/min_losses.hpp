@@ -1,23 +1,27 @@
-// Minimum losses: lower bounds on the loss of every alternative. No alternative shares more
-// adjacent lines with the position read than `LikelihoodRatios::max_shared`. In most frames, these
-// bounds show that no alternative matters.
+// Minimum losses: lower bounds on the loss of every alternative. The bounds hold because no
+// alternative shares more than `LikelihoodRatios::max_shared` adjacent lines with the position
+// read. In most frames, they show that no alternative matters.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
 
 namespace dotpose::core {
 
-/// Minimum loss in the first n lines from one end of the view, for each n.
+/// Lower bound on the loss of an alternative in n adjacent lines at one end of the view, indexed by
+/// n. Gains in lines that another roll fits better are not subtracted.
 using MinLosses = std::array<int, kMaxLines + 1>;
+/// Returns the bounds for the first n lines or, if `from_last` is true, for the last n lines.
 MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last);
 
-/// Returns the minimum loss of an alternative that shares lines at one shift before a border
-/// between two lines and at another shift beyond the border, over all borders.
+/// Returns a lower bound on the loss of every seam alternative, over all borders between two lines.
+/// A seam alternative shares lines at one shift before the border and at another shift beyond the
+/// border. Gains are not subtracted.
 int min_loss_with_border(const LikelihoodRatios& ratios);
 
-/// Returns true if every alternative of `min_loss_with_border` loses `loss_limit` in a single line.
-/// This is the case if a run of adjacent lines that each lose at least `loss_limit` is longer than
-/// the runs that an alternative can share on both sides of a border. Returns false if in doubt.
+/// Returns true if every seam alternative loses at least `loss_limit` in a single line. This is the
+/// case if more than 2 * max_shared adjacent lines have a minimum loss of at least `loss_limit`,
+/// because an alternative shares at most `max_shared` adjacent lines on each side of the border.
+/// Returns false if in doubt.
 bool must_lose_with_border(const LikelihoodRatios& ratios, int loss_limit);
 
 }  // namespace dotpose::core

@@ -23,7 +23,7 @@ std::span<const std::int16_t> UnsharedLines::choose_lines(int max_lines) {
 UnsharedLines::UnsharedLines(const LikelihoodRatios& ratios, int max_lines) : ratios_(ratios) {
     const auto losses = choose_lines(max_lines);
     if (losses.empty()) return;
-    // Insertion sort that keeps the smallest losses.
+    // Insertion sort that keeps only the smallest losses.
     std::fill(smallest_sums_.begin() + 1, smallest_sums_.end(), INT32_MAX);
     for (const std::int16_t any : losses) {
         const auto loss = std::max<std::int32_t>(any, 0);
