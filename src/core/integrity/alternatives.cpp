@@ -22,8 +22,8 @@ constexpr int kMaxSharedInARow = code::kOrder;
 /// not become certain.
 constexpr float kBeyondHelp = 1e-4F;
 
-/// Returns the expected sum of the odds of the far alternatives: those that differ in at least
-/// `min_different` sequences and share fewer than `shared_lines` adjacent lines.
+/// Returns the expected sum of the odds of the alternatives that differ in at least `min_different`
+/// sequences and share fewer than `shared_lines` adjacent lines.
 float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int min_different) {
     ExpectedAlternatives expected(lines.ratios.basis, lines.ratios.position, shared_lines - 1,
                                   min_different);

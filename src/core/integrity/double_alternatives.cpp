@@ -11,15 +11,15 @@
 namespace dotpose::core {
 namespace {
 
-/// Minimum of the sum: negligible odds for each of the 190,027 pairs of places at each shift.
-/// Smaller expectations do not change any result.
+/// Lower bound on the result: the odds kNegligible for each of the 190,027 pairs of places at each
+/// shift. No fix may rely on a smaller expectation.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// Safety factor of expectations. The odds at a given position can be larger than the mean over all
-/// positions. On 5,630 axes of hard frames, the odds were at most 21 times the mean.
+/// Safety factor on expected odds, which are means over all positions. The odds at a given position
+/// can be larger. On 5,630 axes of hard frames, the odds were at most 21 times the mean.
 constexpr float kMargin = 32;
 
-/// Set of anchors, one bit per anchor, by rank.
+/// Set of anchors. Bit n is the anchor of rank n.
 using Anchors = std::uint32_t;
 
 /// The anchors, divided into `shared - 1` groups. An alternative that shares `shared` anchors
@@ -27,8 +27,8 @@ using Anchors = std::uint32_t;
 class Groups {
   public:
     Groups(const RankedLines& lines, int anchors, int shared) : count_(shared - 1) {
-        // Assigns anchors to the groups in turn. Anchors of one group are then far apart, so few
-        // alternatives share two of them.
+        // Assigns the anchors to the groups in turn, in the order of the lines. The anchors of a
+        // group are then far apart, and few alternatives share two of them.
         int n = 0;
         for (int line = 0; line < lines.count(); ++line) {
             const int rank = lines.rank(static_cast<std::uint32_t>(line));
@@ -36,7 +36,8 @@ class Groups {
         }
     }
 
-    /// Calls `use` for all pairs of ranks of one group.
+    /// Calls `use(one, other)` for each pair of anchors of the same group. `one` and `other` are
+    /// ranks.
     template <typename Use>
     void visit_pairs(Use use) const {
         for (std::size_t group = 0; group < static_cast<std::size_t>(count_); ++group) {
@@ -48,8 +49,9 @@ class Groups {
         }
     }
 
-    /// Returns true if the alternative with these shared anchors is found at (`one`, `other`)
-    /// before any other pair of anchors.
+    /// Returns true if (`one`, `other`) is the first pair of anchors, in the order of
+    /// `visit_pairs`, that belongs to `shared`. An alternative that shares several pairs of anchors
+    /// is counted only at the first pair.
     bool is_first_pair(Anchors shared, int one, int other) const {
         for (const Anchors group : groups_) {
             const Anchors both = shared & group;
@@ -64,7 +66,8 @@ class Groups {
     std::array<Anchors, kMinFound - 1> groups_{};
 };
 
-/// One byte for each anchor, by rank, and for a few more lines. The vector fits in one register.
+/// One byte for each of the lines of ranks 0 to 15, which include all anchors. The vector fits in
+/// one register.
 using AnchorBytes [[gnu::vector_size(16)]] = std::uint8_t;
 static_assert(sizeof(AnchorBytes) >= kMaxAnchors && sizeof(AnchorBytes) <= kMaxLines);
 
@@ -72,7 +75,8 @@ int at(const RankedLines::Offsets& offsets, int rank) {
     return offsets.all[static_cast<std::size_t>(rank)];
 }
 
-/// Returns offsets from -62 to 62 modulo 63. Negative offsets are stored modulo 256.
+/// Returns differences of offsets, from -62 to 62, modulo 63. Negative differences are passed
+/// modulo 256.
 AnchorBytes modulo_sections(AnchorBytes offsets) {
     return offsets + (static_cast<AnchorBytes>(offsets >= kSections) & kSections);
 }
@@ -88,13 +92,13 @@ AnchorBytes since(int one, const RankedLines::Offsets& offsets) {
     return modulo_sections(anchors_of(offsets) - offsets.all[static_cast<std::size_t>(one)]);
 }
 
-/// Returns the negative of `since`, modulo 63. A pair of places shares the anchors at which `since`
-/// of one place equals `opposite` of the other place.
+/// Returns the negative of `since`, modulo 63. A pair of places that shares the anchor `one` shares
+/// the anchors at which `since` of one place equals `opposite` of the other place.
 AnchorBytes opposite(int one, const RankedLines::Offsets& offsets) {
     return modulo_sections(offsets.all[static_cast<std::size_t>(one)] - anchors_of(offsets));
 }
 
-/// Set of anchors. Anchors in the set have the byte 1.
+/// Set of anchors. The bytes of the anchors in the set are 1, all other bytes are 0.
 class Marks {
   public:
     explicit Marks(AnchorBytes marks) { std::memcpy(halves_.data(), &marks, sizeof marks); }
@@ -103,8 +107,8 @@ class Marks {
     Anchors anchors() const { return bits_of(halves_[0]) | bits_of(halves_[1]) << 8; }
 
   private:
-    /// Returns the lowest bit of each of eight bytes. The multiplication moves each of these bits
-    /// to a different bit of the highest byte.
+    /// Returns the lowest bits of eight bytes, packed into one byte. The multiplication moves each
+    /// of these bits to a different bit of the highest byte.
     static Anchors bits_of(std::uint64_t bytes) {
         return static_cast<Anchors>(bytes * 0x0102040810204080 >> 56);
     }
@@ -112,15 +116,15 @@ class Marks {
     std::array<std::uint64_t, 2> halves_;
 };
 
-/// A place of a sequence, with the offsets that the other place of a pair must have at the shared
-/// anchors.
+/// A place in a sequence, and the offsets that the place in the other sequence of a pair must have
+/// at the shared anchors.
 struct Opposite {
     AnchorBytes offsets;
     const RankedLines::Offsets* place;
 };
 
-/// The places of a sequence, except the place of the reading, in buckets by the difference of their
-/// offsets at two anchors, modulo 63.
+/// The places in a sequence, except the place of the reading, sorted into buckets by the difference
+/// of their offsets at two anchors, modulo 63.
 class Buckets {
   public:
     Buckets(const RankedLines& lines, std::size_t sequence, int one, int other) {
@@ -142,6 +146,7 @@ class Buckets {
         }
     }
 
+    /// Returns the offset at the anchor `one` minus the offset at the anchor `other`, modulo 63.
     static std::size_t offset_less(const RankedLines::Offsets& offsets, int one, int other) {
         const int less = at(offsets, one) - at(offsets, other);
         return static_cast<std::size_t>(less < 0 ? less + kSections : less);
@@ -169,8 +174,8 @@ class Finder {
     float sum() const {
         float sum = 0;
         groups_.visit_pairs([&](int one, int other) {
-            // For each pair of sequences, the places of one sequence are sorted into buckets. This
-            // is never a3, the shortest sequence.
+            // Of each pair of sequences, the places in one sequence are sorted into buckets. This
+            // sequence is never a3, which is the shortest.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });
@@ -178,8 +183,8 @@ class Finder {
     }
 
   private:
-    /// Returns the odds of the alternatives that differ in `sequence` and in one of `others`, and
-    /// share both anchors.
+    /// Returns the summed odds of the alternatives that differ in `sequence` and in one of
+    /// `others`, and are counted at the pair of anchors (`one`, `other`).
     float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others, int one,
                           int other) const {
         const Buckets buckets(lines_, sequence, one, other);
@@ -201,8 +206,8 @@ class Finder {
         return sum;
     }
 
-    /// Returns the odds of a pair of places. `shared` is the sum of their offsets in a line that
-    /// the pair shares.
+    /// Returns the odds of a pair of places at the shift at which it shares a certain line.
+    /// `shared` is the sum of the two offsets in this line.
     float odds(const RankedLines::Offsets& a, const RankedLines::Offsets& b, int shared) const {
         // Adding 126, a multiple of 63, does not change the shift and keeps the index of the loss
         // positive.
@@ -229,9 +234,9 @@ float sum_of_double_alternatives(const RankedLines& lines, float negligible, flo
     const auto expected_odds = [&](int shared) {
         return kMargin * expected[static_cast<std::size_t>(shared)];
     };
-    // If fewer anchors must be shared, more pairs of anchors are visited: 6 of the 66 pairs for
-    // seven shared anchors, 18 for four, all for two. Requiring fewer than four shared anchors is
-    // worth the time only if the fix would be refused otherwise.
+    // The fewer anchors must be shared, the more pairs of anchors are visited: 6 of the 66 pairs
+    // for seven shared anchors, 18 for four, and all 66 for two. Requiring fewer than four shared
+    // anchors is worth the time only if the fix would be refused otherwise.
     constexpr int kMinForDetail = 4;
     int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&

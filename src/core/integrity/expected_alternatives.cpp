@@ -6,9 +6,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Safety factor per step. A string of five digits occurs at most once in a sequence, which is at
-/// most 3^5 / 233 times its frequency in a random sequence. For five steps in all four sequences,
-/// these ratios multiply to 1.12.
+/// Safety factor per step, because the digits of a sequence are not completely random. Any string
+/// of five digits occurs at most once in a sequence (in `libdots`, six strings occur twice). In a
+/// sequence of 233 digits of base 3, this is at most 3^5 / 233 times the frequency in a random
+/// sequence. The product of these ratios over the four sequences is 1.12, which is less than
+/// 1.03^5.
 constexpr float kUnevenness = 1.03F;
 
 }  // namespace
@@ -30,8 +32,8 @@ ExpectedAlternatives::ExpectedAlternatives(const code::Basis& basis, std::uint32
     }
 }
 
-/// Returns the sums by shift after a step. All digits of an alternative are equally probable; the
-/// digits of the reading are known.
+/// Returns the expected odds by roll offset after a step. All digits of an alternative are taken as
+/// equally probable. The digits of the reading are known.
 ExpectedAlternatives::ByShift ExpectedAlternatives::after_step(const Set& set,
                                                                const ByShift& before) const {
     ByShift now = before;
@@ -67,9 +69,9 @@ void ExpectedAlternatives::add_line(const ByShift& odds) {
         for (const float sum : set.shared)
             before[0] += sum;
         const ByShift after = after_step(set, before);
-        // A run of shared lines begins where the shift returns to 0, and continues where all digits
-        // are equal. If the digits of a step differ, the shift changes, so the next line is not
-        // shared.
+        // A run of shared lines begins where the roll offset returns to 0, and continues while all
+        // digits are equal. A step with a different digit changes the roll offset, so it ends the
+        // run.
         float returned = after[0] - before[0] * set.equal;
         returned = returned > 0 ? returned : 0;
         for (std::size_t i = max_shared_ - 1; i > 0; --i) {

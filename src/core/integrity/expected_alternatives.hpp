@@ -1,6 +1,6 @@
-// Expected alternatives: the odds of all positions that differ from the position read in the places
-// of several secondary sequences. There are 4e8 such positions, so the sum is an expectation over
-// their places. docs/integrity.md.
+// Expected alternatives: the expected odds of the positions that differ from the position read in
+// the places in several secondary sequences. There are 4e8 such positions, too many to count one by
+// one, so the odds are averaged over all places. docs/integrity.md derives the expectation.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace dotpose::core {
 
-/// Adds up the expected odds, line by line.
+/// Computes the expected sum of the odds, line by line.
 class ExpectedAlternatives {
   public:
     /// Includes alternatives that share at most `max_shared` adjacent lines with the position read
@@ -18,11 +18,11 @@ class ExpectedAlternatives {
     ExpectedAlternatives(const code::Basis& basis, std::uint32_t position, int max_shared,
                          int min_different);
 
-    /// Adds the next line. `odds` are the odds of an alternative in this line, by its roll offset;
-    /// odds[0] is 1.
+    /// Adds the next line. `odds` contains the odds of an alternative in this line, indexed by its
+    /// roll offset. odds[0] is 1.
     void add_line(const std::array<float, kSections>& odds);
 
-    /// Returns the expected odds over the lines added so far.
+    /// Returns the expected sum of the odds over the lines added so far.
     float sum() const;
 
   private:
@@ -32,13 +32,17 @@ class ExpectedAlternatives {
 
     using ByShift = std::array<float, kSections>;
     struct Set {
-        unsigned different = 0;  ///< set of sequences, one bit per sequence
+        unsigned different = 0;  ///< sequences in which the places differ, one bit per sequence
         float alternatives = 0;  ///< number of alternatives
-        /// Probability that all digits of a step equal the digits of the reading.
+        /// Probability that an alternative has the same digits as the reading in a step, including
+        /// the safety factor.
         float equal = 1;
-        ByShift sums{};  ///< sums indexed by the current shift; element 0 is not used
-        std::array<float, kMaxShared>
-            shared{};  ///< sums at shift 0, indexed by the number of adjacent shared lines minus 1
+        /// Expected odds of the alternatives that do not share the newest line, indexed by their
+        /// roll offset in this line. Element 0 is not used.
+        ByShift sums{};
+        /// Expected odds of the alternatives that share exactly the newest n + 1 lines, indexed by
+        /// n.
+        std::array<float, kMaxShared> shared{};
     };
 
     ByShift after_step(const Set& set, const ByShift& before) const;

@@ -6,19 +6,19 @@
 namespace dotpose::core {
 namespace {
 
-/// Safety factor per step, as `kUnevenness` in expected_alternatives.cpp.
+/// Safety factor per step: `kUnevenness` in expected_alternatives.cpp.
 constexpr float kUnevenness = 1.03F;
-/// Lower bounds on odds and sums. The bounds avoid denormal numbers, which are slow. Sums start at
-/// the large number kStart, so the lower bounds contribute little even if other rolls fit some
-/// lines much better.
+/// Lower bounds on odds and sums, which avoid denormal numbers, because denormal numbers are slow.
+/// Sums start at kStart, which is so large that the lower bounds contribute little, even if other
+/// rolls fit some lines much better than the reading.
 constexpr float kMinOdds = 0x1p-40F;
 constexpr float kMinSum = 0x1p-80F;
 constexpr float kStart = 0x1p40F;
 
 using ByShift = std::array<float, kSections>;
 
-/// Alternatives that differ in two given sequences. Accumulates their odds over the lines added so
-/// far.
+/// The alternatives that differ in two given sequences. Accumulates their expected odds over the
+/// lines added so far.
 class Pair {
   public:
     Pair(const code::Secondary& a, const code::Secondary& b, std::uint32_t position)
@@ -37,7 +37,8 @@ class Pair {
             advance(b_, place_b_);
         }
         is_first_ = false;
-        // Sum at shift 0, by the number of shared anchors. The odds of a shared line are 1.
+        // Sums at shift 0, indexed by the number of shared anchors. The odds of a shared line are
+        // 1.
         std::array<float, kMinFound> shared;
         for (std::size_t n = 0; n < sums_.size(); ++n) {
             shared[n] = sums_[n][0];
@@ -47,7 +48,7 @@ class Pair {
         }
     }
 
-    /// Adds the odds of the alternatives to `totals`, by the number of shared anchors.
+    /// Adds the expected odds of the alternatives that share n anchors to totals[n].
     void add_to(std::span<float, kMinFound> totals) const {
         const float alternatives = static_cast<float>(a_.length * b_.length) / kStart;
         for (std::size_t n = 0; n < sums_.size(); ++n) {
@@ -61,8 +62,8 @@ class Pair {
         if (++place == of.length) place = 0;
     }
 
-    /// Applies a step in one sequence to the sums by shift. All digits of an alternative are
-    /// equally probable; the digits of the reading are known.
+    /// Updates the sums by shift for a step in one sequence. All digits of an alternative are taken
+    /// as equally probable. The digits of the reading are known.
     static void step(const code::Secondary& of, std::uint32_t place, float factor, ByShift& sums) {
         // The sums are stored twice in a row, which makes every cyclic shift of them contiguous.
         std::array<float, 2 * kSections> before;

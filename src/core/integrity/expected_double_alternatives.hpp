@@ -1,19 +1,20 @@
-// Expected double alternatives: the odds of all positions that differ from the position read in the
-// places of two secondary sequences, by the number of lines that they share with it. The odds are
-// an expectation over the places. docs/integrity.md.
+// Expected double alternatives: the expected odds of the positions that differ from the position
+// read in the places in two secondary sequences, by the number of anchors that they share with it.
+// The odds are averaged over all places. docs/integrity.md derives the expectation.
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"
 
 namespace dotpose::core {
 
-/// Maximum number of anchors. The anchors are the lines with the highest ranks.
+/// Maximum number of anchors. The anchors are the lines with the most information, which have the
+/// first ranks.
 inline constexpr int kMaxAnchors = 12;
 /// Alternatives that share at least this number of anchors are always counted one by one.
 inline constexpr int kMinFound = 7;
 
-/// Returns, for each n, the expected odds of all alternatives that share fewer than n of the
-/// `anchors` lines with the highest ranks.
+/// Returns the expected sum of the odds of all double alternatives that share fewer than n anchors,
+/// indexed by n. The anchors are the lines of ranks 0 to `anchors` - 1.
 std::array<float, kMinFound + 1> expected_double_alternatives(const RankedLines& lines,
                                                               int anchors);
 

@@ -1,6 +1,6 @@
 // Minimum losses: lower bounds on the loss of every alternative. The bounds hold because no
 // alternative shares more than `LikelihoodRatios::max_shared` adjacent lines with the position
-// read. In most frames, they show that no alternative matters.
+// read. In most frames, these bounds show that no alternative matters.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"

@@ -9,24 +9,24 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of repetitions of the shortest sequence that contain more than the maximum number of
-/// lines.
-constexpr std::uint32_t kTurns = kMaxLines / code::kA3.size() + 1;
+/// Number of periods of the shortest sequence that contain more than kMaxLines places. Added to a
+/// place, these periods keep the difference from the index of a line positive.
+constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 
-/// The places in one sequence at which the digits of a run of lines occur, including the place of
-/// the reading.
+/// The places in one sequence where the digits of the reading in a run of lines occur, including
+/// the place of the reading.
 class TwinPlaces {
   public:
     /// The run begins at line `run` and has `digits` + 1 lines.
     TwinPlaces(const RankedLines& lines, std::size_t sequence, std::uint32_t run, int digits) {
         const code::Secondary& a = lines.ratios.basis[sequence];
         const std::uint32_t own = (lines.ratios.places[sequence] + run) % a.length;
-        // The place of the reading is first in the list. The places before it in the sequence are
-        // last.
+        // Lists the place of the reading first, then the places after it, then the places before
+        // it.
         for (const bool before : {false, true}) {
             const auto add = [&](std::uint32_t place) {
                 if ((place < own) != before) return;
-                const std::uint32_t first = (place + kTurns * a.length - run) % a.length;
+                const std::uint32_t first = (place + kPeriods * a.length - run) % a.length;
                 twins_[count_++] = since_run(lines, sequence, first, run);
             };
             for (std::uint32_t word = 0; 32 * word < a.length; ++word)
@@ -34,12 +34,11 @@ class TwinPlaces {
         }
     }
 
-    /// A place: its offsets, and the offsets of the first eight lines minus the offset of the first
-    /// line of the run, modulo 63.
+    /// A place with its roll offsets.
     struct Twin {
-        EightOffsets first = 0;
+        EightOffsets first = 0;  ///< offsets in the lines of ranks 0 to 7 minus `at_run`, modulo 63
         const RankedLines::Offsets* offsets;
-        int at_run;
+        int at_run;  ///< offset in the first line of the run
     };
     std::span<const Twin> all() const { return std::span(twins_).first(count_); }
 
@@ -61,8 +60,8 @@ class TwinPlaces {
 
 using OneOfEach = std::array<const TwinPlaces::Twin*, 4>;
 
-/// Returns the odds of an alternative that shares a run of lines. `first` is the sum of the members
-/// `first` of its twins.
+/// Returns the odds of an alternative that shares a run of lines. `twins` contains its place in
+/// each sequence, and `first` is the sum of `Twin::first` over these places.
 float odds_of_twins(const RankedLines& lines, EightOffsets first, const OneOfEach& twins) {
     int lost = lines.loss_of_first(first);
     for (int rank = 8; rank < lines.count() && !lines.ratios.is_hopeless(lost); ++rank) {
@@ -76,14 +75,14 @@ float odds_of_twins(const RankedLines& lines, EightOffsets first, const OneOfEac
     return lines.ratios.is_hopeless(lost) ? kNegligible : lines.ratios.odds(lost);
 }
 
-/// Returns the summed odds of the alternatives that share the lines of one run.
+/// Returns the summed odds of the alternatives that share all lines of one run.
 float sum_of_twins(const RankedLines& lines, const std::array<TwinPlaces, 4>& places) {
     float sum = 0;
     bool is_own = true;  // the first combination is the reading itself
     for (const auto& a : places[0].all()) {
         for (const auto& b : places[1].all()) {
             for (const auto& c : places[2].all()) {
-                // Bytes do not overflow, because 4 * 62 = 248.
+                // No byte of the sums overflows, because 4 * 62 = 248.
                 const EightOffsets first = a.first + b.first + c.first;
                 for (const auto& d : places[3].all()) {
                     if (!is_own) sum += odds_of_twins(lines, first + d.first, {&a, &b, &c, &d});

@@ -1,16 +1,15 @@
 // Near alternatives: positions that share several adjacent lines with the position read.
-// docs/integrity.md.
+// docs/integrity.md derives their odds.
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"
 
 namespace dotpose::core {
 
-/// Returns the summed odds of all alternatives that share at least `shared_lines` adjacent lines, 4
-/// or 5. The alternatives are counted one by one, from the places in the secondary sequences at
-/// which the 3 or 4 digits between these lines occur again. The result is an upper bound:
-/// alternatives that share more lines are counted more than once, and hopeless alternatives count
-/// as negligible.
+/// Returns an upper bound on the summed odds of all alternatives that share at least `shared_lines`
+/// adjacent lines, 4 or 5. Counts the alternatives one by one, from the places in the secondary
+/// sequences where the 3 or 4 digits between these lines occur again. Alternatives that share more
+/// lines are counted more than once. Hopeless alternatives count with the odds kNegligible.
 float sum_of_near_alternatives(const RankedLines& lines, int shared_lines);
 
 }  // namespace dotpose::core

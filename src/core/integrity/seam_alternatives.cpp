@@ -11,16 +11,17 @@
 namespace dotpose::core {
 namespace {
 
-/// Prior probability that a given border between two lines is a seam between two sections with a
-/// given difference of rolls. With this value, a position is accepted if a seam explains the view
-/// equally well, but not if a seam explains it better.
+/// Prior probability, as log2 in units of 2^-8, that a given border between two lines is a seam
+/// between two sections with a given difference of rolls. With this value and the default limit, a
+/// position is accepted if a seam explains the view equally well, and refused if a seam explains
+/// the view better by two bits.
 constexpr int kSeam_q8 = -32 * 256;
-/// Odds relative to the position read below which an alternative is not counted.
+/// Minimum odds, without the prior, of an alternative that is counted, as log2 in units of 2^-8.
 constexpr int kMin_q8 = -8 * 256;
 
-/// Minimum losses of an alternative before each line, and from each line to the last line, over its
-/// shifts. Skips shifts that lose at least the limit, regardless of the shift on the other side of
-/// the border.
+/// Minimum losses of an alternative on both sides of each border, over all shifts. Ignores a shift
+/// if an alternative at this shift on one side of the border loses at least the limit, regardless
+/// of its shift on the other side.
 class LossesByBorder {
   public:
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
@@ -28,7 +29,8 @@ class LossesByBorder {
         before_.fill(kNone);
         from_.fill(kNone);
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios.count()));
-        // Loss of the lines that an alternative shares at each shift.
+        // Summed minimum losses of the lines that the alternative shares at each shift. The
+        // alternative avoids these losses.
         std::array<int, kSections> kept{};
         int in_all = 0;
         int max_kept = 0;
@@ -43,6 +45,7 @@ class LossesByBorder {
         }
     }
 
+    /// Returns the minimum loss if the border is before `line`.
     int with_border_before(int line) const {
         const auto i = static_cast<std::size_t>(line);
         return before_[i] + from_[i];
@@ -57,8 +60,8 @@ class LossesByBorder {
         const auto loss_in = [&](int line) {
             return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
-        // Once the loss on one side reaches the limit, the shift can be ignored, regardless of the
-        // loss on the other side.
+        // Stops when the loss on one side of the border reaches the limit. The alternative then
+        // cannot matter at this border or beyond it, regardless of its loss on the other side.
         int lost = 0;
         for (int line = 0; line < count && lost < loss_limit_; ++line) {
             update_min(before_[static_cast<std::size_t>(line)], lost);
@@ -73,8 +76,8 @@ class LossesByBorder {
 
     const LikelihoodRatios& ratios_;
     int loss_limit_;
-    std::array<int, kMaxLines> before_;
-    std::array<int, kMaxLines> from_;
+    std::array<int, kMaxLines> before_;  ///< minimum loss in all lines before each line
+    std::array<int, kMaxLines> from_;    ///< minimum loss from each line to the last line
 };
 
 /// Adds up the odds of the seam alternatives that explain the lines about as well as the reading.
@@ -83,7 +86,7 @@ class SeamAlternatives {
     SeamAlternatives(const LikelihoodRatios& ratios, int loss_limit)
         : ratios_(ratios), loss_limit_(loss_limit) {}
 
-    /// Adds the alternatives with another place in one sequence, with a seam at any border.
+    /// Adds the alternatives with the place `place` in `sequence`, with a seam at each border.
     void add(std::size_t sequence, std::uint32_t place) {
         RollOffsets offsets;
         set_roll_offsets(ratios_, sequence, place, offsets);
@@ -106,8 +109,8 @@ int loss_limit_of(const LikelihoodRatios& ratios) {
     return ratios.loss_for(kMin_q8) + ratios.max_gain();
 }
 
-/// Returns the losses of all steps, in parts. An alternative that loses `StepLosses::kLimitParts`
-/// parts loses at least the limit, even if one step (the step across the border) is ignored.
+/// Returns the loss in each step, in parts. An alternative that loses `StepLosses::kLimitParts`
+/// parts loses at least the limit, even if one step is ignored: the step across the border.
 StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {
     StepLosses steps;
     steps.count = ratios.count() - 1;

@@ -1,5 +1,5 @@
-// Seam alternatives: the odds that a seam in view, between two sections with the same positions,
-// explains the lines better than the position read. docs/integrity.md derives them.
+// Seam alternatives: the odds that the view contains a seam between two sections with the same
+// positions, relative to the odds of the position read. docs/integrity.md derives the odds.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -8,10 +8,10 @@
 
 namespace dotpose::core {
 
-/// Returns the summed odds, as log2 in units of 2^-8, of the positions that differ from the
-/// position read in one sequence, at one shift before a border between two lines and at another
-/// shift beyond the border. Only positions that explain the lines about as well as the position
-/// read are counted.
+/// Returns log2 of the summed odds of all seam alternatives, in units of 2^-8. A seam alternative
+/// differs from the position read in the place in one sequence. Its rolls have one shift before a
+/// border between two lines, and another shift beyond the border. Only seam alternatives that
+/// explain the lines about as well as the position read are counted.
 int seam_alternatives_log2_q8(const LikelihoodRatios& ratios);
 
 /// Returns the same sum, but uses kernels to search for the alternatives.

@@ -5,7 +5,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Losses of 32 alternatives in bit-sliced counters. Each alternative has one bit.
+/// Losses of 32 alternatives, in counters of four bits. Each word contains one bit of all counters.
 class Losses {
   public:
     explicit Losses(std::uint32_t excluded) : excluded_(excluded) {}
@@ -18,11 +18,13 @@ class Losses {
         add_digit(eights_, has_bit(parts, 3), alternatives, carry);
         excluded_ |= carry;
     }
-    /// Returns the alternatives that have reached the limit.
+    /// Returns the alternatives that have reached the limit, and those that were excluded from the
+    /// start.
     std::uint32_t excluded() const { return excluded_; }
 
   private:
-    /// Tests a bit by shifting it to the sign bit, which takes fewer instructions.
+    /// Returns true if a bit is set. Shifting the bit to the sign bit takes fewer instructions than
+    /// masking it.
     static bool has_bit(unsigned n, int bit) {
         return static_cast<std::int32_t>(n << (31 - bit)) < 0;
     }
@@ -36,7 +38,7 @@ class Losses {
         digit ^= alternatives;
     }
 
-    // Counters start at 1, so a loss of 15 parts carries.
+    // Counters start at 1, so a loss of 15 parts carries out of the highest bit.
     static_assert(kLimitParts == 15);
     std::uint32_t ones_ = ~std::uint32_t{0};
     std::uint32_t twos_ = 0;
@@ -60,7 +62,8 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
     }
     constexpr int kParts = kLimitParts;
     const int part = (needed + kParts - 1) / kParts;
-    // Maximum loss up to a step if no two adjacent steps are counted.
+    // Maximum loss up to the current step, and up to the step before it, if no two adjacent steps
+    // are counted.
     int max_loss = 0;
     int max_loss_before = 0;
     for (int step = 0; step < count; ++step) {
@@ -101,7 +104,8 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     for (const Step& step : std::span(steps_).first(count_)) {
         const std::uint32_t* here = step.places + word;
         const std::uint32_t equal = here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
-        // A line that belongs to two steps must not be counted twice.
+        // A line must not be counted in both of its steps. A step is therefore counted only if the
+        // step before it is not.
         if (step.ahead != before + 1) counted = 0;
         before = step.ahead;
         counted = ~(equal | counted);

@@ -1,50 +1,53 @@
 // Similar places: the places of a sequence whose digits are so similar to the digits of the reading
-// that their alternatives may matter. The search processes 32 places at a time, one per bit.
+// that alternatives at these places may matter. The search processes 32 places at a time, one per
+// bit.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
 
 namespace dotpose::core {
 
-/// Maximum number of steps between adjacent lines in which digits are compared.
+/// Maximum number of steps in which digits are compared. A step leads from one line to the next.
 inline constexpr int kMaxSteps = 18;
 
 /// Number of parts into which the loss limit is divided.
 inline constexpr unsigned kLimitParts = 15;
 
-/// Steps at which an alternative is excused. The alternative loses nothing in an excused step,
-/// regardless of its digit.
+/// Steps in which an alternative loses nothing, regardless of its digit. In a seam alternative,
+/// this is the step across the border.
 enum class Excused : std::uint8_t { none, any_one };
 
-/// Lower bound on the loss of an alternative in each step where its digit differs from the digit of
-/// the reading. Such an alternative does not share at least one of the two lines of the step, so it
-/// loses at least the smaller of their minimum losses. `losses` is in units of 1/kLimitParts of the
-/// loss that excludes a place, rounded down.
+/// The steps in which digits are compared, and the loss of an alternative in each step where its
+/// digit differs from the digit of the reading. Such an alternative does not share at least one of
+/// the two lines of the step, so it loses at least the smaller of their minimum losses.
 struct Steps {
     Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused);
 
-    int count;
-    int first_line;
+    int count;       ///< number of steps, in the middle of the view
+    int first_line;  ///< line at which the first step begins
+    /// Lower bound on the loss in each step, in units of 1/kLimitParts of the loss that excludes a
+    /// place, rounded down.
     std::array<std::uint8_t, kMaxSteps> losses;
-    bool can_exclude = false;  ///< true if any place can lose the limit
+    /// True if a place with different digits in all steps reaches the loss that excludes it.
+    bool can_exclude = false;
 };
 
-/// The places that may lose less than the limit. A place is identified by its index at the first
-/// step.
+/// The places of a sequence that may lose less than the limit. A place is identified by the index
+/// of its digit in the first step.
 class SimilarPlaces {
   public:
     /// `own` is the place of the reading at the first step of `steps`.
     SimilarPlaces(const code::Secondary& a, std::uint32_t own, const Steps& steps);
 
-    /// Returns the similar places among places 32 * word to 32 * word + 31, one bit per place.
+    /// Returns the similar places among the places 32 * word to 32 * word + 31, one bit per place.
     /// Excludes the place of the reading.
     std::uint32_t operator[](std::uint32_t word) const;
 
   private:
     struct Step {
-        const std::uint32_t* places;  ///< places at which the digit of the reading occurs
+        const std::uint32_t* places;  ///< bit set of the places with the digit of the reading
         std::uint8_t ahead;           ///< index of the step
-        std::uint8_t parts;           ///< loss of the step, in parts of the limit
+        std::uint8_t parts;           ///< loss in the step, as in `Steps::losses`
     };
     const code::Secondary& sequence_;
     std::uint32_t own_;
@@ -52,7 +55,8 @@ class SimilarPlaces {
     std::array<Step, kMaxSteps> steps_;
 };
 
-/// Calls `use` for each place whose bit is set in a word. `word` is the index of the word.
+/// Calls `use(place)` for each bit that is set in `places`. `places` is the word with index `word`
+/// of a bit set of places.
 template <typename Use>
 void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
     for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
@@ -60,8 +64,8 @@ void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
     }
 }
 
-/// Calls `use` with the sequence and the place of each similar place, at the first line. Skips
-/// sequences for which `is_settled` returns true.
+/// Calls `use(k, place)` for each similar place of each sequence k. `place` is the place at the
+/// first line of the view. Skips the sequences for which `is_settled(k)` returns true.
 template <typename IsSettled, typename Use>
 void visit_similar_places(const LikelihoodRatios& ratios, const Steps& steps, IsSettled is_settled,
                           Use use) {

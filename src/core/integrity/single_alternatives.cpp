@@ -3,11 +3,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the odds of a single alternative that shares the line of rank `shared`. Returns 0 if the
-/// alternative shares a line of a lower rank, because it was counted at that rank.
+/// Returns the odds of a single alternative at the shift at which it shares the line of rank
+/// `shared`. Returns 0 if the alternative also shares a line of smaller rank at this shift, because
+/// it was counted at that line.
 float odds_of_single(const RankedLines& lines, const RankedLines::Offsets& alternative,
                      int shared) {
-    // With this base, the shared line has the sum 126, which is shift 0 modulo 63.
+    // `base` makes the offset in the shared line 126, which is 0 modulo 63. All other offsets
+    // remain positive.
     const int base = 2 * kSections - alternative.all[static_cast<std::size_t>(shared)];
     int lost = lines.loss_of_first(alternative.first + kInEach * static_cast<unsigned>(base));
     if (lines.ratios.is_hopeless(lost)) return kNegligible;
