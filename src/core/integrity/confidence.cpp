@@ -13,18 +13,20 @@ constexpr std::array<std::int32_t, 34> kLog2OfOneAnd{
     1466,  1039,  736,   521,   369,   261,   185,   131,  93,   66,   47,   33,
     24,    17,    12,    9,     6,     5,     3,     3,    2,    2};
 
-/// Returns an upper bound on log2(1 + 2^-n). The function is convex, so its chords are above it.
+/// Returns an upper bound on log2(1 + 2^-n), in units of 2^-16. The function is convex, so its
+/// chords are above the function.
 int log2_of_one_and_q16(int n_q8) {
     const auto i = static_cast<std::size_t>(n_q8 >> 7);
     return kLog2OfOneAnd[i] - ((kLog2OfOneAnd[i] - kLog2OfOneAnd[i + 1]) * (n_q8 & 127) >> 7);
 }
 
+/// Returns the log odds of the bits of a level.
 int log_odds_q8(int odds_per_bit_q8, int level) {
     // 129 / 2^14 is about 1 / 127.
     return (odds_per_bit_q8 * Confidence::weight_of(level) * 129) >> 14;
 }
 
-/// Returns the fraction of bits that are wrong at the given log odds, in units of 2^-16.
+/// Returns the expected fraction of wrong bits at the given log odds, in units of 2^-16.
 std::uint32_t wrong_fraction_q16(int log_odds_q8) {
     if (log_odds_q8 >= 15 * 256) return 1;
     return UINT32_MAX / (65536 + static_cast<std::uint32_t>(exp2_q16(log_odds_q8)));
@@ -53,7 +55,6 @@ int odds_per_bit_q8(const Confidence& confidence) {
     std::array<Weighted, Confidence::kLevels> levels;
     std::size_t count = 0;
     std::uint32_t allowed = 2 * 127;
-    // The levels with the strongest bits come first.
     for (int level = Confidence::kLevels; level-- > 0;) {
         const int bits = confidence.bits(level);
         if (bits == 0) continue;

@@ -1,5 +1,5 @@
 // Confidence: the reliability of the bits, and the probability that random bits agree with the code
-// equally well. docs/integrity.md derives both.
+// equally well. docs/integrity.md derives the formulas.
 #pragma once
 
 #include <array>
@@ -8,13 +8,14 @@
 
 namespace dotpose::core {
 
-/// Histogram of the bits, by weight in steps of 8 and by agreement with the code.
+/// Histogram of bits, by weight in steps of 8 and by agreement with the code.
 class Confidence {
   public:
     static constexpr int kLevels = 16;
-    /// Returns the weight that represents a level.
+    /// Returns the weight that represents the bits of a level: the middle of the level.
     static constexpr int weight_of(int level) { return 8 * level + 4; }
-    /// Returns the histogram of hard bits, which all have the maximum weight.
+    /// Returns the histogram of `bits` hard bits, which all have the maximum weight. `wrong` of
+    /// these bits are wrong.
     static Confidence of_hard_bits(int bits, int wrong) {
         constexpr int kMaxWeight = 127;
         Confidence confidence;
@@ -59,19 +60,22 @@ class Confidence {
 };
 
 /// Returns the odds that a bit of weight 127 is correct, as log2 in units of 2^-8, in [0, 16 *
-/// 256]. The log odds of a weaker bit are proportional to its weight. The estimate is the value at
-/// which the expected weight of wrong bits equals the observed weight plus two full bits (logistic
-/// regression, maximum likelihood). Returns 0 if the bits carry no information.
+/// 256]. The log odds of a weaker bit are proportional to its weight. At the returned odds, the
+/// expected weight of wrong bits equals the observed weight plus two bits of full weight (logistic
+/// regression by maximum likelihood, with a margin of two bits). Returns 0 if the bits carry no
+/// information.
 int odds_per_bit_q8(const Confidence& confidence);
 
-/// Returns log2 of an upper bound on the probability that random bits of these weights agree
-/// equally well with any position, section and turn of one axis. There are L * 63 * 4 hypotheses.
-/// The probability of each hypothesis is bounded by the Chernoff bound, with weights scaled to log
-/// odds. The bound holds for any odds and is smallest near the true odds.
+/// Returns log2 of an upper bound on the probability that random bits of these weights agree at
+/// least as well with the code, at any position, in any section and turn of one axis. These are L *
+/// 63 * 4 hypotheses. Chernoff's bound, with weights scaled to log odds, limits the probability for
+/// each hypothesis. The result is an upper bound for any value of `odds_per_bit_q8`, and is
+/// smallest near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
-/// Returns the bound computed by `chance_log2` in units of 2^-8, for 2^(log2_times_q8 / 256) times
-/// as many hypotheses. Uses the given odds or odds of 2^16, whichever gives the smaller bound.
+/// Returns the same bound as `chance_log2`, but in units of 2^-8 and for 2^(log2_times_q8 / 256)
+/// times the number of hypotheses. Uses the given odds or odds of 2^16, whichever gives the smaller
+/// bound.
 int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8);
 
 }  // namespace dotpose::core

@@ -14,28 +14,30 @@ namespace {
 
 /// log2 of the number of places of all four sequences (741), in units of 2^-8, rounded up.
 constexpr int kSingles_q8 = 2441;
-/// Odds below which no tighter bound is computed.
+/// Odds of the far alternatives, as log2 in units of 2^-8, below which no tighter bound is
+/// computed.
 constexpr int kSmallOdds_q8 = -36 * 256;
-/// The default limit. Bounds are at least as tight as this limit requires, even if the caller
-/// accepts more doubt.
+/// Default limit, as log2 in units of 2^-8. Bounds are as tight as this limit requires, even if the
+/// caller permits larger odds.
 constexpr int kUsualLimit_q8 = -30 * 256;
-/// Upper bound on the odds charged for each pruned single alternative, as log2.
+/// Odds charged for each pruned single alternative, which are at least its true odds, as log2 in
+/// units of 2^-8.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 
 /// Odds of an alternative in a line that it does not share, as log2 in units of 2^-8.
 struct LineOdds {
-    int best_q8;  ///< at the roll with the minimum loss
-    int sum_q8;   ///< sum over all rolls except the roll of the reading
+    int best_q8;  ///< odds of the best roll except the roll of the reading
+    int sum_q8;   ///< summed odds of all rolls except the roll of the reading
 };
 using AllLineOdds = std::array<LineOdds, kMaxLines>;
 
-/// 2^-b in units of 2^-12, rounded up, for b in steps of half a bit.
+/// 2^-b in units of 2^-12, rounded up, for b = 0, 1/2, 1, ...
 constexpr std::array<std::uint16_t, 26> kPowers{4096, 2897, 2048, 1449, 1024, 725, 512, 363, 256,
                                                 182,  128,  91,   64,   46,   32,  23,  16,  12,
                                                 8,    6,    4,    3,    2,    2,   1,   1};
 
-/// Returns log2 of the sum of 2^-b over all rolls except the roll of the reading, where b is the
-/// loss of a roll, in bits, minus the loss of the best of these rolls.
+/// Returns log2 of the summed odds of all rolls except the roll of the reading, divided by the odds
+/// of the best of these rolls, in units of 2^-8, rounded up.
 int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     const std::int16_t* scores = ratios.lines[line].data();
     const int own = ratios.own_roll(line);
@@ -44,8 +46,8 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
         const auto half_bits = static_cast<std::size_t>(-ratios.log2_odds_q8(best - score) >> 7);
         return kPowers[std::min(half_bits, kPowers.size() - 1)];
     };
-    // Most rolls lose at least 12 bits. The power of such a roll is the smallest power in the
-    // table.
+    // Most rolls lose at least 12 bits more than the best roll. Their odds are the last element of
+    // the table.
     const int min_power_score = best - ratios.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
     for (int roll = 0; roll < kSections; ++roll)
@@ -54,21 +56,22 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     return log2_at_most_q8(sum_q12) - 12 * 256;
 }
 
-/// Returns an upper bound on the sum that `ExpectedAlternatives` computes for one set. All shifts
-/// at which a line is not shared are merged into one state. The probability of a step to any one of
-/// these shifts is at most p, the probability that the next line is also shared. The contribution
-/// of a line therefore has two bounds: p times the sum of its odds over all rolls, and its best
-/// odds.
+/// Returns log2 of an upper bound on the sum that `ExpectedAlternatives` computes for one set, in
+/// units of 2^-8. All shifts at which a line is not shared are merged into one state. A step leads
+/// to any one of these shifts with at most the probability p that all digits of the step are equal.
+/// A line that is not shared therefore multiplies the odds by at most p times the summed odds of
+/// all other rolls, and by at most the odds of the best of these rolls.
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
     const auto max_shared = static_cast<std::size_t>(ratios.max_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
-    // All sums are divided by the probability that all lines so far are shared. The sum of the
-    // alternatives that share exactly the newest n lines is then constant.
+    // Sums of the alternatives that share all lines from a certain line to the newest line, by this
+    // first line. All sums in this function are divided by the probability that the digits of all
+    // steps so far are equal. Each element of `sharing` is therefore constant.
     std::array<int, kMaxShared + kMaxLines> sharing;
-    // Sums of each element of `sharing` and its predecessor. Adding pairs halves the number of
-    // terms.
+    // Sums of each element of `sharing` and the element before it. Adding pairs halves the number
+    // of terms.
     std::array<int, kMaxShared + kMaxLines> pairs;
     std::fill_n(sharing.begin(), kMaxShared, kNever_q8);
     std::fill_n(pairs.begin(), kMaxShared, kNever_q8);
@@ -90,13 +93,14 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
     return sum + (ratios.count() - 1) * equal + set.alternatives_q8;
 }
 
-/// Returns an upper bound on the odds, over all sets, of the alternatives that share at most seven
-/// lines. Such an alternative loses at least the minimum loss of each line that it does not share.
-/// Its roll in the first line is arbitrary, and there are fewer than 2^lines subsets of shared
-/// lines.
+/// Returns log2 of an upper bound on the odds of the alternatives of all sets that share at most
+/// seven lines, in units of 2^-8. Such an alternative loses at least the minimum losses of all
+/// lines except the seven largest losses. The odds of this loss are multiplied by the number of
+/// alternatives, the number of rolls in the first line, and the number of subsets of shared lines,
+/// which is at most 2^lines.
 int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
     constexpr std::size_t kFew = 7;
-    std::array<int, kFew> largest{};  // the largest losses
+    std::array<int, kFew> largest{};  // the largest losses, in decreasing order
     int lost = 0;
     for (int line = 0; line < ratios.count(); ++line) {
         int loss = ratios.min_loss(line);
@@ -112,8 +116,9 @@ int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
            (256 + kUnevenness_q8) * ratios.count() + ratios.log2_odds_q8(lost);
 }
 
-/// Returns the sum over all sets. If `roughly` is true, the number of rolls times the best odds
-/// replaces the sum over rolls. Stops adding sets as soon as the sum exceeds `max_log2_q8`.
+/// Returns log2 of an upper bound on the odds of the far alternatives of all sets, in units of
+/// 2^-8. If `roughly` is true, the number of rolls times the best odds replaces the sum over the
+/// rolls of a line. Stops adding sets as soon as the sum exceeds `max_log2_q8`.
 int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     AllLineOdds odds;
     odds[0] = {};
@@ -125,9 +130,10 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
         odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
-    // The other four sets contain more alternatives, but these share lines more rarely. In each of
-    // these sets, the alternatives that share more than seven lines have less than half of the odds
-    // of the first set.
+    // The other four sets contain more alternatives, but these alternatives share lines more
+    // rarely. In each of these sets, the alternatives that share more than seven lines have less
+    // than half of the odds of the first set. For all five sets, these odds are less than three
+    // times the odds of the first set.
     constexpr int kThreeTimes_q8 = 406;
     if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
         const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(ratios));
@@ -140,13 +146,14 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     return sum;
 }
 
-/// Adds up the odds of single alternatives, at every shift at which they share enough lines to
-/// matter.
+/// Adds up the odds of single alternatives, at every shift at which an alternative shares enough
+/// lines to matter.
 class ByShift {
   public:
     ByShift(const LikelihoodRatios& ratios, int loss_limit);
 
-    /// Returns `sum` plus the odds of the alternative with another place in one sequence.
+    /// Returns `sum` plus the odds of the single alternative with the place `place` in `sequence`.
+    /// Both sums are log2 in units of 2^-8.
     int add(std::size_t sequence, std::uint32_t place, int sum) {
         if (sequence != sequence_) begin(sequence);
         return may_matter(rolls_ + place) ? add_closely(place, sum) : sum;
@@ -154,7 +161,7 @@ class ByShift {
 
   private:
     struct Loss {
-        std::uint16_t least;  ///< minimum loss of the alternatives that do not share the line
+        std::uint16_t least;  ///< minimum loss of an alternative that does not share the line
         std::uint8_t line;
         /// Contribution of the sequence, at the place of the reading, to the roll of the line.
         std::uint8_t own = 0;
@@ -174,16 +181,18 @@ class ByShift {
     std::size_t sequence_ = SIZE_MAX;
     const std::uint8_t* rolls_ = nullptr;
     std::uint32_t loss_limit_;
-    std::size_t count_ = 0;               ///< number of lines with a loss
-    std::array<Loss, kMaxLines> losses_;  ///< in decreasing order
+    std::size_t count_ = 0;               ///< number of lines with a positive minimum loss
+    std::array<Loss, kMaxLines> losses_;  ///< sorted by decreasing loss
     std::uint32_t in_all_ = 0;            ///< sum of all losses
-    /// Number and sum of the first losses. The sum of the first losses stays below the limit even
-    /// without the largest loss, which an alternative may keep.
+    /// Number and sum of the first losses. An alternative that shares the line with the largest
+    /// loss cannot lose the limit in the first lines alone.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
-    /// Sum of the losses of the lines kept at each shift, plus `none_`. Smaller values are left
-    /// over from earlier alternatives.
+    /// Losses that an alternative avoids at each shift, because it shares lines, plus `none_`.
+    /// Values below `none_` are left over from earlier alternatives and count as `none_`.
     std::array<std::uint32_t, kSections> kept_{};
+    /// Value in `kept_` that represents no avoided loss. Increasing the value for each alternative
+    /// resets `kept_`.
     std::uint32_t none_;
 };
 
@@ -222,7 +231,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // If an alternative keeps at most this sum, it loses the limit in the lines visited so far.
+    // An alternative that avoids at most this loss loses at least the limit in the lines visited so
+    // far.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);
@@ -232,12 +242,12 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     return true;
 }
 
-/// Adds the odds of a place at all shifts that matter, line by line. Not inlined, to save
-/// registers.
+/// Returns `sum` plus the odds of a place at all shifts that matter, computed line by line. Not
+/// inlined, to save registers.
 [[gnu::noinline]] int ByShift::add_closely(std::uint32_t place, int sum) const {
     RollOffsets offsets;
     set_roll_offsets(ratios_, sequence_, place, offsets);
-    std::array<std::uint32_t, kSections> kept;  // indexed by the shift at which lines are shared
+    std::array<std::uint32_t, kSections> kept;  // avoided losses, indexed by shift
     for (int line = 0; line < ratios_.count(); ++line)
         kept[offsets[static_cast<std::size_t>(line)]] = 0;
     for (std::size_t i = 0; i < count_; ++i)
@@ -255,9 +265,10 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     return sum;
 }
 
-/// Returns an upper bound on the odds of the single alternatives of one sequence that share a line,
-/// from the minimum loss of these alternatives. An alternative is counted once per shift at which
-/// it shares a line, so at most `ratios.count()` times.
+/// Returns log2 of an upper bound on the odds of the single alternatives of one sequence that share
+/// a line, in units of 2^-8. The bound uses only the minimum loss of these alternatives. An
+/// alternative is counted once per shift at which it shares a line, so at most `ratios.count()`
+/// times.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                      std::size_t sequence) {
     const int lost = unshared.min_loss(sequence, Sharing::at_one_shift) - ratios.max_gain();
@@ -270,8 +281,9 @@ int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshar
 using Sequences = unsigned;
 constexpr Sequences kAllSequences = 15;
 
-/// Adds to `sum` the bounds from tables of those given sequences whose bound is below `little_q8`.
-/// Returns the remaining sequences.
+/// Adds the bounds from tables to `sum`, for those of the given sequences whose bound is below
+/// `little_q8`. Tries the table for the largest number of lines first. Returns the remaining
+/// sequences.
 Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences sequences,
                         int& sum) {
     for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
@@ -288,8 +300,9 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
     return sequences;
 }
 
-/// Returns the odds of the single alternatives of the given sequences. Skips alternatives that must
-/// lose more than the limit, and counts the few remaining alternatives one by one.
+/// Returns log2 of an upper bound on the odds of the single alternatives of the given sequences
+/// that share a line, in units of 2^-8. Charges `kSkippedOdds_q8` for alternatives that must lose
+/// more than the limit, and counts the few other alternatives one by one.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();
@@ -310,6 +323,8 @@ int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     return sum;
 }
 
+/// Returns log2 of an upper bound on the odds of the same position in the other sections, in units
+/// of 2^-8. The rolls of all lines differ from the reading.
 int other_sections_log2_q8(const LikelihoodRatios& ratios) {
     int lost = 0;
     for (int line = 0; line < ratios.count(); ++line)
@@ -320,7 +335,8 @@ int other_sections_log2_q8(const LikelihoodRatios& ratios) {
 }  // namespace
 
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
-    // There is no tighter sum for hard bits, so all sets are counted.
+    // For hard bits, no tighter bound follows, so sets are added until the sum exceeds the limit of
+    // the caller.
     const bool is_last = ratios.is_of_bits();
     int far = far_log2_q8(ratios, true, is_last ? limit_q8 : kSmallOdds_q8);
     if (far > kSmallOdds_q8 && !is_last) far = far_log2_q8(ratios, false, limit_q8);
@@ -330,12 +346,12 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
     Sequences sequences = kAllSequences;
     int singles = kNever_q8;
     if (is_last) {
-        // The bounds from tables exceed the odds, but avoid most of the work.
+        // Bounds from tables are larger than counted odds, but avoid most of the work.
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);
-        // Alternatives that share no line lose at least as much as alternatives in other sections
-        // do.
+        // Single alternatives that share no line lose at least as much as the same position in
+        // another section.
         singles = add_log2(singles, kSingles_q8 + other_sections);
     }
     if (sequences != 0) singles = add_log2(singles, singles_log2_q8(ratios, sequences));

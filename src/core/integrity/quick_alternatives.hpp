@@ -1,13 +1,15 @@
-// Quick alternatives: computes an upper bound on the summed odds of all alternatives, in integers
-// only. The bound takes a thousandth of the work of `alternatives_log2`. In most frames it is far
-// below the limit. docs/integrity.md derives it.
+// Quick alternatives: an upper bound on the summed odds of all alternatives except seam
+// alternatives, computed in integers. The bound takes a thousandth of the work of
+// `alternatives_log2`. In most frames, the bound is far below the limit. docs/integrity.md derives
+// the bound.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
 
 namespace dotpose::core {
 
-/// Returns the bound as log2 in units of 2^-8, or 0 if the bound exceeds the limit.
+/// Returns log2 of the bound, in units of 2^-8, at most 0. Returns 0 as soon as a part of the bound
+/// exceeds the limit.
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8 = 0);
 
 }  // namespace dotpose::core

@@ -28,7 +28,7 @@ struct Steps {
     /// Lower bound on the loss in each step, in units of 1/kLimitParts of the loss that excludes a
     /// place, rounded down.
     std::array<std::uint8_t, kMaxSteps> losses;
-    /// True if a place with different digits in all steps reaches the loss that excludes it.
+    /// True if the losses in nonadjacent steps can add up to the loss that excludes a place.
     bool can_exclude = false;
 };
 

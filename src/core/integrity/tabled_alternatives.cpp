@@ -8,7 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Bounds on the odds of the single alternatives that share a line, by sequence, from one table.
+/// Upper bounds on the summed odds of the single alternatives that share a line, indexed by
+/// sequence. All bounds come from the table that `unshared` uses.
 class Bounds {
   public:
     explicit Bounds(const UnsharedLines& unshared) : unshared_(unshared) {
@@ -16,14 +17,15 @@ class Bounds {
         for (std::size_t n = 1; n < odds_.size(); ++n)
             odds_[n] = ratios.odds(unshared.min_loss_of(n) - ratios.max_gain());
     }
-    /// Returns the bound for a sequence. An alternative with n unshared lines of the table loses at
-    /// least the sum of the n smallest line losses. The table bounds the number of such
-    /// alternatives for each n, and the minimum of n for each place.
+    /// Returns the bound for a sequence. An alternative that does not share n of the table lines
+    /// loses at least the sum of their n smallest losses. `kMaxPositionsWith` limits the number of
+    /// such alternatives for each n, and `kUnshared` contains the minimum n at each place.
     float operator[](std::size_t sequence) const {
         const LikelihoodRatios& ratios = unshared_.ratios();
         const auto& max_with = code::kMaxPositionsWith[unshared_.tables() - 1][sequence];
-        // Bound for the alternatives with more unshared lines than the table counts. An alternative
-        // is counted once per shift at which it shares a line, so at most `ratios.count()` times.
+        // Bound for the alternatives that do not share more than kMaxCounted of the table lines. An
+        // alternative is counted once per shift at which it shares a line, so at most
+        // `ratios.count()` times.
         float sum =
             static_cast<float>(ratios.count() * ratios.basis[sequence].length) * odds_.back();
         std::size_t n = unshared_.min_unshared(sequence, Sharing::at_one_shift);
@@ -34,8 +36,8 @@ class Bounds {
 
   private:
     const UnsharedLines& unshared_;
-    /// Element n bounds the odds of an alternative with n unshared lines. The last element also
-    /// bounds the odds of alternatives with more unshared lines.
+    /// Element n is an upper bound on the odds of an alternative that does not share n of the table
+    /// lines. The last element is also an upper bound for larger n.
     std::array<float, code::kMaxCounted + 2> odds_;
 };
 

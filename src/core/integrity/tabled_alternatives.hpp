@@ -1,6 +1,6 @@
 // Tabled alternatives: upper bounds on the odds of the single alternatives of a sequence, from
-// tables that count the alternatives by their number of unshared lines. Most sequences then need no
-// enumeration.
+// tables that count the alternatives by their number of unshared lines. With these bounds, the
+// alternatives of most sequences need not be enumerated.
 #pragma once
 
 #include "core/integrity/unshared_lines.hpp"

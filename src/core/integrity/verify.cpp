@@ -48,7 +48,7 @@ Confidence compare(CodeVariant code, const Upright& upright, Axis axis,
     return confidence;
 }
 
-/// Returns the place of the top left symbol.
+/// Returns the place of the top left symbol of an upright grid.
 Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& upright) {
     const FixedVec corner = decoding.pattern_from_grid(upright.corner());
     return moved(code, decoding.place, corner.x, corner.y);
@@ -56,18 +56,19 @@ Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& up
 
 /// Result of the comparison of all bits in view with the code, before alternatives are counted.
 struct Doubt {
-    int odds_per_bit_q8 = 0;  ///< 0 if the bits carry no information
+    int odds_per_bit_q8 = 0;  ///< 0 if no bit is reliable, or too many bits are wrong
     /// Upper bound on the probability that random bits agree equally well, as log2 in units of
     /// 2^-8, for each axis.
     std::array<int, 2> by_chance_q8{};
 };
 
+/// Sets `bits` of the decoding and `bit_errors` of the fix.
 Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptions& options,
                Decoding& decoding, Fix& fix) {
     decoding.bits = agreements[0].bits() + agreements[1].bits();
     fix.bit_errors = agreements[0].wrong() + agreements[1].wrong();
     for (const Confidence& agreement : agreements) {
-        // A larger fraction of wrong bits means that two patterns are in view.
+        // A larger fraction of wrong bits indicates that two patterns are in view.
         if (agreement.wrong() > agreement.bits() * options.max_bit_error_q8 / 256) return {};
     }
     // Both axes are read from the same dots and therefore have the same error rate.
@@ -99,8 +100,8 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
 }
 
 /// Returns an upper bound on the probability that each axis is wrong, as log2 in units of 2^-8.
-/// `alternatives_q8(axis, ratios)` returns the odds of the alternatives of an axis. Skips axes
-/// whose probability of a match by chance alone exceeds the limit.
+/// `alternatives_q8(axis, ratios)` returns the odds of the alternatives of an axis. The result is 0
+/// (probability 1) for an axis whose probability of a match by chance exceeds the limit.
 template <typename Alternatives>
 std::array<int, 2> with_alternatives(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
@@ -126,8 +127,9 @@ int sum(const std::array<int, 2>& p_wrong_q8) {
     return add_log2(p_wrong_q8[0], p_wrong_q8[1]);
 }
 
-/// Returns true if the position is refused regardless of its alternatives: the bits carry no
-/// information, or the probability of a match by chance exceeds the limit.
+/// Returns true if the position is refused regardless of its alternatives, because the bits carry
+/// no information, too many bits are wrong, or the probability of a match by chance exceeds the
+/// limit.
 bool is_hopeless(const Doubt& doubt, int limit_q8) {
     return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
 }
@@ -139,8 +141,8 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
     return is_sure ? Status::ok : Status::not_certain;
 }
 
-/// Returns an upper bound on the probability that each axis is wrong, computed by
-/// quick_alternatives.hpp.
+/// Returns an upper bound on the probability that each axis is wrong, as log2 in units of 2^-8. The
+/// odds of the alternatives come from quick_alternatives.hpp.
 std::array<int, 2> estimate_quickly(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                     int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {
@@ -165,7 +167,7 @@ Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
 
 namespace {
 
-/// Lines of one axis of a tracked frame, from the first to the last line in view.
+/// Lines of one axis of a tracked frame, from the first to the last line with bits.
 struct TrackedAxis {
     std::span<const ComparedLine> lines;
     AxisReading reading;
@@ -191,7 +193,7 @@ TrackedAxis tracked_axis(CodeVariant code, std::span<const ComparedLine> columns
         wrong += bits_in(line.wrong);
     }
     result.confidence = Confidence::of_hard_bits(seen, wrong);
-    // The reading belongs to the first line in view, at the first cell of that line.
+    // The reading is that of the first line with bits, at the first cell of the line.
     const auto ahead = static_cast<std::int32_t>(begin);
     result.reading = axis == Axis::x ? reading_of(code, moved(code, corner, ahead, 0), axis)
                                      : reading_of(code, moved(code, corner, 0, ahead), axis);
@@ -222,7 +224,7 @@ Status verify_tracked(CodeVariant code, std::span<const ComparedLine> lines, con
 
 namespace {
 
-/// Compares the bits of both axes with the code, in all lines.
+/// Compares the bits of both axes with the code, in all lines of the grid.
 std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
                                        const Decoding& decoding) {
     const Upright all(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
@@ -232,8 +234,8 @@ std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
             compare(code, all, Axis::y, reading_of(code, corner, Axis::y))};
 }
 
-/// Sets the upper bounds on chance for several possible codes. `log2_codes_q8` is log2 of the
-/// number of codes, in units of 2^-8.
+/// Replaces the upper bounds on chance by those for several possible codes. `log2_codes_q8` is log2
+/// of the weighted number of codes, in units of 2^-8.
 void count_hypotheses_of(int log2_codes_q8, const Grid& grid, CodeVariant code,
                          const Decoding& decoding, Doubt& doubt) {
     const auto agreements = compare_both(grid, code, decoding);

@@ -1,5 +1,5 @@
-// Verify: compares all dots in view with the decoded position. The position was decoded from some
-// of the dots. differs: the paper accepts every position that decodes; see
+// Verify: compares all dots in view with the decoded position, which may have been decoded from a
+// part of the dots. differs: the paper accepts every position that decodes; see
 // docs/differs-from-paper.md.
 #pragma once
 
@@ -14,25 +14,27 @@
 
 namespace dotpose::core {
 
-/// Sets `bit_errors` and `p_wrong_log2` of the fix, and `p_wrong_log2_q8` of the decoding, from
-/// chance and alternatives. Uses quick_alternatives.hpp, and alternatives.hpp if the quick bound
-/// exceeds the limit. `others` contains the number of possible codes, and is null if the code is
-/// given. Errors: not_certain.
+/// Sets `bit_errors` and `p_wrong_log2` of the fix, and `bits` and `p_wrong_log2_q8` of the
+/// decoding. The probability includes chance, alternatives and seams. It is computed from the bound
+/// of quick_alternatives.hpp and, if this bound exceeds the limit or 2^-30, from alternatives.hpp.
+/// `others` contains the number of possible codes, and is null if the code is given. Errors:
+/// not_certain, if the probability exceeds the limit or too many bits contradict the position.
 Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
 /// Variant of `verify` that uses only integers and takes bounded time. Refuses a position if the
-/// bound of quick_alternatives.hpp exceeds the limit.
+/// probability computed from the bound of quick_alternatives.hpp exceeds the limit.
 Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
 /// Variant of `verify_quickly` for a tracked frame, in which all bits have the same weight. The
-/// first half of `lines` contains the columns, the second half the rows. `corner` is the place of
-/// the first column and row.
+/// first half of `lines` contains the columns, the second half the rows. `corner` is the place
+/// where the first column and the first row cross.
 Status verify_tracked(CodeVariant code, std::span<const ComparedLine> lines, const Place& corner,
                       const IntegrityOptions& options, Decoding& decoding, Fix& fix);
 
-/// Sets the odds of the codes other than the code in which the grid was read. `others` may be null.
+/// Sets the odds of the codes other than `code`, in which the grid was read. Does nothing if
+/// `others` is null.
 void weigh_other_codes(const Kernels& kernels, const Grid& grid, CodeVariant code,
                        const Decoding& decoding, std::span<ScoredLine> storage, OtherCodes* others);
 
