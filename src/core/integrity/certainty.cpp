@@ -19,23 +19,24 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of shifts of an alternative at which it does not share a given line.
+/// Number of shifts at which an alternative does not share a given line.
 constexpr float kShifts = kSections - 1;
-/// Upper bound on the odds charged for each pruned single alternative, as log2 in units of 2^-8 and
-/// as a number.
+/// Odds charged for each pruned single alternative, which are at least its true odds: as log2 in
+/// units of 2^-8, and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
-/// Number of places of all four sequences.
+/// Total number of places in the four sequences.
 constexpr float kSingles = 741;
 
-/// Returns 2^(n / 256), rounded up by at most 2 %, and at least 2^-100.
+/// Returns 2^(n_q8 / 256), rounded up by about 2 %. The result is at least 2^-100.
 constexpr float power_of_two_rounded_up(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;
     return static_cast<float>(exp2_q16(n - whole * 256)) * 1.02F * power_of_two_exactly(whole - 16);
 }
 
-/// Equal to `LikelihoodRatios::odds`, but without a library call.
+/// Returns the same odds as `LikelihoodRatios::odds`, but without the upper limit, and without
+/// 64-bit integers, whose conversion may need a library call.
 float odds_of(const LikelihoodRatios& ratios, int lost) {
     const int log2_q8 = std::max(ratios.log2_odds_q8(lost), kNegligible_q8);
     const int whole = log2_q8 >> 8;
@@ -52,8 +53,9 @@ constexpr FarAlternatives kFarAlternatives = [] {
     return sets;
 }();
 
-/// Returns the expected odds of the far alternatives: the same sum as in quick_alternatives.cpp,
-/// but in floating point and for all sets of sequences in parallel.
+/// Returns the expected sum of the odds of the far alternatives. The sum is the same as in
+/// quick_alternatives.cpp, but it is computed in floating point, for all sets of sequences in
+/// parallel.
 float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
     std::array<float, kMaxLines> odds;
     const auto count = static_cast<std::size_t>(ratios.count());
@@ -69,8 +71,9 @@ float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
                                         kFarAlternatives);
 }
 
-/// Returns the odds of the alternatives that share no line: the same position in other sections,
-/// and the single alternatives at shifts that no line shares.
+/// Returns an upper bound on the summed odds of the alternatives that share no line: the same
+/// position in the other sections, and the single alternatives at shifts at which they share no
+/// line.
 float sharing_none(const LikelihoodRatios& ratios) {
     int lost = 0;
     for (int line = 0; line < ratios.count(); ++line)
@@ -78,11 +81,11 @@ float sharing_none(const LikelihoodRatios& ratios) {
     return (1 + kSingles) * kShifts * odds_of(ratios, lost);
 }
 
-/// Score that a wrong bit loses. All bits in this file have the same weight, so losses are
-/// multiples of this score.
+/// Score that a wrong bit loses. All bits in this file have full weight, so losses are multiples of
+/// this score.
 constexpr int kBit = 2 * 127;
-/// Sets the minimum loss of each line, in bits, in decreasing order. Losses are clamped to
-/// kMaxBits. Returns the number of lines.
+/// Lists the lines with their minimum losses in bits, sorted by decreasing loss. Losses are limited
+/// to between 0 and kMaxBits. Returns the number of lines.
 std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
     constexpr int kMaxBits = 31;
     const auto count = static_cast<std::size_t>(ratios.count());
@@ -106,8 +109,8 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
     return count;
 }
 
-/// Returns the loss of the single alternative that has another place in one sequence and shares the
-/// line `shared`.
+/// Returns the loss of the single alternative with the place `place` in `sequence`, at the shift at
+/// which it shares the line `shared`. Stops adding when the loss exceeds the limit.
 int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place, int shared) {
     const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
@@ -123,9 +126,9 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Returns the odds of the single alternatives. Tables bound the odds of most sequences. For the
-/// other sequences, alternatives are counted one by one, except those that lose too much to matter.
-/// Returns 1 if there are too many alternatives to count.
+/// Returns an upper bound on the summed odds of the single alternatives that share a line. Tables
+/// bound the odds for most sequences. For the other sequences, alternatives that may matter are
+/// counted one by one. Returns 1 if there are too many of them.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
@@ -146,19 +149,20 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
     return sum;
 }
 
-/// Returns the odds of all alternatives except seam alternatives.
+/// Returns an upper bound on the summed odds of all alternatives except seam alternatives.
 float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                    const UnsharedLines& unshared, float limit) {
     return far_alternatives(kernels, ratios) + sharing_none(ratios) +
            single_alternatives(kernels, ratios, unshared, limit);
 }
 
+/// Returns the summed odds of the seam alternatives, rounded up.
 float seam_alternatives(const Kernels& kernels, const UnsharedLines& unshared) {
     return power_of_two_rounded_up(
         std::max(seam_alternatives_log2_q8(kernels, unshared), -100 * 256));
 }
 
-/// Parameters of the judgement that are common to both axes.
+/// Parameters of the judgement that both axes share.
 struct Query {
     CodeVariant code;
     int odds_per_bit_q8;
@@ -179,15 +183,16 @@ float chance_of(const Confidence& bits, const Query& query) {
         chance_log2_q8(bits, query.odds_per_bit_q8, query.others->log2_in_question_q8));
 }
 
-/// Returns the number of possible codes, each weighted by its odds. All codes have the same number
-/// of alternatives.
+/// Returns the number of possible codes, each weighted by its odds relative to the code read. All
+/// codes have the same number of alternatives, so the odds of alternatives are multiplied by this
+/// number.
 float codes_in_question(const Query& query) {
     return !is_code_in_question(query) ? 1
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
-/// Returns an upper bound on the probability that one axis is wrong, or 1 if the bound exceeds the
-/// limit. Hard bits never give a smaller bound than scores do.
+/// Returns an upper bound on the probability that one axis is wrong, or 1 if chance and
+/// alternatives exceed the limit. Without scores, the bound is never smaller than with scores.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
                  const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();
@@ -208,8 +213,8 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     return sum + seam_alternatives(kernels, unshared);
 }
 
-/// Returns true if both axes are certain. Sets the odds of the other codes unless `Query::others`
-/// is null.
+/// Returns true if both axes together are certain. If so, sets the odds of the other codes, unless
+/// `Query::others` is null.
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                  const LikelihoodRatios& x, const LikelihoodRatios& y, const Query& query,
                  Fix& fix) {
@@ -231,7 +236,7 @@ int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOpt
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();
     for (const Confidence* bits : {&x, &y}) {
-        // A larger fraction of wrong bits means that two patterns are in view.
+        // A larger fraction of wrong bits indicates that two patterns are in view.
         if (256 * bits->wrong() > bits->bits() * options.max_bit_error_q8) return 0;
     }
     Confidence both = x;

@@ -21,22 +21,22 @@ namespace dotpose::core {
 struct AxisBits {
     std::span<const ComparedLine> lines;
     AxisReading reading;    ///< reading of the first line, at the first bit of its word
-    Confidence confidence;  ///< all bits read on this axis, compared with the code
+    Confidence confidence;  ///< all bits read on this axis, also outside the middle
     std::span<const std::uint8_t> rolls;  ///< roll of each line
 };
 
 /// Returns true if the hard bits alone, without the scores of lines, make the position certain.
 /// This takes a tenth of the work of `is_certain` and suffices for clean frames. Returns false if
-/// in doubt. Bits outside the middle of the view are used for chance only, so the result is still
-/// an upper bound. Sets `p_wrong_log2` of the fix. If `others` is not null, sets the odds of the
-/// other codes.
+/// in doubt. Only the bits near the middle of the view are compared with alternatives, which can
+/// only increase the bound. Sets `bit_errors` of the fix. If the result is true, also sets
+/// `p_wrong_log2` of the fix and, unless `others` is null, the odds of the other codes.
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
                           CodeVariant code, const IntegrityOptions& options, Fix& fix,
                           OtherCodes* others = nullptr);
 
 /// Bits and scores by which a position is judged.
 struct Evidence {
-    Place corner;                    ///< place of the first column and row
+    Place corner;                    ///< place where the first column and row cross
     std::array<Confidence, 2> bits;  ///< bits of x and of y, compared with the code
     Lines columns;
     Lines rows;
@@ -47,14 +47,14 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage);
 
-/// Sets `bit_errors` and `p_wrong_log2` of the fix. `p_wrong_log2` is an upper bound. Returns false
-/// if the position is not certain enough, or if too many bits contradict it. If `others` is not
-/// null, sets the odds of the other codes.
+/// Returns true if the position is certain: its bound is within the limit, and not too many bits
+/// contradict it. Sets `bit_errors` of the fix. If the result is true, also sets `p_wrong_log2` of
+/// the fix and, unless `others` is null, the odds of the other codes.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr);
 
-/// Sets `p_wrong_log2` of the fix to log2 of a probability, rounded up. Returns true if it is at
-/// most the limit.
+/// Sets `p_wrong_log2` of the fix to log2 of the probability `wrong`, rounded up, at most 0.
+/// Returns true if `p_wrong_log2` is at most `limit_log2`.
 bool is_within_limit(float wrong, int limit_log2, Fix& fix);
 
 /// Sets the odds of the other codes, without judging the position.

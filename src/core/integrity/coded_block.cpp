@@ -8,12 +8,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of the first line and of the first cell of the middle block. Lines and cells are numbered
-/// from cell (0, 0).
+/// First line, and first cell of each line, of the middle cells: relative to cell (0, 0), and as an
+/// index in a BitBlock.
 constexpr int kFirst = -kMaxComparedLines / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 
-/// Returns the longest run of ones in `bits`.
+/// Returns a mask of the longest run of ones in `bits`.
 std::uint32_t longest_run(std::uint32_t bits) {
     if (const std::uint32_t beyond = bits + (bits & (0 - bits)); (beyond & bits) == 0) return bits;
     std::uint32_t longest = 0;
@@ -31,8 +31,8 @@ std::uint32_t longest_run(std::uint32_t bits) {
 
 }  // namespace
 
-/// Compares the lines of one axis with the code. `rolls` contains the rolls at cell `first_cell` of
-/// the lines that start at `first_line`.
+/// Compares `count` lines of one axis, from the line `first_line` on, with the code. `rolls`
+/// contains the rolls of these lines at the cell `first_cell`.
 CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rolls, int first_line,
                                   int count, int first_cell) {
     Half half;
@@ -50,8 +50,9 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
         const int roll = there < kSections ? there : there - kSections;
         const std::uint32_t code = code::kMainWords[static_cast<std::size_t>(roll)];
         const std::uint32_t wrong = (bits ^ code) & seen;
-        // If there are no wrong bits, keeps only the longest run of bits without a gap, because the
-        // tables contain only such runs. The dropped bits could only make alternatives less likely.
+        // If a line has no wrong bits, keeps only its longest run of bits without a gap, because
+        // the tables contain only such runs. The dropped bits could only make alternatives less
+        // likely.
         half.rolls[i] = static_cast<std::uint8_t>(roll);
         half.lines[i] = {code, wrong == 0 ? longest_run(seen) : seen, wrong};
         if (seen == 0) continue;

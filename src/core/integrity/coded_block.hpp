@@ -1,4 +1,4 @@
-// Coded block: the bits read and the bits of the code at the same cells, packed into words. One
+// Coded block: the bits read and the bits of the code in the same cells, packed into words. One
 // instruction compares a whole line.
 #pragma once
 
@@ -8,18 +8,20 @@
 
 namespace dotpose::core {
 
-/// The middle cells of an upright block, compared with the code.
+/// The middle 32 x 32 cells of an upright block, compared with the code.
 class CodedBlock {
   public:
-    /// `place` is the place of cell (0, 0). `view` contains the rolls of all lines that were read.
+    /// `place` is the place of cell (0, 0) of the block. `view` contains the rolls of all lines
+    /// that were read.
     CodedBlock(CodeVariant code, const Place& place, const CellsInView& view,
                const BitBlock& block);
 
-    /// Returns the bits of one axis. `confidence` includes all bits read, also the bits outside the
-    /// middle.
+    /// Returns the bits of one axis. `confidence` must include all bits read, also those outside
+    /// the middle cells.
     AxisBits axis(Axis axis, const Confidence& confidence) const;
 
   private:
+    /// The lines of one axis.
     struct Half {
         std::array<ComparedLine, kMaxComparedLines> lines;
         std::array<std::uint8_t, kMaxComparedLines> rolls;

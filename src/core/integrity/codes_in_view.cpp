@@ -5,12 +5,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds below which no more bits are needed: odds of the place of the reading in another code, and
-/// summed odds of all other places in that code.
+/// Odds below which no further bits are needed: odds of the place of the reading in another code,
+/// and summed odds of all other places in that code.
 constexpr float kMaxOddsHere = 1e-12F;
 constexpr float kMaxOddsElsewhere = 1e-10F;
 
-/// Returns true if two codes have different rolls in the lines that begin at a position.
+/// Returns true if two codes have different rolls in any of BitBlock::kSide lines from `position`
+/// on.
 bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     std::array<std::uint8_t, BitBlock::kSide> own;
     std::array<std::uint8_t, BitBlock::kSide> theirs;
@@ -19,8 +20,8 @@ bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     return own != theirs;
 }
 
-/// Returns true if more lines may change the odds: either another code has different symbols in
-/// view, or another place in another code is not ruled out yet.
+/// Returns true if more lines may change the odds: either another code that is not ruled out has
+/// different rolls in view, or the odds of other places in another code are not negligible yet.
 bool may_change_odds(CodeVariant read, const Place& place, bool has_more_lines,
                      const OtherCodes& others) {
     const auto have_other_rolls = [&](CodeVariant other) {

@@ -7,9 +7,9 @@
 
 namespace dotpose::core {
 
-/// Computes the odds of the other codes again, if more bits may change them. `place` is the place
-/// of cell (0, 0) of `block`. `has_more_lines` is true if the block has more lines than were used
-/// to make the position certain.
+/// Computes the odds of the other codes again if further bits may change the odds. `place` is the
+/// place of cell (0, 0) of `block`. `has_more_lines` is true if the block has more lines than were
+/// used to make the position certain.
 void weigh_codes_in_view(const Kernels& kernels, CodeVariant read, const Place& place,
                          const BitBlock& block, const std::array<Confidence, 2>& bits,
                          bool has_more_lines, std::span<ScoredLine> storage, OtherCodes& others);

@@ -1,5 +1,5 @@
-// Known lines: the agreement of the columns and rows of a block with all positions of a known
-// sheet. docs/integrity.md, "Known sheets", derives the classes modulo 63.
+// Known lines: the agreement of the columns and rows of a block with each position on a known
+// sheet. docs/integrity.md, "Known sheets", derives the classes of positions modulo 63.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace dotpose::core {
 
-/// Number of turns in which a block may show the pattern.
+/// Number of orientations of a block relative to the pattern, in quarter turns.
 inline constexpr int kTurns = 4;
 
 /// Returns the class of a position: the position modulo 63.
@@ -31,10 +31,11 @@ inline std::size_t sum_of_rolls(std::size_t a, std::size_t b) {
     return sum < kSections ? sum : sum - kSections;
 }
 
-/// Returns the number of bits in the lines of one axis.
+/// Returns the number of bits that were read in the lines of one axis.
 int number_of_bits(const BitLines& lines);
 
-/// The lines of one axis of an upright block, with the number of bits that agree with each roll.
+/// The lines of one axis of an upright block, with the number of bits of each line that agree with
+/// the code at each roll.
 class ScoredAxis {
   public:
     ScoredAxis(const Kernels& kernels, const BitLines& lines, const LineRange& range,
@@ -46,8 +47,9 @@ class ScoredAxis {
     /// its rolls are those of section 0 plus `added`.
     int agreeing(CodeVariant code, std::uint32_t position, std::size_t added) const;
 
-    /// Calls `use(position, sums)` for each position of the first line. The sums are by the roll
-    /// that section and crossing line add to the rolls of the lines in section 0.
+    /// Calls `use(position, sums)` for each position of the first line in `range`. sums[r] is the
+    /// number of bits that agree with the code if r is added to the rolls of all lines in section
+    /// 0. The section and the position on the other axis determine r.
     template <typename Use>
     void visit(CodeVariant code, const PositionRange& range, Use use) const {
         constexpr std::uint32_t kChunk = 63;
@@ -69,7 +71,7 @@ class ScoredAxis {
     RollScores scores_;
 };
 
-/// The scored lines of a block in one turn.
+/// The scored lines of a block in one orientation. `upright` is the block after rotation.
 struct ScoredTurn {
     LineRange columns_range;
     LineRange rows_range;
@@ -84,15 +86,17 @@ struct ScoredTurn {
           columns(kernels, upright.columns, ranges.columns, ranges.rows.first),
           rows(kernels, upright.rows, ranges.rows, ranges.columns.first) {}
 
+    /// Returns the positions of the first column if at least one column is on a region.
     PositionRange columns_of(const KnownRegion& region) const {
         return {region.first.x, region.columns, columns.count()};
     }
+    /// Returns the positions of the first row if at least one row is on a region.
     PositionRange rows_of(const KnownRegion& region) const {
         return {region.first.y, region.rows, rows.count()};
     }
 };
 
-/// The table of one axis of a region. It is kept for the next region, which often has the same
+/// Table of one axis of a region, kept for the next region. Successive regions often have the same
 /// columns or rows, because the sheets of a file are side by side.
 template <typename Table>
 class KeptTable {
@@ -112,8 +116,10 @@ class KeptTable {
     std::optional<Table> table_;
 };
 
-/// Calls `use` with each pair of a column class, its roll, a row class and its roll. The rolls of
-/// columns depend on the row modulo 63 only, and those of rows on the column modulo 63.
+/// Calls `use(column, column_roll, row, row_roll)` for each class of columns and each class of rows
+/// in a section. `column_roll` is added to the rolls of the columns in section 0. It depends only
+/// on the section and the class of the row. `row_roll` is added to the rolls of the rows, and
+/// depends only on the section and the class of the column.
 template <typename Use>
 void visit_classes(const Section& section, Use use) {
     for (std::size_t column = 0; column < kSections; ++column) {

@@ -12,20 +12,22 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds of a position relative to the place that is judged, by the number of bits that agree. Each
-/// bit counts as much, so the logarithm is linear.
+/// Odds of a position relative to the position that is judged, given the number of bits that agree
+/// with the code. All bits have the same weight, so log2 of the odds is linear in this number.
 class OddsOfBits {
   public:
-    /// `agreeing` is the number of bits that agree with the place judged.
+    /// `agreeing` is the number of bits that agree with the position judged.
     OddsOfBits(int odds_per_bit_q8, int agreeing)
         : agreeing_(agreeing),
-          // Odds below the first limit count as that limit. Odds above the second limit refuse the
-          // place in any case, because their products with the first limit do.
+          // Odds are limited to between 2^-52 and 2^60. Odds above 2^60 on one axis refuse the
+          // place in any case, because even their product with the minimum odds on the other axis
+          // exceeds 1.
           min_(-52 * 256 / odds_per_bit_q8 - 1),
           max_(60 * 256 / odds_per_bit_q8),
           per_bit_(odds_per_bit_q8 << 15) {}
 
-    /// Interpolates linearly between powers of two, which exceeds the exact odds by up to 9 %.
+    /// Returns the odds if `agreeing` bits agree. Interpolates linearly between powers of two, so
+    /// the result exceeds the exact odds by at most 9 %.
     float operator()(int agreeing) const {
         const int more = std::clamp(agreeing - agreeing_, min_, max_);
         return __builtin_bit_cast(float, kOne + more * per_bit_);
@@ -36,16 +38,17 @@ class OddsOfBits {
     int agreeing_;
     int min_;
     int max_;
-    int per_bit_;  ///< log2 of the odds of a bit, in 2^-23
+    int per_bit_;  ///< log2 of the odds of a bit, in units of 2^-23
 };
 
-/// A position of the first line, and a roll.
+/// Position of the first line, and the roll that is added to the rolls in section 0.
 struct PositionAndRoll {
     std::uint32_t position;
     std::size_t roll;
 };
 
-/// Sums of the odds of the positions of each class modulo 63.
+/// Summed odds of the positions in each class modulo 63, at each roll. The sums do not include the
+/// position `left_out` at its roll.
 class OddsByClass {
   public:
     OddsByClass(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,
@@ -68,11 +71,12 @@ class OddsByClass {
     std::array<std::array<float, kRollEntries>, kSections> odds_;
 };
 
-/// Returns an upper bound of the probability that at most `wrong` of `bits` random bits contradict
-/// one place. The terms of the binomial sum fall at least as fast as a geometric series.
+/// Returns an upper bound on the probability that at most `wrong` of `bits` random bits contradict
+/// a given place. The terms of the binomial sum, in decreasing order, fall at least as fast as a
+/// geometric series.
 float random_agreement(int bits, int wrong) {
     if (3 * wrong >= bits) return 1;
-    float term = 1;  // number of combinations of k wrong bits, divided by 2^exponent
+    float term = 1;  // probability of exactly k wrong bits, divided by 2^exponent
     int exponent = -bits;
     for (int k = 0; k < wrong; ++k) {
         int growth = 0;
@@ -83,8 +87,9 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// Returns the probability that the bits of a view that is on none of the sheets agree with a place
-/// on them. `bits` is the number of bits of each axis, `lines` the largest number of lines.
+/// Returns the probability that the bits of a view that is on none of the sheets agree at least as
+/// well with any place on the sheets. `bits` is the number of bits of each axis, `wrong` the number
+/// of wrong bits of each axis, and `lines` the number of columns or rows, whichever is larger.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;
@@ -97,17 +102,18 @@ float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int,
         columns += static_cast<float>(x.count / kSections + 1);
         rows += static_cast<float>(y.count / kSections + 1);
     }
-    // A tracked attempt tests one place, but chooses among up to 2^10 planes.
+    // A tracked attempt tests only one place, but chooses among up to 2^10 planes.
     const float trials = std::max(kTurns * places, 1024.0F);
     const float anywhere = trials * random_agreement(2 * bits, wrong[0] + wrong[1]);
     if (sheets.are_all()) return anywhere;
-    // An unknown sheet may have the columns or the rows of a known one. The bits of one axis then
-    // agree, and they determine turn, roll and position of that axis.
+    // An unknown sheet may have the same columns or rows as a known sheet. All bits of that axis
+    // then agree, and they determine the turn, the roll and the position of that axis. On the other
+    // axis, only the positions of one class modulo 63 remain.
     return anywhere + columns * random_agreement(bits, wrong[0]) +
            rows * random_agreement(bits, wrong[1]);
 }
 
-/// The place of the first column and the first row of a block.
+/// The place where the first column and the first row of a block cross.
 struct CornerPlace {
     CodeVariant code;
     Place place;
@@ -120,7 +126,7 @@ struct CornerPlace {
     }
 };
 
-/// Returns the sum of the odds of all places of a region, given the odds of its columns and rows.
+/// Returns the summed odds of all places of a region, given the odds of its columns and rows.
 float sum_of_odds(const KnownRegion& region, const OddsByClass& columns, const OddsByClass& rows) {
     float sum = 0;
     visit_classes(region.section, [&](std::size_t column, std::size_t column_roll, std::size_t row,
@@ -130,7 +136,8 @@ float sum_of_odds(const KnownRegion& region, const OddsByClass& columns, const O
     return sum;
 }
 
-/// Returns the same sum without `best`, which is on the region and has the odds 1.
+/// Returns the summed odds of all places of a region except `best`. `best` is on the region and has
+/// the odds 1.
 float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const OddsOfBits& x_odds,
                     const OddsOfBits& y_odds, const CornerPlace& best) {
     const auto [x, column_roll] = best.column();
@@ -138,8 +145,9 @@ float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const Odd
     const OddsByClass columns(turn.columns, region.code, turn.columns_of(region), x_odds,
                               best.column());
     const OddsByClass rows(turn.rows, region.code, turn.rows_of(region), y_odds, best.row());
-    // The last terms are the best column with other rows of the class of the best row, and the
-    // reverse.
+    // `columns` and `rows` do not include the best column and the best row. The last two terms add
+    // the best row with the other columns of the class of the best column, and the best column with
+    // the other rows of the class of the best row.
     return sum_of_odds(region, columns, rows) + columns(class_of(x), column_roll) +
            rows(class_of(y), row_roll);
 }

@@ -9,7 +9,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Largest sums of the positions of each class modulo 63.
+/// Maximum number of agreeing bits of one axis, for the positions of each class modulo 63 and each
+/// roll.
 class Peaks {
   public:
     Peaks(const ScoredAxis& axis, CodeVariant code, const PositionRange& range) {
@@ -21,14 +22,15 @@ class Peaks {
                 best[roll] = std::max(best[roll], sums[roll]);
         });
     }
-    /// Returns the largest sum of a class at a roll; 0 without a position of the class.
+    /// Returns the maximum of a class at a roll, or 0 if the range contains no position of the
+    /// class.
     int operator()(std::size_t of_class, std::size_t roll) const { return best_[of_class][roll]; }
 
   private:
     std::array<RollSums, kSections> best_;
 };
 
-/// Returns the first position of a class that has a sum at a roll.
+/// Returns the first position of a class at which `sum` bits agree, at a roll.
 std::uint32_t position_with(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,
                             std::size_t of_class, std::size_t roll, int sum) {
     std::uint32_t found = range.first;
@@ -41,14 +43,15 @@ std::uint32_t position_with(const ScoredAxis& axis, CodeVariant code, const Posi
     return found;
 }
 
-/// A place of the corner of a block on a region, with the number of bits that agree on each axis.
+/// Place of the first column and row of a block on a region, with the number of agreeing bits on
+/// each axis.
 struct Peak {
     Cell corner;
     int x_agreeing = 0;
     int y_agreeing = 0;
 };
 
-/// Returns the place on a region that agrees with the most bits. Returns nullopt if none agrees
+/// Returns the place on a region that agrees with the most bits. Returns nullopt if no place agrees
 /// with more than `min_agreeing` bits.
 std::optional<Peak> peak_on(const KnownRegion& region, const ScoredTurn& turn, const Peaks& columns,
                             const Peaks& rows, int min_agreeing) {

@@ -1,5 +1,6 @@
-// Known places: the likeliest place of a block of bits on known sheets, and the probability that a
-// place is wrong, from the odds of all places. docs/integrity.md derives the sums.
+// Known places: the likeliest place of a block of bits on the known sheets, and the probability
+// that a place is wrong, from the odds of all places on the sheets. docs/integrity.md derives the
+// sums.
 #pragma once
 
 #include <optional>
@@ -10,7 +11,7 @@
 
 namespace dotpose::core {
 
-/// A place on a known sheet, in one of the four turns of a block.
+/// A place on a known sheet, in one of the four orientations of a block.
 struct KnownPlace {
     CodeVariant code = CodeVariant::anoto;
     int quarters = 0;            ///< quarter turns from the block to the pattern, as for `turned`
@@ -18,24 +19,25 @@ struct KnownPlace {
     int bits = 0;                ///< number of bits of the block, two per dot
     std::array<int, 2> wrong{};  ///< number of x bits and of y bits that contradict the place
 
-    /// Returns true if the bits contradict the place less than chance does.
+    /// Returns true if the fraction of wrong bits on each axis is at most `max_bit_error_q8` / 256.
     bool is_plausible(const IntegrityOptions& options) const {
         return 512 * std::max(wrong[0], wrong[1]) <= bits * options.max_bit_error_q8;
     }
 };
 
-/// Returns true if some bits of an upright block, with this place of cell (0, 0), are on a known
-/// sheet.
+/// Returns true if at least a part of the bits of an upright block is on a known sheet. `place` is
+/// the place of cell (0, 0) of the block.
 bool shows_sheet(const KnownSheets& sheets, CodeVariant code, const Place& place,
                  const BitBlock& block);
 
-/// Returns the place on the sheets, of any code and turn, that agrees best with the bits of a
-/// block. Returns nullopt without bits.
+/// Returns the place on the sheets, in any orientation of the block, that agrees best with the bits
+/// of the block. Returns nullopt if the block has no bits.
 std::optional<KnownPlace> find_known_place(const Kernels& kernels, const BitBlock& block,
                                            const KnownSheets& sheets);
 
-/// Returns an upper bound of the probability that cell (0, 0) of an upright block is at another
-/// place on the sheets, or the view on none of them. Returns 1 if `place` is not on the sheets.
+/// Returns an upper bound on the probability that `place`, the place of cell (0, 0) of an upright
+/// block, is wrong: the cell is at another place on the sheets, or the view is on none of the
+/// sheets. Returns 1 if `place` is not on the sheets.
 float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
                         CodeVariant code, const Place& place);
 

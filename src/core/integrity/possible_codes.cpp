@@ -9,12 +9,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Summed odds of the places in another code above which the fix is ambiguous. Smaller odds are
-/// ordinary doubts, which a second attempt may remove.
+/// Summed odds of other places in other codes above which the fix is ambiguous. A second attempt
+/// may remove smaller odds.
 constexpr float kAmbiguousOdds = 1e-3F;
-/// Odds of a code, from earlier frames, below which no attempt is made in this code.
+/// Odds of a code relative to the likeliest code, from earlier frames, below which no attempt is
+/// made in this code.
 constexpr float kRuledOutOdds = 1e-9F;
-/// Factors below this value are treated as rounding errors.
+/// Factors up to this value are treated as rounding errors.
 constexpr float kRoundings = 1.01F;
 
 std::size_t index(CodeVariant code) {
@@ -87,8 +88,8 @@ CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others) {
     for (std::size_t i = 0; i < log2_q8.size(); ++i) {
         if (i == index(read)) continue;
         const float odds = others.of[i].here() + others.of[i].elsewhere();
-        // A code that explains the frame equally well is not evidence. Its rounding errors must not
-        // accumulate.
+        // A frame is not evidence against a code that explains it equally well. Rounding errors
+        // must not accumulate over frames.
         const bool is_equal = odds <= kRoundings && odds * kRoundings >= 1;
         log2_q8[i] = is_equal ? 0 : log2_of_odds_q8(odds);
     }

@@ -1,5 +1,5 @@
-// Possible codes: the certainty of a fix in one code if the sheet may have another code.
-// docs/integrity.md, "Which code?", derives the numbers.
+// Possible codes: the certainty of a fix if the code of the sheet is not known. docs/integrity.md,
+// "Which code?", derives the numbers.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@ namespace dotpose::core {
 /// Certainty of a fix, given its alternatives in the other possible codes.
 struct Judgement {
     bool is_certain = false;
-    bool is_ambiguous = false;  ///< true if a place in another code is about as likely as the fix
+    bool is_ambiguous = false;  ///< true if other places in other codes have odds above 1e-3
     /// log2 of an upper bound on the probability that the fix is wrong, over all codes.
     int p_wrong_log2 = 0;
     CodeVariant other = CodeVariant::anoto;  ///< likeliest code other than the code read
     float other_odds = 0;                    ///< odds of that code relative to the code read
 };
 
-/// The codes that a sheet may have, with their odds before the frame.
+/// The codes that a sheet may have, and their odds before the frame.
 class PossibleCodes {
   public:
     /// Only the code `only` is possible.
@@ -34,12 +34,13 @@ class PossibleCodes {
     std::span<const CodeVariant> in_order() const { return std::span(order_).first(count_); }
     CodeVariant likeliest() const { return order_[0]; }
     bool is_known() const { return is_known_; }
-    /// Returns true if earlier frames do not favour any code.
+    /// Returns true if earlier frames do not favour one code: the two likeliest codes have the same
+    /// odds.
     bool are_equal() const { return !is_known_ && weight(order_[1]) == 1; }
 
     /// Returns the number of possible codes, each weighted by its odds relative to the code read.
     float number(CodeVariant read) const;
-    /// Returns log2 of 2^log2 * factor, rounded up.
+    /// Returns log2 of 2^log2 * factor, rounded up. Factors up to 1.01 count as 1.
     static int rounded_up(int log2, float factor);
 
     /// Judges a fix with status ok, read in the code `read`.

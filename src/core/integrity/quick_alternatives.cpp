@@ -231,8 +231,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // An alternative that avoids at most this loss loses at least the limit in the lines visited so
-    // far.
+    // An alternative that avoids at most this loss (plus `none`) loses at least the limit in the
+    // lines visited so far.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);

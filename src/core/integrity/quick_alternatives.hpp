@@ -9,7 +9,7 @@
 namespace dotpose::core {
 
 /// Returns log2 of the bound, in units of 2^-8, at most 0. Returns 0 as soon as a part of the bound
-/// exceeds the limit.
+/// reaches the limit.
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8 = 0);
 
 }  // namespace dotpose::core

@@ -12,15 +12,16 @@
 namespace dotpose::core {
 namespace {
 
-/// The sequence in which the codes differ.
+/// Index of a4, the only sequence in which the codes differ.
 constexpr std::size_t kA4 = 3;
-/// Upper bound on the odds charged for each pruned place, as log2 in units of 2^-8 and as a number.
+/// Odds charged for each pruned place, which are at least its true odds: as log2 in units of 2^-8,
+/// and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Summed odds below which no tighter bound is computed.
 constexpr float kNegligibleOdds = 1e-12F;
 
-/// Minimum losses of the lines that a place does not share.
+/// Minimum loss of a place in each line that it does not share.
 struct Losses {
     explicit Losses(const LikelihoodRatios& ratios)
         : loss_limit(ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain()) {
@@ -33,8 +34,8 @@ struct Losses {
         }
     }
 
-    /// Returns the losses of all steps, in parts. A place that loses `StepLosses::kLimitParts`
-    /// parts loses the limit.
+    /// Returns the loss in each step, in parts. A place that loses `StepLosses::kLimitParts` parts
+    /// loses at least the limit.
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
@@ -50,21 +51,22 @@ struct Losses {
         return steps;
     }
 
-    /// Returns true if a place loses more than the limit when the lines that it shares have a loss
-    /// of at most `all_but`.
-    bool exceed_limit(int all_but) const { return kUnit * (all - all_but) > loss_limit; }
+    /// Returns true if a place exceeds the loss limit, given that the lines that it shares have a
+    /// total loss of at most `shared`, in units of kUnit.
+    bool exceed_limit(int shared) const { return kUnit * (all - shared) > loss_limit; }
 
-    /// Unit of losses. Losses are rounded down to this unit, because their sum must fit in 16 bits.
+    /// Unit of `all` and `of`, in score. Losses are rounded down to this unit, because sums of
+    /// losses must fit in 16 bits.
     static constexpr int kUnit = 8;
-    int loss_limit;  ///< loss from which a place is skipped
-    int all = 0;     ///< loss of places that share no line, in units
-    /// Minimum loss of a place at a shift that shares no line: the sum of the minimum losses of all
-    /// lines, including negative losses (gains), in units of the score.
+    int loss_limit;  ///< loss above which a place is skipped, in score
+    int all = 0;     ///< loss of a place that shares no line, in units of kUnit
+    /// Minimum loss of a place at a shift at which it shares no line, in score: the sum of the
+    /// minimum losses of all lines, including negative losses (gains).
     int at_best = 0;
-    std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units
+    std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units of kUnit
 };
 
-/// Adds up the odds of the places in one other code.
+/// Adds up the odds of the places in one other code, along one axis.
 class OtherPlaces {
   public:
     OtherPlaces(const LikelihoodRatios& ratios, const Losses& losses, CodeVariant read,
@@ -92,7 +94,7 @@ class OtherPlaces {
     /// these places are counted.
     float elsewhere() const { return result_.elsewhere; }
 
-    /// Bounds the odds of all other places by a table.
+    /// Sets an upper bound on the odds of all other places, from a table.
     void bound(const UnsharedLines& unshared, CodeVariant read, CodeVariant other) {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
@@ -107,8 +109,8 @@ class OtherPlaces {
     /// Resets the bound, before the places are counted one by one.
     void begin_count() { result_.elsewhere = 0; }
 
-    /// Adds the place of the reading in a4 at its other shifts, and all places at shifts that share
-    /// no line.
+    /// Adds the places that the search for similar places does not find: the place of the reading
+    /// in a4 at its other shifts, and all places at shifts at which they share no line.
     void add_unsimilar() {
         // A place with the rolls of the reading shares all lines at one shift, and no line at any
         // other shift.
@@ -118,11 +120,11 @@ class OtherPlaces {
 
     /// Adds another place of a4, at all shifts at which it shares a line.
     void add(std::uint32_t place) { add(place, offsets_of(place), kNoShift); }
-    /// Adds a number of pruned places.
+    /// Adds the odds charged for `places` pruned places.
     void add_skipped(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kSkippedOdds;
     }
-    /// Returns the sums, and the position of the best other place.
+    /// Returns the sums, and the position of the likeliest other place.
     const OtherAxis& result() {
         // A place with smaller odds is never reported.
         constexpr float kMinReportedOdds = 1e-6F;
@@ -143,20 +145,21 @@ class OtherPlaces {
         RollOffsets offsets;
         const std::uint8_t* own = ratios_.basis[kA4].rolls + ratios_.places[kA4];
         const std::uint8_t* alternative = theirs_.rolls + place;
-        // Covers all lines of the tables, because loops of constant length are faster.
+        // Sets all kMaxLines offsets, not only those in view, because loops of constant length are
+        // faster.
         for (std::size_t line = 0; line < offsets.size(); ++line)
             offsets[line] = roll_offset(own[line], alternative[line]);
         return offsets;
     }
 
-    /// Returns an upper bound on the odds of all places at shifts that share no line. Each place is
-    /// counted with the best odds that any of them can have.
+    /// Returns an upper bound on the odds of all places at shifts at which they share no line.
+    /// Every place is counted with the maximum odds of such a place.
     float sharing_none() const {
         return static_cast<float>(theirs_.length * (kSections - 1)) * ratios_.odds(losses_.at_best);
     }
 
-    /// Adds the places at shifts that share no line. If the bound on the odds of these places is
-    /// not negligible, the places are counted one by one.
+    /// Adds all places at shifts at which they share no line. If the bound on their odds is not
+    /// negligible, counts the places one by one.
     void add_sharing_none() {
         const float all = sharing_none();
         if (all <= kNegligibleOdds) {
@@ -169,7 +172,7 @@ class OtherPlaces {
         }
     }
 
-    /// Adds a place at all shifts that share no line.
+    /// Adds a place at all shifts at which it shares no line, except `shift_left_out`.
     void add_unshared(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios_.count()));
         for (int shift = 0; shift < kSections; ++shift) {
@@ -184,9 +187,10 @@ class OtherPlaces {
         }
     }
 
+    /// Adds a place at all shifts at which it shares a line, except `shift_left_out`.
     void add(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
-        // Summed loss of the lines shared at each shift, in units of kUnit, indexed by the roll
-        // offset of these lines.
+        // Summed losses of the lines that share the same shift, indexed by the roll offset of these
+        // lines, in units of kUnit.
         std::array<std::uint16_t, kSections + 1> shared{};
         std::uint16_t most = 0;
         for (std::size_t line = 0; line < count_; ++line) {
@@ -254,13 +258,13 @@ class AxisWeigher {
     }
 
     /// Counts all other places one by one if the bound on their odds is not negligible. `across`
-    /// contains the odds of the other axis.
+    /// contains the odds of the other axis, with which these odds are multiplied.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
         others.begin_count();
         others.add_unsimilar();
         if (!steps_) steps_ = losses_.of_steps(ratios_);
-        // Searches the sequence of the other code for the digits of the reading.
+        // Searches the a4 of the other code for the digits of the a4 of the reading.
         code::Secondary a4 = code::basis(other)[kA4];
         a4.digits = ratios_.basis[kA4].digits;
         const PlaceBits similar = kernels_.find_similar_places(a4, ratios_.places[kA4], *steps_);
@@ -281,7 +285,7 @@ class AxisWeigher {
     const UnsharedLines& unshared_;
     const CodeVariant read_;
     const Losses losses_;
-    std::optional<StepLosses> steps_;  ///< set when they are first needed
+    std::optional<StepLosses> steps_;  ///< set when first needed
 };
 
 }  // namespace
@@ -305,7 +309,7 @@ void weigh_other_codes(const Kernels& kernels, const UnsharedLines& columns,
         if (other == read) continue;
         OtherPlaces x = by_x.bounded(other);
         OtherPlaces y = by_y.bounded(other);
-        // An axis needs no enumeration if the other axis contradicts the code.
+        // An axis needs no enumeration if the bits of the other axis rule out the code.
         by_x.look_closer(other, y.here() + y.elsewhere(), x);
         by_y.look_closer(other, x.here() + x.elsewhere(), y);
         others.of[i] = {x.result(), y.result()};

@@ -1,6 +1,6 @@
-// Weigh codes: the odds of the places in the other codes that explain an axis about as well as the
-// reading does. Codes differ in a4 only, so these places differ from the reading in a4 only.
-// docs/integrity.md derives the sums.
+// Weigh codes: the odds of places in the other codes, relative to the reading. The codes differ in
+// a4 only, so these places have the same places as the reading in a1, a2 and a3. docs/integrity.md
+// derives the sums.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -10,12 +10,12 @@
 
 namespace dotpose::core {
 
-/// Returns, for one axis, the odds of the places in the code variant `other` relative to the
+/// Returns the odds of the places in the code variant `other` along one axis, relative to the
 /// reading. `ratios` are the likelihood ratios of the reading in the variant `read`.
 OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, CodeVariant read,
                            CodeVariant other);
 
-/// Sets the odds of the places in all other codes, from the ratios of both axes.
+/// Sets the odds of the places in all codes other than `read`, along both axes.
 void weigh_other_codes(const Kernels& kernels, const UnsharedLines& columns,
                        const UnsharedLines& rows, CodeVariant read, OtherCodes& others);
 
