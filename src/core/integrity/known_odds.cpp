@@ -87,9 +87,10 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// Returns the probability that the bits of a view that is on none of the sheets agree at least as
-/// well with any place on the sheets. `bits` is the number of bits of each axis, `wrong` the number
-/// of wrong bits of each axis, and `lines` the number of columns or rows, whichever is larger.
+/// Returns an upper bound on the probability that a view that is on none of the sheets agrees at
+/// least as well with any place on the sheets. `bits` is the number of bits of each axis, `wrong`
+/// the number of wrong bits of each axis, and `lines` the number of columns or rows, whichever is
+/// larger.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;

@@ -16,12 +16,12 @@ constexpr std::size_t kMinEdges = 12;
 
 using Values = std::span<std::int32_t>;
 
-/// Returns the median length of the edges in units of 2^-8 px, or 0 if no edge is short enough.
+/// Returns the median length of the edges in units of 2^-8 px. Edges of 128 px or more along either
+/// axis are ignored. Returns 0 if there are no other edges.
 std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     std::size_t n = 0;
     for (const SeedEdge& edge : edges) {
-        // Neighbours are within 128 px along each axis, so half of the squared length fits in 32
-        // bits.
+        // The limit of 128 px ensures that half of the squared length fits in 32 bits.
         if (!is_within(edge.step_q8, (1 << 15) - 1)) continue;
         const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
         const auto y = static_cast<std::uint32_t>(edge.step_q8.y * edge.step_q8.y);
@@ -31,8 +31,9 @@ std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     return static_cast<std::int32_t>(square_root(half_square * 2));
 }
 
-/// Returns the direction of the grid, modulo a quarter turn. As complex numbers, the fourth powers
-/// of the edges in all four directions of a grid have the same direction.
+/// Returns the direction of the grid, modulo a quarter turn, as a binary angle. If edges are
+/// represented as complex numbers, the fourth powers of edges in all four directions of a grid have
+/// the same argument.
 std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t length_q8) {
     const std::int32_t inverse_q16 = 1024 * 65536 / length_q8;
     std::int32_t sum_re = 0;
@@ -43,19 +44,19 @@ std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t 
         const std::int32_t x = (step.x * inverse_q16) >> 16;
         const std::int32_t y = (step.y * inverse_q16) >> 16;
         const std::int32_t squared_length = x * x + y * y;
-        // Diagonals are left out, because their fourth powers point in the opposite direction and
-        // are four times as large.
+        // Diagonals are ignored, because their fourth powers have the opposite sign and four times
+        // the magnitude.
         if (squared_length > 1280 * 1280 || squared_length < 512 * 512) continue;
         const std::int32_t re = (x * x - y * y) >> 10;
         const std::int32_t im = (2 * x * y) >> 10;
         sum_re += (re * re - im * im) >> 10;
         sum_im += (2 * re * im) >> 10;
     }
-    // The sums are at most 2^9 edges times (5/4)^4 2^10, which fits in 32 bits.
+    // The sums are at most 2^9 edges times (5/4)^4 * 2^10, which fits in 32 bits.
     return angle_bam({sum_re, sum_im}) / 4;
 }
 
-/// Cluster of an edge, and the side of the origin that contains the edge.
+/// Cluster of an edge, and whether the edge is opposite to the mean of the cluster.
 enum class Side : std::uint8_t { first, second, opposite_first, opposite_second, unknown };
 
 std::size_t cluster_of(Side side) {
@@ -67,7 +68,7 @@ FixedVec turned(FixedVec edge, Side side) {
 }
 using Sides = std::array<Side, kMaxEdges>;
 
-/// Sum and number of the edges of one side.
+/// Sum and number of the edges with the same Side.
 struct Sum {
     FixedVec total;
     std::int32_t count = 0;
@@ -79,7 +80,7 @@ struct Sum {
 };
 using Sums = std::array<Sum, 5>;  ///< indexed by Side
 
-/// Two of the four clusters. The other two clusters are their mirror images about the origin, which
+/// Two of the four clusters. The other two clusters are the opposites of these two clusters, which
 /// is the constraint of Fig. 5.
 class Clusters {
   public:
@@ -118,8 +119,8 @@ class Clusters {
         const FixedVec e{edge_q8.x >> 2, edge_q8.y >> 2};
         const std::int32_t along_0 = e.x * means_q6_[0].x + e.y * means_q6_[0].y;
         const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
-        // Compares |edge -+ mean|^2 / 2 without the term |edge|^2, which is common to all four
-        // distances.
+        // Compares the clusters by the smaller of |edge - mean|^2 / 2 and |edge + mean|^2 / 2,
+        // without the common term |edge|^2 / 2.
         if (magnitude(along_1) - magnitude(along_0) > farther_)
             return along_1 < 0 ? Side::opposite_second : Side::second;
         return along_0 < 0 ? Side::opposite_first : Side::first;
@@ -181,12 +182,12 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
                          shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
     const Clusters clusters({along, FixedVec{-along.y, along.x}});
     const auto [u, v] = medians(edges, clusters, memory);
-    // Symmetric edges are 4 % too short on average, because the nearest neighbours of a dot tend to
-    // be displaced towards this dot.
+    // Symmetric edges are 4 % too short on average, because a dot is more often the nearest
+    // neighbour of another dot if it is displaced towards that dot.
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
-    // differs: the paper keeps both axes. The deviation of the axes from a square is scatter of the
-    // medians rather than tilt. Averaging the axes halves the variance.
+    // differs: the paper keeps both medians as axes. The deviation of the medians from a square is
+    // mostly scatter, not tilt. Averaging both medians into one square halves the variance.
     const FixedVec twice_u{u.x + v.y, u.y - v.x};
     lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};
     lattice.v_q16 = {-lattice.u_q16.y, lattice.u_q16.x};
@@ -194,7 +195,7 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
 }
 
 bool is_nearly_square(FixedVec u, FixedVec v) {
-    // Fourteen bits of the longest component suffice. Products of four such components fit in 64
+    // Fourteen bits of the largest component suffice. Products of four components then fit in 64
     // bits.
     const auto longest =
         static_cast<std::uint32_t>(std::max(larger_component(u), larger_component(v)));
@@ -204,8 +205,8 @@ bool is_nearly_square(FixedVec u, FixedVec v) {
     const std::int32_t uu = u.x * u.x + u.y * u.y;
     const std::int32_t vv = v.x * v.x + v.y * v.y;
     const std::int32_t area = u.x * v.y - u.y * v.x;
-    // The ratio of the lengths must be at most 3:2, and the sine of the angle between the vectors
-    // at least 0.9.
+    // The sine of the angle is at least 0.9 if its square, squared_area / (uu * vv), is at least 81
+    // / 100.
     const std::int64_t squared_area = std::int64_t{area} * area;
     return area > 0 && std::int64_t{4} * uu <= std::int64_t{9} * vv &&
            std::int64_t{4} * vv <= std::int64_t{9} * uu &&

@@ -1,5 +1,5 @@
-// Axes: the two directions and spacings of the grid, from symmetric edges. Paper section II-B.2,
-// Fig. 5 (constrained k-means).
+// Axes: the two directions and spacings of the grid, from the symmetric edges between dots. Paper
+// section II-B.2, Fig. 5 (constrained k-means).
 #pragma once
 
 #include "dotpose/status.hpp"
@@ -7,17 +7,19 @@
 
 namespace dotpose::core {
 
-/// Sets u and v of the lattice, but not its origin. The lattice is right-handed: v is u rotated
-/// from +x to +y. `memory` must contain two elements per edge. Errors: no_grid, if the edges do not
-/// have two directions with about equal lengths and about a right angle between them.
+/// Sets u and v of the lattice, but not its origin. v is u rotated by 90 degrees from +x to +y.
+/// `memory` must contain two elements per edge. Errors: no_grid, if there are fewer than 12 edges,
+/// or if the edges do not have two directions with about equal lengths and about a right angle
+/// between them.
 Status estimate_axes(std::span<const SeedEdge> edges, std::span<std::int32_t> memory,
                      Lattice& lattice);
 
-/// Returns true if the vectors may be the axes of a square grid at a tilt of up to about 35
-/// degrees.
+/// Returns true if u and v may be the axes of a tilted square grid: the ratio of their lengths is
+/// at most 3:2, and the angle from u to v, in the direction from +x to +y, has a sine of at least
+/// 0.9.
 bool is_nearly_square(FixedVec u, FixedVec v);
-/// Returns true if the grid at the centre of a plane may be a square grid with a spacing of at
-/// least 4 px.
+/// Returns true if the axes of the grid at the centre of a plane pass the same test, and the
+/// spacing is at least 4 px.
 bool is_nearly_square(const PlaneFromImage& plane);
 
 }  // namespace dotpose::core

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kDistanceBins = 64;
 
-/// The seeds, sorted row by row into square buckets. Seeds that are near each other in the image
+/// The seeds, sorted into square buckets, row by row. Seeds that are near each other in the image
 /// are then near each other in memory.
 class Buckets {
   public:
@@ -23,15 +23,15 @@ class Buckets {
     int column(FixedVec at_q8) const { return at_q8.x >> shift_; }
     int row(FixedVec at_q8) const { return at_q8.y >> shift_; }
     std::span<const BucketedSeed> all() const { return memory_.first(count_); }
-    /// Returns the first seed in the bucket at this column of a row. If the bucket is empty,
-    /// returns the next seed.
+    /// Returns the first seed in the bucket at this row and column. If the bucket is empty, returns
+    /// the first seed of the buckets after it.
     const BucketedSeed* in_row(int row, int column) const {
         return &memory_[memory_[static_cast<std::size_t>(row * columns_ + column)].begin];
     }
 
   private:
     const std::span<BucketedSeed>
-        memory_;  ///< the last element contains the end of the last bucket
+        memory_;  ///< element columns * rows contains the end of the last bucket
     const std::size_t count_;
     int shift_ = 0;
     int columns_ = 1;
@@ -48,8 +48,8 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
         corner = {std::min(corner.x, p.x), std::min(corner.y, p.y)};
         end = {std::max(end.x, p.x), std::max(end.y, p.y)};
     }
-    // A bucket contains one to four seeds, so the four nearest seeds are usually in the 3 x 3
-    // buckets around a seed.
+    // On average, a bucket contains one to four seeds. The four nearest seeds of a seed are then
+    // usually in the 3 x 3 buckets around it.
     const int max_buckets = static_cast<int>(seeds.size());
     do {
         ++shift_;
@@ -76,10 +76,11 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
     }
 }
 
-/// Maximum distance of a neighbour along each axis, in units of 2^-8 px (128 px). No grid has a
-/// larger spacing.
+/// Distance along each axis, in units of 2^-8 px, from which a seed is not a neighbour (128 px). No
+/// grid has a larger spacing.
 constexpr std::int32_t kFarthest_q8 = 1 << 15;
 
+/// Returns the square of a, modulo 2^32.
 std::uint32_t wrapped_square(std::int32_t a) {
     return static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(a);
 }
@@ -88,7 +89,7 @@ std::uint32_t wrapped_square(std::int32_t a) {
 class Nearest {
   public:
     /// Keeps only seeds whose squared distance is below `within_q16`. `may_be_far` is true if seeds
-    /// may be 128 px away or more.
+    /// that are 128 px or more away may be tested.
     Nearest(const BucketedSeed& self, std::uint32_t within_q16, bool may_be_far)
         : self_(self), may_be_far_(may_be_far) {
         for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -101,8 +102,8 @@ class Nearest {
         const auto [x, y] = self_.at_q8;
         std::uint32_t farthest_q16 = squared_q16_[3];
         for (; p != end; ++p) {
-            // The square of a far seed may overflow and appear small, but `consider` rejects such
-            // seeds.
+            // The squared distance of a far seed may overflow and appear small, but `consider`
+            // rejects such seeds.
             const std::uint32_t squared_q16 =
                 wrapped_square(p->at_q8.x - x) + wrapped_square(p->at_q8.y - y);
             if (squared_q16 < farthest_q16) farthest_q16 = consider(p, squared_q16);
@@ -155,7 +156,8 @@ void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
 
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds) {
-    // Bins are as narrow as possible, but the last bin must contain the farthest dot.
+    // Histogram of the distances, with bins that are as narrow as possible. The last bin must still
+    // contain the farthest dot.
     std::array<std::uint16_t, kDistanceBins> histogram{};
     int shift = 0;
     for (const DetectedDot& dot : dots) {
@@ -195,8 +197,8 @@ void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uin
             const bool is_last = reach >= max_reach || sure_q8 >= kFarthest_q8;
             const auto within_q16 =
                 is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8);
-            // Seeds in the buckets searched are at most one bucket beyond `reach`, and therefore at
-            // most twice as far away.
+            // The buckets searched contain all seeds within sure_q8. They extend at most one bucket
+            // farther, so their seeds are at most 2 * sure_q8 away along each axis.
             Nearest nearest(p, within_q16, 2 * sure_q8 > kFarthest_q8);
             const int left = std::max(column - reach, 0);
             const int right = std::min(column + reach, buckets.columns() - 1);

@@ -1,8 +1,8 @@
 // Neighbours: the four nearest dots of each dot near the image centre, and the symmetric edges
-// between them. Paper section II-B.2. differs: the paper connects all dots. Here, the first grid is
-// fitted only to the seeds, which are the dots nearest the centre, at most kMaxSeeds. The grid is
-// then extended outwards (device/grow.hpp, lattice/refine_grid.hpp). This bounds the time for any
-// image.
+// between these dots. Paper section II-B.2. differs: the paper connects all dots. Here, the first
+// grid is fitted only to the seeds, which are at most kMaxSeeds dots nearest the centre. The grid
+// is then extended outwards (device/grow.hpp, lattice/refine_grid.hpp). This limits the time for
+// any image.
 #pragma once
 
 #include <cstdint>
@@ -11,31 +11,33 @@
 
 namespace dotpose::core {
 
-/// Maximum number of seeds. Seeds are the dots nearest the image centre, from which the first grid
-/// is estimated.
+/// Maximum number of seeds: the dots nearest the image centre, from which the first grid is
+/// estimated.
 inline constexpr int kMaxSeeds = 256;
 
-/// Element n of two independent arrays that share their memory: the n-th seed, sorted by bucket in
-/// row-major order, and the n-th bucket.
+/// Element n of two independent arrays that share their memory: an array of seeds, sorted by bucket
+/// in row-major order, and an array of buckets.
 struct BucketedSeed {
     FixedVec at_q8;           ///< place of the seed relative to the corner of the first bucket
     std::uint16_t seed = 0;   ///< index of the seed
-    std::uint16_t begin = 0;  ///< index of the first seed of the bucket in this order
+    std::uint16_t begin = 0;  ///< index of the first seed of the bucket in the array of seeds
 };
 
-/// Chooses the dots nearest to a point, by the larger of the distances along x and y, up to the
-/// size of `seeds`. Sets `seeds` to their indices and returns their number.
+/// Chooses at most `seeds.size()` dots in a square around `centre_q8`. The square is as large as
+/// possible, in steps of a histogram bin. Writes the indices of the dots to `seeds` and returns
+/// their number.
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds);
 
 /// Finds the four nearest other seeds of each seed, nearest first, within 128 px along each axis.
-/// Writes -1 for each missing seed. `memory` must have one element more than there are seeds.
+/// Writes the index -1 for each missing seed. `memory` must have one element more than `seeds`.
 void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                      std::span<BucketedSeed> memory,
                      std::span<std::array<std::int16_t, 4>> neighbours);
 
-/// Finds the pairs of seeds that are neighbours of each other. Each pair is written once, as an
-/// edge that points down. Returns the number of pairs.
+/// Finds the pairs of seeds in which each seed is among the four nearest seeds of the other. Writes
+/// each pair once, as an edge that points down, or right if it is horizontal. Returns the number of
+/// edges.
 int connect_symmetric(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                       std::span<const std::array<std::int16_t, 4>> neighbours,
                       std::span<SeedEdge> edges);

@@ -13,13 +13,14 @@ namespace {
 
 namespace tuned = tuning::outwards;
 
+/// Returns the strongest waves through the central dots. Returns nullopt if the waves are too weak,
+/// or if the spacing or the number of dots is out of range.
 std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, const PatchView& view) {
     const float spacing = view.spacing_px;
     const PatchDots& dots = patch.dots;
     const auto scale = static_cast<float>(patch.scale);
     if (spacing < tuned::kFinest_px * scale || spacing > tuned::kCoarsest_px * scale) return {};
-    // The central dots are the dots within the disc that contains `central_dots` cells at this
-    // spacing.
+    // The central dots are in a disc with the area of `central_dots` cells.
     const float radius_2 = view.central_dots * spacing * spacing / 3.14159265F;
     alignas(64) std::array<float, tuned::kMaxCentralDots + 8> x;
     alignas(64) std::array<float, tuned::kMaxCentralDots + 8> y;
@@ -35,8 +36,8 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     std::fill_n(y.begin() + count, 8, 0.0F);
     const float unit = static_cast<float>(count) * static_cast<float>(count);
     Waves best;
-    // Missing dots increase the estimated spacing and false dots reduce it, so other spacings are
-    // tried too.
+    // Missing dots increase the estimated spacing, and false dots reduce it, so other spacings are
+    // tried as well.
     for (const float by : {1.0F, 0.93F, 1.07F, 0.87F, 1.14F, 0.81F}) {
         const Waves waves =
             kernels.strongest_waves(x.data(), y.data(), static_cast<int>(count), by / spacing);
@@ -47,8 +48,8 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     return best;
 }
 
-/// Returns the phase of a wave in turns, from -1/2 to 1/2, with an error of at most a thousandth.
-float phase_in_turns(const Waves& waves, std::size_t i) {
+/// Returns the phase of wave i in cycles, from -1/2 to 1/2, with an error of at most 1/1000.
+float phase_in_cycles(const Waves& waves, std::size_t i) {
     const float x = std::abs(waves.phase_cos[i]);
     const float y = std::abs(waves.phase_sin[i]);
     const float ratio = std::min(x, y) / std::max({x, y, 1e-20F});
@@ -60,8 +61,8 @@ float phase_in_turns(const Waves& waves, std::size_t i) {
 
 FloatPlane plane_from_waves(const Waves& waves) {
     FloatPlane plane;
-    plane.at_x = -phase_in_turns(waves, 0);
-    plane.at_y = -phase_in_turns(waves, 1);
+    plane.at_x = -phase_in_cycles(waves, 0);
+    plane.at_y = -phase_in_cycles(waves, 1);
     plane.du_x = waves.kx;
     plane.dv_x = waves.ky;
     plane.du_y = -waves.ky;
@@ -69,7 +70,8 @@ FloatPlane plane_from_waves(const Waves& waves) {
     return plane;
 }
 
-/// Inverse of the matrix of the sums of products of (x, y, 1).
+/// Inverse of the 3 x 3 matrix of the sums, over all dots, of the products of (x, y, 1) with
+/// itself.
 struct Inverse {
     std::array<std::array<float, 3>, 3> m;
     bool is_regular = false;
@@ -99,17 +101,17 @@ float inner(const std::array<float, 3>& a, const std::array<float, 3>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Solves the least-squares problem of i (1 + g x + h y) = a x + b y + c, and of j (1 + g x + h y)
-/// = d x + e y + f. Eliminates a, b, c and d, e, f, which leaves two equations for g and h. Without
-/// perspective, g = h = 0. Returns false if the dots do not determine the plane.
+/// Fits a plane to cells (i, j) at (x, y) by least squares: i (1 + g x + h y) = a x + b y + c, and
+/// j (1 + g x + h y) = d x + e y + f. Eliminates a to f, which leaves two equations for g and h.
+/// Without perspective, g = h = 0. Returns false if the dots do not determine the plane.
 bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane) {
     const Inverse inverse(sums.one);
     if (!inverse.is_regular) return false;
     const auto right_of = [](const std::array<float, 6>& s) {
         return std::array{s[1], s[2], s[0]};
     };
-    // Sums of (x, y, 1) times x, and of (x, y, 1) times y. Each term is multiplied by the column or
-    // row of the cell.
+    // Sums of x (x, y, 1) and of y (x, y, 1), with each term multiplied by the column or row of the
+    // cell.
     const auto with_x = [](const std::array<float, 6>& s) { return std::array{s[3], s[4], s[1]}; };
     const auto with_y = [](const std::array<float, 6>& s) { return std::array{s[4], s[5], s[2]}; };
     std::array<float, 3> i = inverse(right_of(sums.i));
@@ -144,7 +146,8 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
     return true;
 }
 
-/// Returns true if the fitted plane is near the first plane and does not fold within the reach.
+/// Returns true if the spacing of the fitted plane is near the first spacing, and the perspective
+/// does not fold the plane within the reach.
 bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
     const float spacing = spacing_px(plane);
     const float fold = (std::abs(plane.tilt_x) + std::abs(plane.tilt_y)) * reach;
@@ -152,16 +155,18 @@ bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
            spacing < tuned::kMaxSpacing * first_spacing && fold < tuned::kMaxFold;
 }
 
-/// Returns the factor on the reach for the next round, from the fraction of dots near a place of
-/// their cells.
+/// Returns the factor by which the reach grows or shrinks for the next round. `fraction` is the
+/// fraction of the dots within reach that are near a place of their cell.
 float growth(float fraction) {
     if (fraction > tuned::kGoodFraction) return tuned::kGoodGrowth;
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// Number of nearest dots, including the dot itself, from which the spacing is estimated.
+/// Number of nearest dots from which the spacing is estimated.
 constexpr std::size_t kNearest = 20;
 
+/// Returns the squared distance, in px^2, of the dot that comes after the kNearest dots nearest to
+/// `of`. These dots include the dot at `of`.
 float squared_reach_of_nearest(const PatchDots& dots, FloatVec of) {
     std::array<float, PatchDots::kMax> squares{};
     const auto count = static_cast<std::size_t>(dots.count);
@@ -189,7 +194,8 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     PatchDots& dots = patch.dots;
     const int count = dots.count;
     if (count < tuned::kMinDots) return false;
-    // Tests a sample of the dots as origins. In noise, which has many dots, the sample is smaller.
+    // Tests a sample of the dots as the origin. If there are many dots, as in noise, the sample is
+    // smaller.
     constexpr int kMaxCandidates = 64;
     constexpr int kMinCandidates = 16;
     constexpr int kMaxDistances = 32768;
@@ -202,7 +208,7 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
         const float reach_2 = squared_reach_of_nearest(dots, candidate);
         if (reach_2 >= min_reach_2) continue;
         min_reach_2 = reach_2;
-        // The origin is in whole pixels, so planes can be moved to this origin without loss of
+        // The origin is in whole px, so planes can be moved to this origin without loss of
         // precision.
         from_middle_px = {std::floor(candidate.x), std::floor(candidate.y)};
     }
@@ -212,7 +218,7 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     }
     view = whole_view(patch);
     view.full_reach_px += std::max(std::abs(from_middle_px.x), std::abs(from_middle_px.y));
-    // A disc with n dots has the area of n cells.
+    // A disc that contains n dots has the area of n cells.
     view.spacing_px = std::sqrt(3.14159265F * min_reach_2 / (kNearest + 0.5F));
     return true;
 }
@@ -225,7 +231,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     plane = plane_from_waves(*waves);
     const float spacing = spacing_px(plane);
     const float full = view.full_reach_px;
-    // The first rounds fit the intersections. In these rounds, the displacements of dots are noise.
+    // The first rounds fit the plane to the intersections. The displacements of the dots count as
+    // noise.
     CellPass pass{tuned::kFirstReach * spacing, tuned::kFirstMaxOffset, 0};
     CellSums sums;
     for (int round = 0; round < 2; ++round) {
@@ -237,8 +244,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     if (mean_square < kUndisplaced) return false;
     grid.displacement =
         std::clamp(std::sqrt(mean_square), tuned::kMinDisplacement, tuned::kMaxDisplacement);
-    // The following rounds fit the nearest of the four places of each cell, which reduces the noise
-    // to a fifth.
+    // The following rounds fit the plane to the nearest of the four places of each dot, which
+    // reduces the noise to a fifth.
     pass.displacement = grid.displacement;
     pass.max_off = std::min(tuned::kMaxOffsetPart * grid.displacement, tuned::kMaxOffset);
     for (int round = 0; round < tuned::kMaxRounds; ++round) {
@@ -254,8 +261,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
             break;
         pass.reach_px = std::min(std::max(pass.reach_px * growth(fraction), 4 * spacing), full);
     }
-    // Graphics may stop the growth of the reach. Bits can still be read within the reach of the
-    // grid.
+    // Graphics may stop the growth of the reach. Bits can still be read within the final reach.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     return true;

@@ -1,6 +1,6 @@
-// Outwards: finds the plane of the grid from the dots of a patch. Waves through the dots near the
-// middle give a first plane. Further planes are fitted to more and more dots, with perspective as
-// soon as perspective is measurable. Paper sections II-B.2 and II-B.3.
+// Outwards: finds the plane of the grid from the dots of a patch. Two plane waves through the dots
+// near the middle give a first plane. Further planes are fitted to more and more dots, with
+// perspective as soon as the reach exceeds four spacings. Paper sections II-B.2 and II-B.3.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -8,34 +8,37 @@
 
 namespace dotpose::core {
 
-/// A grid and its agreement with the dots of the patch.
+/// The grid of a patch, and its agreement with the dots.
 struct PatchGrid {
     FloatPlane grid_from_image;  ///< relative to the middle of the patch
-    float displacement = 0;      ///< displacement of a typical dot, in spacings
+    float displacement = 0;      ///< displacement of the dots (root mean square), in spacings
     /// Variance of the offset of a dot from the nearest of the four places of its cell, per axis,
     /// in spacings^2.
     float variance = 0;
 };
 
-/// Estimates for the dots of a patch before the search. The search begins at the origin of the
-/// coordinates of the dots.
+/// Estimates for the dots of a patch before the grid is searched. The search begins at the origin
+/// of the coordinates of the dots.
 struct PatchView {
-    float spacing_px = 0;     ///< approximate spacing, in px of the image
-    float full_reach_px = 0;  ///< maximum distance of a dot along an axis, in px of the image
-    /// Approximate number of dots near the middle that are used to search waves, at most 64.
+    float spacing_px = 0;  ///< approximate spacing, in px of the image
+    /// Maximum distance of a dot from the origin along either axis, in px of the image.
+    float full_reach_px = 0;
+    /// Approximate number of dots near the origin through which waves are fitted, at most 64.
     float central_dots = 30;
     int min_dots = 40;  ///< minimum number of dots in the patch
 };
 
-/// Returns the view of a patch with dots everywhere.
+/// Returns the view of a patch that is covered by dots.
 PatchView whole_view(const Patch& patch);
 
-/// Moves the origin of the dots to the dot with the nearest neighbours. Used for a patch that is
-/// only partly covered by the pattern. Sets `from_middle_px` to the new origin relative to the
-/// middle of the patch. Returns false if there are too few dots.
+/// Moves the origin of the coordinates of the dots to the densest part of the patch, for a patch
+/// that is only partly covered by the pattern. The new origin is at the dot whose nearest
+/// neighbours are nearest, rounded down to whole px. Sets `view`, and sets `from_middle_px` to the
+/// new origin relative to the middle of the patch. Returns false if there are too few dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
-/// Finds the grid. Returns false if the dots are not on a grid, or are not displaced.
+/// Finds the grid. Returns false if the dots are not on a grid, or are not displaced from the
+/// intersections.
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid);
 
 }  // namespace dotpose::core

@@ -12,12 +12,12 @@ namespace {
 
 namespace tuned = tuning::periodogram_search;
 
-/// A wave whose crests are the rows of a grid.
+/// A plane wave, whose crests are the columns or the rows of a grid.
 struct Wave {
     std::int32_t direction_bam = 0;
     std::int32_t spacing_q16 = 0;  ///< in 2^-16 px
 
-    /// Returns the wave vector in turns per px.
+    /// Returns the wave vector, in units of 2^-30 cycles per px.
     FixedVec vector_q30() const {
         const FixedVec unit = unit_q30(direction_bam);
         return {static_cast<std::int32_t>((std::int64_t{unit.x} << 16) / spacing_q16),
@@ -32,7 +32,7 @@ struct Wave {
 
 constexpr std::int32_t kQuarter_bam = 1 << 30;
 
-/// Sums of waves over the dots near the centre.
+/// Periodogram of the seeds within reach of the centre.
 class Periodogram {
   public:
     Periodogram(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
@@ -43,6 +43,7 @@ class Periodogram {
         }
     }
 
+    /// Returns the sum of the wave over the seeds, as cosine and sine.
     FixedVec sum(const Wave& wave) const {
         const FixedVec wave_q30 = wave.vector_q30();
         FixedVec total;
@@ -67,7 +68,8 @@ class Periodogram {
 
 constexpr std::int32_t kDegree_bam = 11930465;
 
-/// Step sizes of a search raster around a wave, and the number of steps to each side.
+/// Raster of waves around a given wave: step sizes in direction and spacing, and numbers of steps
+/// to each side.
 struct Raster {
     std::int32_t turn_bam;
     std::int32_t stretch_q16;
@@ -75,7 +77,7 @@ struct Raster {
     int stretches;
 };
 
-/// Returns the wave of maximum power in the raster.
+/// Returns the wave with the maximum power in a raster around `around`.
 template <typename Power>
 Wave best_around(const Wave& around, const Raster& raster, Power power) {
     Wave best = around;
@@ -94,8 +96,8 @@ Wave best_around(const Wave& around, const Raster& raster, Power power) {
     return best;
 }
 
-/// Returns the wave at the local maximum of the power near `wave`. Searches with rasters of
-/// decreasing step sizes.
+/// Returns the wave with the local maximum of the power near `wave`. Searches rasters of decreasing
+/// step sizes.
 template <typename Power>
 Wave ascend(Wave wave, Power power) {
     const std::int32_t spacing_q16 = wave.spacing_q16;
@@ -108,8 +110,8 @@ Wave ascend(Wave wave, Power power) {
     return wave;
 }
 
-/// Returns the lattice whose rows are the crests of both waves. The origin of the lattice is near
-/// the centre.
+/// Returns the lattice whose columns are the crests of `first` and whose rows are the crests of
+/// `second`. The origin of the lattice is near the centre.
 Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave& second,
                    FixedVec centre_q8) {
     const FixedVec a = first.vector_q30();
@@ -124,8 +126,8 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     Lattice lattice;
     lattice.u_q16 = {entry(b.y), entry(-b.x)};
     lattice.v_q16 = {entry(-a.y), entry(a.x)};
-    // At the dots, the phases of both waves are whole turns plus the phases of their sums over all
-    // dots.
+    // At the intersections, the phase of each wave is the phase of its sum over all dots, plus
+    // whole cycles.
     const std::int64_t i_q16 = angle_bam(periodogram.sum(first)) >> 16;
     const std::int64_t j_q16 = angle_bam(periodogram.sum(second)) >> 16;
     lattice.origin_q16 = {
@@ -143,7 +145,8 @@ void search_periodogram(std::span<const DetectedDot> dots, std::span<const std::
     Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
                          lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
               static_cast<std::int32_t>(length_q16)};
-    // Within a few cells, the peak is wide enough for a coarse raster.
+    // The periodogram of dots within a few cells has a peak that is wide enough for a coarse
+    // raster.
     const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * tuned::kNear_cells);
     wave = best_around(wave,
                        {tuned::kTurn_deg * kDegree_bam, wave.spacing_q16 / tuned::kStretchPart,

@@ -18,9 +18,9 @@ namespace tuned = tuning::refine_grid;
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Corrects the origin by eq. 6: the error of the origin is the median offset of the dots near the
-/// origin. The offset is relative to the estimated origin, so the difference o - median of the
-/// paper becomes a sum.
+/// Corrects the origin by eq. 6: moves the origin by the median offset of the dots near the origin.
+/// differs: the paper has o - median (sign error); offsets are measured from the estimate, so the
+/// origin becomes o + median. The grid coordinates of all points decrease by the median.
 void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
@@ -37,7 +37,7 @@ void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
 
 /// Agreement of the dots within reach with the grid.
 struct Judged : Regularity {
-    std::int64_t squared_offsets_q20 = 0;
+    std::int64_t squared_offsets_q20 = 0;  ///< sum over the dots, in spacings^2
 };
 
 Judged judge(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
@@ -62,7 +62,7 @@ struct Target {
     FixedVec place_q16;
 };
 
-/// Largest distance of a dot from the image centre, per axis, in px.
+/// Returns the largest distance of a dot from `centre_q8` along either axis, in px, rounded up.
 int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
     std::int32_t reach = 1;
     for (const DetectedDot& dot : dots)
@@ -70,8 +70,8 @@ int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
     return reach;
 }
 
-/// Fits the plane to dots and their targets by one Gauss-Newton step. `target_of(g)` returns the
-/// target of a dot whose GridPoint is g.
+/// Fits the plane to the targets of the dots by one Gauss-Newton step. `target_of(g)` returns the
+/// target of a dot at the grid point g.
 template <typename TargetOf>
 void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, TargetOf target_of) {
     const int reach = reach_px(dots, plane.centre_q8);
@@ -104,9 +104,9 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
         plane = stepped(plane, scaled, step);
 }
 
-/// Fits the plane to the dots within reach. differs: eq. 6 continues with median lengths between
-/// neighbours. Here, a least-squares fit determines all terms, displacements are noise, and the
-/// reach grows from round to round.
+/// Fits the plane to the intersections of the dots within reach. differs: the paper continues after
+/// eq. 6 with median lengths between neighbours. Here, a least-squares fit determines all terms,
+/// displacements count as noise, and the reach grows from round to round.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
     fit_to_targets(dots, plane, [&](const GridPoint& g) {
@@ -117,7 +117,7 @@ void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOption
 }
 
 /// Fits the plane to the places of displaced dots. Each dot is assigned to the nearest of the four
-/// places of its cell. Leaves out dots that are far from all four places.
+/// places of its cell. Dots that are far from this place are ignored.
 void fit_places(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     constexpr std::int32_t kFar_q16 = tuned::kFar_q16;
     fit_to_targets(dots, plane, [](const GridPoint& g) {

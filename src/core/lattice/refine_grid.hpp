@@ -1,5 +1,5 @@
-// Refine grid: extends the first estimate of the grid to all dots, with perspective and lens. Paper
-// section II-B.3, eq. 6.
+// Refine grid: extends the first estimate of the grid to all dots, with perspective and lens
+// curvature. Paper section II-B.3, eq. 6.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -8,9 +8,10 @@
 
 namespace dotpose::core {
 
-/// Sets the map from the image to the grid, with perspective, and with the curvature of an unknown
-/// lens if the dots determine it. Errors: no_grid, if the dots are not near the intersections;
-/// no_displacement, if the dots are on the intersections (a plain dot grid).
+/// Sets the map from the image to the grid, including perspective and, if the dots determine it,
+/// the curvature of an unknown lens. `first` is the first estimate of the grid. Errors: no_grid, if
+/// too few dots are near the intersections; no_displacement, if the dots are on the intersections
+/// (a plain dot grid).
 Status refine_grid(std::span<const DetectedDot> dots, const LatticeOptions& options,
                    FixedVec image_centre_q8, const Lattice& first, PlaneFromImage& grid_from_image);
 

@@ -1,4 +1,4 @@
-// Regularity: agreement of the dots with a grid that is fitted to a growing number of dots.
+// Regularity: agreement of the dots with a grid that is fitted to more and more dots.
 #pragma once
 
 #include <algorithm>
@@ -12,26 +12,29 @@ namespace dotpose::core {
 /// Nominal displacement of a dot from its intersection, in spacings.
 inline constexpr std::int32_t kDisplacement_q16 = 65536 / 6;
 
-/// Distance, in cells, within which the first estimate is reliable. Errors of 3 % of the spacing, 1
-/// degree in the direction and 1/20 cell in the origin add up to less than 1/3 cell, the distance
-/// between a displaced dot and the next cell.
+/// Distance from the origin, in cells, within which the first estimate is reliable. Errors of 3 %
+/// of the spacing, 1 degree in the direction and 1/20 cell in the origin add up to less than 1/3
+/// cell at this distance. 1/3 cell is the distance between a displaced dot and the border of the
+/// cell.
 inline constexpr int kFirstReach_cells = 4;
 
 /// Counts of the dots within reach.
 struct Regularity {
     int dots = 0;
     int near_intersections = 0;
-    /// Maximum distance of the cell of a dot, including dots beyond the reach.
+    /// Maximum distance of the cell of any dot from the origin, in cells. Includes dots beyond the
+    /// reach.
     int farthest_cell = 0;
 
+    /// Returns true if enough dots are near an intersection to extend the reach.
     bool is_settled() const {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
     }
 
-    /// Returns the status for the mean square of all offsets, in spacings^2. Of dots at random
-    /// places, half are near an intersection, with a mean square of 1/6. Displaced dots are always
-    /// near an intersection, with a mean square of 1/36. Dots of a plain grid have a mean square of
-    /// 0.
+    /// Returns the status of the grid, given the mean square of the offsets of all dots from their
+    /// intersections, in spacings^2. Typical mean squares are 1/6 for dots at random places, half
+    /// of which are near an intersection; 1/36 for displaced dots, all of which are near an
+    /// intersection; and 0 for a plain grid.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
         constexpr std::int64_t kUndisplaced_q20 = (1 << 20) / 256;
@@ -43,10 +46,10 @@ struct Regularity {
     }
 };
 
-/// Extends a fit from the first reach to the farthest dot. `fit(reach_cells)` fits the grid to the
-/// dots within the reach and sets `found`. `fit` is called at most `max_rounds` times for each
-/// reach, until enough dots are near an intersection, because a better fit assigns more dots to the
-/// correct cells. Returns false if a fit fails.
+/// Extends a fit from kFirstReach_cells to the farthest dot. `fit(reach_cells)` fits the grid to
+/// the dots within the reach, sets `found`, and returns false if it fails. Calls `fit` at most
+/// `max_rounds` times for each reach, until enough dots are near an intersection, because a better
+/// fit assigns more dots to the correct cells. Returns false if a fit fails.
 template <typename Fit>
 bool fit_outwards(int max_rounds, const Regularity& found, Fit fit) {
     for (int reach = kFirstReach_cells;; reach += reach / 2 + 1) {
