@@ -18,8 +18,8 @@ namespace {
 /// and five digits determine the place in a sequence. In `libdots`, some positions share more
 /// lines. The sum of the near alternatives includes these positions.
 constexpr int kMaxSharedInARow = code::kOrder;
-/// Expected odds above which more alternatives are not counted one by one, because the fix would
-/// not become certain.
+/// Maximum expected odds for which more alternatives are counted one by one. With larger odds, the
+/// fix cannot become certain.
 constexpr float kBeyondHelp = 1e-4F;
 
 /// Returns the expected sum of the odds of the alternatives that differ in at least `min_different`
@@ -63,9 +63,8 @@ int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2) {
         // Skips the slowest sums if the other sums already exceed the limit.
         if (sum < limit) sum += sum_of_near_alternatives(lines, kMaxSharedInARow - 1);
         if (sum < limit) {
-            // Expected odds that are small enough to remain uncounted: an eighth of the sum, but at
-            // most an eighth of the margin to the limit, because an expectation alone must not
-            // cause a refusal.
+            // Expected odds that may remain uncounted: an eighth of the sum, but at most an eighth
+            // of the margin to the limit. An expectation alone must not cause a refusal.
             const float negligible = std::min(std::max(sum, far_below_doubt), limit - sum) / 8;
             sum += sum_of_double_alternatives(lines, negligible, limit - sum);
         }

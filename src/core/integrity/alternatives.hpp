@@ -6,10 +6,10 @@
 
 namespace dotpose::core {
 
-/// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up, at
-/// most 0. The odds of the far alternatives are an expectation, the other odds are upper bounds.
-/// The sum is only as precise as necessary for a comparison with 2^limit_log2. Returns 0 if there
-/// are too few lines to distinguish the reading from alternatives.
+/// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up and
+/// limited to 0. The odds of the far alternatives are an expectation, the other odds are upper
+/// bounds. The sum is only as precise as necessary for a comparison with 2^limit_log2. Returns 0 if
+/// there are at most 5 lines.
 int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

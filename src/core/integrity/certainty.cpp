@@ -21,8 +21,8 @@ namespace {
 
 /// Number of shifts at which an alternative does not share a given line.
 constexpr float kShifts = kSections - 1;
-/// Odds charged for each pruned single alternative, which are at least its true odds: as log2 in
-/// units of 2^-8, and as a number.
+/// Odds charged for each pruned single alternative: an upper bound on its odds, as log2 in units of
+/// 2^-8 and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Total number of places in the four sequences.
@@ -84,7 +84,7 @@ float sharing_none(const LikelihoodRatios& ratios) {
 /// Score that a wrong bit loses. All bits in this file have full weight, so losses are multiples of
 /// this score.
 constexpr int kBit = 2 * 127;
-/// Lists the lines with their minimum losses in bits, sorted by decreasing loss. Losses are limited
+/// Lists the lines with their minimum losses in bits, sorted by decreasing loss. Losses are clamped
 /// to between 0 and kMaxBits. Returns the number of lines.
 std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
     constexpr int kMaxBits = 31;
@@ -128,7 +128,7 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
 
 /// Returns an upper bound on the summed odds of the single alternatives that share a line. Tables
 /// bound the odds for most sequences. For the other sequences, alternatives that may matter are
-/// counted one by one. Returns 1 if there are too many of them.
+/// counted one by one. Returns 1 if there are too many such alternatives.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
@@ -192,7 +192,8 @@ float codes_in_question(const Query& query) {
 }
 
 /// Returns an upper bound on the probability that one axis is wrong, or 1 if chance and
-/// alternatives exceed the limit. Without scores, the bound is never smaller than with scores.
+/// alternatives exceed the limit. The bound from hard bits is never smaller than the bound from
+/// scores.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
                  const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();
@@ -213,8 +214,8 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     return sum + seam_alternatives(kernels, unshared);
 }
 
-/// Returns true if both axes together are certain. If so, sets the odds of the other codes, unless
-/// `Query::others` is null.
+/// Returns true if the sum of the bounds of both axes is within the limit. If so, sets the odds of
+/// the other codes, unless `Query::others` is null.
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                  const LikelihoodRatios& x, const LikelihoodRatios& y, const Query& query,
                  Fix& fix) {

@@ -47,9 +47,9 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage);
 
-/// Returns true if the position is certain: its bound is within the limit, and not too many bits
-/// contradict it. Sets `bit_errors` of the fix. If the result is true, also sets `p_wrong_log2` of
-/// the fix and, unless `others` is null, the odds of the other codes.
+/// Returns true if the position is certain: the bound is within the limit, and not too many bits
+/// contradict the position. Sets `bit_errors` of the fix. If the result is true, also sets
+/// `p_wrong_log2` of the fix and, unless `others` is null, the odds of the other codes.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr);
 

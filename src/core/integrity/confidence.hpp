@@ -68,9 +68,9 @@ int odds_per_bit_q8(const Confidence& confidence);
 
 /// Returns log2 of an upper bound on the probability that random bits of these weights agree at
 /// least as well with the code, at any position, in any section and turn of one axis. These are L *
-/// 63 * 4 hypotheses. Chernoff's bound, with weights scaled to log odds, limits the probability for
-/// each hypothesis. The result is an upper bound for any value of `odds_per_bit_q8`, and is
-/// smallest near the true odds.
+/// 63 * 4 hypotheses. Chernoff's bound, with weights scaled to log odds, applies to each
+/// hypothesis. The result is an upper bound for any value of `odds_per_bit_q8`, and is smallest
+/// near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
 /// Returns the same bound as `chance_log2`, but in units of 2^-8 and for 2^(log2_times_q8 / 256)

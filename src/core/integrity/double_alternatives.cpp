@@ -49,9 +49,9 @@ class Groups {
         }
     }
 
-    /// Returns true if (`one`, `other`) is the first pair of anchors, in the order of
-    /// `visit_pairs`, that belongs to `shared`. An alternative that shares several pairs of anchors
-    /// is counted only at the first pair.
+    /// Returns true if (`one`, `other`) is the first pair, in the order of `visit_pairs`, of two
+    /// anchors in `shared`. An alternative that shares several pairs of anchors is counted only at
+    /// the first of these pairs.
     bool is_first_pair(Anchors shared, int one, int other) const {
         for (const Anchors group : groups_) {
             const Anchors both = shared & group;
@@ -174,8 +174,8 @@ class Finder {
     float sum() const {
         float sum = 0;
         groups_.visit_pairs([&](int one, int other) {
-            // Of each pair of sequences, the places in one sequence are sorted into buckets. This
-            // sequence is never a3, which is the shortest.
+            // For each pair of sequences, the places in one of the two sequences are sorted into
+            // buckets. This sequence is never a3, the shortest sequence.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });

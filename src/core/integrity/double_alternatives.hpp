@@ -1,5 +1,5 @@
 // Double alternatives: positions that differ from the position read in the places in two secondary
-// sequences. docs/integrity.md derives their odds.
+// sequences. docs/integrity.md derives the odds.
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"

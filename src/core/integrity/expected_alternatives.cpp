@@ -6,11 +6,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Safety factor per step, because the digits of a sequence are not completely random. Any string
-/// of five digits occurs at most once in a sequence (in `libdots`, six strings occur twice). In a
-/// sequence of 233 digits of base 3, this is at most 3^5 / 233 times the frequency in a random
-/// sequence. The product of these ratios over the four sequences is 1.12, which is less than
-/// 1.03^5.
+/// Safety factor per step, because the digits of a sequence are not random. Any string of five
+/// digits occurs at most once in a sequence (in `libdots`, six strings occur twice). One occurrence
+/// in 233 digits of base 3 is 3^5 / 233 times the expected number in a random sequence. The product
+/// of these ratios over the four sequences is 1.12, which is less than 1.03^5.
 constexpr float kUnevenness = 1.03F;
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace dotpose::core {
 /// Computes the expected sum of the odds, line by line.
 class ExpectedAlternatives {
   public:
-    /// Includes alternatives that share at most `max_shared` adjacent lines with the position read
-    /// (3 or 4) and differ in the places of at least `min_different` sequences (2 or 3).
+    /// Includes the alternatives that share at most `max_shared` (3 or 4) adjacent lines with the
+    /// position read and have other places in at least `min_different` (2 or 3) sequences.
     ExpectedAlternatives(const code::Basis& basis, std::uint32_t position, int max_shared,
                          int min_different);
 

@@ -8,9 +8,9 @@ namespace {
 
 /// Safety factor per step: `kUnevenness` in expected_alternatives.cpp.
 constexpr float kUnevenness = 1.03F;
-/// Lower bounds on odds and sums, which avoid denormal numbers, because denormal numbers are slow.
-/// Sums start at kStart, which is so large that the lower bounds contribute little, even if other
-/// rolls fit some lines much better than the reading.
+/// Lower bounds on odds and sums, to avoid denormal numbers, which are slow. Sums start at kStart,
+/// which is so large that the lower bounds contribute little, even if other rolls fit some lines
+/// much better than the reading.
 constexpr float kMinOdds = 0x1p-40F;
 constexpr float kMinSum = 0x1p-80F;
 constexpr float kStart = 0x1p40F;

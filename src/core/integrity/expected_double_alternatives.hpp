@@ -1,6 +1,6 @@
 // Expected double alternatives: the expected odds of the positions that differ from the position
-// read in the places in two secondary sequences, by the number of anchors that they share with it.
-// The odds are averaged over all places. docs/integrity.md derives the expectation.
+// read in the places in two secondary sequences, by the number of anchors that are shared. The odds
+// are averaged over all places. docs/integrity.md derives the expectation.
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"

@@ -48,8 +48,8 @@ class ScoredAxis {
     int agreeing(CodeVariant code, std::uint32_t position, std::size_t added) const;
 
     /// Calls `use(position, sums)` for each position of the first line in `range`. sums[r] is the
-    /// number of bits that agree with the code if r is added to the rolls of all lines in section
-    /// 0. The section and the position on the other axis determine r.
+    /// number of bits that agree with the code if the rolls of all lines are those in section 0
+    /// plus r. The section and the position on the other axis determine r.
     template <typename Use>
     void visit(CodeVariant code, const PositionRange& range, Use use) const {
         constexpr std::uint32_t kChunk = 63;
@@ -86,11 +86,12 @@ struct ScoredTurn {
           columns(kernels, upright.columns, ranges.columns, ranges.rows.first),
           rows(kernels, upright.rows, ranges.rows, ranges.columns.first) {}
 
-    /// Returns the positions of the first column if at least one column is on a region.
+    /// Returns the positions that the first column can have if at least one column is on the
+    /// region.
     PositionRange columns_of(const KnownRegion& region) const {
         return {region.first.x, region.columns, columns.count()};
     }
-    /// Returns the positions of the first row if at least one row is on a region.
+    /// Returns the positions that the first row can have if at least one row is on the region.
     PositionRange rows_of(const KnownRegion& region) const {
         return {region.first.y, region.rows, rows.count()};
     }
@@ -116,10 +117,10 @@ class KeptTable {
     std::optional<Table> table_;
 };
 
-/// Calls `use(column, column_roll, row, row_roll)` for each class of columns and each class of rows
-/// in a section. `column_roll` is added to the rolls of the columns in section 0. It depends only
-/// on the section and the class of the row. `row_roll` is added to the rolls of the rows, and
-/// depends only on the section and the class of the column.
+/// Calls `use(column, column_roll, row, row_roll)` for each pair of a column class and a row class.
+/// The rolls of the columns are those in section 0 plus `column_roll`, which depends only on the
+/// section and the row class. The rolls of the rows are those in section 0 plus `row_roll`, which
+/// depends only on the section and the column class.
 template <typename Use>
 void visit_classes(const Section& section, Use use) {
     for (std::size_t column = 0; column < kSections; ++column) {

@@ -19,7 +19,7 @@ class OddsOfBits {
     /// `agreeing` is the number of bits that agree with the position judged.
     OddsOfBits(int odds_per_bit_q8, int agreeing)
         : agreeing_(agreeing),
-          // Odds are limited to between 2^-52 and 2^60. Odds above 2^60 on one axis refuse the
+          // Odds are clamped to between 2^-52 and 2^60. Odds above 2^60 on one axis refuse the
           // place in any case, because even their product with the minimum odds on the other axis
           // exceeds 1.
           min_(-52 * 256 / odds_per_bit_q8 - 1),
@@ -72,8 +72,8 @@ class OddsByClass {
 };
 
 /// Returns an upper bound on the probability that at most `wrong` of `bits` random bits contradict
-/// a given place. The terms of the binomial sum, in decreasing order, fall at least as fast as a
-/// geometric series.
+/// a given place. The terms of the binomial sum, from the last term on, decrease at least as fast
+/// as a geometric series.
 float random_agreement(int bits, int wrong) {
     if (3 * wrong >= bits) return 1;
     float term = 1;  // probability of exactly k wrong bits, divided by 2^exponent

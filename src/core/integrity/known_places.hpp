@@ -30,8 +30,8 @@ struct KnownPlace {
 bool shows_sheet(const KnownSheets& sheets, CodeVariant code, const Place& place,
                  const BitBlock& block);
 
-/// Returns the place on the sheets, in any orientation of the block, that agrees best with the bits
-/// of the block. Returns nullopt if the block has no bits.
+/// Returns the place on the sheets, in any code and any orientation of the block, that agrees best
+/// with the bits of the block. Returns nullopt if the block has no bits.
 std::optional<KnownPlace> find_known_place(const Kernels& kernels, const BitBlock& block,
                                            const KnownSheets& sheets);
 

@@ -86,13 +86,13 @@ class LikelihoodRatios {
     /// Returns the odds of an alternative with this loss, as log2 in units of 2^-8.
     int log2_odds_q8(int lost) const {
         // A loss is twice the weight of the bits that cause it. 129 / 2^15 is about 1 / (2 * 127).
-        // Losses are limited to kMaxLost, because the product must fit in 32 bits.
+        // Losses are clamped to kMaxLost, because the product must fit in 32 bits.
         constexpr int kMaxLost = 1 << 18;
         return -(((std::min(lost, kMaxLost) * odds_per_bit_q8_) >> 8) * 129 >> 7);
     }
     /// Returns the loss with odds of 2^(log2_odds_q8 / 256), rounded up.
     int loss_for(int log2_odds_q8) const { return -log2_odds_q8 * 254 / odds_per_bit_q8_ + 1; }
-    /// Returns the odds of an alternative with this loss as a number, limited to between 2^-64 and
+    /// Returns the odds of an alternative with this loss as a number, clamped to between 2^-64 and
     /// 2^64.
     float odds(int lost) const {
         const int log2_q8 = std::clamp(log2_odds_q8(lost), kNegligible_q8, -kNegligible_q8);
@@ -128,7 +128,7 @@ class LikelihoodRatios {
     /// reading.
     struct Nearest {
         int lost_bits = 0;      ///< loss of these rolls, in bits
-        int log2_count_q8 = 0;  ///< upper bound on log2 of their number, in units of 2^-8
+        int log2_count_q8 = 0;  ///< upper bound on log2 of the number of rolls, in units of 2^-8
     };
     Nearest nearest(int line) const;
 

@@ -7,8 +7,8 @@
 
 namespace dotpose::core {
 
-/// Lower bound on the loss of an alternative in n adjacent lines at one end of the view, indexed by
-/// n. Gains in lines that another roll fits better are not subtracted.
+/// Lower bounds on the loss of an alternative. Element n is the bound for n adjacent lines at one
+/// end of the view. Gains in lines that another roll fits better are not subtracted.
 using MinLosses = std::array<int, kMaxLines + 1>;
 /// Returns the bounds for the first n lines or, if `from_last` is true, for the last n lines.
 MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last);
@@ -19,9 +19,9 @@ MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last);
 int min_loss_with_border(const LikelihoodRatios& ratios);
 
 /// Returns true if every seam alternative loses at least `loss_limit` in a single line. This is the
-/// case if more than 2 * max_shared adjacent lines have a minimum loss of at least `loss_limit`,
-/// because an alternative shares at most `max_shared` adjacent lines on each side of the border.
-/// Returns false if in doubt.
+/// case if each of more than 2 * `max_shared` adjacent lines has a minimum loss of at least
+/// `loss_limit`, because an alternative shares at most `max_shared` adjacent lines on each side of
+/// the border. Returns false if in doubt.
 bool must_lose_with_border(const LikelihoodRatios& ratios, int loss_limit);
 
 }  // namespace dotpose::core

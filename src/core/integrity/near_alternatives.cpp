@@ -9,12 +9,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of periods of the shortest sequence that contain more than kMaxLines places. Added to a
-/// place, these periods keep the difference from the index of a line positive.
+/// Number of periods of the shortest sequence that contain more than kMaxLines places. This number
+/// of periods is added to a place before the index of a line is subtracted, to keep the difference
+/// positive.
 constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 
-/// The places in one sequence where the digits of the reading in a run of lines occur, including
-/// the place of the reading.
+/// The places in one sequence where the digits of the reading between the lines of a run occur.
+/// These places include the place of the reading.
 class TwinPlaces {
   public:
     /// The run begins at line `run` and has `digits` + 1 lines.

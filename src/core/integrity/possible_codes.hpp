@@ -15,7 +15,7 @@ namespace dotpose::core {
 /// Certainty of a fix, given its alternatives in the other possible codes.
 struct Judgement {
     bool is_certain = false;
-    bool is_ambiguous = false;  ///< true if other places in other codes have odds above 1e-3
+    bool is_ambiguous = false;  ///< true if other places in other codes have summed odds above 1e-3
     /// log2 of an upper bound on the probability that the fix is wrong, over all codes.
     int p_wrong_log2 = 0;
     CodeVariant other = CodeVariant::anoto;  ///< likeliest code other than the code read

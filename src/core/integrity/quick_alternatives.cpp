@@ -20,8 +20,8 @@ constexpr int kSmallOdds_q8 = -36 * 256;
 /// Default limit, as log2 in units of 2^-8. Bounds are as tight as this limit requires, even if the
 /// caller permits larger odds.
 constexpr int kUsualLimit_q8 = -30 * 256;
-/// Odds charged for each pruned single alternative, which are at least its true odds, as log2 in
-/// units of 2^-8.
+/// Odds charged for each pruned single alternative: an upper bound on its odds, as log2 in units of
+/// 2^-8.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 
 /// Odds of an alternative in a line that it does not share, as log2 in units of 2^-8.
@@ -46,8 +46,8 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
         const auto half_bits = static_cast<std::size_t>(-ratios.log2_odds_q8(best - score) >> 7);
         return kPowers[std::min(half_bits, kPowers.size() - 1)];
     };
-    // Most rolls lose at least 12 bits more than the best roll. Their odds are the last element of
-    // the table.
+    // Most rolls lose at least 12 bits more than the best roll. These rolls count with the last
+    // element of kPowers.
     const int min_power_score = best - ratios.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
     for (int roll = 0; roll < kSections; ++roll)
@@ -66,9 +66,9 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
     const auto max_shared = static_cast<std::size_t>(ratios.max_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
-    // Sums of the alternatives that share all lines from a certain line to the newest line, by this
-    // first line. All sums in this function are divided by the probability that the digits of all
-    // steps so far are equal. Each element of `sharing` is therefore constant.
+    // One element per line: the sum of the alternatives whose run of shared lines begins at this
+    // line and includes the newest line. All sums in this function are divided by the probability
+    // that the digits of all steps so far are equal, so each element remains constant.
     std::array<int, kMaxShared + kMaxLines> sharing;
     // Sums of each element of `sharing` and the element before it. Adding pairs halves the number
     // of terms.
@@ -132,8 +132,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
     // The other four sets contain more alternatives, but these alternatives share lines more
     // rarely. In each of these sets, the alternatives that share more than seven lines have less
-    // than half of the odds of the first set. For all five sets, these odds are less than three
-    // times the odds of the first set.
+    // than half of the odds of the first set. For all five sets together, these odds are less than
+    // three times the odds of the first set.
     constexpr int kThreeTimes_q8 = 406;
     if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
         const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(ratios));
@@ -153,7 +153,7 @@ class ByShift {
     ByShift(const LikelihoodRatios& ratios, int loss_limit);
 
     /// Returns `sum` plus the odds of the single alternative with the place `place` in `sequence`.
-    /// Both sums are log2 in units of 2^-8.
+    /// `sum` and the result are log2 in units of 2^-8.
     int add(std::size_t sequence, std::uint32_t place, int sum) {
         if (sequence != sequence_) begin(sequence);
         return may_matter(rolls_ + place) ? add_closely(place, sum) : sum;
@@ -185,7 +185,7 @@ class ByShift {
     std::array<Loss, kMaxLines> losses_;  ///< sorted by decreasing loss
     std::uint32_t in_all_ = 0;            ///< sum of all losses
     /// Number and sum of the first losses. An alternative that shares the line with the largest
-    /// loss cannot lose the limit in the first lines alone.
+    /// loss cannot lose the limit in these lines alone.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
     /// Losses that an alternative avoids at each shift, because it shares lines, plus `none_`.
@@ -301,8 +301,8 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
 }
 
 /// Returns log2 of an upper bound on the odds of the single alternatives of the given sequences
-/// that share a line, in units of 2^-8. Charges `kSkippedOdds_q8` for alternatives that must lose
-/// more than the limit, and counts the few other alternatives one by one.
+/// that share a line, in units of 2^-8. Charges kSkippedOdds_q8 for all alternatives, and adds the
+/// odds of the few alternatives that may lose less than the limit, one by one.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();
@@ -335,8 +335,8 @@ int other_sections_log2_q8(const LikelihoodRatios& ratios) {
 }  // namespace
 
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
-    // For hard bits, no tighter bound follows, so sets are added until the sum exceeds the limit of
-    // the caller.
+    // For hard bits, no tighter bound is computed later, so sets are added until the sum exceeds
+    // the limit of the caller.
     const bool is_last = ratios.is_of_bits();
     int far = far_log2_q8(ratios, true, is_last ? limit_q8 : kSmallOdds_q8);
     if (far > kSmallOdds_q8 && !is_last) far = far_log2_q8(ratios, false, limit_q8);

@@ -37,8 +37,8 @@ class RankedLines {
     const Offsets& offsets(std::size_t sequence, std::uint32_t place) const {
         return offsets_[kFirsts[sequence] + place];
     }
-    /// Returns the loss of an alternative in the line of a rank. `further` is the roll offset of
-    /// the alternative plus any multiple of 63, from 0 to 255.
+    /// Returns the loss of an alternative in the line with this rank. `further` is the roll offset
+    /// of the alternative plus any multiple of 63, from 0 to 255.
     int loss(int rank, int further) const {
         return losses_[static_cast<std::size_t>(rank)][static_cast<std::size_t>(further)];
     }

@@ -60,8 +60,9 @@ class LossesByBorder {
         const auto loss_in = [&](int line) {
             return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
-        // Stops when the loss on one side of the border reaches the limit. The alternative then
-        // cannot matter at this border or beyond it, regardless of its loss on the other side.
+        // Each loop stops when the loss on its side of the border reaches the limit. Farther along
+        // the loop, the alternative cannot matter at this shift, regardless of its loss on the
+        // other side.
         int lost = 0;
         for (int line = 0; line < count && lost < loss_limit_; ++line) {
             update_min(before_[static_cast<std::size_t>(line)], lost);

@@ -5,7 +5,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Losses of 32 alternatives, in counters of four bits. Each word contains one bit of all counters.
+/// Losses of 32 alternatives, in counters of four bits. Each word contains one binary digit of all
+/// counters.
 class Losses {
   public:
     explicit Losses(std::uint32_t excluded) : excluded_(excluded) {}
@@ -23,8 +24,8 @@ class Losses {
     std::uint32_t excluded() const { return excluded_; }
 
   private:
-    /// Returns true if a bit is set. Shifting the bit to the sign bit takes fewer instructions than
-    /// masking it.
+    /// Returns true if a bit is set. Shifts the bit to the sign, which takes fewer instructions
+    /// than a mask.
     static bool has_bit(unsigned n, int bit) {
         return static_cast<std::int32_t>(n << (31 - bit)) < 0;
     }

@@ -1,5 +1,5 @@
 // Single alternatives: positions that differ from the position read in the place in one secondary
-// sequence. docs/integrity.md derives their odds.
+// sequence. docs/integrity.md derives the odds.
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"

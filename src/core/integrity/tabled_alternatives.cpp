@@ -17,13 +17,13 @@ class Bounds {
         for (std::size_t n = 1; n < odds_.size(); ++n)
             odds_[n] = ratios.odds(unshared.min_loss_of(n) - ratios.max_gain());
     }
-    /// Returns the bound for a sequence. An alternative that does not share n of the table lines
-    /// loses at least the sum of their n smallest losses. `kMaxPositionsWith` limits the number of
-    /// such alternatives for each n, and `kUnshared` contains the minimum n at each place.
+    /// Returns the bound for a sequence. An alternative with n unshared table lines loses at least
+    /// the sum of the n smallest losses of the table lines. `kMaxPositionsWith` bounds the number
+    /// of such alternatives for each n, and `kUnshared` contains the minimum n at each place.
     float operator[](std::size_t sequence) const {
         const LikelihoodRatios& ratios = unshared_.ratios();
         const auto& max_with = code::kMaxPositionsWith[unshared_.tables() - 1][sequence];
-        // Bound for the alternatives that do not share more than kMaxCounted of the table lines. An
+        // Bound for the alternatives with more than kMaxCounted unshared table lines. An
         // alternative is counted once per shift at which it shares a line, so at most
         // `ratios.count()` times.
         float sum =
@@ -36,8 +36,8 @@ class Bounds {
 
   private:
     const UnsharedLines& unshared_;
-    /// Element n is an upper bound on the odds of an alternative that does not share n of the table
-    /// lines. The last element is also an upper bound for larger n.
+    /// Element n is an upper bound on the odds of an alternative with n unshared table lines. The
+    /// last element is also an upper bound for larger n.
     std::array<float, code::kMaxCounted + 2> odds_;
 };
 

@@ -19,8 +19,8 @@ enum class Sharing : std::uint8_t {
 };
 
 /// Lower bounds on the losses of the single alternatives, by sequence. A table applies to 10, 13 or
-/// 16 adjacent lines in the middle of the view. The losses are summed over these table lines only.
-/// Gains in lines that another roll fits better are not subtracted.
+/// 16 adjacent lines in the middle of the view, the table lines. Losses are summed over the table
+/// lines only. Gains in lines that another roll fits better are not subtracted.
 class UnsharedLines {
   public:
     static constexpr int kMaxTableLines = 16;
@@ -32,7 +32,7 @@ class UnsharedLines {
                   int max_lines = kMaxTableLines);
 
     const LikelihoodRatios& ratios() const { return ratios_; }
-    /// Returns the number of tables for at most the number of lines permitted by the constructor.
+    /// Returns the number of tables whose number of lines is within both limits of the constructor.
     /// The last of these tables is used.
     std::size_t tables() const { return row_ + 1; }
     /// Returns true if all single alternatives of a sequence lose at least `loss_limit`.
@@ -42,8 +42,7 @@ class UnsharedLines {
     /// Returns the minimum number of table lines that a single alternative of a sequence does not
     /// share, or 0 if there is no table for the sequence.
     std::size_t min_unshared(std::size_t sequence, Sharing sharing) const;
-    /// Returns the minimum loss of an alternative that does not share n of the table lines, for n
-    /// up to 8.
+    /// Returns the minimum loss of an alternative with n unshared table lines, for n up to 8.
     int min_loss_of(std::size_t n) const { return smallest_sums_[n]; }
     /// Returns the minimum loss of the single alternatives of a sequence, or 0 if there is no table
     /// for the sequence.

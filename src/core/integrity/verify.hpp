@@ -15,10 +15,11 @@
 namespace dotpose::core {
 
 /// Sets `bit_errors` and `p_wrong_log2` of the fix, and `bits` and `p_wrong_log2_q8` of the
-/// decoding. The probability includes chance, alternatives and seams. It is computed from the bound
-/// of quick_alternatives.hpp and, if this bound exceeds the limit or 2^-30, from alternatives.hpp.
-/// `others` contains the number of possible codes, and is null if the code is given. Errors:
-/// not_certain, if the probability exceeds the limit or too many bits contradict the position.
+/// decoding. The probability includes chance, alternatives and seams. The probability is computed
+/// from the bound of quick_alternatives.hpp and, if this bound exceeds the limit or 2^-30, from
+/// alternatives.hpp. `others` contains the number of possible codes, and is null if the code is
+/// given. Errors: not_certain, if the probability exceeds the limit or too many bits contradict the
+/// position.
 Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 

@@ -14,8 +14,8 @@ namespace {
 
 /// Index of a4, the only sequence in which the codes differ.
 constexpr std::size_t kA4 = 3;
-/// Odds charged for each pruned place, which are at least its true odds: as log2 in units of 2^-8,
-/// and as a number.
+/// Odds charged for each pruned place: an upper bound on its odds, as log2 in units of 2^-8 and as
+/// a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Summed odds below which no tighter bound is computed.
@@ -55,13 +55,13 @@ struct Losses {
     /// total loss of at most `shared`, in units of kUnit.
     bool exceed_limit(int shared) const { return kUnit * (all - shared) > loss_limit; }
 
-    /// Unit of `all` and `of`, in score. Losses are rounded down to this unit, because sums of
-    /// losses must fit in 16 bits.
+    /// Unit of `all` and `of`: 8 units of the score. Losses are rounded down to this unit, because
+    /// sums of losses must fit in 16 bits.
     static constexpr int kUnit = 8;
-    int loss_limit;  ///< loss above which a place is skipped, in score
+    int loss_limit;  ///< loss above which a place is skipped, in units of the score
     int all = 0;     ///< loss of a place that shares no line, in units of kUnit
-    /// Minimum loss of a place at a shift at which it shares no line, in score: the sum of the
-    /// minimum losses of all lines, including negative losses (gains).
+    /// Minimum loss of a place at a shift at which it shares no line, in units of the score: the
+    /// sum of the minimum losses of all lines, including negative losses (gains).
     int at_best = 0;
     std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units of kUnit
 };
@@ -189,8 +189,8 @@ class OtherPlaces {
 
     /// Adds a place at all shifts at which it shares a line, except `shift_left_out`.
     void add(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
-        // Summed losses of the lines that share the same shift, indexed by the roll offset of these
-        // lines, in units of kUnit.
+        // Summed losses of the lines that are shared at the same shift, in units of kUnit, indexed
+        // by the roll offset of these lines.
         std::array<std::uint16_t, kSections + 1> shared{};
         std::uint16_t most = 0;
         for (std::size_t line = 0; line < count_; ++line) {
@@ -234,7 +234,8 @@ class OtherPlaces {
     const code::Secondary& theirs_;
     const int shift_here_;
     const RollOffsets here_;  ///< roll offsets at the place of the reading in the other code's a4
-    bool has_same_rolls_ = true;  ///< true if that place has the rolls of the reading in all lines
+    /// True if the place of the reading has the same rolls in both codes, in all lines.
+    bool has_same_rolls_ = true;
     std::uint32_t best_place_ = 0;
     OtherAxis result_;
 };
@@ -257,8 +258,8 @@ class AxisWeigher {
         return others;
     }
 
-    /// Counts all other places one by one if the bound on their odds is not negligible. `across`
-    /// contains the odds of the other axis, with which these odds are multiplied.
+    /// Counts all other places one by one if the bound on their odds is not negligible. `across` is
+    /// the sum of the odds of the other axis, with which the odds of this axis are multiplied.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
         others.begin_count();

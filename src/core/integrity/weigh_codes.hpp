@@ -1,5 +1,5 @@
 // Weigh codes: the odds of places in the other codes, relative to the reading. The codes differ in
-// a4 only, so these places have the same places as the reading in a1, a2 and a3. docs/integrity.md
+// a4 only, so only positions with the a1, a2 and a3 of the reading are compared. docs/integrity.md
 // derives the sums.
 #pragma once
 

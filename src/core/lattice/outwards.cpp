@@ -70,8 +70,7 @@ FloatPlane plane_from_waves(const Waves& waves) {
     return plane;
 }
 
-/// Inverse of the 3 x 3 matrix of the sums, over all dots, of the products of (x, y, 1) with
-/// itself.
+/// Inverse of the 3 x 3 matrix of the sums, over all dots, of the products of x, y and 1.
 struct Inverse {
     std::array<std::array<float, 3>, 3> m;
     bool is_regular = false;
@@ -162,11 +161,10 @@ float growth(float fraction) {
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// Number of nearest dots from which the spacing is estimated.
+/// The spacing is estimated from the distance of a dot to its 20th nearest neighbour.
 constexpr std::size_t kNearest = 20;
 
-/// Returns the squared distance, in px^2, of the dot that comes after the kNearest dots nearest to
-/// `of`. These dots include the dot at `of`.
+/// Returns the squared distance from the dot at `of` to its kNearest-th nearest neighbour, in px^2.
 float squared_reach_of_nearest(const PatchDots& dots, FloatVec of) {
     std::array<float, PatchDots::kMax> squares{};
     const auto count = static_cast<std::size_t>(dots.count);
@@ -244,7 +242,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     if (mean_square < kUndisplaced) return false;
     grid.displacement =
         std::clamp(std::sqrt(mean_square), tuned::kMinDisplacement, tuned::kMaxDisplacement);
-    // The following rounds fit the plane to the nearest of the four places of each dot, which
+    // The following rounds assign each dot to the nearest of the four places of its cell, which
     // reduces the noise to a fifth.
     pass.displacement = grid.displacement;
     pass.max_off = std::min(tuned::kMaxOffsetPart * grid.displacement, tuned::kMaxOffset);

@@ -10,7 +10,7 @@ namespace dotpose::core {
 
 /// The grid of a patch, and its agreement with the dots.
 struct PatchGrid {
-    FloatPlane grid_from_image;  ///< relative to the middle of the patch
+    FloatPlane grid_from_image;  ///< relative to the origin of the coordinates of the dots
     float displacement = 0;      ///< displacement of the dots (root mean square), in spacings
     /// Variance of the offset of a dot from the nearest of the four places of its cell, per axis,
     /// in spacings^2.
@@ -32,9 +32,10 @@ struct PatchView {
 PatchView whole_view(const Patch& patch);
 
 /// Moves the origin of the coordinates of the dots to the densest part of the patch, for a patch
-/// that is only partly covered by the pattern. The new origin is at the dot whose nearest
-/// neighbours are nearest, rounded down to whole px. Sets `view`, and sets `from_middle_px` to the
-/// new origin relative to the middle of the patch. Returns false if there are too few dots.
+/// that is only partly covered by the pattern. The new origin is the dot with the smallest distance
+/// to its 20th nearest neighbour, in a sample of the dots, rounded down to whole px. Sets `view`,
+/// and sets `from_middle_px` to the new origin relative to the middle of the patch. Returns false
+/// if there are too few dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
 /// Finds the grid. Returns false if the dots are not on a grid, or are not displaced from the

@@ -1,8 +1,8 @@
 // Periodogram search: finds the grid from the periodogram of the dots, for frames with many missing
-// or false dots. In such frames, false neighbours falsify the axes that are estimated from edges.
-// The periodogram, a sum over all dots near the centre, still has its maximum at the true spacing
-// and direction. differs: the paper has no such step. The second attempt uses it; see
-// docs/differs-from-paper.md.
+// or false dots. In such frames, false neighbours lead to wrong axes if the axes are estimated from
+// edges. The periodogram, a sum over all dots near the centre, still has its maximum at the true
+// spacing and direction. differs: the paper has no such step. Only the second attempt has this
+// step; see docs/differs-from-paper.md.
 #pragma once
 
 #include "dotpose/trace.hpp"

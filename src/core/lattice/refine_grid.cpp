@@ -18,9 +18,10 @@ namespace tuned = tuning::refine_grid;
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Corrects the origin by eq. 6: moves the origin by the median offset of the dots near the origin.
-/// differs: the paper has o - median (sign error); offsets are measured from the estimate, so the
-/// origin becomes o + median. The grid coordinates of all points decrease by the median.
+/// Corrects the origin by eq. 6, with the median offset of the dots near the origin. differs: eq. 6
+/// subtracts the median from the origin, which is a sign error, because offsets are measured from
+/// the estimated origin. Adding the median to the origin reduces the grid coordinates of all points
+/// by the median.
 void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;

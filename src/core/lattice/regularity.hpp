@@ -32,9 +32,9 @@ struct Regularity {
     }
 
     /// Returns the status of the grid, given the mean square of the offsets of all dots from their
-    /// intersections, in spacings^2. Typical mean squares are 1/6 for dots at random places, half
-    /// of which are near an intersection; 1/36 for displaced dots, all of which are near an
-    /// intersection; and 0 for a plain grid.
+    /// intersections, in spacings^2. Of dots at random places, half are near an intersection, and
+    /// the mean square is 1/6. Displaced dots are all near an intersection, and the mean square is
+    /// 1/36. For a plain grid of dots, the mean square is 0.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
         constexpr std::int64_t kUndisplaced_q20 = (1 << 20) / 256;

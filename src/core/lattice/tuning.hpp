@@ -36,8 +36,8 @@ inline constexpr int kPlaceRounds = 2;
 namespace periodogram_search {
 /// Half the side, in spacings, of the central square whose dots enter the periodogram: kNear_cells
 /// in the first search, kWider_cells in later searches. A smaller square gives a wider peak, which
-/// the coarse search grid cannot miss. A larger square gives a more precise maximum. Frames located
-/// with kNear_cells = 3: 1,964; with 10: 1,993.
+/// the coarse raster cannot miss. A larger square gives a more precise maximum. Frames located with
+/// kNear_cells = 3: 1,964; with 10: 1,993.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
 /// Raster of the first search: step in direction, in degrees; step in spacing, as a part (1/n) of
