@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// First line, and first cell of each line, of the middle cells: relative to cell (0, 0), and as an
-/// index in a BitBlock.
+/// Index of the first of the middle lines, and of the first of the middle cells of each line:
+/// relative to cell (0, 0), and in a BitBlock.
 constexpr int kFirst = -kMaxComparedLines / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 

@@ -17,7 +17,7 @@
 
 namespace dotpose::core {
 
-/// Number of orientations of a block relative to the pattern, in quarter turns.
+/// Number of orientations in which a block may show the pattern: 0 to 3 quarter turns.
 inline constexpr int kTurns = 4;
 
 /// Returns the class of a position: the position modulo 63.

@@ -47,8 +47,8 @@ struct PositionAndRoll {
     std::size_t roll;
 };
 
-/// Summed odds of the positions in each class modulo 63, at each roll. The sums do not include the
-/// position `left_out` at its roll.
+/// Summed odds of the positions in each class modulo 63, for each roll that is added to the rolls
+/// in section 0. The sums do not include the position `left_out` at its roll.
 class OddsByClass {
   public:
     OddsByClass(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,

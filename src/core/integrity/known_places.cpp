@@ -9,8 +9,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of agreeing bits of one axis, for the positions of each class modulo 63 and each
-/// roll.
+/// Maximum numbers of agreeing bits of one axis, indexed by the class of the position modulo 63 and
+/// by the roll that is added to the rolls in section 0.
 class Peaks {
   public:
     Peaks(const ScoredAxis& axis, CodeVariant code, const PositionRange& range) {

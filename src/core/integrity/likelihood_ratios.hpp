@@ -17,7 +17,8 @@ namespace dotpose::core {
 /// a4 is misprinted. In the other codes, the maximum is `code::kOrder`.
 inline constexpr int kMaxShared = 7;
 
-/// log2 of the number of other rolls (62), in units of 2^-8, rounded up.
+/// log2 of 62, the number of rolls other than the roll of the reading, in units of 2^-8, rounded
+/// up.
 inline constexpr int kOtherRolls_q8 = 1525;
 
 /// Minimum odds of an alternative: 2^-64, as log2 in units of 2^-8 and as a number. Smaller odds

@@ -11,7 +11,7 @@ namespace dotpose::core {
 /// in the lowest byte.
 using EightOffsets = std::uint64_t;
 
-/// Number whose eight bytes are all 1.
+/// A word whose eight bytes are all 1.
 inline constexpr EightOffsets kInEach = 0x0101010101010101;
 
 /// Losses and roll offsets by rank, and odds by line. The line with the most information has rank

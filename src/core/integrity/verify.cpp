@@ -234,8 +234,8 @@ std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
             compare(code, all, Axis::y, reading_of(code, corner, Axis::y))};
 }
 
-/// Replaces the upper bounds on chance by those for several possible codes. `log2_codes_q8` is log2
-/// of the weighted number of codes, in units of 2^-8.
+/// Replaces the upper bounds on chance with the bounds for several possible codes. `log2_codes_q8`
+/// is log2 of the weighted number of codes, in units of 2^-8.
 void count_hypotheses_of(int log2_codes_q8, const Grid& grid, CodeVariant code,
                          const Decoding& decoding, Doubt& doubt) {
     const auto agreements = compare_both(grid, code, decoding);

@@ -17,8 +17,8 @@ struct PatchGrid {
     float variance = 0;
 };
 
-/// Estimates for the dots of a patch before the grid is searched. The search begins at the origin
-/// of the coordinates of the dots.
+/// Parameters of the search for the grid of a patch, estimated from the dots. The search begins at
+/// the origin of the coordinates of the dots.
 struct PatchView {
     float spacing_px = 0;  ///< approximate spacing, in px of the image
     /// Maximum distance of a dot from the origin along either axis, in px of the image.

@@ -12,7 +12,7 @@ namespace {
 
 namespace tuned = tuning::periodogram_search;
 
-/// A plane wave, whose crests are the columns or the rows of a grid.
+/// A plane wave whose crests are the columns or the rows of a grid.
 struct Wave {
     std::int32_t direction_bam = 0;
     std::int32_t spacing_q16 = 0;  ///< in 2^-16 px
