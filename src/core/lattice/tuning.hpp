@@ -1,7 +1,7 @@
 // Tuning: empirical constants of grid detection. The constants of the second attempt were
-// determined on the hard frames listed in decode/tuning.hpp. A number of frames in a comment is the
-// number that `dotpose evaluate --preset hard --frames 2000 --seed 404` locates with the stated
-// value. With the values in this file, it locates 1,994.
+// determined on the hard frames listed in decode/tuning.hpp. Frame counts in comments are the
+// numbers of frames that `dotpose evaluate --preset hard --frames 2000 --seed 404` locates with the
+// stated value. With the values in this file, the command locates 1,994.
 #pragma once
 
 namespace dotpose::core::tuning {
@@ -76,9 +76,9 @@ inline constexpr float kFaintWaves = 0.12F;
 /// merge. In coarser grids, a dot has more than one minimum.
 inline constexpr float kFinest_px = 5.2F;
 inline constexpr float kCoarsest_px = 40;
-/// Limits of a plausible fit: minimum and maximum spacing relative to the first spacing, because a
-/// fit may find half or twice the spacing, and maximum change of the perspective scale within the
-/// reach.
+/// Limits of a plausible fit: minimum and maximum spacing, relative to the first spacing, and
+/// maximum change of the perspective scale within the reach. A fit may find half or twice the
+/// spacing.
 inline constexpr float kMinSpacing = 0.7F;
 inline constexpr float kMaxSpacing = 1.4F;
 inline constexpr float kMaxFold = 0.7F;
