@@ -1,8 +1,9 @@
 /// Position code: the symbol at each grid intersection, and the position of a window of symbols.
 ///
 /// Paper section II-A. Every column of the pattern is the cyclic *main* sequence, read downwards
-/// from an offset, its *roll*. The rolls of adjacent columns differ by 5 to 58, and the differences
-/// encode the column's position in four coprime cyclic sequences. Rows encode y in the same way.
+/// from an offset, its *roll*. The rolls of adjacent columns differ by 5 to 58. Each difference has
+/// four digits, one from each of four cyclic sequences with coprime lengths. The digits of
+/// consecutive differences determine the position of the column. Rows encode y in the same way.
 ///
 /// Frame: x to the right, y DOWN, as the printed page is read. All functions are pure and
 /// thread-safe, and do not allocate.
@@ -17,19 +18,19 @@
 
 namespace dotpose {
 
-/// Number of positions per axis: 236 * 233 * 31 * 241, the common period of the four difference
-/// sequences.
+/// Number of positions per axis: 236 * 233 * 31 * 241, the common period of the four sequences of
+/// digits.
 inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
 /// Length of the main sequence, which is the number of sections per axis.
 inline constexpr int kSections = 63;
 
 /// The code variant of a sheet, which is its sequence a4.
 enum class CodeVariant : std::uint8_t {
-    anoto,    ///< a4 as restored in the paper: unambiguous on the whole plane; the default for
-              ///< printing
-    libdots,  ///< the misprinted a4 of the patent, as in libdots and other open tools; needs 8 x 8
-              ///< symbols
-    microdots,  ///< another a4, as in py-microdots and its ports
+    anoto,      ///< a4 as restored in the paper; unambiguous on the whole plane; the default for
+                ///< printing
+    libdots,    ///< a4 as misprinted in the patent, used by libdots and other open tools; smaller
+                ///< windows than 8 x 8 symbols may be ambiguous
+    microdots,  ///< another a4, used by py-microdots and its ports
 };
 /// Number of values of CodeVariant.
 inline constexpr int kCodeVariantCount = 3;
@@ -41,8 +42,8 @@ struct Cell {
     friend constexpr bool operator==(const Cell&, const Cell&) = default;
 };
 
-/// The offsets at which the main sequence starts in column 0 (u) and in row 0 (v), each in [0, 63).
-/// The paper calls them "sector".
+/// The rolls of column 0 (u) and of row 0 (v), each in [0, 63). The paper calls a section a
+/// "sector".
 struct Section {
     std::uint8_t u = 0;
     std::uint8_t v = 0;
@@ -83,9 +84,9 @@ constexpr char letter(Symbol symbol) {
 /// kPositionsPerAxis).
 int delta(CodeVariant code, std::uint32_t p) noexcept;
 
-/// Returns the offset of the main sequence in column (or row) p of section 0, in [0, 63), in O(1).
-/// `p` may exceed kPositionsPerAxis. Beyond kPositionsPerAxis, the pattern continues with rolls
-/// that differ from the rolls at 0.
+/// Returns the roll of column (or row) p in section 0: the offset, in [0, 63), at which the main
+/// sequence starts. Takes O(1). `p` may exceed kPositionsPerAxis. The rolls do not repeat there:
+/// the roll of p + kPositionsPerAxis differs from the roll of p.
 int roll(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns one bit of the cyclic main sequence, for any index >= 0.
@@ -109,13 +110,13 @@ struct Place {
     friend constexpr bool operator==(const Place&, const Place&) = default;
 };
 
-/// Returns the place that is (dx, dy) intersections away from `place`; |dx|, |dy| <
-/// kPositionsPerAxis. Beyond either end of an axis, the pattern and the result continue at the
+/// Returns the place that is (dx, dy) intersections away from `place`. |dx| and |dy| must be less
+/// than kPositionsPerAxis. Beyond either end of an axis, the pattern and the result continue at the
 /// other end in another section.
 Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noexcept;
 
-/// Decodes an error-free, upright window. Sets `place` only if the code contains exactly this
-/// window at `place` and nowhere else. Errors: bad_window (not 6 to 32 columns and rows),
+/// Decodes an upright window without wrong symbols. Sets `place` only if the code contains exactly
+/// this window at `place` and nowhere else. Errors: bad_window (not 6 to 32 columns and rows),
 /// not_in_code, ambiguous (only for `libdots`, where windows below 8 x 8 may occur at several
 /// places).
 Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexcept;
@@ -125,8 +126,8 @@ Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexce
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 
-/// Returns the section, in [0, 63), in which column (row) `position` has the roll `roll_seen` at
-/// row (column) `cross_position`.
+/// Returns the section, in [0, 63), in which column (row) `position`, read from row (column)
+/// `cross_position` on, has the roll `roll_seen`.
 int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept;
 

@@ -24,20 +24,20 @@
 
 namespace dotpose {
 
-/// The likelihood of each code variant for one sheet, given all frames so far. All frames of one
-/// place count as a single frame with the mean likelihood of these frames, because all of them
-/// contain the defects of the same dots.
+/// The odds of each code variant of one sheet, given all frames so far. All frames at one place
+/// contain the defects of the same dots, so they count as one frame. The factor by which this frame
+/// reduces the odds of a code variant is the mean of the factors of its frames.
 class CodeEvidence {
   public:
     /// log2 of the likelihood or the odds of each code variant, in units of 2^-8.
     using LogOdds = std::array<std::int32_t, kCodeVariantCount>;
 
-    /// Maximum change, as log2, of the odds of a code variant relative to the likeliest code
-    /// variant, by one frame or by all frames together. With this limit, later frames can still
-    /// show that the sheet was changed.
+    /// Maximum ratio, as log2, between the odds of the likeliest and of any other code variant, for
+    /// one frame and for all frames together. Because of this limit, later frames can still show
+    /// that the sheet was replaced.
     static constexpr std::int32_t kMax_log2 = 40;
-    /// Maximum change, as log2, of these relative odds by all frames of one place. The defects of
-    /// the same dots are not independent.
+    /// Maximum factor, as log2, by which all frames at one place together reduce the odds of a code
+    /// variant. These frames show the same dots with the same defects, so they are not independent.
     static constexpr std::int32_t kMaxOfPlace_log2 = 32;
 
     /// Starts with all code variants equally likely.
@@ -51,16 +51,17 @@ class CodeEvidence {
     /// Returns the probability that the sheet does not have this code variant, in [0, 1].
     float p_wrong(CodeVariant code) const;
 
-    /// Adds the evidence of a frame located at `cell`: log2 of the likelihood of its bits in each
-    /// code variant, in units of 2^-8.
+    /// Adds the evidence of a frame located at `cell`. `log2_q8` is log2 of the likelihood of the
+    /// bits of the frame in each code variant, in units of 2^-8.
     void add(Cell cell, const LogOdds& log2_q8);
 
   private:
     LogOdds sum() const;
 
-    LogOdds before_log2_q8_{};  ///< sum over all places except the newest
-    /// Sum, over the frames of the newest place, of the factors by which each frame makes a code
-    /// variant less likely.
+    LogOdds before_log2_q8_{};  ///< log2 of the odds from all places except the newest
+    /// For each code variant: sum, over the frames at the newest place, of the factor by which the
+    /// frame reduces the odds of the variant relative to the likeliest variant. `sum()` uses the
+    /// mean of these factors.
     std::array<float, kCodeVariantCount> factors_here_{};
     Cell here_;
     std::uint32_t frames_here_ = 0;
@@ -68,12 +69,14 @@ class CodeEvidence {
 
 /// The result of locating one frame whose code variant is not given.
 struct CodeReading {
-    /// If the status is ambiguous_code, pose and counts belong to one of the two places.
+    /// If the status is ambiguous_code, the pose and the counts are those of one of the two places.
     Fix fix;
     CodeVariant code = CodeVariant::anoto;  ///< code variant of `fix`
     CodeEvidence evidence;                  ///< evidence with this frame added
-    /// True if a place in another code variant explains the frame equally well. If the fix is ok,
-    /// `p_wrong_log2` includes the odds of this other place relative to the fix.
+    /// True if a place in another code variant explains the frame about equally well.
+    /// `locate_in_any_code` sets this member only if the status is ambiguous_code. For the cases in
+    /// which `locate_in_code` sets it, see there. If the fix is ok, `p_wrong_log2` does not include
+    /// the odds of the other place.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
     Cell other_cell{};  ///< as Fix::cell; fractions and angle are the same as in `fix`
@@ -82,11 +85,11 @@ struct CodeReading {
 
 class Locator;
 
-/// Locates the frames of one sheet, in a given code variant or in the detected code variant.
+/// Locates the frames of one sheet, in a given code variant or, if none is given, in the code
+/// variant detected from the frames.
 class CodeReader {
   public:
-    /// Uses the given code variant, or the likeliest code variant given all frames if none is
-    /// given.
+    /// Uses the code variant `given`. Without it, detects the code variant from all frames so far.
     explicit CodeReader(std::optional<CodeVariant> given = std::nullopt) : given_(given) {}
 
     /// Locates an image, and sets the code variant in the options of `locator` to the code variant
@@ -97,8 +100,8 @@ class CodeReader {
     bool is_given() const { return given_.has_value(); }
     /// Returns the given code variant, or the likeliest code variant so far if none is given.
     CodeVariant code() const { return given_.value_or(evidence_.likeliest()); }
-    /// Returns the evidence of the frames so far. The evidence is used only if no code variant was
-    /// given.
+    /// Returns the evidence from the frames so far. If a code variant was given, the evidence
+    /// remains empty.
     const CodeEvidence& evidence() const { return evidence_; }
 
   private:

@@ -1,6 +1,7 @@
-/// Device options: the options of a DeviceLocator, in fixed point. On desktops, LocatorOptions
-/// provides the same options in millimetres, pixels and ratios. Ranges are in [brackets]. If a
-/// value is outside its range, every frame gets Status::bad_argument.
+/// Device options: the options of a DeviceLocator, in fixed point. A Locator accepts them, too.
+/// LocatorOptions provides the options that desktop programs need, in millimetres, pixels and
+/// ratios. Ranges are in [brackets]. If a value is outside its range, every frame gets
+/// Status::bad_argument.
 #pragma once
 
 #include <cstdint>
@@ -20,15 +21,16 @@ struct FixedLens {
     std::int32_t centre_dx_q8 = 0;
     std::int32_t centre_dy_q8 = 0;
 
-    /// Returns the lens with distortion k, in 1/px^2, about the image centre; |k| < 2^-9.
+    /// Returns the lens with distortion k, in 1/px^2, about the image centre. |k| must be less than
+    /// 2^-9.
     static constexpr FixedLens from_k(double k_per_px2) {
         constexpr double kQ40 = 1099511627776.0;
         return {static_cast<std::int32_t>(k_per_px2 * kQ40)};
     }
 };
 
-/// Options of the thresholds between paper and dots (paper section II-B.1). Devices and the second
-/// attempt use these options.
+/// Options of the thresholds between paper and dots (paper section II-B.1). Used by devices and by
+/// the second attempt.
 struct ThresholdOptions {
     /// Low threshold: minimum contrast of every pixel of a blob to the paper, as a fraction of the
     /// local contrast, in 1/256. Smaller values merge neighbouring dots. Larger values lose blurred
@@ -37,21 +39,21 @@ struct ThresholdOptions {
     /// High threshold: minimum contrast of the darkest pixel of a blob to the paper, as a fraction
     /// of the local contrast, in 1/256. Larger values reject more noise. [1 to 256]
     int high_q8 = 155;
-    /// Contrast, in grey levels, below which an area counts as blank. `DeviceOptions::min_contrast`
-    /// raises it. [1 to 255]
+    /// Contrast, in grey levels, below which an area counts as blank. If
+    /// `DeviceOptions::min_contrast` is larger, that value is used instead. [1 to 255]
     int min_contrast = 8;
 };
 
-/// Options of the selection of dots among dark blobs (paper section II-B.1). Devices and the second
-/// attempt use these options.
+/// Options of the selection of dots among dark blobs (paper section II-B.1). Used by devices and by
+/// the second attempt.
 struct BlobOptions {
     /// Minimum number of pixels of a dot. With 1, salt-and-pepper noise is not removed. [0 to 2^20]
     int min_area_px = 2;
-    /// Minimum darkness of a dot, as a fraction of the upper quartile of all blobs, in 1/256. Paler
-    /// blobs are noise. [0 to 256]
+    /// Minimum mass (summed darkness) of a dot, as a fraction of the upper quartile of the masses
+    /// of all blobs, in 1/256. Paler blobs are noise. [0 to 256]
     int min_mass_q8 = 64;
-    /// Maximum area of a dot, as a multiple of the upper quartile of all blobs. Larger blobs are
-    /// graphics. [1 to 1024]
+    /// Maximum area of a dot, as a multiple of the upper quartile of the areas of all blobs. Larger
+    /// blobs are graphics. [1 to 1024]
     int max_area_ratio = 5;
 };
 
@@ -80,17 +82,18 @@ struct IntegrityOptions {
 /// Number of attempts that `locate` makes.
 enum class Effort : std::uint8_t {
     device,  ///< one attempt in integers, as made by a DeviceLocator
-    once,    ///< no second attempt on a frame that could not be read
-    twice,   ///< a frame that could not be read is filtered and read again
+    once,    ///< like `twice`, but without the second attempt
+    twice,  ///< a frame that the first attempt does not locate, or locates with large residuals, is
+            ///< filtered and read again
 };
 
 /// Dots from which the position is read.
 enum class Decoder : std::uint8_t {
-    window,  ///< the 8 x 8 clearest symbols, as in the paper: the baseline
+    window,  ///< the clearest window of 8 x 8 symbols, as in the paper; for comparison
     all,     ///< all dots in view
 };
 
-/// All options of a Locator.
+/// All options of a DeviceLocator or Locator, in fixed point.
 struct DeviceOptions {
     CodeVariant code = CodeVariant::anoto;
     Effort effort = Effort::twice;
@@ -107,8 +110,8 @@ struct DeviceOptions {
 
     /// Maximum number of dots to which the first and the tracked attempt fit the pose, spread
     /// evenly over the frame. The error is proportional to 1 / sqrt(max_dots), the time to
-    /// max_dots. Default: all dots of a VGA frame at 8 px per spacing. [any; values are limited to
-    /// between 64 and the capacity of the memory]
+    /// max_dots. The default suffices for all dots of a VGA frame at 9 px per spacing. [any;
+    /// clamped to the range from 64 to the capacity of the memory]
     int max_dots = 4096;
 
     /// Spacing of the printed grid in nm, which converts a fix to millimetres. Default: 0.508 mm,

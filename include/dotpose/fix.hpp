@@ -38,7 +38,7 @@ const char* name(Surface surface) noexcept;
 /// The places that counted as possible when the probability of a wrong fix was computed.
 enum class Prior : std::uint8_t {
     plane,        ///< all places of the code
-    sheets,       ///< places on known sheets; an unknown sheet is improbable by its bits
+    sheets,       ///< places on known sheets; the bits make any other sheet improbable
     only_sheets,  ///< places on known sheets, because no other sheet can be in view
 };
 /// Returns the identifier, such as "plane".
@@ -57,16 +57,16 @@ struct Fix {
     Prior prior = Prior::plane;       ///< see Locator::set_known
 
     Cell cell;                         ///< intersection to the upper left of the reference point
-    std::uint16_t fraction_x_q16 = 0;  ///< from `cell` to the right, in 1/65536 spacing
-    std::uint16_t fraction_y_q16 = 0;  ///< from `cell` down, in 1/65536 spacing
+    std::uint16_t fraction_x_q16 = 0;  ///< distance from `cell` to the right, in 1/65536 spacing
+    std::uint16_t fraction_y_q16 = 0;  ///< distance from `cell` downwards, in 1/65536 spacing
     std::int32_t theta_bam = 0;        ///< binary angle: 2^31 is half a turn, in [-2^31, 2^31)
     Section section;                   ///< section in which `cell` was read
     std::int32_t spacing_px_q16 = 0;   ///< grid spacing in the image, in 2^-16 px
-    std::int32_t spacing_nm =
-        508'000;  ///< spacing of the printed grid, from the options; 0 if unknown
+    /// Spacing of the printed grid, from the options; 0 if unknown.
+    std::int32_t spacing_nm = 508'000;
 
-    int dots_seen = 0;  ///< blobs of the size of a dot
-    int dots_used = 0;  ///< dots to which the pose was fitted
+    int dots_seen = 0;  ///< number of blobs of the size of a dot
+    int dots_used = 0;  ///< number of dots to which the pose was fitted
     /// Number of bits that contradict the position. Each cell read has two bits.
     int bit_errors = 0;
     /// log2 of an upper bound on the probability that the position is wrong.
@@ -81,7 +81,7 @@ struct Fix {
     std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
                                         ///< 2^-16 spacing
 
-    /// Covariance of (x, y, theta), in squares and products of (spacing, spacing, radian).
+    /// Covariance of (x, y, theta). x and y are in spacings, theta is in radians.
     float covariance[3][3] = {};
     /// Returns true if the covariance is known. A DeviceLocator computes neither covariance nor
     /// residual.

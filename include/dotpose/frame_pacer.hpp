@@ -1,6 +1,6 @@
 /// FramePacer: determines the time of the next frame, to save power (paper section IV-A). While the
-/// device moves, frames are taken without a pause. After 5 s without movement, one frame a second
-/// is taken until a frame shows movement.
+/// device moves, frames are taken without a pause. After 5 s without movement, frames are taken
+/// once a second until a frame shows movement.
 ///
 ///     FramePacer pacer;
 ///     for (;;) {
@@ -29,9 +29,9 @@ struct PacerOptions {
     std::int64_t stationary_period_us = 1'000'000;
     /// Period of frames while moving. Default 0: as fast as possible.
     std::int64_t moving_period_us = 0;
-    /// Minimum distance from the place where the device came to rest that counts as movement, along
-    /// either axis, in units of 2^-16 spacings. Default: a tenth of a spacing. The distance must be
-    /// well above the noise of a resting device.
+    /// Minimum distance, along either axis, that counts as movement, in units of 2^-16 spacings.
+    /// The distance is measured from the place where the device came to rest. Default: a tenth of a
+    /// spacing. The distance must be well above the noise of a resting device.
     std::int32_t moved_q16 = 6554;
     /// Minimum turn that counts as movement, as a binary angle: 2^31 is half a turn. Default: one
     /// degree.
@@ -62,8 +62,8 @@ class FramePacer {
     PacerOptions options_;
     Motion motion_ = Motion::moving;
     bool has_begun_ = false;
-    /// Fix at the place where the device came to rest. Its status is not ok if no frame has had a
-    /// fix since the device last moved.
+    /// Fix of the newest frame that showed movement. Later movement is measured from this fix. Its
+    /// status is not ok if that frame had no fix.
     Fix rest_;
     std::int64_t rest_since_us_ = 0;
 };

@@ -10,10 +10,12 @@
 
 namespace dotpose {
 
-/// Minimum and maximum width and height, in pixels, of an image that can be located.
+/// Minimum width and height, in pixels, of an image that can be located.
 inline constexpr int kMinFrameSide_px = 64;
-/// Minimum width and height, in pixels, of an image of known sheets (Locator::set_known).
+/// Minimum width and height, in pixels, of an image that can be located on known sheets
+/// (Locator::set_known).
 inline constexpr int kMinKnownFrameSide_px = 24;
+/// Maximum width and height, in pixels, of an image.
 inline constexpr int kMaxFrameSide_px = 4096;
 
 /// A grey image with dark dots on light paper. Level 0 is black. Row `v` starts at `pixels + v *

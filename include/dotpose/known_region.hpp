@@ -1,8 +1,9 @@
-/// Known regions: the parts of the code plane on the sheets that may be in view. A Locator that
-/// knows them reads views that are too small to be unique on the whole plane.
+/// Known regions: the parts of the code plane on the sheets that may be in view. With known
+/// regions, a Locator also reads views that are too small to be unique on the whole plane.
 ///
-///     static constexpr KnownRegion kSheets[] = {{.first = {1024, 1024}, .columns = 393, .rows =
-///     563}}; locator.set_known(kSheets, OtherSheets::impossible);
+///     static constexpr KnownRegion kSheets[] = {
+///         {.first = {1024, 1024}, .columns = 393, .rows = 563}};
+///     locator.set_known(kSheets, OtherSheets::impossible);
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,7 @@ struct KnownRegion {
 
 /// Whether sheets other than the known ones may be in view.
 enum class OtherSheets : std::uint8_t {
-    possible,    ///< other sheets are located, too, where enough of them is seen
+    possible,    ///< other sheets are also located, but need more dots in view
     impossible,  ///< only places on known sheets are possible
 };
 

@@ -64,14 +64,15 @@ class RowLocator {
     /// Returns true if a frame was begun. Otherwise sets the status of the fix to the status of
     /// `begin`.
     bool has_rows();
-    /// Ends the frame. Returns the fix of the frame, with the spacing of the printed grid.
+    /// Ends the frame. Sets the spacing of the printed grid in the fix of the frame, and returns
+    /// this fix.
     Fix finished();
 
     core::Workspace* workspace_;
     DeviceOptions options_;
 
   private:
-    Status begun_ = Status::bad_argument;  ///< status of the frame whose rows are pushed
+    Status begun_ = Status::bad_argument;  ///< status that `begin` returned
     int rows_left_ = 0;
 };
 
@@ -79,10 +80,10 @@ class RowLocator {
 class Locator : public RowLocator {
   public:
     /// Allocates a LargeMemory on the heap. If any option is outside its range, every frame gets
-    /// the status bad_argument. `bad_option` names the option.
+    /// the status bad_argument, and `bad_option` returns the name of the option.
     explicit Locator(const LocatorOptions& options = {}) : Locator(new LargeMemory, options) {}
-    /// Uses `memory`, which must outlive the locator. No other locator may use this memory during
-    /// this time.
+    /// Uses `memory`, which must outlive the locator. No other locator may use this memory while
+    /// this locator exists.
     explicit Locator(SmallMemory& memory, const LocatorOptions& options = {})
         : Locator(memory.workspace_, options) {
         detects_code_ = !options.code;
@@ -113,15 +114,16 @@ class Locator : public RowLocator {
     }
 
     /// Sets the regions of the code plane on the sheets that may be in view. Views of about 30 dots
-    /// then suffice. `regions` must stay valid; an empty span makes all places possible again.
-    /// Returns bad_argument, and keeps the previous regions, if a region is empty or not inside the
-    /// plane, or if its code or section does not exist. Effort::device does not use the regions.
+    /// then suffice. `regions` must remain valid while the locator uses it. An empty span makes all
+    /// places possible again. Returns bad_argument, and keeps the previous regions, if a region is
+    /// empty or not inside the plane, or if its code or section does not exist. Effort::device does
+    /// not use the regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
     /// Returns the pose of an image; see Fix. If the options do not set the code, the code is
-    /// detected from all images so far, and `options().code` is the code that was read. The same
-    /// image gives the same bits on every processor, except in the covariance and the residual.
+    /// detected from all images so far, and `options().code` is the code that was read. The result
+    /// is bit-identical on every processor, except for the covariance and the residual.
     Fix locate(const ImageView& image);
 
     /// Locates the pattern near the predicted place. A frame that does not confirm the prediction
@@ -140,17 +142,19 @@ class Locator : public RowLocator {
     CodeReading locate_in_any_code(const ImageView& image, const Prediction& prediction,
                                    const CodeEvidence& evidence);
 
-    /// Locates an image in `options().code`, with the same fix as `locate`. `has_other` is true if
-    /// another code variant explains the image without a contradiction, either at a place other
-    /// than the fix, or although no place in `options().code` explains the image.
+    /// Locates an image in `options().code`, with the same fix as `locate`. Sets `has_other` in
+    /// three cases: a different place in another code variant explains the image about as well as
+    /// the fix, the same place in another code variant explains the image much better, or the image
+    /// has no fix in `options().code` but a place in another code variant with few wrong bits.
     CodeReading locate_in_code(const ImageView& image);
 
     /// Starts an image that is pushed row by row, with or without a prediction. The locator keeps
-    /// the rows. Errors: bad_argument; image_too_small; image_too_large (more pixels than the
-    /// memory keeps: 188 x 188 for a SmallMemory, 1280 x 1024 for a LargeMemory).
+    /// the rows. Errors: bad_argument, image_too_small, image_too_large. The last error means that
+    /// the image is wider than the memory supports, or has more pixels than the memory can store:
+    /// 188 x 188 for a SmallMemory, 1280 x 1024 for a LargeMemory.
     Status begin(int width_px, int height_px);
     Status begin(int width_px, int height_px, const Prediction& prediction);
-    /// Takes the next row of `width_px` pixels. Rows beyond the height of the image are ignored.
+    /// Takes the next row of `width_px` pixels. Ignores rows beyond the height of the image.
     void push_row(const std::uint8_t* pixels);
     /// Locates the image whose rows were pushed, as `locate` does. Missing rows count as white
     /// paper. Error: bad_argument if no image was begun.
@@ -198,8 +202,8 @@ class DeviceLocator : public RowLocator {
     /// can then push them again without a prediction.
     Status begin(int width_px, int height_px, const Prediction& prediction);
 
-    /// Takes the next row of `width_px` pixels. The pixels need not remain valid afterwards. Rows
-    /// beyond the height of the frame are ignored.
+    /// Takes the next row of `width_px` pixels. The pixels need not remain valid afterwards.
+    /// Ignores rows beyond the height of the frame.
     void push_row(const std::uint8_t* pixels);
 
     /// Locates the frame whose rows were pushed. Error: bad_argument if no frame was begun.

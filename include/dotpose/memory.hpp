@@ -1,6 +1,6 @@
-/// Memory of a Locator. The memory has a fixed size, belongs to the caller, and serves any number
-/// of frames, one at a time. The memory may be static, on the heap or, if small enough, on the
-/// stack. The content is private to the core.
+/// Memory of a Locator or DeviceLocator. The memory has a fixed size and belongs to the caller. It
+/// serves any number of frames, one at a time. The memory may be static, on the heap or, if small
+/// enough, on the stack. Its content is private to the core.
 #pragma once
 
 #include <array>
@@ -43,8 +43,8 @@ class AnyDeviceMemory {
 };
 
 /// Memory of a DeviceLocator on a small microcontroller, with a sensor of Width x Height px. The
-/// end of this header lists the supported sizes. Frames may be smaller. Frames with a width of up
-/// to 188 px may also be higher.
+/// end of this header lists the supported sizes. Frames may be smaller. Frames that are at most 188
+/// px wide may also be higher than Height.
 template <int Width, int Height>
 class DeviceMemoryFor : public AnyDeviceMemory {
   public:

@@ -7,9 +7,9 @@
 ///     PacketReader reader;
 ///     for (std::uint8_t byte : received) if (reader.push(byte)) use(reader.packet());
 ///
-/// Packets with one to four wrong bits are always refused. Of packets with more wrong bits, about 1
-/// in 65536 is accepted. After a damaged packet, reading continues with the next packet. No heap,
-/// no double, no globals. Different objects may be used at the same time.
+/// The reader always refuses packets with one to four wrong bits. It accepts about 1 in 65536
+/// packets with more wrong bits. After a damaged packet, reading continues with the next packet. No
+/// heap, no double, no globals. Different objects may be used at the same time.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ inline constexpr int kPacketVersion = 1;
 /// The part of a frame's result that a packet contains. Unless `status` is ok, only the members
 /// above `cell` are valid, and the other members are sent as zero.
 struct PosePacket {
-    std::uint16_t sequence = 0;  ///< counts frames; a gap means lost packets
+    std::uint16_t sequence = 0;  ///< number of the frame; a gap in the numbers means lost packets
     std::uint32_t time_us = 0;   ///< time of the frame on the sender's clock; wraps every 71.6
                                  ///< minutes
     Status status = Status::not_run;
@@ -44,8 +44,8 @@ struct PosePacket {
     /// -log2 of an upper bound on the probability that the position is wrong. 255 means 255 or
     /// more.
     std::uint8_t certainty = 0;
-    /// The larger standard deviation of x and y, in units of 2^-12 spacings, rounded up. 255 means
-    /// 255 or more.
+    /// The larger of the standard deviations of x and y, in units of 2^-12 spacings, rounded up.
+    /// 255 means 255 or more.
     std::uint8_t deviation_q12 = 0;
 
     // Double precision is used only in these functions, which are not part of the embedded object
@@ -58,8 +58,7 @@ struct PosePacket {
     friend constexpr bool operator==(const PosePacket&, const PosePacket&) = default;
 };
 
-/// Returns the packet of a fix. `sequence` is the number of the frame, `time_us` the time of the
-/// frame.
+/// Returns the packet of a fix. `sequence` is the number of the frame, `time_us` its time.
 PosePacket make_packet(const Fix& fix, CodeVariant code, std::uint16_t sequence,
                        std::uint32_t time_us);
 
@@ -78,13 +77,14 @@ class PacketReader {
     /// Returns the newest packet. Not valid before the first packet.
     const PosePacket& packet() const { return packet_; }
 
-    /// Returns the number of invalid byte sequences between two end marks. These are damaged
-    /// packets and packets of another version.
+    /// Returns the number of invalid packets so far. An invalid packet is a byte sequence between
+    /// two end marks that is damaged or of another version.
     std::uint32_t damaged() const { return damaged_; }
 
   private:
     std::array<std::uint8_t, 31> bytes_{};  ///< bytes since the last end mark
-    std::size_t count_ = 0;                 ///< number of bytes since then; 32 if too many
+    /// Number of bytes since the last end mark; 32 if there are more than in a packet.
+    std::size_t count_ = 0;
     std::uint32_t damaged_ = 0;
     PosePacket packet_;
 };

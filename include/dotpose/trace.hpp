@@ -30,17 +30,16 @@ inline constexpr int kWindowSide = 8;
 
 /// A detected dot.
 struct DetectedDot {
-    FixedVec centre_q8;      ///< px, corrected for lens distortion
-    std::uint16_t mass = 0;  ///< sum of the darkness of its pixels, grey levels, saturated
+    FixedVec centre_q8;      ///< in 2^-8 px, corrected for lens distortion
+    std::uint16_t mass = 0;  ///< sum of the darkness of its pixels, in grey levels; at most 65535
     std::uint16_t area_px = 0;
 };
 
-/// A connection between two seeds. Each of the two seeds is among the four nearest seeds of the
-/// other seed.
+/// A connection between two seeds, each of which is among the four nearest seeds of the other.
 struct SeedEdge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;
-    FixedVec step_q8;  ///< px, pointing down (or right)
+    FixedVec step_q8;  ///< vector from `from` to `to`, in 2^-8 px; points down or right
 };
 
 /// First estimate of the grid: intersection (i, j) is at origin + i u + j v in the image.
@@ -59,15 +58,15 @@ struct GridCell {
     bool has_dot() const { return dot < kHidden; }
     bool is_hidden() const { return dot >= kHidden && dot != kNoDot; }
     bool is_hidden(int symbol) const { return is_hidden() && (dot >> symbol & 1) != 0; }
-    std::int8_t x = 0;  ///< quasi-probability of the x bit, in 1/127: positive for 1, negative for
-                        ///< 0
+    /// Quasi-probability of the x bit, from -127 (certainly 0) to 127 (certainly 1).
+    std::int8_t x = 0;
     std::int8_t y = 0;
     std::uint16_t dot = kNoDot;  ///< index of the dot in this cell, or kNoDot
 };
 
-/// Quarter turns from the grid to the pattern: pattern_step = turn(grid_step).
+/// Quarter turn from the grid to the pattern: pattern_step = turn(grid_step).
 struct QuarterTurn {
-    int quarters = 0;  ///< 0 to 3, from +x towards +y
+    int quarters = 0;  ///< number of quarter turns, 0 to 3, from +x towards +y
 
     /// Converts a step of the grid to a step of the pattern.
     constexpr FixedVec operator()(FixedVec grid) const {
@@ -86,7 +85,7 @@ struct QuarterTurn {
     constexpr QuarterTurn inverse() const { return {(4 - quarters) % 4}; }
 };
 
-/// A rectangle of grid cells.
+/// A rectangle of grid cells: columns i0 to i0 + columns - 1, rows j0 to j0 + rows - 1.
 struct GridRegion {
     int i0 = 0;
     int j0 = 0;
@@ -96,13 +95,13 @@ struct GridRegion {
 
 /// The decoded position of the grid.
 struct Decoding {
-    GridRegion window;  ///< the 8 x 8 clearest cells
+    GridRegion window;  ///< the clearest window of 8 x 8 cells
     GridRegion region;  ///< all decoded cells: at most kMaxLines x kMaxLines
-    /// Agreement of some lines of the region with the main sequence, at the likeliest turn.
+    /// Agreement with the main sequence of the lines that vote on the turn, at the likeliest turn.
     std::int32_t agreement = 0;
     QuarterTurn pattern_from_grid;
     Place place;  ///< place in the code of grid cell (0, 0); the cell may be out of view
-    /// True if the scores of the lines of the region are stored for this turn.
+    /// True if the workspace contains the scores of the lines of the region at this turn.
     bool lines_are_scored = false;
     int bits = 0;  ///< number of bits compared with the code at `place`, two per dot
     /// log2 of an upper bound on the probability that the position is wrong along x and along y,

@@ -13,7 +13,7 @@
 /// `predict` returns the expected place of the pattern in the next frame; examples/follow_robot.cpp
 /// has a loop that uses it.
 ///
-/// Frames: poses are in any plane in mm that all sightings share. This is the pattern frame, or the
+/// Frames: all poses are in the plane of the sightings. This plane is the pattern frame, or the
 /// world of a sheet file, in which a robot may drive from sheet to sheet. Positions are integers in
 /// nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary, from +x towards
 /// +y; 2^31 is half a turn. Velocities: mm/s along x and y, rad/s.
@@ -42,7 +42,7 @@ struct Sighting {
     std::int64_t x_nm = 0;
     std::int64_t y_nm = 0;
     std::int32_t theta_bam = 0;
-    /// Number of the plane. Poses in different planes are unrelated.
+    /// Number of the plane to which the pose belongs. Poses in different planes are unrelated.
     std::uint32_t plane = 0;
     std::array<std::array<float, 3>, 3> covariance{};  ///< covariance of x, y and theta, in mm and
                                                        ///< rad
@@ -67,12 +67,12 @@ struct TrackOptions {
     float acceleration_mm_s2 = 600;
     float angular_acceleration_rad_s2 = 6;
 
-    /// Maximum physically possible acceleration. If a sighting is farther from the prediction than
-    /// this acceleration explains, further sightings must confirm it before it is accepted.
+    /// Maximum acceleration that the robot can have, for example in a collision. If a sighting is
+    /// farther from the prediction than this acceleration explains, further sightings must confirm
+    /// it before it is accepted.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
-    /// Maximum speed. The speed limits the distance that the robot can have moved without
-    /// sightings.
+    /// Maximum speed. Limits the distance that the robot can have moved since its last sighting.
     float max_speed_mm_s = 1000;
     float max_turn_rad_s = 20;
     /// Number of standard deviations of the innovation by which a sighting may exceed the limits of
@@ -99,7 +99,7 @@ struct TrackOptions {
     int max_p_wrong_log2 = -30;
     /// Maximum `p_wrong_log2` of an accepted weak sighting, regardless of the prior. At most -1.
     int max_weak_p_wrong_log2 = -10;
-    /// Spacing of the pattern, for counting the places within the gate.
+    /// Spacing of the pattern. Determines the number of places within the gate.
     float spacing_mm = 0.508F;
 };
 
@@ -126,11 +126,12 @@ struct TrackedPose {
 /// The tracker's verdict on the sighting of a frame.
 enum class Verdict : std::uint8_t {
     none,      ///< there was no sighting
-    accepted,  ///< sufficiently certain alone, and physically possible
+    accepted,  ///< sufficiently certain without the prior, and inside the gate or confirmed by
+               ///< consistent sightings
     /// Weak, but accepted because it is sufficiently certain together with the prior.
     with_prior,
     gated,     ///< outside the gate, and not confirmed yet by consistent sightings
-    too_weak,  ///< weak, and the prior does not help
+    too_weak,  ///< weak, and not sufficiently certain even with the prior
 };
 /// Number of values of Verdict.
 inline constexpr int kVerdictCount = 5;
@@ -176,7 +177,7 @@ struct MotionEstimate {
     Covariance9 covariance{};  ///< covariance of (x, y, theta), their velocities and accelerations
     /// Variance of the acceleration along each axis, divided by the variance from TrackOptions.
     Vector3 agility{1, 1, 1};
-    Vector3 innovation{};  ///< difference of the newest sighting from its prediction
+    Vector3 innovation{};  ///< difference between the newest sighting and its prediction
     Matrix3 noise{};       ///< covariance of `innovation`
     /// Mean square of the innovations, in units of their covariances.
     float scatter = 1;
@@ -224,8 +225,8 @@ class Tracker {
     bool has_frame_ = false;
     std::int64_t newest_us_ = 0;
     track::MotionEstimate last_;  ///< state at the last accepted sighting
-    /// State at the newest sighting that contradicts the track. Such sightings are filtered like
-    /// accepted sightings, in case the robot was put down elsewhere.
+    /// Estimate from the newest sightings that contradict the track. These sightings are filtered
+    /// like accepted sightings, because the robot may have been put down elsewhere.
     track::MotionEstimate candidate_;
     int agreeing_ = 0;  ///< number of sightings in `candidate_`
     TrackedPose rest_;  ///< pose from which movement is measured

@@ -167,8 +167,8 @@ class Fits {
     std::span<const DetectedDot> dots_;
     Square near_;
     AffineFitInt32 sums_;
-    std::array<Used, 384>
-        before_;  ///< cell of each dot in the previous fit; not used if there are too many dots
+    /// Cell of each dot in the previous fit; not used if there are too many dots.
+    std::array<Used, 384> before_;
 };
 
 }  // namespace

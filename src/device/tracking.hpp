@@ -68,8 +68,8 @@ struct Tracking {
     int dots_measured = 0;
     std::int32_t spacing_q8 = 0;    ///< in 2^-8 px
     std::span<ComparedLine> lines;  ///< first half: columns; second half: rows
-    std::array<FixedVec, 4>
-        displaced_q16{};  ///< by Symbol: offset of a dot from its intersection, in 2^-16 px
+    /// By Symbol: offset of a dot from its intersection, in 2^-16 px.
+    std::array<FixedVec, 4> displaced_q16{};
     std::array<FixedVec, 4> offset_q8{};  ///< by Symbol: sum of `offset_q8` over all rows
     /// Offset of the first of the four pixels around a dot, in bytes, relative to the pixel of the
     /// intersection. Indexed by the quarter of the pixel that contains the intersection, and by

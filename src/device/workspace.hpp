@@ -21,8 +21,8 @@ struct DeviceWorkspace : Workspace {
 /// Capacities of the workspace of a device: size of frames, dots and data of the stages.
 struct DeviceCapacity {
     int width_px = 0;
-    int height_px =
-        kMaxFrameSide_px;  ///< smaller for frames that are wider than kMaxSideWithLowTiles_px
+    /// Smaller for frames that are wider than kMaxSideWithLowTiles_px.
+    int height_px = kMaxFrameSide_px;
     int dots = 0;
     int grid_side = 0;
     // Runs and blobs of one row. The capacities exceed the number of dots by far, so runs and blobs

@@ -21,10 +21,10 @@ struct Hypothesis {
     /// True if each dot is closer to its predicted place than to any other place of its cell. In
     /// this case, the dots are sampled directly.
     bool is_exact = false;
-    bool is_partial_view =
-        false;  ///< true if the pattern may cover only a part of the image, around `from_centre`
-    int depth_q8 =
-        0;  ///< contrast of a typical dot in the smoothed patch, in 1/256 of the paper level
+    /// True if the pattern may cover only a part of the image, around `from_centre`.
+    bool is_partial_view = false;
+    /// Contrast of a typical dot in the smoothed patch, in 1/256 of the paper level.
+    int depth_q8 = 0;
     /// Sum of the darkness of a dot below the threshold, relative to the paper level, or 0 if not
     /// yet known.
     float typical_mass = 0;

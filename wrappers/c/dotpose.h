@@ -195,7 +195,7 @@ enum {
 enum {
     /* All places of the code. */
     DOTPOSE_PRIOR_PLANE = 0,
-    /* Places on known sheets; an unknown sheet is improbable by its bits. */
+    /* Places on known sheets; the bits make any other sheet improbable. */
     DOTPOSE_PRIOR_SHEETS = 1,
     /* Places on known sheets, because no other sheet can be in view. */
     DOTPOSE_PRIOR_ONLY_SHEETS = 2

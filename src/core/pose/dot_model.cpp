@@ -55,8 +55,8 @@ struct Normal {
 /// Responses of a line of pixels to a blurred step and to a blurred point at a given place.
 struct PixelLine {
     std::array<float, kSide> step;  ///< response to a step: the darkness is 1 beyond the place
-    std::array<float, kSide>
-        point;  ///< response to a point: negative derivative of `step` with respect to the place
+    /// Response to a point: negative derivative of `step` with respect to the place.
+    std::array<float, kSide> point;
     std::array<float, kSide> slope;  ///< negative derivative of `point` with respect to the place
     /// Derivative of `point` with respect to the variance of the blur.
     std::array<float, kSide> point_by_blur;
