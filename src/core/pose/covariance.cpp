@@ -6,8 +6,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the derivatives, with respect to the parameters, of the direction from one point to
-/// another, in rad. `scale` is the unit of the places, in spacings.
+/// Returns the derivatives, with respect to the parameters, of the direction from the place `from`
+/// to the place `to`, in rad. `scale` is the unit of the places, in spacings.
 Parameters direction_gradient(const FourVecs& places, float scale, std::size_t from,
                               std::size_t to) {
     const float x = (places.x[to] - places.x[from]) * scale;
@@ -23,8 +23,8 @@ Parameters direction_gradient(const FourVecs& places, float scale, std::size_t f
     return gradient;
 }
 
-/// Returns the product of a covariance and a vector. Each term of the covariance is correlated with
-/// its neighbours only.
+/// Returns the product of a tridiagonal covariance and a vector. Only neighbouring parameters are
+/// correlated.
 Parameters times(const std::array<Parameters, kPoseParameters>& covariance, const Parameters& a) {
     Parameters product;
     for (std::size_t k = 0; k < kPoseParameters; ++k) {
@@ -48,13 +48,13 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
                          FixedVec reference_q8, Fix& fix) {
     fix.dots_used = fit.dots;
     fix.surface = fit.surface;
-    // Some dots are found only when they are measured at their places in the code, and not as
+    // Dots are also measured at their places in the code. Some of these dots were not found as
     // blobs.
     fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
     const ScaledPlane plane(float_plane(pattern_from_image), static_cast<float>(fit.reach_px));
-    // Theta is the direction of the x axis of the image, computed between two points that are 16 px
-    // apart.
+    // Theta is the direction of the x axis of the image in the pattern, computed between two points
+    // that are 16 px apart.
     constexpr float kStep_px = 8;
     const FixedVec from_centre_q8 = reference_q8 - pattern_from_image.centre_q8;
     const float x = static_cast<float>(from_centre_q8.x) / 256;

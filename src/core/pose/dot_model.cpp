@@ -9,16 +9,16 @@ namespace {
 
 constexpr auto kSide = DotPixels::kSide;
 
-/// Cosines of the angles at which the chords of the ellipse end, from the outermost chord to the
-/// middle. The other half of the ellipse is symmetric. Neighbouring chords are less than a pixel
-/// apart.
+/// Chords of the ellipse along u, given by the cosine of the angle at which each chord ends, from
+/// the outermost chord to the middle. The other half of the ellipse is symmetric. Neighbouring
+/// chords are less than a pixel apart. kChordsOfSmall is for small ellipses.
 constexpr float kChordsOfSmall[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                     0.60876143F, 0.38268343F, 0.13052619F};
 constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F, 0.76040597F,
                              0.64944805F, 0.52249856F, 0.38268343F, 0.23344536F, 0.07845910F};
-constexpr float kSmall_px2 = 4;  // squared half axis
+constexpr float kSmall_px2 = 4;  // larger squared half axis below which an ellipse is small
 
-/// Returns exp(-x) for x >= 0. Unlike a library function, gives the same bits on every
+/// Returns exp(-x) for x >= 0. Unlike library functions, gives bit-identical results on every
 /// platform.
 float exp_of_minus(float x) {
     constexpr float kLog2 = 0.693147181F;
@@ -52,12 +52,14 @@ struct Normal {
     }
 };
 
-/// Responses of a line of pixels to a blurred step and to a blurred point at a given place.
+/// Responses of the pixels along one axis to a blurred step and to a blurred point, both at the
+/// coordinate `place`.
 struct PixelLine {
-    std::array<float, kSide> step;  ///< response to a step: the darkness is 1 beyond the place
-    /// Response to a point: negative derivative of `step` with respect to the place.
+    /// Response to a step: the darkness is 1 beyond `place` and 0 before.
+    std::array<float, kSide> step;
+    /// Response to a point: negative derivative of `step` with respect to `place`.
     std::array<float, kSide> point;
-    std::array<float, kSide> slope;  ///< negative derivative of `point` with respect to the place
+    std::array<float, kSide> slope;  ///< negative derivative of `point` with respect to `place`
     /// Derivative of `point` with respect to the variance of the blur.
     std::array<float, kSide> point_by_blur;
 
@@ -118,7 +120,8 @@ DotImages draw(const ModelDot& dot, int half_px) {
     }
     for (std::size_t v = begin; v < end; ++v) {
         for (std::size_t u = begin; u < end; ++u) {
-            // The total darkness is always 1, so a wider ellipse has less darkness in every pixel.
+            // The total darkness is always 1, so each pixel becomes paler as the ellipse becomes
+            // wider.
             float& by = by_radius_u.all[v][u];
             by = (by - images.dot.all[v][u] / radius.x) / (2 * radius.x);
             by_radius_v.all[v][u] /= 2 * radius.y;

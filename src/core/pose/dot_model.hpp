@@ -13,12 +13,13 @@ namespace dotpose::core {
 struct ModelDot {
     FloatVec centre;    ///< relative to the middle of the central pixel
     FloatVec radius_2;  ///< squared half axes along u and v
-    FloatVec blur_2;    ///< variance of the blur along each axis
+    FloatVec blur_2;    ///< variance of the blur along u and v
 };
 
-/// A square of pixels, by row and column.
+/// The darkness of a square of pixels, by row and column.
 struct DotPixels {
-    static constexpr int kHalf_px = 6;  ///< distance from the central pixel to the last pixel
+    /// Distance from the central pixel to the outermost pixels, along each axis.
+    static constexpr int kHalf_px = 6;
     static constexpr std::size_t kSide = 2 * kHalf_px + 1;
 
     float& at(int u, int v) {
@@ -31,16 +32,16 @@ struct DotPixels {
     std::array<std::array<float, kSide>, kSide> all{};
 };
 
-/// Images of a model dot and of its derivatives. The pixels of the dot have a total darkness of 1.
+/// Image of a model dot, and its derivatives. The total darkness of the dot is 1.
 struct DotImages {
     DotPixels dot;
-    /// Derivatives with respect to the centre, the squared half axis and the blur, each along u and
-    /// then along v.
+    /// Derivatives of the image with respect to the centre, the squared half axis and the variance
+    /// of the blur, each along u and then along v.
     std::array<DotPixels, 6> derivatives;
 };
 
-/// Draws the pixels that are at most `half_px` from the central pixel along each axis. All other
-/// pixels are 0.
+/// Returns the images of a dot. Only the pixels that are at most `half_px` from the central pixel
+/// along each axis are computed. All other pixels are 0.
 DotImages draw(const ModelDot& dot, int half_px);
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// Dot offsets: places of the dots in the pattern and their residuals.
+// Dot offsets: the measured places of dots in the pattern, and their residuals.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -8,12 +8,12 @@ namespace dotpose::core {
 /// A measured dot in the pattern, in spacings.
 struct DotOffset {
     FloatVec at;        ///< measured place
-    FloatVec residual;  ///< vector from the measured place to the place in the code
+    FloatVec residual;  ///< vector from the measured place to the printed place
     float squared() const { return residual.x * residual.x + residual.y * residual.y; }
 };
 
-/// Returns the measured place of a dot through a plane, and its residual. `displacement` is the
-/// distance of dots from their intersections, in spacings.
+/// Returns the place of a measured dot in the pattern, through a plane, and its residual.
+/// `displacement` is the distance of the printed dots from their intersections, in spacings.
 inline DotOffset dot_offset(const MeasuredDots& dots, std::size_t k, const FloatPlane& plane,
                             float displacement) {
     const FloatVec at = plane_point(plane, {dots.x[k], dots.y[k]});

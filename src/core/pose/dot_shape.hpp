@@ -1,5 +1,5 @@
-// Dot shape: the size and the blur of the dots of a frame, from a fit of a model dot to their mean
-// images.
+// Dot shape: the size and the blur of the dots of a frame, from a fit of a model dot to the stacked
+// images of the dots.
 #pragma once
 
 #include "core/fit/normal_equations.hpp"
@@ -25,29 +25,30 @@ class DotShape {
     };
     using Terms = std::array<float, Term::count>;
 
-    /// Fits the model to the stacks. Returns false if there are too few dots or the model is not
-    /// determined.
+    /// Fits the model to the stacks. Returns false if there are too few dots or if the stacks do
+    /// not determine the model.
     bool fit(const StackedDots& stacks);
 
-    /// Draws the fitted model dot at a place.
+    /// Returns the images of the fitted model dot at `centre`, in px relative to the central pixel.
     DotImages drawn_at(FloatVec centre) const {
         return draw(dot(terms_, centre), DotPixels::kHalf_px);
     }
     /// Returns the variance of the blur along each axis, in px^2.
     FloatVec blur_2() const { return {terms_[blur_u], terms_[blur_v]}; }
-    /// Returns the common offset of the dots from their expected places, in px.
+    /// Returns the mean offset of the dots from their expected places, in px.
     FloatVec offset() const { return {terms_[offset_u], terms_[offset_v]}; }
     /// Returns the variance of a quantity, given its derivatives with respect to the terms. The
     /// variance includes the misfit of the model.
     float variance(const Terms& derivatives) const;
-    /// Returns the ratio of the squared residuals of the images to the noise, at least 1. A perfect
-    /// fit has the ratio 1.
+    /// Returns the mean squared residual of the images, divided by the noise variance; at least 1.
+    /// A model that explains the images up to noise has a misfit of 1.
     float misfit() const { return misfit_; }
 
   private:
-    /// Normal equations of the terms, and the cost of the terms.
+    /// Normal equations for a step of the terms, and the cost of the current terms.
     struct Normal : NormalEquations<Term::count> {
-        float squares = 0;  ///< squared residuals of the images, in variances
+        /// Sum of the squared residuals of the images, in units of the noise variance.
+        float squares = 0;
         float pixels = 0;
         float cost = 0;
 
@@ -65,7 +66,7 @@ class DotShape {
     static Terms changed(const Terms& terms, const Terms& step);
 
     Terms terms_{};
-    Normal normal_;  ///< normal equations of the terms, decomposed
+    Normal normal_;  ///< decomposed normal equations of the fitted terms
     float misfit_ = 1;
 };
 

@@ -20,11 +20,11 @@ float settled(const FloatPlane& p, float reach) {
                       tuned::kMinSettled, tuned::kMaxSettled);
 }
 
-/// Returns true if the inliers within the limit `other` are the same, or nearly the same, as the
+/// Returns true if the inliers within the limit `next_limit` are, at least nearly, the same as the
 /// inliers within `limit`.
-bool keeps_dots(const FitSums& sums, float limit, float other) {
-    return (sums.outliers == 0 && sums.farthest <= other) ||
-           std::abs(other - limit) < tuned::kSameLimit * limit;
+bool keeps_dots(const FitSums& sums, float limit, float next_limit) {
+    return (sums.outliers == 0 && sums.farthest <= next_limit) ||
+           std::abs(next_limit - limit) < tuned::kSameLimit * limit;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// Float fit: fits the pose to dots that were measured at their places in the code. Like
-// `refine_pose`, but with vectors and in single precision. differs: the paper stops at eq. 12.
+// Float fit: fits the pose to dots that were measured at their places in the code. Does the same as
+// `refine_pose`, but with vector kernels and in single precision. differs: the paper stops at eq.
+// 12.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -7,10 +8,10 @@
 
 namespace dotpose::core {
 
-/// Fits the plane by least squares, starting from `plane`. Dots are inliers if their squared
-/// residual (in spacings^2) is at most `limit` in the first round, and at most four standard
-/// deviations in the last round. Sets all members of `fit`. Returns false if the dots do not
-/// determine the plane.
+/// Fits the plane by least squares, starting from `plane`. A dot is an inlier if its squared
+/// residual is at most `limit` (spacings^2) in the first round. In later rounds, the limit is four
+/// standard deviations. Sets all members of `fit` except `surface` and `uneven`. Returns false if
+/// the dots do not determine the plane.
 bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, float limit,
                float displacement, FloatPlane& plane, PoseFit& fit);
 

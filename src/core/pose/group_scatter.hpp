@@ -10,8 +10,8 @@ namespace dotpose::core {
 /// Sums over groups of neighbouring dots. Residuals are relative to a plane that was fitted to all
 /// dots; squares are in spacings^2.
 struct GroupScatter {
-    float squares = 0;  ///< squared residuals of the dots
-    /// Squared mean residuals of the groups, each multiplied by the number of its dots.
+    float squares = 0;  ///< sum of the squared residuals of all dots
+    /// Sum, over all groups, of the squared mean residual times the number of dots of the group.
     float between = 0;
     float dots = 0;
     float groups = 0;

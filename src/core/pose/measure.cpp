@@ -96,9 +96,9 @@ struct BorderBackground {
     float slope_v = 0;
 };
 
-/// Fits the paper level to the sides of the window that are in the image. At least two sides are in
-/// the image, because no image is smaller than a window. If one of two opposite sides is missing,
-/// the slope in that direction is 0.
+/// Computes the paper level from the means of the sides of the window that are in the image. At
+/// least two sides are in the image, because no image is smaller than a window. If one of two
+/// opposite sides is missing, the slope in that direction is 0.
 BorderBackground border_background(const Patch& patch, FixedVec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};
@@ -129,19 +129,19 @@ BorderBackground border_background(const Patch& patch, FixedVec pixel, int half)
     return {sum / count, slope(sides[0], sides[1]), slope(sides[2], sides[3])};
 }
 
-/// Fits a Gaussian dot to a window by one Gauss-Newton step. A dot with the width of the window, at
-/// `offset` from its centre, has
+/// Fits a Gaussian dot to a window by one Gauss-Newton step. The darkness of a dot with the width
+/// of the window, at a small `offset` from its centre, is
 ///
 ///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d), all in units of sigma.
 ///
 /// In a complete window, the result is the windowed centroid. In a window that is cropped by the
-/// border of the image, the result is unbiased.
+/// border of the image, the result is still unbiased.
 class DotFit {
   public:
-    /// Adds four pixels of a row.
-    void add(Four code, Four darkness, Four x, float y) {
-        const Four square = code * code;
-        const Four dark = code * darkness;
+    /// Adds four pixels of a row. `profile` is exp(-d^2 / 2) at each pixel.
+    void add(Four profile, Four darkness, Four x, float y) {
+        const Four square = profile * profile;
+        const Four dark = profile * darkness;
         add_each(one_x_y_xx_, square, square * x, square * y, square * x * x);
         add_each(xy_yy_dark_, square * x * y, square * y * y, dark, dark * x);
         add_each(dark_y_, dark * y, Four{}, Four{}, Four{});
@@ -152,7 +152,7 @@ class DotFit {
         float offset_x;
         float offset_y;
     };
-    /// Returns nullopt if the spot is brighter than the paper.
+    /// Returns nullopt if the centre of the window is not darker than the paper.
     std::optional<Result> solve() const {
         const float one = one_x_y_xx_[0];
         const float sum_x = one_x_y_xx_[1];
@@ -186,7 +186,7 @@ class DotFit {
 struct AxisProfile {
     using Values = std::array<float, kMaxInFours>;
     Values distance;
-    Values code;
+    Values profile;
     Values from_pixel;  ///< distance from the central pixel, in px
 
     AxisProfile(int first, int last, int pixel, std::int32_t middle_q8, std::int32_t sigma_q8) {
@@ -194,10 +194,10 @@ struct AxisProfile {
         for (int i = first; i <= last; ++i, ++count) {
             const float d = static_cast<float>(i * 256 - middle_q8) / static_cast<float>(sigma_q8);
             distance[count] = d;
-            code[count] = std::exp(-d * d / 2);
+            profile[count] = std::exp(-d * d / 2);
             from_pixel[count] = static_cast<float>(i - pixel);
         }
-        for (Values* values : {&distance, &code, &from_pixel})
+        for (Values* values : {&distance, &profile, &from_pixel})
             std::fill_n(values->begin() + static_cast<std::ptrdiff_t>(count), 3, 0.0F);
     }
 };
@@ -217,15 +217,15 @@ DotFit fit_dot(const Patch& patch, const BorderBackground& light, std::int32_t s
         for (std::size_t i = 0; i < columns; i += 4) {
             const Four paper =
                 light.middle + light.slope_u * four_at(&along_u.from_pixel[i]) + slope_v;
-            fit.add(four_at(&along_u.code[i]) * along_v.code[j], paper - four_at(levels + i),
+            fit.add(four_at(&along_u.profile[i]) * along_v.profile[j], paper - four_at(levels + i),
                     four_at(&along_u.distance[i]), along_v.distance[j]);
         }
     }
     return fit;
 }
 
-/// Returns the dot near a point, or nullopt if the point is outside the image or there is no dark
-/// spot.
+/// Returns the dot near a point. Returns nullopt if the point is outside the image, if there is no
+/// dark spot, or if the dot is too far from the point.
 std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
                                    FixedVec start_q8) {
     const std::int64_t farthest =
@@ -248,7 +248,7 @@ std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
         };
         const FixedVec step{step_q8(fit->offset_x), step_q8(fit->offset_y)};
         dot.centre_q8 = dot.centre_q8 + step;
-        // Darkness relative to the paper level does not depend on the light.
+        // Darkness divided by the paper level does not depend on the illumination.
         const float mass = 16384 * fit->height / std::max(light.middle, 1.0F);
         dot.mass = static_cast<std::uint16_t>(std::min(mass, 65535.0F));
         if (squared(dot.centre_q8 - start_q8) > farthest) return {};
@@ -257,8 +257,8 @@ std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
     return dot;
 }
 
-/// Rejects dots whose mass differs much from the typical mass: paper where a dot is missing, dirt,
-/// and graphics.
+/// Rejects dots whose mass differs much from the typical mass. These are bare paper where a dot is
+/// missing, dirt, and graphics.
 void reject_mass_outliers(Grid& grid, std::span<DetectedDot> dots) {
     constexpr std::size_t kSample = tuned::kMedianSample;
     std::array<std::int32_t, kSample> masses;

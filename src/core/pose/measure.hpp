@@ -1,6 +1,6 @@
 // Measure: measures the exact centres of all dots in the image, at their places in the code. Used
-// by the second attempt, whose filter and threshold blur and miss dots. differs:
-// docs/differs-from-paper.md.
+// by the second attempt, because its filter blurs dots and its threshold misses some of them.
+// differs: docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/grid.hpp"
@@ -12,8 +12,9 @@ namespace dotpose::core {
 
 /// Replaces the dots by measured dots, one for each cell that has a dot at its place, and links the
 /// cells to these dots. Centres are Gaussian-windowed centroids (Bertin, SExtractor: XWIN),
-/// iterated from the nominal places. Windows may be cropped by the border of the image. Masses are
-/// darkness relative to the paper level, in units of 2^-14. Returns the number of dots.
+/// iterated from the nominal places. The border of the image may crop the windows. The mass of a
+/// dot is its peak darkness relative to the paper level, in units of 2^-14. Returns the number of
+/// dots.
 int measure_dots(const ImageView& image, const FixedLens& lens,
                  const PlaneFromImage& pattern_from_image, const Nominal& nominal, Grid& grid,
                  std::span<DetectedDot> dots);

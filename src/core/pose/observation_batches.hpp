@@ -21,7 +21,7 @@ struct ObservationBatch {
     Values<std::int32_t> step_y_q16;
     Values<std::int32_t> dx;  ///< direction of the displacement: -1, 0 or 1
     Values<std::int32_t> dy;
-    Values<float> noise;  ///< Observations::noise, or 0 if it is not known
+    Values<float> noise;  ///< Observations::noise, or 0 if the noise is not known
 
     void add(FixedVec from_centre_q8, FixedVec pattern_step, Symbol symbol, float its_noise) {
         x_q8[count] = from_centre_q8.x;
@@ -32,8 +32,8 @@ struct ObservationBatch {
         dy[count] = dotpose::dy(symbol);
         noise[count++] = its_noise;
     }
-    /// Pads the batch to a multiple of four. The added dots are not counted, and are too far away
-    /// to be inliers.
+    /// Pads the batch to a multiple of four dots. `count` does not include the padding, which is
+    /// too far away to be an inlier.
     void fill_up();
 };
 
@@ -44,7 +44,7 @@ class ObservationBatches {
 
     /// Returns an upper bound on the distance of the dots from the centre, along each axis.
     int reach_px() const { return reach_px_; }
-    /// Returns a regular subsample of the dots, or all dots if they fit in one batch.
+    /// Returns an evenly spaced subsample of the dots, or all dots if they fit in one batch.
     const ObservationBatch& sample() const { return sample_; }
 
     /// Calls `use` for all dots, in padded batches.

@@ -19,7 +19,7 @@ inline FixedVec nominal_place_q16(const Observation& o, std::int32_t displacemen
             o.pattern_step.y * 65536 + dy(o.symbol) * displacement_q16};
 }
 
-/// Dots that belong to a cell of a grid, with their nominal places.
+/// The dots of the cells of a grid, with their symbols in the code.
 class Observations {
   public:
     /// `paper` is the paper level of the image in which all dots were measured. `paper` is null if
@@ -30,8 +30,8 @@ class Observations {
 
     bool know_noise() const { return paper_ != nullptr; }
     /// Returns the variance of a centre due to pixel noise, divided by the variance for a dot on
-    /// the brightest paper. Noise is constant over the image, but contrast is proportional to the
-    /// light.
+    /// white paper (level 255). Pixel noise is constant over the image, but the contrast of a dot
+    /// is proportional to the paper level.
     float noise(const Observation& o) const {
         const float light =
             static_cast<float>(paper_at(*paper_, o.image_point_q8.x >> 8, o.image_point_q8.y >> 8));

@@ -23,11 +23,12 @@ constexpr float kBehind = tuned::kBehind;
 /// Sums over the dots of one part of the sheet. Coherent dots are dots whose residuals a common
 /// displacement may explain.
 struct PartSums {
-    /// Number of dots; log odds of these dots for the single plane; number of coherent dots;
-    /// squared residuals of the coherent dots.
+    /// Number of dots; sum of the log odds of these dots for the single plane; number of coherent
+    /// dots; sum of the squared residuals of the coherent dots.
     Four counts;
     Four places;  ///< coherent dots: sums of x and y, and of the residuals along x and y
-    /// Coherent dots: sums of xx, xy and yy, relative to the reference point, and of the torque.
+    /// Coherent dots: sums of xx, xy and yy, and of the cross product of the place and the
+    /// residual. Places are relative to the reference point.
     Four moments;
 
     PartSums& operator+=(const PartSums& o) {
@@ -44,8 +45,8 @@ struct PartSums {
     float dots() const { return counts[2]; }
     float squares() const { return counts[3]; }
 
-    /// Returns the squared residuals that remain after a displacement and rotation of the whole
-    /// part.
+    /// Returns the sum of the squared residuals of the coherent dots after a common displacement
+    /// and rotation.
     float remaining() const {
         if (dots() < 3) return squares();
         const float by = 1 / dots();
@@ -91,11 +92,12 @@ struct Symmetric3 {
 };
 
 /// Least-squares affine map of all coherent dots. The gain of a step at a line is relative to this
-/// map, because this map absorbs most of a step in the middle of the view.
+/// map, because an affine map absorbs most of a step in the middle of the view.
 class AffineFit {
   public:
     AffineFit() = default;
-    /// `x_off` and `y_off` are the sums of the residuals along x and y, multiplied by 1, x and y.
+    /// `x_off` and `y_off` are the sums of the residuals along x and y, each multiplied by 1, x and
+    /// y.
     AffineFit(const PartSums& all, const Triple& x_off, const Triple& y_off)
         : inverse_(Symmetric3{all.dots(), all.places[0], all.places[1], all.moments[0],
                               all.moments[1], all.moments[2]}
@@ -104,9 +106,9 @@ class AffineFit {
           y_(inverse_ * y_off),
           squares_(all.squares() - inner_product(x_, x_off) - inner_product(y_, y_off)) {}
 
-    /// Returns the squared residuals of all coherent dots after the affine map.
+    /// Returns the sum of the squared residuals of all coherent dots after the affine map.
     float squares() const { return squares_; }
-    /// Returns the reduction of the squared residuals by a displacement of the part beyond a line.
+    /// Returns the reduction of this sum by a displacement of the part beyond a line.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
         const float spread = step[0] - inner_product(step, inverse_ * step);
@@ -115,8 +117,7 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns the reduction of the squared residuals by a displacement and rotation of the part
-    /// beyond a line.
+    /// Returns the reduction of this sum by a displacement and rotation of the part beyond a line.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
@@ -143,8 +144,9 @@ class AffineFit {
     }
 
   private:
-    /// Minimum spread of the dots of a part that determines a step: the effective number of dots by
-    /// which the part differs from the whole.
+    /// Minimum spread that determines a step. The spread is the squared norm of the indicator
+    /// function of the part (1 for each dot beyond the line, 0 for all other dots) minus its
+    /// least-squares affine fit.
     static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};
@@ -270,7 +272,7 @@ class Search {
                off_plane_ * (part.seen() - part.dots());
     }
 
-    /// Returns an upper bound on `gain_of`, for the smallest possible residuals.
+    /// Returns an upper bound on `gain_of`: the gain if all coherent dots had residuals of 0.
     float max_gain_of(const PartSums& beyond, const PartSums& here) const {
         const auto max_of = [this](const PartSums& part) {
             return kOnPlane * part.dots() + off_plane_ * (part.seen() - part.dots());
@@ -279,9 +281,10 @@ class Search {
                           std::max(max_of(here) - here.on_plane(), 0.0F));
     }
 
-    /// Returns the gain of two parts relative to the single plane, as a log likelihood ratio. The
-    /// part beyond the line may be displaced in any way, and the single plane may be a compromise
-    /// between the parts.
+    /// Returns the gain of separate planes for the two parts relative to the single plane, as a log
+    /// likelihood ratio. The near part also has its own plane, because the single plane may be a
+    /// compromise between the parts. If the dots beyond the line have no common plane, their log
+    /// odds are 0.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
@@ -293,8 +296,8 @@ class Search {
     PartSums all_{};
     AffineFit affine_;
     float variance_;
-    float off_plane_;  ///< log odds of a dot that is not on the plane
-    float weight_ = 1;
+    float off_plane_;   ///< log odds of a dot that is not on the plane
+    float weight_ = 1;  ///< number of dots that each sampled dot represents
     std::size_t lines_ = 0;
     float per_spacing_ = 0;  ///< number of lines per spacing
 };

@@ -1,5 +1,5 @@
-// Paper step: finds a line across which the sheet is displaced, because a printer fed the paper
-// badly or because two sheets adjoin there. differs: the method of the paper has one plane.
+// Paper step: finds a line beyond which the print is displaced, because a printer fed the paper
+// badly or because two sheets adjoin at the line. differs: the method of the paper has one plane.
 #pragma once
 
 #include "core/math/float_plane.hpp"

@@ -27,7 +27,8 @@ float place_of_window(std::int32_t window, std::int32_t sum, std::int32_t mass) 
     return static_cast<float>(window) + std::floor(quarters + 0.5F) / 4;
 }
 
-/// Weights of a centroid window along one axis. See kernels/loops/centroid_windows.inc.
+/// Weight function of a centroid window along one axis, with its first moment and the derivative of
+/// this moment, at each pixel. See kernels/loops/centroid_windows.inc.
 struct WindowWeights {
     std::array<float, DotPixels::kSide> weight;
     std::array<float, DotPixels::kSide> moment;
@@ -45,8 +46,8 @@ struct WindowWeights {
     }
 };
 
-/// Returns the weighted sum over the pixels. `along_u` and `along_v` are the weights along the two
-/// axes.
+/// Returns the weighted sum of the pixels. The weight of a pixel is the product of its weights
+/// along the two axes.
 float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide>& along_u,
                const std::array<float, DotPixels::kSide>& along_v) {
     float sum = 0;
@@ -68,9 +69,9 @@ struct CentroidError {
 
 enum class Along : std::uint8_t { u, v };
 
-/// Returns the error along an axis. `dot_px` and `window_px` are the coordinates of the dot and of
-/// the window along this axis, relative to the centre of a pixel. The error is computed with the
-/// slope along u, because the kernels use this slope for both axes.
+/// Returns the error of a centroid along an axis. `dot_px` and `window_px` are the coordinates of
+/// the dot and of the window along this axis, relative to the centre of a pixel. The slope along u
+/// is used for both axes, as in the kernels.
 CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, float window_px,
                              float radius_px) {
     const bool is_u = axis == Along::u;
@@ -109,7 +110,8 @@ class AxisBias {
     }
 
     float amplitude_px() const { return amplitude_px_; }
-    /// Returns the slope of the moments along this axis, divided by the slope along u.
+    /// Returns the slope of the moment along this axis, divided by the slope along u. The ratio is
+    /// shrunk towards 1 if noise explains the difference.
     float slopes() const { return slopes_; }
     /// Returns the bias of a dot, in px, and adds its phase to the mean.
     float of(float phase) {
@@ -118,7 +120,8 @@ class AxisBias {
         dots_ += 1;
         return amplitude_px_ * sine;
     }
-    /// Returns the variance of the mean over the dots that remains after correction, in px^2.
+    /// Returns the variance of the mean centre of the dots that remains after the correction, in
+    /// px^2.
     float variance_of_mean() const {
         const float mean = sines_ / std::max(dots_, 1.0F);
         return variance_ * mean * mean;
@@ -175,7 +178,7 @@ class ExpectedDots {
 
   private:
     const FloatPlane& plane_;
-    const float by_;  ///< in px^2 per spacing^2
+    const float by_;  ///< area of a cell, in px^2
     const float displacement_;
     const float limit_;
     const FloatVec centre_px_;

@@ -1,6 +1,6 @@
-// Pixel bias: corrects the error of the centroids due to the sub-pixel phase of the dots. If the
-// phases of the dots are evenly distributed, the error averages out. If all dots have the same
-// phase, the error is computed from a model dot and subtracted. differs: the frames of the paper
+// Pixel bias: corrects the bias of the centroids due to the sub-pixel phase of the dots. If the
+// phases of the dots are evenly distributed, the bias averages out. If all dots have the same
+// phase, the bias is computed from a model dot and subtracted. differs: the frames of the paper
 // contain all phases.
 #pragma once
 
@@ -24,7 +24,8 @@ struct CentroidWindow {
 void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots);
 
 /// Subtracts the bias from the centres of all inliers of the plane. Returns the remaining variance
-/// of the mean over all centres, along u and v, in px^2.
+/// of the mean over all centres, along u and v, in px^2. If the bias is negligible or cannot be
+/// determined, changes no centre and returns 0.
 FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window,
                             const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 

@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::paper_step;
 
-/// Finds the residual, in spacings, on which most of the dots near a point agree. Returns false if
-/// too few dots agree.
+/// Finds the residual, in spacings, that is shared by the most dots near a point. Returns false if
+/// too few dots share a residual.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMaxDots = 256;
@@ -76,9 +76,8 @@ bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
                        split.fit))
             return false;
         if (round + 1 == tuned::kRounds) break;
-        // The plane of one side determines the line more precisely. This plane does not give the
-        // probability of the line, because the dots beyond the line did not contribute to the
-        // plane.
+        // Relative to the plane of one side, the line is found more precisely. The gain relative to
+        // this plane is not used, because the dots beyond the line did not contribute to the plane.
         const PaperStep step = find_paper_step(dots, split.plane, split.fit, reference_px);
         if (step.gain > 0) split.step = step;
     }

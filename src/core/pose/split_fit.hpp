@@ -5,10 +5,11 @@
 
 namespace dotpose::core {
 
-/// Hides the dots on one side of a line from fits during the lifetime of the object, by moving the
-/// cells of these dots far away.
+/// Restricts fits to the dots on one side of a line, during the lifetime of the object. The cells
+/// of all other dots are moved far away. Dots near the line are on neither side.
 class HalfPlane {
   public:
+    /// The side that fits use: the side of the reference point, or the side beyond the line.
     enum class Side : std::uint8_t { here, beyond };
 
     HalfPlane(Side side, MeasuredDots& dots, const FloatPlane& plane, FloatVec reference_px,
@@ -22,7 +23,7 @@ class HalfPlane {
     MeasuredDots& dots_;
 };
 
-/// The likeliest line, and the plane on the side of the reference point.
+/// The likeliest line, and the plane of the dots on the side of the reference point.
 struct SplitFit {
     FloatPlane plane;
     PoseFit fit;
@@ -34,7 +35,7 @@ struct SplitFit {
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    SplitFit& split);
 
-/// Fits the plane beyond the line. Returns false if the dots beyond the line do not determine it.
+/// Fits a plane to the dots beyond the line. Returns false if these dots do not determine a plane.
 bool fit_far_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                   const SplitFit& split, FloatPlane& beyond);
 

@@ -1,4 +1,4 @@
-// Stacked dots: mean images of the dots, grouped by their sub-pixel phase.
+// Stacked dots: sums of the images of the dots, grouped by their sub-pixel phase.
 #pragma once
 
 #include "core/pose/dot_model.hpp"
@@ -22,8 +22,9 @@ class StackedDots {
     /// The dots of one stack.
     struct Stack {
         float dots = 0;
-        FloatVec rest;       ///< sum of `Phase::rest`
-        DotPixels darkness;  ///< sum of the darkness, relative to the paper level around each dot
+        FloatVec rest;  ///< sum of `Phase::rest`
+        DotPixels
+            darkness;  ///< sum of the darkness, as a fraction of the paper level around each dot
     };
 
     /// Uses the pixels within `reach_px` of the central pixel.
@@ -48,17 +49,17 @@ class StackedDots {
             }
         }
     }
-    /// Returns the distance of the outermost pixels from the central pixel, along each axis.
+    /// Returns the distance of the outermost pixels from the central pixel, along each axis, in px.
     int half_px() const { return half_px_; }
     /// Returns true if there are enough dots to separate signal from noise.
     bool are_enough() const;
-    /// Returns the mean darkness of a dot, which is the sum over its pixels.
+    /// Returns the total darkness of a dot, summed over its pixels, as the mean over all dots.
     float mass() const;
     /// Returns the variance of the darkness of a pixel among the dots of a stack.
     float noise_2() const;
 
   private:
-    static constexpr int kAlong = 4;
+    static constexpr int kAlong = 4;  ///< number of stacks along each axis
 
     std::array<Stack, kAlong * kAlong> stacks_{};
     float squares_ = 0;  ///< squared darkness of all pixels used

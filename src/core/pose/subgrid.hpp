@@ -14,7 +14,7 @@ PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn 
 void write_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8, CodeVariant code,
                 const Place& place, Fix& fix);
 
-/// Faster variant of `write_pose` for a plane that has neither perspective nor lens.
+/// Faster variant of `write_pose` for a plane that has neither perspective nor lens terms.
 void write_affine_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8,
                        CodeVariant code, const Place& place, Fix& fix);
 

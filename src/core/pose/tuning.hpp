@@ -14,13 +14,13 @@ namespace measure {
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
 /// Standard deviation of the fitted dot, in 1/128 of the spacing, but at least kMinSigma_q8 (1/256
-/// px). The value is the width of a blurred dot. With 6: 1,994, 2.19 and 5.36 µm; with 24: 1,904,
-/// 3.58 and 9.19 µm.
+/// px). This is the width of a blurred dot. With 6: 1,994, 2.19 and 5.36 µm; with 24: 1,904, 3.58
+/// and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
-/// Maximum squared distance of a dot from its place, in units of sigma^2. The fit separates dirt
-/// from badly printed dots. A smaller limit would reject badly printed dots, which costs accuracy
-/// and hides print errors.
+/// Maximum squared distance of a dot from its place, in units of sigma^2. The pose fit rejects dirt
+/// as outliers. A smaller limit would also reject badly printed dots, which costs accuracy and
+/// hides print errors.
 inline constexpr int kFarthest_2 = 9;
 /// Maximum number of Gauss-Newton steps. Iteration also ends after a step of less than kSettled_q8
 /// (1/256 px).
@@ -48,15 +48,15 @@ inline constexpr int kOutlier_medians = 12;
 /// Outlier limit, in variances, if the variance is known: 4.1 sigma. By chance, 1 dot in 4,000
 /// exceeds the limit.
 inline constexpr float kOutlier = 16.6F;
-/// Relative change of the limit beyond which the inliers may change.
+/// Relative change of the limit below which the inliers count as unchanged.
 inline constexpr float kSameLimit = 0.04F;
 /// Maximum fraction of the scatter that is attributed to pixel noise.
 inline constexpr float kMaxByNoise = 0.9F;
-/// Minimum number of dots for the vectorized plane fit.
+/// Minimum number of dots for `fit_plane`.
 inline constexpr int kMinDots = 20;
 /// Squared length of a step, in units of the standard deviation of the pose, below which the fit
-/// has converged: kNonlinearSettled / nonlinearity^2, clamped to [kMinSettled, kMaxSettled]. The
-/// remaining error is a fifth of a standard deviation.
+/// has converged: kNonlinearSettled / nonlinearity^2, clamped to [kMinSettled, kMaxSettled]. After
+/// the last step, the remaining error is about a fifth of a standard deviation.
 inline constexpr float kMinSettled = 0.2F;
 inline constexpr float kMaxSettled = 30;
 inline constexpr float kNonlinearSettled = 0.04F;
@@ -92,11 +92,11 @@ inline constexpr float kSure = 4;
 
 /// The pixel bias of dots with the same sub-pixel phase (pose/pixel_bias).
 namespace bias {
-/// Number of dots whose images are stacked. This number suffices to determine the shape of the
-/// dots.
+/// Maximum number of dots whose images are stacked. This number suffices to determine the shape of
+/// the dots.
 inline constexpr int kDots = 256;
-/// Distance beyond the edge of a dot up to which pixels are used. The distance is the extent of the
-/// blur.
+/// Width of the border around a dot whose pixels are also used. The border includes the blur of the
+/// edge.
 inline constexpr float kBeyondEdge_px = 1.5F;
 /// Variance of the blur above which the bias is negligible.
 inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
@@ -135,7 +135,8 @@ inline constexpr int kManyDots = 1000;
 /// five dots.
 inline constexpr int kFewAlong = 6;
 /// Variance that uneven blocks add to place and angle, in units of the variance of the mean
-/// residual of a block. docs/integrity.md compares the result with the errors on bent sheets.
+/// residual of a block. For the angle, this variance is divided by the squared side of a block.
+/// docs/integrity.md compares the result with the errors on bent sheets.
 inline constexpr float kOfPlace = 2;
 inline constexpr float kOfTurn = 8;
 /// Standard deviation of the common residuals of blocks that is not attributed to the sheet. The
@@ -149,13 +150,13 @@ inline constexpr float kNearLine = 1.2F;
 
 /// Search for the line that divides a sheet (pose/paper_step, pose/split_fit).
 namespace paper_step {
-/// Maximum evidence of a dot for the plane on which it is: natural log odds relative to dots
-/// anywhere in their cells.
+/// Maximum evidence of one dot for a plane that predicts its place: natural log of the odds
+/// relative to a dot anywhere in its cell.
 inline constexpr float kOnPlane = 5;
-/// Maximum residual of a dot, in variances, for which a common displacement of its part is
-/// considered.
+/// Maximum squared residual of a dot, in units of the variance, that a common displacement of its
+/// part may explain.
 inline constexpr float kTogether = 36;
-/// Distance, in spacings, by which the reference point may be beyond the line.
+/// Maximum distance, in spacings, by which the reference point may be beyond the line.
 inline constexpr float kBehind = 0.5F;
 /// Minimum number of dots beyond the line.
 inline constexpr float kMinBeyond = 12;

@@ -56,7 +56,7 @@ class Blocks {
     float variance_of_bias_;
 };
 
-/// Returns the blocks of the dots on the same side as the reference point.
+/// Returns the blocks of the dots on the side of the reference point.
 Blocks blocks_here(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const SplitFit& split) {
     const HalfPlane only(HalfPlane::Side::here, dots, split.plane, reference_px, split.step);
@@ -68,8 +68,8 @@ bool has_outliers(const Blocks& blocks) {
            tuned::kFewOutliers + tuned::kOutlierFraction * blocks.scatter().dots;
 }
 
-/// Adds the difference of two planes at the reference point to the covariance, multiplied by
-/// `weight`, because either plane may be the pose.
+/// Adds the squared difference of two planes at the reference point, times `weight`, to the
+/// covariance, because either plane may be the correct one.
 void add_difference(const FloatPlane& plane, const FloatPlane& other, FloatVec reference_px,
                     float weight, PoseFit& fit) {
     const FloatVec p = plane_point(plane, reference_px);
@@ -89,7 +89,7 @@ void add(float variance, std::size_t i, PoseFit& fit) {
     fit.uneven[i][i] += variance;
 }
 
-/// Adds the uncertainty due to common residuals of blocks to the covariance.
+/// Adds the uncertainty due to the common residuals of blocks to the covariance.
 void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     const float variance = blocks.variance_of_sheet();
     add(tuned::kOfPlace * variance, 0, fit);
@@ -105,8 +105,8 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
     FloatPlane beyond;
     if (fit_far_side(kernels, dots, reference_px, split, beyond))
         return add_difference(split.plane, beyond, reference_px, 1, fit);
-    // If the plane of the other side is not known, this side may be anywhere within a cell, rotated
-    // by some degrees.
+    // If the plane beyond the line is not known, the part beyond the line may be displaced by up to
+    // half a cell, and rotated by some degrees.
     add(1.0F / 12, 0, fit);
     add(1.0F / 12, 1, fit);
     add(0.02F * 0.02F, 2, fit);
@@ -136,8 +136,8 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     if (is_divided) widen_near_line(kernels, dots, reference_px, split, fit);
 }
 
-/// Searches for a line if the scatter between blocks exceeds `min_excess` deviations, or if there
-/// are many outliers.
+/// Searches for a line if the scatter between blocks exceeds chance by more than `min_excess`
+/// standard deviations, or if there are many outliers.
 void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dots,
                      const Blocks& blocks, FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
     const float excess = blocks.scatter().excess();
