@@ -29,7 +29,7 @@ float half_side_px(const ImageView& image) {
     return std::max(static_cast<float>(image.width_px), static_cast<float>(image.height_px)) / 2;
 }
 
-/// Returns true if most measured dots agree with the expected bits.
+/// Returns true if enough dots were read and few of their bits contradict the code.
 bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOptions& options,
                   int min_dots, bool is_partial_view) {
     const bool is_full = 4 * bits.seen >= dots.count || is_partial_view;
@@ -152,7 +152,7 @@ FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const
     if (!reader.correct_neighbour_bias(hypothesis, fit) && !has_pixel_bias) return {};
     FloatPlane better = hypothesis.pattern_from_image;
     PoseFit better_fit;
-    // Without the dots at the border, there may be too few dots.
+    // The correction drops dots at the border, so too few dots may remain.
     if (!fit_plane(kernels, reader.dots(), static_cast<int>(half_side_px(image)) + 1,
                    tuning::fit::kOutlier * fit.variance, fit.displacement, better, better_fit)) {
         return {};
@@ -163,7 +163,7 @@ FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const
     return remaining_px2;
 }
 
-/// Adds a variance of the place in the image, along u and v, to the covariance of the pose.
+/// Adds a variance of the image point, along u and v, to the covariance of the pose.
 void add_variance(FloatVec px2, const FloatPlane& plane, PoseFit& fit) {
     const std::array<float, 2> by_u{plane.du_x, plane.du_y};
     const std::array<float, 2> by_v{plane.dv_x, plane.dv_y};
@@ -189,15 +189,15 @@ void write_fix(const ImageView& image, const DeviceOptions& options, const Hypot
     write_pose(w.pattern_from_image, reference, options.code, hypothesis.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     if (!(from_q8 == FixedVec{})) {
-        // The next prediction is made from the fix, relative to the image centre.
+        // Predictions from this fix need the plane relative to the image centre.
         w.fix.pattern_from_image =
             fixed_plane(recentred(hypothesis.pattern_from_image, {-from.x, -from.y}), centre_q8);
     }
     w.fix.status = Status::ok;
 }
 
-/// Returns true if the fitted plane is so far from the plane before the fit, within reach, that the
-/// small centroid windows missed a part of the offsets.
+/// Returns true if the fitted plane is far from the plane before the fit, at a corner of the part
+/// within `reach_px` of the centre. The small centroid windows then missed a part of the offsets.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
@@ -222,7 +222,7 @@ FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis
 struct Reach {
     float full;  ///< distance that includes the whole image
     /// Distance within which the bits must make the position certain. Bits at larger distances are
-    /// not used for this.
+    /// not counted as evidence.
     float deciding;
     float now;  ///< distance of the current round
 
@@ -233,8 +233,9 @@ struct Reach {
           deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
           now(deciding) {
         if (!hypothesis.is_partial_view) return;
-        // The pattern may end anywhere, so the first round has a smaller distance than usual. One
-        // island of dots may not make the position certain, so the deciding distance is larger.
+        // In a partial view, the pattern may end anywhere, so the first round has a smaller
+        // distance than usual. The dots within this distance may not suffice to make the position
+        // certain, so the deciding distance is larger.
         deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
         now = std::min(full, tuned::kDenseOfPart * spacing_px);
     }

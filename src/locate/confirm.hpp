@@ -11,8 +11,8 @@
 
 namespace dotpose::core {
 
-/// Returns true if the plane is plausible for a grid in the image. The following steps require a
-/// plausible plane.
+/// Returns true if the plane is plausible for a grid in the image. All stages that use the plane
+/// require this.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
 /// Result of `confirm`.
@@ -22,8 +22,9 @@ enum class Confirmation : std::uint8_t {
     uncertain,    ///< the dots are at their expected places, but the position is not certain
 };
 
-/// Measures, compares and fits. If the hypothesis is predicted and its dots are suitable, first
-/// samples these dots directly. Sets the fix of the workspace and, if requested, its trace.
+/// Measures the dots of the hypothesis, compares their bits with the code, and fits the pose. If
+/// the hypothesis is predicted and its spacing is suitable, first tries to sample the dots
+/// directly. Sets the fix of the workspace and, if requested, its trace.
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      Hypothesis hypothesis, DesktopWorkspace& w);
 

@@ -57,8 +57,8 @@ float dot_radius_px(const Hypothesis& hypothesis) {
     return std::sqrt(hypothesis.typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
 }
 
-/// Returns the radius of the centroid window, in px. Small enough to limit noise, and large enough
-/// to include the edge of the dot.
+/// Returns the radius of the centroid window, in px. The radius is small enough to limit noise, and
+/// large enough to include the edge of the dot.
 float window_radius_px(const Hypothesis& hypothesis) {
     const bool is_fine =
         spacing_px(hypothesis.pattern_from_image) < tuned::kMaxSpacingForSmallWindow_px;
@@ -66,8 +66,9 @@ float window_radius_px(const Hypothesis& hypothesis) {
                       is_fine ? kSmallCentroidRadius_px : kMaxCentroidRadius_px);
 }
 
-/// Returns true if all dots have the same sub-pixel phase. This is the case if a step of the grid,
-/// along u and along v, differs from a whole number of pixels by less than `max_off_px`.
+/// Returns true if all dots of a row, or all dots of a column, have the same sub-pixel phase. This
+/// is the case if the step from dot to dot differs from whole pixels by less than `max_off_px`,
+/// both along u and along v.
 bool has_common_phase(const FloatPlane& p, float max_off_px) {
     const float by = 1 / (p.du_x * p.dv_y - p.dv_x * p.du_y);
     const auto is_whole = [&](float px) {
@@ -89,7 +90,8 @@ bool can_sample_directly(const Hypothesis& hypothesis) {
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
     if (variance_px2 > tuned::kMaxVariance_px2) return false;
     const float drift_px = tuned::kDriftInView_px * spacing_px(plane) / static_cast<float>(side_px);
-    return has_common_phase(plane, drift_px);  // maximum drift per step of the grid
+    return has_common_phase(plane,
+                            drift_px);  // `drift_px` is the maximum drift per step of the grid
 }
 
 WindowOptions DotReader::window_options(const Hypothesis& hypothesis) const {
@@ -103,8 +105,8 @@ BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlo
     if (hypothesis.is_exact)
         return kernels_.read_levels(image_, view, hypothesis.depth_q8, dots_, columns, rows);
     WindowOptions window = window_options(hypothesis);
-    // Away from the centre, most windows may be empty, so the typical mass of the first call is
-    // used.
+    // In a partial view, most windows of later rounds may be empty, so later rounds use the typical
+    // mass of the first round.
     if (hypothesis.is_partial_view) window.typical_mass = typical_mass_;
     typical_mass_ = hypothesis.typical_mass = kernels_.measure_windows(image_, view, window, dots_);
     if (hypothesis.is_partial_view) drop_table(dots_, paper_);
@@ -142,8 +144,8 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
 
 bool DotReader::correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                                    const PoseFit& fit, FloatVec& remaining_px2) const {
-    // If the lens has distortion, or after direct sampling, the sub-pixel phases of the dots
-    // differ.
+    // Dots that are sampled directly have different sub-pixel phases (see `can_sample_directly`).
+    // Lens distortion also makes the phases differ. In both cases, the bias averages out.
     if (hypothesis.is_exact || view.lens.k != 0) return false;
     const float variance_px2 =
         fit.variance * spacing_px_ * spacing_px_ / static_cast<float>(fit.dots);

@@ -8,19 +8,19 @@
 
 namespace dotpose::core {
 
-/// Returns true if the dots of a predicted hypothesis can be sampled directly: each bit is read
-/// from one sample at each place of the cell, and each centre is measured in a small centroid
-/// window.
+/// Returns true if the dots of a predicted hypothesis can be sampled directly. Each bit is then
+/// read from one sample at each of the four places of the cell, and each centre is measured in a
+/// small centroid window.
 bool can_sample_directly(const Hypothesis& hypothesis);
 
-/// Returns true if the pixel bias matters. This is the case if all dots in view have the same
-/// sub-pixel phase, so the bias does not average out, and the other errors of the dots are small.
-/// `variance_px2` is the variance of the mean of all centres along one axis, `side_px` the longer
-/// side of the image.
+/// Returns true if the pixel bias matters. This is the case if all dots of a row or of a column
+/// have the same sub-pixel phase, so the bias does not average out, and if the other errors of the
+/// dots are small. `variance_px2` is the variance of the mean of all centres along one axis,
+/// `side_px` the longer side of the image.
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px);
 
-/// Reads and measures the listed dots. Samples at the places of the dots if the hypothesis is
-/// exact, and uses windows around the intersections otherwise.
+/// Reads and measures the listed dots. Samples at the four places of each cell if the hypothesis is
+/// exact. Otherwise uses windows around the intersections.
 class DotReader {
   public:
     DotReader(const Kernels& kernels, const ImageView& image, float spacing_px, MeasuredDots& dots)
@@ -36,11 +36,10 @@ class DotReader {
     /// displacement and the residuals in `bits`.
     void find_centres(const CellsInView& view, Hypothesis& hypothesis, bool is_last,
                       BitsRead& bits) const;
-    /// If all dots have the same sub-pixel phase, measures the centres again and subtracts the
-    /// pixel bias. The plane must have been fitted to the current centres, and must be fitted again
-    /// afterwards. Sets the remaining variance of the mean of the centres, in px^2. Returns false
-    /// if the bias does not matter, because the phases of the dots differ or other errors are
-    /// larger.
+    /// If the pixel bias matters (see `may_be_biased`), measures the centres again and subtracts
+    /// the bias. The plane must have been fitted to the current centres, and must be fitted again
+    /// afterwards. Sets the remaining variance of the mean of the centres, in px^2. Returns false,
+    /// without a change, if the bias does not matter.
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
     /// Corrects the bias of facing dots if the centroid windows reach the neighbouring dot. The

@@ -41,7 +41,8 @@ FloatVec middle_of(const Patch& patch, const ImageView& image) {
             middle_v_px(patch) - static_cast<float>(image.height_px - 1) / 2};
 }
 
-/// Places a patch around a point of the image, in px. Returns false if it is too small for a grid.
+/// Places a patch around a point of the image, in px. Returns false if the patch is too small for a
+/// grid.
 bool place_patch(const ImageView& image, FixedVec around_px, int scale, DesktopWorkspace& w) {
     return place_patch(image, around_px.x, around_px.y, kPatchWidth_px * scale,
                        kPatchHeight_px * scale, scale, *w.patch);
@@ -63,8 +64,8 @@ bool find_patch_dots(const Kernels& kernels, const ImageView& image, const Devic
     return true;
 }
 
-/// Finds the turn and the place in the code of a block of bits: of the turned block's cell (0, 0).
-/// Places on known sheets come first. Returns false if there is none.
+/// Finds the quarter turn of a block of bits, and the place in the code of cell (0, 0) of the
+/// turned block. Prefers places on known sheets. Returns false if no place is found.
 bool find_turn_and_place(const Kernels& kernels, const DeviceOptions& options,
                          const BitBlock& block, DesktopWorkspace& w, int& quarters, Place& place) {
     quarters = likeliest_turn(kernels, block);
@@ -102,7 +103,7 @@ bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const
 }
 
 /// Searches for the mirrored code in the dots of a patch around the image centre. The code counts
-/// as mirrored only if adjacent lines have no wrong bits. The dots remain mirrored.
+/// as mirrored only if adjacent lines have no wrong bits. Leaves the dots of the patch mirrored.
 void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, DesktopWorkspace& w) {
     if (w.is_mirrored) return;
     Patch& patch = *w.patch;
@@ -119,7 +120,8 @@ void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, Des
 }
 
 /// Returns true if the grid of the patch predicts all dots of the image to a fraction of a pixel.
-/// This is the case if the patch is the whole image, because the grid was then fitted to all dots.
+/// This is the case if the patch is the whole image, because the grid was then fitted to all dots,
+/// and if the spacing is not too small.
 bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px &&
            spacing_px(plane) >= tuned::kMinSpacingForPrediction_px;
@@ -175,10 +177,10 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
     return false;
 }
 
-/// Searches a patch around a point of the image. If the dots of the patch are densest at another
-/// point, then also searches a patch around that point. `tries_left` is the number of further
-/// hypotheses that their bits may contradict. Each such hypothesis increases the probability of a
-/// wrong fix.
+/// Searches a patch around a point of the image. If the patch gives no hypothesis, and its dots are
+/// densest far from its middle, also searches a patch around the densest point. `tries_left` is the
+/// number of further hypotheses that may remain uncertain. Each uncertain hypothesis increases the
+/// probability of a wrong fix.
 Confirmation locate_around(const Kernels& kernels, const ImageView& image,
                            const DeviceOptions& options, FixedVec around_px, int scale,
                            int& tries_left, DesktopWorkspace& w) {
@@ -200,7 +202,8 @@ Confirmation locate_around(const Kernels& kernels, const ImageView& image,
     return Confirmation::implausible;
 }
 
-/// Searches the whole image in patches, whose size increases from round to round.
+/// Searches the whole image in adjacent patches. The size of the patches increases from round to
+/// round.
 Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
                               const DeviceOptions& options, DesktopWorkspace& w) {
     int tries_left = tuned::kMaxTries;
@@ -218,7 +221,8 @@ Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
     return tries_left < tuned::kMaxTries ? Confirmation::uncertain : Confirmation::implausible;
 }
 
-/// Searches patches of increasing size around the image centre, and then the whole image.
+/// Searches patches of increasing size around the image centre, and then patches all over the
+/// image.
 Confirmation locate_outwards(const Kernels& kernels, const ImageView& image,
                              const DeviceOptions& options, DesktopWorkspace& w) {
     for (const int scale : {1, 2, 4}) {

@@ -1,4 +1,4 @@
-// First: the first attempt. Locates an image without a prediction, starting from one patch of the
+// First: the first attempt. Locates an image without a prediction. Begins with one patch of the
 // image.
 #pragma once
 

@@ -14,8 +14,8 @@ struct Extent {
     int count = 0;
 };
 
-/// Returns the integers from `min` to `max`. If there are more than `room` integers, returns `room`
-/// integers around 0.
+/// Returns the integers from `min` to `max`, with a margin of one integer on each side. If there
+/// are more than `room` integers, returns `room` integers around 0.
 Extent extent(float min, float max, int room) {
     const int half = room / 2;
     const int first = std::max(static_cast<int>(std::floor(std::max(min, -4096.0F))) - 1, -half);
@@ -69,7 +69,7 @@ CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
     view.displacement = hypothesis.displacement;
     // A dot that touches the border of the image is incomplete.
     view.margin_px = std::max(1.7F, 0.15F * spacing_px(hypothesis.pattern_from_image));
-    // The bits of known sheets are read closer to the border where the view has few dots.
+    // In small views of known sheets, dots closer to the border are also read.
     const auto shorter_px = static_cast<float>(std::min(image.width_px, image.height_px));
     if (w.known.any() &&
         shorter_px < tuning::known::kSmallView * spacing_px(hypothesis.pattern_from_image)) {

@@ -25,8 +25,8 @@ struct Hypothesis {
     bool is_partial_view = false;
     /// Contrast of a typical dot in the smoothed patch, in 1/256 of the paper level.
     int depth_q8 = 0;
-    /// Sum of the darkness of a dot below the threshold, relative to the paper level, or 0 if not
-    /// yet known.
+    /// Mass of a typical dot: the darkness beyond the threshold, relative to the paper level,
+    /// summed over the pixels of the dot. 0 if the mass is not known yet.
     float typical_mass = 0;
 };
 
@@ -48,7 +48,7 @@ CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
 /// Moves the origin of the cells to the intersection nearest to `from_centre`.
 void count_from_centre(CodeVariant code, Hypothesis& hypothesis);
 
-/// Least-squares shift, scale and turn from the predicted dots to the measured dots.
+/// Least-squares shift, scale and turn that move the predicted dots to the measured dots.
 struct Similarity {
     FloatVec shift_px;
     float scale = 0;  ///< scale minus 1

@@ -1,11 +1,11 @@
-// Locates a frame on a desktop: which attempts are made, in which codes, and when a fix is
-// accepted.
+// Selects the attempts to locate a frame on a desktop and the codes in which they are made, and
+// decides when a fix is accepted.
 //
 //   tracked    measures the dots where a prediction expects them    locate/tracked.hpp
 //   first      finds the grid in a part of the image                locate/first.hpp
 //   second     filters the image and uses all its dots              locate/second.hpp
 //
-// A frame whose code is known is a frame with one possible code.
+// A known code is treated as the only possible code.
 #include "locate/locate.hpp"
 
 #include <algorithm>
@@ -38,8 +38,8 @@ namespace tuned = tuning::cascade;
 /// bits. This step takes three times as long as `second`.
 enum class Step : std::uint8_t { tracked, first, second, resampled, device };
 
-/// Returns true if the dots are on a grid that could not be read in this code. Another code may be
-/// able to read it.
+/// Returns true if the dots are on a grid, but could not be read in this code. They may be readable
+/// in another code.
 bool leaves_code_open(Status status) {
     return status == Status::not_in_code || status == Status::ambiguous ||
            status == Status::not_certain;
@@ -86,8 +86,9 @@ class Cascade {
         return make({Step::first, Step::second, Step::resampled});
     }
 
-    /// Runs the steps in order until a code gives a certain fix. If no code does, returns the first
-    /// doubtful fix, or the failure in the likeliest code.
+    /// Runs the steps in order, each in all codes worth trying, until a fix is certain. If no fix
+    /// is certain, returns the first doubtful fix. If there is no doubtful fix either, returns the
+    /// failure in the likeliest code.
     CodeReading make(std::initializer_list<Step> steps) {
         std::optional<CodeReading> doubtful;
         std::optional<Fix> failure;
@@ -123,7 +124,8 @@ class Cascade {
         options_.code = code;
         OtherCodes& others = w_.other_codes;
         others.of = {};
-        // Alternatives that do not depend on the place are equally likely in each code.
+        // All codes have the same number of hypotheses that do not depend on the place read. With
+        // several possible codes, these hypotheses are counted once for each code.
         if (!codes_.is_known()) others.log2_in_question_q8 = log2_of_odds_q8(codes_.number(code));
         switch (step) {
             case Step::tracked:
@@ -160,8 +162,8 @@ class Cascade {
         return codes_.judge(read, w_.other_codes, w_.fix, options_.integrity.max_p_wrong_log2);
     }
 
-    /// Returns the certain fix, or a better fix if there is one: a fix in another code that
-    /// explains the same place better, or a fix by the second attempt.
+    /// Returns the certain fix, unless a better fix is found: a fix in another code that explains
+    /// the same place better, or a fix by the second attempt.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempt(other_step, other)) return false;
@@ -196,9 +198,9 @@ class Cascade {
         return reading;
     }
 
-    /// Adds evidence from a frame of another sheet. Strong evidence for one code can prevent every
-    /// frame of another code from being certain. Such a frame must still be able to overturn the
-    /// evidence.
+    /// Adds the evidence of the frame if the frame is certain in another code without the earlier
+    /// evidence. Strong evidence for one code would otherwise prevent every frame of a sheet in
+    /// another code from being certain.
     void add_evidence_of_another_sheet(CodeReading& reading) {
         if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
         const PossibleCodes before = codes_;
@@ -227,14 +229,14 @@ class Cascade {
     int min_errors_ = kMaxErrors;
 };
 
-/// Locates a frame whose arguments were checked.
+/// Locates a frame with valid arguments.
 CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
                            const Prediction* prediction, const PossibleCodes& codes,
                            const CodeEvidence& evidence, DesktopWorkspace& w) {
     w.is_mirrored = false;
     CodeReading reading = Cascade(image, options, codes, evidence, w).locate(prediction);
-    // An earlier attempt may have found the mirrored code before later attempts failed for other
-    // reasons.
+    // An earlier attempt may have found the mirrored code. A later attempt may then have failed for
+    // another reason.
     if (reading.fix.status != Status::ok && w.is_mirrored)
         reading.fix.status = w.fix.status = Status::mirrored;
     if (reading.fix.status == Status::ok && is_pale(image, options, reading.code, reading.fix)) {
@@ -246,8 +248,8 @@ CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
     return reading;
 }
 
-/// Sets a place in another code that explains the frame without a contradiction, apart from misread
-/// bits.
+/// Copies the place of `any`, a reading in another code, to the other place of `reading`. Ignores a
+/// place that more bits contradict than are usually misread.
 void note_other_reading(const CodeReading& any, CodeReading& reading) {
     const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
     if (!is_read || tuned::kBitsPerError * any.fix.bit_errors > any.fix.dots_seen) return;

@@ -1,4 +1,5 @@
-// Locator: memory, options, the evidence for the codes, and pushed rows. locate.cpp locates.
+// Implements the members of Locator: memory, options, evidence for the codes, and pushed rows.
+// locate/locate.cpp contains the attempts.
 #include <algorithm>
 #include <span>
 
@@ -13,7 +14,7 @@ LargeMemory::LargeMemory() : workspace_(core::make_workspace<core::LargeWorkspac
 
 Locator::Locator(core::DesktopWorkspace* workspace, const DeviceOptions& options)
     : RowLocator(workspace, options) {
-    // The memory may have served another locator.
+    // Another locator may have used the memory before, with known sheets.
     workspace->set_known({});
 }
 

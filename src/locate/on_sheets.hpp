@@ -1,5 +1,5 @@
-// On sheets: the places of the attempts on known sheets, for views in which the whole plane is too
-// large.
+// On sheets: finds and verifies places on known sheets, for views that are too small to be certain
+// on the whole plane.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace dotpose::core {
 
-/// Returns true if the position read is possible: on a known sheet, unless other sheets may be in
-/// view.
+/// Returns true if the decoded region can be in view: the region is at least partly on a known
+/// sheet, or other sheets may be in view.
 bool is_possible(CodeVariant code, const DesktopWorkspace& w);
 
 /// Returns the place of a block on the known sheets. Returns nullopt if no place in the code of the
@@ -24,8 +24,9 @@ std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const Dev
 bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                           const BitBlock& block, const KnownSheets& known, Fix& fix);
 
-/// Finds the position of the grid on the known sheets. Returns true if it is certain there. Sets
-/// the place and the turn of the decoding, and `bit_errors`, `p_wrong_log2` and `prior` of the fix.
+/// Finds the position of the grid on the known sheets. Returns true if the position is certain
+/// there. Sets the place and the turn of the decoding, and `bit_errors`, `p_wrong_log2` and `prior`
+/// of the fix.
 bool read_on_sheets(const DeviceOptions& options, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

@@ -16,18 +16,18 @@ std::int32_t steps(std::uint32_t from, std::uint32_t to) {
     return step < -kAll / 2 ? step + kAll : step;
 }
 
-/// A line of one axis of a place: its position and roll in some code.
+/// The position of a line and its roll in one code.
 struct Line {
     std::uint32_t position;
     int roll;
 };
 
-/// Returns the line at the same position in the other code.
+/// Returns the line at the same position as the line read, with its roll in the other code.
 Line here(CodeVariant read, CodeVariant other, std::uint32_t position, int roll_read) {
     return {position, roll_read + roll(other, position) - roll(read, position)};
 }
 
-/// Returns the line at the likeliest other position.
+/// Returns the line at the likeliest different position in the other code.
 Line elsewhere(const OtherAxis& axis, int roll_read) {
     return {axis.position, roll_read + axis.roll};
 }

@@ -6,12 +6,13 @@
 
 namespace dotpose::core {
 
-/// If a place in another code explains the frame as well as the fix, sets this place in `reading`.
-/// This place is at another position, or at the same position if the other code explains the frame
+/// Sets the other place of `reading` if another code explains the frame: to a different place that
+/// is about as likely as the fix, or to the same place if the other code explains the frame much
 /// better.
 void name_code_that_explains(const OtherCodes& others, CodeReading& reading);
 
-/// Sets the likeliest place in the code `other` for a reading in the code `read`.
+/// Sets the other place of `reading` to the likeliest different place in the code `other`. `read`
+/// is the code of the fix.
 void name_other_place(CodeVariant read, CodeVariant other, const OtherCodes& others,
                       CodeReading& reading);
 

@@ -41,8 +41,8 @@ void detect_filtered(const ImageView& image, const DeviceOptions& filtered, Desk
         detect_row(next_smooth_row(image, w.smoothing), filtered, w);
 }
 
-/// Finds the grid of the dots, including tilt and lens distortion. This takes longer than
-/// `find_grid`.
+/// Finds the grid of the dots, including tilt and lens distortion. Takes longer than `find_grid` of
+/// devices.
 Status find_grid_thoroughly(const DeviceOptions& options, DesktopWorkspace& w) {
     const FixedVec centre_q8 = image_centre_q8(w.threshold);
     Status status = find_axes(centre_q8, kMaxSeeds, w);
@@ -73,7 +73,7 @@ Status decode(const DeviceOptions& options, DesktopWorkspace& w) {
     return decode_all(w.grid, options.code, w.line_scores, w.decoding);
 }
 
-/// Finds the position in the code from the bits, and verifies that all dots agree with it.
+/// Finds the position in the code from the bits, and verifies it with the bits of all dots.
 Status read_position(const DeviceOptions& options, DesktopWorkspace& w) {
     w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
     choose_region(w);
@@ -88,7 +88,7 @@ Status read_position(const DeviceOptions& options, DesktopWorkspace& w) {
 }
 
 /// Reads the bits again through a grid that is fitted to the dots of the doubtful position. If the
-/// position is correct, the bits become clearer.
+/// position is correct, more bits are then clear.
 Status resample(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     PoseFit fit;
     if (!fit_pattern(options, image, w, fit)) return Status::not_certain;
@@ -98,8 +98,8 @@ Status resample(const ImageView& image, const DeviceOptions& options, DesktopWor
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }
 
-/// If all dots have the same sub-pixel phase, measures the dots again as the first attempt does, to
-/// correct the pixel bias.
+/// If the pixel bias matters, measures the dots again as the first attempt does, to correct the
+/// bias.
 void measure_again_if_biased(const ImageView& image, const DeviceOptions& options,
                              DesktopWorkspace& w) {
     const float variance_px2 =
@@ -123,8 +123,8 @@ Status read_filtered_with(const DeviceOptions& filtered, const ImageView& image,
     return shows_one_pattern(image, filtered, w) ? Status::ok : Status::not_certain;
 }
 
-/// Finds dots and grid, and reads the bits. If the dots may be pale, tries again with a lower
-/// threshold.
+/// Finds dots and grid, and reads the bits. If too few dots are found because they may be pale,
+/// repeats the detection with a lower threshold.
 Status read_filtered(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     DeviceOptions filtered = for_filtered(options);
     filtered.lattice.min_dots = min_dots(options, w);

@@ -26,7 +26,7 @@ class SecondAttempt {
     const ImageView& image_;
     DesktopWorkspace& w_;
     bool is_seen_ = false;  ///< true if the workspace contains dots and cells of the filtered image
-    Fix seen_;              ///< fix after the bits were read, without a position
+    Fix seen_;              ///< the fix after the bits were read and before they were decoded
 };
 
 }  // namespace dotpose::core

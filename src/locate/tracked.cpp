@@ -46,8 +46,8 @@ int max_shift_px(const Prediction& prediction, float spacing_px) {
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
-/// Corrects the plane by the centroids of the listed dots. Returns false unless most dots have
-/// offsets of about a pixel or less.
+/// Corrects the plane by the centroids of the listed dots. Returns false unless at least three
+/// quarters of the dots have offsets of at most kMaxOffset_px.
 bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsInView view,
                           FloatPlane& plane, MeasuredDots& dots) {
     const float far_px = std::max(view.width_px, view.height_px) / 2;

@@ -1,4 +1,4 @@
-// Tracked: the tracked attempt. Confirms a predicted pose.
+// Tracked: the tracked attempt. Locates an image near a predicted pose.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -14,9 +14,8 @@ namespace dotpose::core {
 bool locate_tracked(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                     const Prediction& prediction, DesktopWorkspace& w);
 
-/// Measures the dots of the fix in the workspace again, as precisely as the dots of a prediction.
-/// The place of the fix must be certain. If the dots do not confirm the fix, the fix remains
-/// unchanged.
+/// Measures the dots of the fix in the workspace again, as the tracked attempt does. The place of
+/// the fix must be certain. If the dots do not confirm the fix, the fix remains unchanged.
 void measure_again(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                    DesktopWorkspace& w);
 

@@ -16,12 +16,12 @@ inline constexpr int kPatchHeight_px = 160;
 /// Minimum spacing at which a patch predicts dots precisely enough for direct sampling. Dots of
 /// finer grids are measured more accurately in centroid windows.
 inline constexpr float kMinSpacingForPrediction_px = 9.5F;
-/// Maximum number of hypotheses away from the image centre that their bits may contradict. Each
-/// such hypothesis increases the probability of a wrong fix.
+/// Maximum number of uncertain hypotheses away from the image centre. Each uncertain hypothesis
+/// increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
-/// For patches away from the image centre: numbers of dots near the middle that are used to search
-/// waves, and factors of the spacing. If large displacements weaken the waves, only some of these
-/// combinations find the grid.
+/// For patches away from the image centre: numbers of central dots in which waves are searched, and
+/// factors of the estimated spacing. The search tries all combinations. If large displacements
+/// weaken the waves, only some combinations find the grid.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
 /// Factors of the spacing if sheets are known. A strip of three rows may then be certain, but its
@@ -32,13 +32,13 @@ inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
 /// Constants of the tracked attempt (locate/tracked).
 namespace tracked {
 /// Radius, in spacings, around the point at which a prediction is corrected. The dots within this
-/// radius determine the error of the prediction there. The radius is small enough that the angular
-/// error of a prediction cannot match a dot to the wrong intersection.
+/// radius determine the error of the prediction there. The radius is small enough that an angular
+/// error of the prediction does not match a dot to the wrong intersection.
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots that determine a correction of the prediction.
 inline constexpr int kMinNear = 10;
-/// Maximum error of a prediction, in spacings. If the error exceeds half a spacing, a neighbouring
-/// dot is closer.
+/// Maximum error of a prediction that the search covers, in spacings. A larger maximum is useless.
+/// Beyond half a spacing, a neighbouring dot is closer than the correct dot.
 inline constexpr float kMaxOff = 0.6F;
 /// Range of spacings that can be tracked.
 inline constexpr float kFinest_px = 5;
@@ -71,11 +71,13 @@ namespace confirm {
 inline constexpr float kDense = 10;
 /// Maximum half side of an image, in spacings, that is measured completely in one round.
 inline constexpr float kDenseAtMost = 17;
-/// Reach of the first round, in spacings, in a partial view, in which the pattern may end anywhere.
+/// Reach of the first round in a partial view, in spacings. The reach is small because the pattern
+/// of a partial view may end anywhere.
 inline constexpr float kDenseOfPart = 6;
 /// Reach, in spacings, within which the bits of a partial view must make the position certain.
 inline constexpr float kDecidingOfPart = 32;
-/// Factor by which a plane is extrapolated beyond the dots to which it was fitted.
+/// Factor by which the reach grows from round to round. The plane fitted to the dots of one round
+/// predicts the dots of the next round.
 inline constexpr float kFarther = 3.5F;
 /// Limits of clean bits, which need no second reading: minimum percentage of clear dots, and
 /// maximum number of wrong bits. The maximum is kMaxWrong (one dot) or one per kDotsPerWrong dots,
@@ -109,8 +111,9 @@ inline constexpr float kMinWindowRadius_px = 3.3F;
 /// Minimum radius of a centroid window, as a fraction of the distance between facing dots, at which
 /// the dots bias each other.
 inline constexpr float kFacing = 0.55F;
-/// Maximum deviation of a grid step from whole pixels at which all dots have about the same
-/// sub-pixel phase. At a larger deviation, the phases of the dots in view are evenly distributed.
+/// Maximum deviation of a grid step from whole pixels at which the dots of a row or column have
+/// about the same sub-pixel phase. At a larger deviation, the phases of the dots in view are evenly
+/// distributed.
 inline constexpr float kDrift_px = 0.05F;
 /// Maximum drift of the sub-pixel phase across the view at which the pixel bias is corrected. The
 /// correction takes several times as long as the rest of the frame.
@@ -129,8 +132,9 @@ inline constexpr float kMaxOff_px = 1;
 /// fraction of contradicting bits. A position with a larger sum explains the frame badly.
 /// docs/integrity.md has the numbers.
 inline constexpr float kMaxImplausible = 0.57F;
-/// Minimum residual at which a second attempt may be better: in px for noise, in spacings for badly
-/// printed dots.
+/// Minimum residual at which a second attempt may be better: the larger of kRough_px and kRough
+/// spacings. Residuals due to noise are constant in px, residuals due to bad printing are constant
+/// in spacings.
 inline constexpr float kRough_px = 0.30F;
 inline constexpr float kRough = 0.027F;
 }  // namespace confirm
@@ -138,7 +142,7 @@ inline constexpr float kRough = 0.027F;
 /// Constants of views of known sheets (locate/hypothesis, locate/workspace).
 namespace known {
 /// Minimum number of dots of a grid, and of dots that are read. The smallest views that can be
-/// certain have about 25.
+/// certain have about 25 dots.
 inline constexpr int kMinDots = 16;
 /// Shorter side of an image, in spacings, below which dots are read up to kMargin_px from the
 /// border. Of 300 views of 36 x 36 px at 6 px per spacing, 88 % are located with the usual margin

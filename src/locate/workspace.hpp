@@ -81,7 +81,7 @@ inline int min_dots(const DeviceOptions& options, const DesktopWorkspace& w) {
                          : options.lattice.min_dots;
 }
 
-/// Returns the storage for the odds of other codes, or null if they are not wanted.
+/// Returns the storage for the odds of other codes, or null if these odds are not requested.
 inline OtherCodes* wanted_codes(DesktopWorkspace& w) {
     return w.other_codes.are_wanted ? &w.other_codes : nullptr;
 }
@@ -143,7 +143,8 @@ class WorkspaceOf : public DesktopWorkspace {
     WorkspaceOf& operator=(const WorkspaceOf&) = delete;
 
   private:
-    // Small images have low tiles, larger images high tiles; see `begin_threshold`.
+    // Images up to kMaxSideWithLowTiles_px wide have low tiles, larger images have high tiles. See
+    // `begin_threshold`.
     static constexpr int kBand_px =
         MaxWidth <= kMaxSideWithLowTiles_px ? kLowTile_px : kHighTile_px;
     static constexpr int kTiles = MaxWidth / kTileWidth_px + 1;
