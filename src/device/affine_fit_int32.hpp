@@ -1,5 +1,5 @@
-// Least squares of an affine map from image points to the grid, with 32-bit sums, which are fast on
-// small processors.
+// Affine fit: least squares of an affine map from image points to the grid, with 32-bit sums, which
+// are fast on small processors.
 #pragma once
 
 #include "core/math/fixed.hpp"
@@ -15,7 +15,8 @@ class AffineFitInt32 {
         Int xx = 0, xy = 0, yy = 0;
         Int ix = 0, iy = 0, jx = 0, jy = 0;
 
-        /// Adds a point p and its target. `weighted` is p times the weight of the point, 1 or -1.
+        /// Adds a point p and its target. `weighted` is p times the weight of the point, which is 1
+        /// or -1. `target` must also be multiplied by the weight.
         [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& weighted,
                                         const FixedVec& target) {
             xx += weighted.x * p.x;
@@ -29,25 +30,26 @@ class AffineFitInt32 {
     };
 
     AffineFitInt32() = default;
-    /// Starts from the given sums, which are over `count` points.
+    /// Starts from given sums. `count` is the number of points, or the sum of their weights.
     AffineFitInt32(std::int32_t count, const FixedVec& p, const FixedVec& target,
                    const Products<std::int32_t>& sums)
         : changes_(count), p_(p), target_(target), recent_(sums) {}
 
-    /// Adds an image point p, in 1/8 px relative to the plane's centre, within 2048 px, and its
-    /// target in 2^-bits cells (see `solve`), within 2^15.
+    /// Adds an image point p and its target. p is in 1/8 px relative to the plane's centre, within
+    /// 2048 px. The target is in units of 2^-bits cells (see `solve`), within 2^15.
     [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& target) {
         change(p, p, target);
     }
-    /// Adds a point with weight 1, or removes it with weight -1.
+    /// Adds a point with weight 1, or removes a point with weight -1.
     [[gnu::always_inline]] void count(const FixedVec& p, const FixedVec& target, int weight) {
         unused_ += 1 - weight;
         change(p, FixedVec{weight * p.x, weight * p.y},
                FixedVec{weight * target.x, weight * target.y});
     }
     int count() const { return changes_ - unused_; }
-    /// Sets `at_centre`, du and dv of the plane, but no other members. Targets are in 2^-bits
-    /// cells. Returns false if the points are collinear.
+    /// Sets `at_centre`, du and dv of the plane, but no other members. Targets are in units of
+    /// 2^-bits cells. Returns false if there are fewer than three points, or if the points are
+    /// collinear.
     bool solve(int bits, PlaneFromImage& plane);
 
   private:
@@ -69,8 +71,8 @@ class AffineFitInt32 {
     }
     /// Adds the recent 32-bit sums to the 64-bit sums.
     void carry_over();
-    /// Returns n^2 times the covariance of two coordinates. `products` is the sum of the products
-    /// of the coordinates, a and b are their sums.
+    /// Returns n^2 times the covariance of two coordinates of n points. `products` is the sum of
+    /// the products of the coordinates, a and b are the sums of the coordinates.
     std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const;
 
     std::int32_t changes_ = 0;

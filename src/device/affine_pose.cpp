@@ -8,7 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of dots, evenly distributed, from which the displacement and the scatter are measured.
+/// Maximum number of dots from which the displacement and the scatter are measured. The dots are
+/// evenly spaced in the list of observations.
 constexpr int kSample = 64;
 
 /// Returns, for each symbol, a vector of the given length in the direction of the symbol.
@@ -68,8 +69,8 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
     const auto squared_residual_q16 = [&](FixedVec offset, Symbol symbol) {
         return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
-    // The squared distances of a Gaussian in the plane have a median of 1.39 sigma^2. The limit of
-    // 12 medians is therefore at 4 sigma. By chance, 1 dot in 3,000 exceeds the limit.
+    // The squared distances of a Gaussian in the plane have a median of 1.39 sigma^2. Therefore,
+    // the limit of 12 medians is at 4 sigma. By chance, 1 dot in 3,000 exceeds the limit.
     const std::int32_t limit_q16 = 12 * sampled_median([&](const Offset& offset) {
                                        return squared_residual_q16(offset.q16, offset.symbol);
                                    }) +

@@ -14,8 +14,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of dots from which the grid is searched. This number determines the time
-/// (docs/firmware.md).
+/// Maximum number of dots from which the grid is searched. The time of the search depends on this
+/// number (docs/firmware.md).
 constexpr int kSeeds = 64;
 
 /// Returns the point at which the search for the grid starts. This is the image centre, or the
@@ -59,14 +59,14 @@ Status read_position(const DeviceOptions& options, Workspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Checks the position against all dots in view.
+/// Checks that the bits of all dots in view agree with the position.
 Status verify_position(const DeviceOptions& options, Workspace& w) {
     const Status status =
         verify_quickly(w.grid, options.code, w.decoding, options.integrity, w.line_scores, w.fix);
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Fits the pose to the dots, with the known positions of the dots in the code.
+/// Fits the pose to the dots, each at its printed place in the code.
 Status measure_pose(const DeviceOptions& options, Workspace& w) {
     const Nominal nominal(w.grid, options.code, w.decoding);
     w.pattern_from_image =

@@ -1,4 +1,5 @@
-// The attempt of devices: processes one row at a time, in integers and in bounded time.
+// Device attempt: locates a frame from the blobs that were detected while its rows arrived, in
+// integers and in bounded time.
 #pragma once
 
 #include "core/workspace.hpp"
@@ -6,7 +7,8 @@
 
 namespace dotpose::core {
 
-/// Locates a frame from its blobs. Sets and returns the fix of the workspace.
+/// Finds the grid, the position and the pose of a frame from its blobs. Sets and returns the fix of
+/// the workspace.
 const Fix& finish_device_attempt(const DeviceOptions& options, Workspace& w);
 
 }  // namespace dotpose::core

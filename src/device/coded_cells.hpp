@@ -1,5 +1,5 @@
-// Coded cells: the bits of the code around a predicted place, line by line, and the dots that were
-// read around this place.
+// Coded cells: the bits of the code around a predicted place, line by line, and the bits that were
+// read there.
 #pragma once
 
 #include "device/tracking.hpp"
@@ -26,8 +26,8 @@ inline Symbol coded_symbol(const Tracking& tracking, int i, int j) {
                        static_cast<int>(row_of(tracking, j).code >> i & 1));
 }
 
-/// Displacement of a dot along the directions of its bits (eq. 7-8), in units of 2^-12 spacings. A
-/// positive component means that the bit is 1.
+/// Displacement of a dot along the directions of its two bits (eq. 7-8), in units of 2^-12
+/// spacings. A positive component means that the bit is 1.
 struct Projections {
     std::int32_t x_q12;
     std::int32_t y_q12;

@@ -24,15 +24,16 @@ struct Square {
     }
 };
 
-/// Returns the points, in units of 2^-16 spacings, that truncation assigns to cells up to `limit`
-/// cells from the middle cell.
+/// Returns the set of plane points, in units of 2^-16 spacings, that truncation assigns to cells up
+/// to `limit` cells from cell (0, 0).
 Square cells_within(int limit) {
     return {static_cast<std::uint32_t>(-limit * 65536),
             static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};
 }
 
-/// Returns the points, as fractions times 2^16, whose rounded offset is at most `limit_q16` along
-/// both axes.
+/// Returns the set of plane points whose offset from the nearest intersection is at most
+/// `limit_q16` along both axes. The set contains the lower 16 bits of `rounding_plane_point_q16`,
+/// shifted left by 16 bits.
 Square offsets_within(std::int32_t limit_q16) {
     return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
             static_cast<std::uint32_t>(std::min<std::int32_t>(2 * limit_q16, 65535)) << 16};
@@ -42,18 +43,19 @@ bool is_near(FixedVec rounding_q16, const Square& offsets) {
                          static_cast<std::uint32_t>(rounding_q16.y) << 16);
 }
 
-/// Maximum distance of a cell whose dot may belong to the grid.
+/// Maximum distance, along each axis, of a cell whose dot may belong to the grid.
 constexpr int kFarthest_cells = 500;
 
-/// Calls `use(dot, c, is_within_reach)` for each dot. c is the plane point of the dot, which
-/// truncation converts to the nearest cell. Does not set `near_intersections` of the result.
+/// Calls `use(dot, c, is_within_reach)` for each dot. c is `rounding_plane_point_q16` of the dot,
+/// whose integer part is the nearest cell. Does not set `near_intersections` of the result.
 template <typename Use>
 Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const Cells& cells,
                        Use use) {
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
-    // Fast test. Most dots are within reach, and not farther away than the dots before them.
+    // Cells for which no other test is needed. Most dots are within reach, and not farther away
+    // than the dots before them.
     Square common = cells_within(0);
     for (const DetectedDot& dot : dots) {
         const FixedVec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));
@@ -97,8 +99,8 @@ std::int32_t squared_offset_q14(FixedVec rounding_q16) {
     return (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
 }
 
-/// Successive fits of the grid. Most dots have the same cell in each fit, so only the changes are
-/// added.
+/// Successive fits of the grid. Most dots have the same cell in each fit, so each fit updates the
+/// sums only for dots whose cell has changed.
 class Fits {
   public:
     Fits(std::span<const DetectedDot> dots, std::int32_t max_offset_q16)
@@ -106,8 +108,8 @@ class Fits {
         if (remembers()) std::fill_n(before_.begin(), dots.size(), Used::no);
     }
 
-    /// Fits the plane to the dots within reach. Returns false if the dots do not determine the
-    /// plane.
+    /// Fits the plane to the dots within reach and sets `found`. Returns false if the dots do not
+    /// determine the plane, or if its cells are not nearly square.
     bool operator()(int reach_cells, Regularity& found, PlaneFromImage& plane) {
         const Cells cells(plane);
         found = remembers() ? sum_up_changes(reach_cells, cells) : sum_up(reach_cells, cells);
@@ -167,7 +169,7 @@ class Fits {
     std::span<const DetectedDot> dots_;
     Square near_;
     AffineFitInt32 sums_;
-    /// Cell of each dot in the previous fit; not used if there are too many dots.
+    /// Cell of each dot in the previous fit. Not used if there are too many dots.
     std::array<Used, 384> before_;
 };
 

@@ -1,4 +1,4 @@
-// DeviceLocator and its functions. The functions do not use the attempts of desktops, which
+// Implements DeviceLocator. This file does not use the attempts of desktops, which
 // scripts/export-device leaves out.
 #include "device/locate.hpp"
 

@@ -1,4 +1,4 @@
-// Implementation of DeviceLocator: locates a frame with given memory and options.
+// Locate: locates a frame in integers, with given memory and options. Implements `DeviceLocator`.
 #pragma once
 
 #include "device/workspace.hpp"

@@ -14,9 +14,9 @@
 
 namespace dotpose::core {
 
-/// Half the side, in px, of the square around an intersection that contains the dot of the
-/// intersection, and of the square around the centre of a dot that contains the dot. Valid for
-/// spacings of 7 to 13 px.
+/// Distance, in px, from the middle of a square to its outermost pixels. kHalf_px is for the square
+/// around an intersection, which contains the dot in all four displacements. kDotHalf_px is for the
+/// square around the centre of a dot. Valid for spacings of 7 to 13 px.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kDotHalf_px = 2;
 
@@ -33,7 +33,8 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
                static_cast<unsigned>(tracking.rows_taken - tracking.first_kept - 2 * half);
 }
 
-/// Returns the paper level around a pixel, from the corners of its square, which no dot reaches.
+/// Returns the paper level around the pixel of an intersection: the mean of the corners of its
+/// square, which no dot reaches.
 [[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
                                                         const std::uint8_t* at) {
     constexpr int kSide_px = 2 * kHalf_px;
@@ -42,8 +43,8 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
     return (top[0] + top[kSide_px] + bottom[0] + bottom[kSide_px]) >> 2;
 }
 
-/// Sets the pixels that `read_symbol` reads. Returns false if any of these pixels is outside the
-/// square of its intersection.
+/// Sets `Tracking::dot_pixels`, the pixels that `read_symbol` reads. Returns false if any of these
+/// pixels is outside the square of the intersection.
 bool lay_dot_pixels(Tracking& tracking);
 
 /// Reading of a dot, packed into one register.
@@ -64,8 +65,9 @@ class ReadSymbol {
     std::int32_t bits_;
 };
 
-/// Reads the four places around an intersection. Requires that the square around the intersection
-/// and a border of one pixel are stored. Not inlined, so small processors have enough registers.
+/// Reads the symbol of the dot at an intersection, from the darkest of its four places. Requires
+/// that the square around the intersection and a border of one pixel are stored. Not inlined, so
+/// small processors have enough registers.
 DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
                                                const FixedVec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;
@@ -73,7 +75,7 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
         kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);
     const int quarter = (intersection_q16.x >> 15 & 1) + (intersection_q16.y >> 14 & 2);
     const std::int16_t* offset = tracking.dot_pixels[static_cast<std::size_t>(quarter)].data();
-    // Each value is four times the sum of four pixels, plus the symbol.
+    // `darkest` and `second` are four times the sum of four pixels, plus the symbol.
     std::int32_t darkest = INT32_MAX;
     std::int32_t second = INT32_MAX;
 #pragma GCC unroll 4
@@ -104,8 +106,8 @@ struct NearDot {
     std::int32_t mass = 0;
 };
 
-/// Measures the centroid of the pixels darker than `level` in a square around a place, with a side
-/// of 2 Half + 1 px. Returns false if the mass is not plausible for a dot, or if the square is not
+/// Measures the centroid of the pixels darker than `level` in a square of 2 Half + 1 px per side
+/// around a place. Returns false if the mass is not plausible for a dot, or if the square is not
 /// stored completely.
 template <int Half>
 [[gnu::always_inline]] inline bool measure_square(const Tracking& tracking, FixedVec place_q16,
@@ -122,8 +124,9 @@ template <int Half>
     return true;
 }
 
-/// Measures the dot in the whole square around an intersection, with the threshold of the tracking.
-/// Returns false in the same cases as `measure_square`.
+/// Measures the dot in the whole square around an intersection, with the threshold
+/// `Tracking::cut_q8`. Returns false in the same cases as `measure_square`, or if the paper is
+/// black.
 bool measure_around(const Tracking& tracking, FixedVec intersection_q16, NearDot& dot);
 
 }  // namespace dotpose::core

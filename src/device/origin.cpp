@@ -5,12 +5,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum distance of cells whose dots are used. At larger distances, the error of the first grid
-/// may be a third of a cell.
+/// Maximum distance, along each axis, of cells whose dots are used. At larger distances, the error
+/// of the first grid may be a third of a cell.
 constexpr int kReach_cells = 4;
 
-/// The mean offset of dots from their intersections along one axis, computed as a sum of complex
-/// numbers.
+/// Circular mean of the offsets of dots from their intersections, along one axis: the angle of a
+/// sum of unit vectors.
 struct Phase {
     FixedVec sum;
 

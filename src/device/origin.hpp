@@ -1,7 +1,6 @@
-// Origin: finds the place of the intersections of the first grid. Paper section II-B.2. differs:
-// the paper takes a dot that is connected to all its eight neighbours. Displaced and missing dots
-// leave few such dots. Here, the origin is the phase of all dots near the centre, as in a Fourier
-// transform.
+// Origin: finds the origin of the first grid. Paper section II-B.2. differs: the paper uses a dot
+// that is connected to all its eight neighbours. Displaced and missing dots leave few such dots.
+// Here, the origin is the phase of all dots near the centre, as in a Fourier transform.
 #pragma once
 
 #include "dotpose/trace.hpp"

@@ -16,7 +16,7 @@ constexpr int kCoarsest_px = 13;
 constexpr std::int32_t kMinDisplacement_q16 = 65536 / 12;
 constexpr std::int32_t kMaxDisplacement_q16 = 65536 / 3;
 
-/// Returns true if no stage can overflow with this prediction.
+/// Returns true if the values of the prediction are in range, so no stage overflows.
 bool is_sane(const Prediction& prediction) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
@@ -33,8 +33,9 @@ bool is_sane(const Prediction& prediction) {
            prediction.displacement_q16 <= kMaxDisplacement_q16;
 }
 
-/// Sets the cells of a plane whose centre is at cell (0, 0) + at_q16. Returns false if the spacing
-/// of the cells cannot be tracked, or if the cells are not nearly square.
+/// Sets `cells` to the inverse of a plane. `at_q16` is the centre of the plane relative to cell (0,
+/// 0), in 2^-16 spacings. Returns false if the spacing of the cells cannot be tracked, or if the
+/// cells are not nearly square.
 bool invert(const PlaneFromImage& plane, FixedVec at_q16, CellMap& cells) {
     const FixedVec du = plane.du_q24;
     const FixedVec dv = plane.dv_q24;
@@ -62,7 +63,7 @@ bool invert(const PlaneFromImage& plane, FixedVec at_q16, CellMap& cells) {
 }
 
 /// Leaves out the edges of a frame that contains too many cells for the memory. Returns the maximum
-/// distance of a cell from the middle of the remaining part.
+/// distance of a cell from the middle of the remaining part, in cells.
 int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
     int width_px = tracking.width_px;
     int height_px = tracking.height_px;
@@ -71,7 +72,8 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
             static_cast<std::uint32_t>(width_px * width_px + height_px * height_px);
         const int cells = static_cast<int>(square_root(squared_px)) * 128 / spacing_q8 + 3;
         if (cells <= kMaxComparedLines / 2) {
-            // Crops equally many pixels from opposite sides, so the image centre does not change.
+            // Crops the same number of pixels from opposite sides, so the image centre does not
+            // change.
             tracking.left_out_px = static_cast<std::int16_t>((tracking.width_px - width_px) >> 1);
             tracking.rows_above = static_cast<std::int16_t>((tracking.height_px - height_px) >> 1);
             tracking.height_px = height_px;

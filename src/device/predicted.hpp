@@ -9,12 +9,13 @@
 
 namespace dotpose::core {
 
-/// Number of rows after which dots are read.
+/// Number of new rows after which the dots in these rows are read.
 inline constexpr int kRowsAtOnce = 12;
 
-/// Sets the corner, the cells and the members that depend on the spacing. The memory and the size
-/// of the image, at most 4096 px per side, must already be set in `tracking`. Accepts any
-/// prediction. Errors: not_tracked, if the predicted view of the pattern cannot be tracked.
+/// Sets the corner, the cells, and the members of `tracking` that depend on the spacing. The memory
+/// and the size of the image, at most 4096 px per side, must already be set in `tracking`. Any
+/// prediction is allowed. Error: not_tracked, if the predicted view of the pattern cannot be
+/// tracked.
 Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Tracking& tracking);
 
 /// Index of the cell near the middle of the image, along both axes.
@@ -26,7 +27,7 @@ inline FixedVec place_q16(const CellMap& cells, int i, int j) {
             cells.origin_q16.y + i * cells.along_x_q16.y + j * cells.along_y_q16.y};
 }
 
-/// Returns the cell in the middle of the first rows.
+/// Returns the cell nearest to the middle of the first `Tracking::first_rows` rows.
 FixedVec middle_cell(const Tracking& tracking);
 
 /// Sets the displacement of dots, in units of 2^-12 spacings, and the places of dots that depend on

@@ -11,7 +11,7 @@
 namespace dotpose::core {
 namespace {
 
-/// The direction along a row of cells in which v increases in the image.
+/// The direction along a row of cells in which v does not decrease in the image.
 struct RowDirection {
     FixedVec step_q16;
     int i_step;
@@ -25,8 +25,8 @@ TrackedView view_of(const Tracking& tracking) {
     std::int32_t displaced_q16 = 0;
     for (const FixedVec displaced : tracking.displaced_q16)
         displaced_q16 = std::max(displaced_q16, larger_component(displaced));
-    // The place of a dot is rounded to a pixel, so the dot needs kDotHalf_px pixels on each side of
-    // this pixel.
+    // The place of a dot is rounded to a pixel, so kDotHalf_px pixels on each side of this pixel
+    // must be in the image.
     const std::int32_t of_dot_q16 = kDotHalf_px * 65536 - 32768 + displaced_q16;
     // The square around the pixel of an intersection must also be in the image.
     const std::int32_t min_q16 = std::max<std::int32_t>(kHalf_px * 65536, of_dot_q16);
@@ -50,7 +50,7 @@ void lay_rows(Tracking& tracking, int j, int j_step) {
     const FixedVec to_next_q16 = j_step > 0 ? along : -along;
     const int max_first = (tracking.last_cell - tracking.first_cell) / 2;
     FixedVec at_q16 = place_q16(tracking.cells, kMiddleCell, j);
-    int first = 0;  // in steps from the middle
+    int first = 0;  // first cell in view, in steps from the middle cell
     for (; j >= tracking.first_cell && j <= tracking.last_cell; j += j_step) {
         const FixedVec before_q16 = at_q16;
         const int before = first;
@@ -72,7 +72,7 @@ void lay_rows(Tracking& tracking, int j, int j_step) {
     }
 }
 
-/// Stores the symbol that was read in a cell. Returns true if it equals the symbol of the code.
+/// Stores the symbol that was read in a cell. Returns true if the symbol agrees with the code.
 DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     ComparedLine& column = column_of(tracking, i);
     ComparedLine& row = row_of(tracking, j);
@@ -88,9 +88,9 @@ DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     return false;
 }
 
-/// Adds the dot at the next intersection of a row, if the dot agrees with the code and is near its
-/// predicted place. Masses are below 2^12, and offsets are at most 2 px in the squares, so the sums
-/// over a row of 32 dots are below 2^30.
+/// Adds the dot at the next intersection of a row to the sums, if its mass is plausible and its
+/// centre is near the predicted place. The symbol of the dot must agree with the code. Masses are
+/// below 2^12, and offsets are at most 2 px, so the sums over a row of 32 dots are below 2^30.
 DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
     const auto symbol = static_cast<std::size_t>(read.symbol());
     const FixedVec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];
@@ -133,7 +133,8 @@ bool begin_reading(Tracking& tracking) {
 
 void read_ready_dots(Tracking& tracking) {
     const RowDirection direction = row_direction(tracking);
-    // A dot may extend one row beyond its square, except in the last row of the image.
+    // The pixels of a dot may extend one row beyond the square of its intersection, except in the
+    // last row of the image.
     const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
     const std::int32_t ready_q16 = (tracking.rows_taken - ahead - kHalf_px) * 65536 + 32767;
     TrackedRow* row = &tracking.grid_rows[static_cast<std::size_t>(tracking.first_cell)];

@@ -11,8 +11,8 @@
 namespace dotpose::core {
 
 Shifts::Shifts(const Tracking& tracking) {
-    // Uses the columns within two spacings of the middle column. In these columns, a turn hardly
-    // blurs the sums.
+    // Only dots within two spacings of the middle column are used. A turn hardly blurs the sums
+    // over these dots.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
     // A turn of 4 degrees (18/256 rad) about the image centre moves the first rows sideways.
@@ -54,7 +54,7 @@ void Shifts::add_dots(const Tracking& tracking) {
     const int reach = kStep_px * steps_.y;
     // Maximum distance of the cells visited from the middle cell, along each axis. These cells
     // contain all dots within two spacings of the middle column, and all dots that a shift may move
-    // into the rows, at any turn of the grid.
+    // into the first rows, at any turn of the grid.
     constexpr int kAround = 5;
     const FixedVec middle = middle_cell(tracking);
     const auto around = [&](int cell) {
@@ -93,7 +93,7 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum divisor. A mean of fewer dots is unreliable, so it is reduced.
+    // Minimum divisor. A mean over fewer dots is unreliable, so the larger divisor reduces it.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);

@@ -1,4 +1,4 @@
-// Shift: the error of a prediction, from the first rows of a tracked frame.
+// Shift: measures the position error of a prediction, from the first rows of a tracked frame.
 #pragma once
 
 #include <array>
@@ -7,9 +7,9 @@
 
 namespace dotpose::core {
 
-/// Mean darkness at each possible shift, over the places of the dots of the code near the middle
-/// column of the image. At the correct shift, all displaced dots are at these places, so this shift
-/// is the darkest. If few dots are in view, shifts by one spacing may be nearly as dark.
+/// Mean darkness of the pixels at the predicted dots near the middle column of the image, for each
+/// possible shift. At the correct shift, all displaced dots are at their predicted places, so this
+/// shift is the darkest. If few dots are in view, shifts by one spacing may be nearly as dark.
 class Shifts {
   public:
     /// Searches the rows stored in `tracking`.
@@ -20,7 +20,8 @@ class Shifts {
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }
-    /// Returns the darkness of the pixel in the middle of a dot, at the shift returned last.
+    /// Returns the contrast between the paper and the middle of a dot, in grey levels, at the shift
+    /// returned last.
     int depth() const { return depth_; }
 
   private:
@@ -43,7 +44,7 @@ class Shifts {
     int left_ = 0;
     int right_ = 0;
     int rows_ = 0;
-    FixedVec steps_;  ///< number of steps to each side
+    FixedVec steps_;  ///< number of steps to each side, along u and v
     int paper_ = 0;
     int cut_ = 0;
     int depth_ = 0;

@@ -19,7 +19,7 @@ namespace {
 /// second shift.
 constexpr int kMaxShifts = 4;
 
-/// Moves the cells to the dots in the first rows. Errors: not_tracked.
+/// Shifts and rotates the cells to fit the dots in the first rows. Error: not_tracked.
 Status settle(Tracking& tracking) {
     Shifts shifts(tracking);
     const int paper = shifts.paper_level();
@@ -30,7 +30,8 @@ Status settle(Tracking& tracking) {
         if (!shifts.next(shift_q8) || shifts.depth() < tracking.min_contrast)
             return Status::not_tracked;
         tracking.cells.origin_q16 = predicted_q16 + FixedVec{shift_q8.x * 256, shift_q8.y * 256};
-        // Until the mass of dots is measured, the threshold is midway between paper and ink.
+        // Until `find_turn` measures the mass of dots, the threshold is midway between paper and
+        // ink, and the range of masses is wide.
         tracking.cut_q8 = 128 * shifts.depth() / paper;
         tracking.min_mass = paper / 8 + 16;
         tracking.max_mass = INT16_MAX;
@@ -55,8 +56,7 @@ Status read_rows(DeviceWorkspace& w) {
     return Status::ok;
 }
 
-/// Decides from the bits of the dots whether the place is certain, and fits the pose. Errors:
-/// not_tracked.
+/// Verifies the place by the bits of the dots, and fits the pose. Error: not_tracked.
 Status confirm(const DeviceOptions& options, DeviceWorkspace& w) {
     Tracking& t = w.tracking;
     if (t.status != Status::ok) return t.status;

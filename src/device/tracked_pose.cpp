@@ -10,8 +10,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the right shift of masses and of mass-weighted sums. After the shift, the sum of all
-/// masses is below 2^16 and all sums are below 2^31, because offsets are at most 416/256 px.
+/// Returns the number of bits by which masses and mass-weighted sums are shifted right. After the
+/// shift, the sum of all masses is below 2^16 and all sums are below 2^31, because offsets are at
+/// most 416/256 px.
 int excess_bits(const Tracking& tracking) {
     std::uint32_t mass = 0;
     for (const TrackedRow& row : tracking.grid_rows)
@@ -19,8 +20,8 @@ int excess_bits(const Tracking& tracking) {
     return std::max(static_cast<int>(std::bit_width(mass)) - 16, 0);
 }
 
-/// Returns the fit of the offsets of the dots from the cells, as a plane over the cells. The
-/// weights of the dots are their masses.
+/// Returns a fit of the offsets of the dots as a plane over the cells. The weights of the dots are
+/// their masses.
 AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     std::int32_t mass = 0;
     FixedVec cells;
@@ -49,7 +50,8 @@ AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
 
 /// Returns the cells, corrected by the fitted offsets.
 CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
-    // The fit expects points in 1/8 px, but the points are whole cells, so slopes are divided by 8.
+    // The fit interprets coordinates of points as 1/8 px. Here, they are whole cells, so the slopes
+    // are divided by 8.
     constexpr int kShift = 24 + 3 - 16;
     const FixedVec du_q16{offsets.du_q24.x >> kShift, offsets.du_q24.y >> kShift};
     const FixedVec dv_q16{offsets.dv_q24.x >> kShift, offsets.dv_q24.y >> kShift};

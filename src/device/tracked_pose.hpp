@@ -5,9 +5,8 @@
 
 namespace dotpose::core {
 
-/// Fits the cells to the dots that were read, and sets the map and the typical displacement of
-/// dots, in units of 2^-16 spacings. Returns the number of dots, or 0 if the dots do not determine
-/// the map.
+/// Fits the cells to the dots that were read. Sets the map, and the typical displacement of dots in
+/// units of 2^-16 spacings. Returns the number of dots, or 0 if the dots do not determine the map.
 int fit_tracked_pose(const Tracking& tracking, PlaneFromImage& pattern_from_image,
                      std::int32_t& displacement_q16);
 

@@ -20,8 +20,8 @@ struct CellMap {
     FixedVec along_y_q16;
 };
 
-/// State of one row of cells in a tracked frame: the next cell to be read, in image-row order, and
-/// mass-weighted sums over the dots measured so far.
+/// State of one row of cells in a tracked frame: the next cell to be read, and mass-weighted sums
+/// over the dots measured so far. Cells are read in the order of the image rows.
 struct TrackedRow {
     static constexpr std::int32_t kNever_q16 = INT32_MAX;
 
@@ -33,11 +33,13 @@ struct TrackedRow {
     std::int32_t mass = 0;
     std::int32_t mass_i = 0;
     std::int32_t mass_ii = 0;
-    FixedVec offset_q8;  ///< sum of the offsets of dots from their predicted places, in 2^-8 px
+    /// Sum of the offsets of dots from their predicted places, multiplied by their masses, in 2^-8
+    /// px.
+    FixedVec offset_q8;
     FixedVec offset_i_q8;
 };
 
-/// Range of the intersections for which all examined pixels are in the image.
+/// Rectangle of the intersections for which all pixels that are read are in the image.
 struct TrackedView {
     FixedVec min_q16;
     std::uint32_t width_q16 = 0;
@@ -58,7 +60,8 @@ struct Tracking {
     // are first.
     int width_px = 0;
     int height_px = 0;
-    int rows_taken = 0;  ///< negative before the first row of the tracked part
+    /// Number of rows taken; negative before the first row of the tracked part.
+    int rows_taken = 0;
     int first_kept = 0;  ///< row of the image that is stored first in memory
     int stride_px = 0;
     std::span<std::uint8_t> rows;  ///< the newest rows of the image
@@ -68,22 +71,23 @@ struct Tracking {
     int dots_measured = 0;
     std::int32_t spacing_q8 = 0;    ///< in 2^-8 px
     std::span<ComparedLine> lines;  ///< first half: columns; second half: rows
-    /// By Symbol: offset of a dot from its intersection, in 2^-16 px.
+    /// Displacement of a dot from its intersection, in 2^-16 px, indexed by Symbol.
     std::array<FixedVec, 4> displaced_q16{};
-    std::array<FixedVec, 4> offset_q8{};  ///< by Symbol: sum of `offset_q8` over all rows
+    /// Sum of the offsets over all rows, multiplied by the masses, indexed by Symbol.
+    std::array<FixedVec, 4> offset_q8{};
     /// Offset of the first of the four pixels around a dot, in bytes, relative to the pixel of the
     /// intersection. Indexed by the quarter of the pixel that contains the intersection, and by
     /// Symbol.
     std::array<std::array<std::int16_t, 4>, 4> dot_pixels{};
-    std::int16_t left_out_px = 0;  ///< columns to the left of the tracked part
-    std::int16_t rows_above = 0;   ///< rows above the tracked part
+    std::int16_t left_out_px = 0;  ///< number of columns to the left of the tracked part
+    std::int16_t rows_above = 0;   ///< number of rows above the tracked part
     CellMap cells;
     /// Change of the pattern point per image px, in units of 2^-20 spacings per px.
     FixedVec du_q20;
     FixedVec dv_q20;
     std::int32_t displacement_q12 = 0;
     int rows_kept = 0;     ///< maximum number of rows in memory
-    int rows_needed = 0;   ///< number of newest rows that are still needed after dots were read:
+    int rows_needed = 0;   ///< number of newest rows that are still needed after dots were read;
                            ///< less than half of rows_kept
     int first_rows = 0;    ///< number of rows that determine the error of the prediction
     int next_reading = 0;  ///< value of rows_taken at which dots are read next

@@ -10,10 +10,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of rings of cells around the middle cell.
+/// Number of rings of cells around the middle cell that are measured.
 constexpr int kRounds = 4;
-/// Minimum number of dots that agree with the code, and minimum fraction of the measured dots, in
-/// 1/8, that agree.
+/// Minimum number of dots that agree with the code, and minimum fraction of the measured dots that
+/// agree, in 1/8.
 constexpr int kMinDots = 12;
 constexpr int kMinFraction_q3 = 6;
 /// Minimum number of measured dots at which the fraction is tested.
@@ -23,7 +23,7 @@ constexpr int kMinMeasured = 8;
 /// rotates by a quarter turn.
 class SimilarityFit {
   public:
-    /// Adds a dot. p is its place in px relative to the middle.
+    /// Adds a dot. p is the predicted place of the dot, in px relative to the middle.
     void add(FixedVec p, FixedVec offset_q8) {
         ++count_;
         p_ = p_ + p;
@@ -76,7 +76,7 @@ CellMap changed(const CellMap& cells, FixedVec middle_q16, const SimilarityFit::
             cells.along_y_q16 + change(s, cells.along_y_q16)};
 }
 
-/// The measured dots, and the fit to the dots that agree with the code.
+/// Measures rings of dots, and fits a similarity to the dots that agree with the code.
 class Rounds {
   public:
     Rounds(Tracking& tracking, FixedVec middle_q16)
@@ -132,7 +132,7 @@ void Rounds::recentre(FixedVec middle) {
 
 void Rounds::measure(int i, int j) {
     const FixedVec at_q16 = place_q16(tracking_.cells, i, j);
-    // Most cells around the middle are outside the first rows.
+    // Most cells of the outer rings are outside the first rows.
     if (!is_kept(tracking_, pixel_at(at_q16), kHalf_px)) return;
     NearDot dot;
     if (!measure_around(tracking_, at_q16, dot)) return;
@@ -150,7 +150,7 @@ void Rounds::measure(int i, int j) {
     projections_q12_ += magnitude(p.x_q12) + magnitude(p.y_q12);
 }
 
-/// Calls `use` for the cells of ring `round` around the middle cell.
+/// Calls `use` for the cells of ring `round` around the middle cell that may be in view.
 template <typename Use>
 void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) {
     const auto is_in = [&](int cell) {
@@ -189,8 +189,8 @@ bool find_turn(Tracking& tracking) {
         visit_round(tracking, middle, round, [&](int i, int j) { rounds.measure(i, j); });
         agree = rounds.seen() < kMinMeasured ||
                 8 * rounds.agreeing() >= kMinFraction_q3 * rounds.seen();
-        // The cells are moved only after some rounds: the middle dot does not change the result of
-        // `recentre`, and the third round adds few dots to the second round.
+        // The cells are moved after rings 1, 2 and 4. Ring 0 is the middle dot, which `recentre`
+        // has already used. Ring 3 adds few dots to ring 2.
         const bool moves_cells = round % 2 == 0 ? round > 0 : round == 1;
         if (moves_cells && rounds.agreeing() > before) rounds.lay_cells();
     }

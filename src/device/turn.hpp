@@ -5,9 +5,9 @@
 
 namespace dotpose::core {
 
-/// Measures dots of the first rows from the middle outwards, in rounds, and moves the cells after
-/// some of these rounds. Sets the displacement and the mass of dots. Returns false if the dots
-/// contradict the code.
+/// Measures the dots of the first rows from the middle outwards, ring by ring, and moves the cells
+/// after most rings. Sets the displacement and the range of masses of dots. Returns false if the
+/// dots contradict the code, or if too few dots agree with it.
 bool find_turn(Tracking& tracking);
 
 }  // namespace dotpose::core

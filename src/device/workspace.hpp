@@ -18,15 +18,16 @@ struct DeviceWorkspace : Workspace {
     Tracking tracking;
 };
 
-/// Capacities of the workspace of a device: size of frames, dots and data of the stages.
+/// Capacities of the workspace of a device: the maximum size of frames, and the maximum numbers of
+/// dots and of other data of the stages.
 struct DeviceCapacity {
     int width_px = 0;
-    /// Smaller for frames that are wider than kMaxSideWithLowTiles_px.
+    /// Maximum height of a frame. Reduced for frames that are wider than kMaxSideWithLowTiles_px.
     int height_px = kMaxFrameSide_px;
     int dots = 0;
     int grid_side = 0;
-    // Runs and blobs of one row. The capacities exceed the number of dots by far, so runs and blobs
-    // beyond them are noise or graphics.
+    // Runs and blobs of one row. The capacities far exceed the number of dots in a row. Runs and
+    // blobs beyond the capacities are noise or graphics.
     int runs = 0;
     int blobs = 0;
     // Maximum number of runs of a whole frame, which bounds the time. In 188 x 120 px, dots have
@@ -54,8 +55,8 @@ inline constexpr DeviceCapacity kDeviceCapacity<320, 240>{.width_px = 320,
                                                           .max_runs = 6800};
 
 /// Workspace of a DeviceLocator on a small microcontroller, for frames of one size: about 12 KB for
-/// 188 x 120 px. Stages share memory, so only the results of the last stage remain. The class only
-/// sets spans into its memory, so the stages are compiled only once for all sizes.
+/// 188 x 120 px. Stages share memory, so only the results of the last stage remain. Only this class
+/// depends on the size. The stages use spans, so they are compiled once for all sizes.
 template <DeviceCapacity kCapacity>
 class DeviceWorkspaceOf : public DeviceWorkspace {
   public:
@@ -64,7 +65,7 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
                       kCapacity.height_px <= kMaxSideWithLowTiles_px,
                   "the workspace has memory for low tiles only");
 
-    // The braces clear all members by one call. Code that stores to each member would be 800 bytes
+    // With braces, one call clears all members. Code that stores to each member would be 800 bytes
     // longer.
     DeviceWorkspaceOf() : DeviceWorkspace{} {
         max_width_px = kCapacity.width_px;

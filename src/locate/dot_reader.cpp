@@ -89,9 +89,9 @@ bool can_sample_directly(const Hypothesis& hypothesis) {
 
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
     if (variance_px2 > tuned::kMaxVariance_px2) return false;
+    // Maximum drift of the phase per step of the grid.
     const float drift_px = tuned::kDriftInView_px * spacing_px(plane) / static_cast<float>(side_px);
-    return has_common_phase(plane,
-                            drift_px);  // `drift_px` is the maximum drift per step of the grid
+    return has_common_phase(plane, drift_px);
 }
 
 WindowOptions DotReader::window_options(const Hypothesis& hypothesis) const {
