@@ -84,15 +84,15 @@ constexpr char letter(Symbol symbol) {
 /// kPositionsPerAxis).
 int delta(CodeVariant code, std::uint32_t p) noexcept;
 
-/// Returns the roll of column (or row) p in section 0: the offset, in [0, 63), at which the main
-/// sequence starts. Takes O(1). `p` may exceed kPositionsPerAxis. The rolls do not repeat there:
-/// the roll of p + kPositionsPerAxis differs from the roll of p.
+/// Returns, in O(1), the roll of column (or row) p in section 0: the offset, in [0, 63), at which
+/// the main sequence starts. `p` may exceed kPositionsPerAxis. The rolls do not repeat there: the
+/// roll of p + kPositionsPerAxis differs from the roll of p.
 int roll(CodeVariant code, std::uint32_t p) noexcept;
 
-/// Returns one bit of the cyclic main sequence, for any index >= 0.
+/// Returns one bit of the cyclic main sequence. Any index is valid.
 int main_bit(std::uint32_t index) noexcept;
 
-/// Returns the symbol at one intersection, in O(1). For whole pages, call `roll` once per column
+/// Returns, in O(1), the symbol at one intersection. For whole pages, call `roll` once per column
 /// and row instead.
 Symbol symbol_at(CodeVariant code, Cell cell, Section section) noexcept;
 

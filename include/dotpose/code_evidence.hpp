@@ -26,7 +26,7 @@ namespace dotpose {
 
 /// The odds of each code variant of one sheet, given all frames so far. All frames at one place
 /// contain the defects of the same dots, so they count as one frame. The factor by which this frame
-/// reduces the odds of a code variant is the mean of the factors of its frames.
+/// reduces the odds of a code variant is the mean of the factors of all frames at the place.
 class CodeEvidence {
   public:
     /// log2 of the likelihood or the odds of each code variant, in units of 2^-8.
@@ -67,16 +67,16 @@ class CodeEvidence {
     std::uint32_t frames_here_ = 0;
 };
 
-/// The result of locating one frame whose code variant is not given.
+/// The result of locating one frame, with the evidence for the code variant of its sheet.
 struct CodeReading {
     /// If the status is ambiguous_code, the pose and the counts are those of one of the two places.
     Fix fix;
     CodeVariant code = CodeVariant::anoto;  ///< code variant of `fix`
     CodeEvidence evidence;                  ///< evidence with this frame added
     /// True if a place in another code variant explains the frame about equally well.
-    /// `locate_in_any_code` sets this member only if the status is ambiguous_code. For the cases in
-    /// which `locate_in_code` sets it, see there. If the fix is ok, `p_wrong_log2` does not include
-    /// the odds of the other place.
+    /// `locate_in_any_code` sets this member only if the status is ambiguous_code.
+    /// Locator::locate_in_code lists the cases in which that function sets this member. If the fix
+    /// is ok, `p_wrong_log2` does not include the odds of the other place.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
     Cell other_cell{};  ///< as Fix::cell; fractions and angle are the same as in `fix`
@@ -89,7 +89,8 @@ class Locator;
 /// variant detected from the frames.
 class CodeReader {
   public:
-    /// Uses the code variant `given`. Without it, detects the code variant from all frames so far.
+    /// Uses the code variant `given`. If `given` is empty, detects the code variant from all frames
+    /// so far.
     explicit CodeReader(std::optional<CodeVariant> given = std::nullopt) : given_(given) {}
 
     /// Locates an image, and sets the code variant in the options of `locator` to the code variant

@@ -72,14 +72,14 @@ struct LatticeOptions {
 /// Limits beyond which a position is refused as not certain.
 struct IntegrityOptions {
     /// Maximum of the upper bound on the probability that a fix is wrong, as log2. A position with
-    /// a larger bound is refused. 2^-30 < 1e-9. [-2^20 to 0]
+    /// a larger bound is refused. The default is slightly below 1e-9. [-2^20 to 0]
     int max_p_wrong_log2 = -30;
     /// Maximum fraction, in 1/256, of the bits read on either axis that may contradict the
     /// position. A larger fraction indicates that the frame contains two patterns. [0 to 256]
     int max_bit_error_q8 = 46;
 };
 
-/// Number of attempts that `locate` makes.
+/// The attempts that `locate` makes.
 enum class Effort : std::uint8_t {
     device,  ///< one attempt in integers, as made by a DeviceLocator
     once,    ///< like `twice`, but without the second attempt

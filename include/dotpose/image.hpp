@@ -1,4 +1,4 @@
-/// A view of an 8-bit grey image. The caller owns the pixels.
+/// Image: a view of an 8-bit grey image. The caller owns the pixels.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
-/// Known regions: the parts of the code plane on the sheets that may be in view. With known
-/// regions, a Locator also reads views that are too small to be unique on the whole plane.
+/// Known regions: the parts of the code plane that are printed on the sheets that may be in view.
+/// With known regions, a Locator also reads views that are too small to be unique on the whole
+/// plane.
 ///
 ///     static constexpr KnownRegion kSheets[] = {
 ///         {.first = {1024, 1024}, .columns = 393, .rows = 563}};

@@ -1,5 +1,5 @@
 /// Checks that the compiler uses the C++ version that all headers need. With an older version, the
-/// first error is then a clear message.
+/// first compiler error is a clear message.
 #pragma once
 
 #if __cplusplus < 202002L

@@ -48,8 +48,8 @@ class RowLocator {
     /// Sets the options of the following frames. Drops a frame that was begun but not finished.
     void set_options(const DeviceOptions& options);
 
-    /// Returns the results of each stage for the last frame. The stages of a DeviceLocator reuse
-    /// the same memory. Only the results of the last stage that ran are then complete.
+    /// Returns the results of each stage for the last frame. The stages of a DeviceLocator share
+    /// memory, so only the results of the last stage that ran are complete.
     Trace trace() const;
 
   protected:

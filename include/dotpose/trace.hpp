@@ -42,7 +42,8 @@ struct SeedEdge {
     FixedVec step_q8;  ///< vector from `from` to `to`, in 2^-8 px; points down or right
 };
 
-/// First estimate of the grid: intersection (i, j) is at origin + i u + j v in the image.
+/// First estimate of the grid: intersection (i, j) is at origin + i u + j v in the image. All
+/// vectors are in 2^-16 px.
 struct Lattice {
     FixedVec u_q16;
     FixedVec v_q16;
@@ -101,7 +102,8 @@ struct Decoding {
     std::int32_t agreement = 0;
     QuarterTurn pattern_from_grid;
     Place place;  ///< place in the code of grid cell (0, 0); the cell may be out of view
-    /// True if the workspace contains the scores of the lines of the region at this turn.
+    /// True if the workspace contains the scores of the lines of the region, rotated by
+    /// `pattern_from_grid`.
     bool lines_are_scored = false;
     int bits = 0;  ///< number of bits compared with the code at `place`, two per dot
     /// log2 of an upper bound on the probability that the position is wrong along x and along y,

@@ -91,7 +91,8 @@ struct TrackOptions {
     std::int64_t stationary_after_us = 500'000;
 
     /// Standard deviations of printing errors. Their squares are added to the covariance of a
-    /// sighting. At one place, printing errors are the same in every frame.
+    /// sighting. Printing errors at one place are the same in every frame, so they do not average
+    /// out.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 
@@ -228,7 +229,7 @@ class Tracker {
     /// Estimate from the newest sightings that contradict the track. These sightings are filtered
     /// like accepted sightings, because the robot may have been put down elsewhere.
     track::MotionEstimate candidate_;
-    int agreeing_ = 0;  ///< number of sightings in `candidate_`
+    int agreeing_ = 0;  ///< number of sightings from which `candidate_` is estimated
     TrackedPose rest_;  ///< pose from which movement is measured
 };
 

@@ -9,9 +9,9 @@ namespace {
 
 constexpr auto kSide = DotPixels::kSide;
 
-/// Chords of the ellipse along u, given by the cosine of the angle at which each chord ends, from
-/// the outermost chord to the middle. The other half of the ellipse is symmetric. Neighbouring
-/// chords are less than a pixel apart. kChordsOfSmall is for small ellipses.
+/// Chords of the ellipse parallel to u, from the outermost chord to the middle. Each chord is given
+/// by the cosine of the angle at which it ends. The other half of the ellipse is symmetric.
+/// Neighbouring chords are less than a pixel apart. kChordsOfSmall is for small ellipses.
 constexpr float kChordsOfSmall[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                     0.60876143F, 0.38268343F, 0.13052619F};
 constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F, 0.76040597F,

@@ -1,5 +1,5 @@
 // Facing dots: corrects the bias of adjacent dots that are displaced towards each other. If such
-// dots are large or blurred, each dot pulls the centroid of the other towards itself. The two
+// dots are large or blurred, each dot shifts the centroid of the other dot towards itself. The two
 // shifts cancel in the pose, but increase the residuals. differs: the paper does not state the
 // uncertainty of a pose.
 #pragma once

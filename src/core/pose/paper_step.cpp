@@ -108,7 +108,8 @@ class AffineFit {
 
     /// Returns the sum of the squared residuals of all coherent dots after the affine map.
     float squares() const { return squares_; }
-    /// Returns the reduction of this sum by a displacement of the part beyond a line.
+    /// Returns the reduction of the sum of squared residuals by a displacement of the part beyond a
+    /// line.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
         const float spread = step[0] - inner_product(step, inverse_ * step);
@@ -117,7 +118,8 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns the reduction of this sum by a displacement and rotation of the part beyond a line.
+    /// Returns the reduction of the sum of squared residuals by a displacement and rotation of the
+    /// part beyond a line.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
@@ -272,7 +274,8 @@ class Search {
                off_plane_ * (part.seen() - part.dots());
     }
 
-    /// Returns an upper bound on `gain_of`: the gain if all coherent dots had residuals of 0.
+    /// Returns an upper bound on `gain_of`: the gain if the separate planes explained all coherent
+    /// dots exactly.
     float max_gain_of(const PartSums& beyond, const PartSums& here) const {
         const auto max_of = [this](const PartSums& part) {
             return kOnPlane * part.dots() + off_plane_ * (part.seen() - part.dots());

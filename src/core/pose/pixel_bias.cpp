@@ -12,7 +12,8 @@ namespace {
 
 namespace tuned = tuning::bias;
 
-/// Returns sin(2 pi x). The error is below 0.001, and the bits are the same on every platform.
+/// Returns sin(2 pi x). The error is below 0.001, and the result is bit-identical on every
+/// platform.
 float sine_of_turns(float x) {
     const float turn = x - std::floor(x + 0.5F);
     const float y = 8 * turn * (1 - 2 * std::abs(turn));
@@ -111,9 +112,9 @@ class AxisBias {
 
     float amplitude_px() const { return amplitude_px_; }
     /// Returns the slope of the moment along this axis, divided by the slope along u. The ratio is
-    /// shrunk towards 1 if noise explains the difference.
+    /// shrunk towards 1 if noise can explain its difference from 1.
     float slopes() const { return slopes_; }
-    /// Returns the bias of a dot, in px, and adds its phase to the mean.
+    /// Returns the bias of a dot, in px, and adds the sine of its phase to the mean.
     float of(float phase) {
         const float sine = sine_of_turns(phase);
         sines_ += sine;

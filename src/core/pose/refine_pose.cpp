@@ -13,9 +13,9 @@ namespace tuned = tuning::fit;
 
 constexpr float kPower30 = 1073741824.0F;
 
-/// Scatter of the dots as a function of the light. Print errors do not depend on the light; pixel
-/// noise increases as the light decreases. Fits a line to the squared residuals as a function of
-/// the noise.
+/// Scatter of the dots as a function of the illumination. Print errors do not depend on the
+/// illumination. Pixel noise, relative to the contrast, increases as the illumination decreases.
+/// Fits a line to the squared residuals as a function of the noise.
 class Scatter {
   public:
     void add(float noise, float squared_residual) {

@@ -23,8 +23,8 @@ class StackedDots {
     struct Stack {
         float dots = 0;
         FloatVec rest;  ///< sum of `Phase::rest`
-        DotPixels
-            darkness;  ///< sum of the darkness, as a fraction of the paper level around each dot
+        /// Sum of the darkness, as a fraction of the paper level around each dot.
+        DotPixels darkness;
     };
 
     /// Uses the pixels within `reach_px` of the central pixel.
