@@ -32,8 +32,8 @@ Square cells_within(int limit) {
 }
 
 /// Returns the set of plane points whose offset from the nearest intersection is at most
-/// `limit_q16` along both axes. The set contains the lower 16 bits of `rounding_plane_point_q16`,
-/// shifted left by 16 bits.
+/// `limit_q16` along both axes. The elements of the set are the lower 16 bits of
+/// `rounding_plane_point_q16`, shifted left by 16 bits.
 Square offsets_within(std::int32_t limit_q16) {
     return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
             static_cast<std::uint32_t>(std::min<std::int32_t>(2 * limit_q16, 65535)) << 16};

@@ -47,7 +47,8 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
 /// pixels is outside the square of the intersection.
 bool lay_dot_pixels(Tracking& tracking);
 
-/// Reading of a dot, packed into one register.
+/// The symbol that was read at an intersection, with the threshold of its dot, packed into one
+/// register.
 class ReadSymbol {
   public:
     static constexpr ReadSymbol unclear() { return ReadSymbol(-1); }

@@ -100,7 +100,8 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 
-/// Returns the maximum error of the prediction in the middle of the image, in px.
+/// Returns the maximum error of the prediction that the search covers, in the middle of the image,
+/// in px.
 int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
     const auto shift_q16 =
@@ -139,7 +140,7 @@ Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Track
     if (!is_sane(prediction)) return Status::not_tracked;
     const FixedVec centre_q8{(tracking.width_px - 1) * 128, (tracking.height_px - 1) * 128};
     const PlaneFromImage plane = tangent(prediction.pattern_from_image, centre_q8);
-    // Cells are numbered relative to the middle of the image.
+    // Cell (kMaxComparedLines / 2, kMaxComparedLines / 2) is in the middle of the image.
     const FixedVec at = plane.at_centre_q16;
     const FixedVec first{(at.x >> 16) - kMaxComparedLines / 2,
                          (at.y >> 16) - kMaxComparedLines / 2};

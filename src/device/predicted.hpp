@@ -30,8 +30,8 @@ inline FixedVec place_q16(const CellMap& cells, int i, int j) {
 /// Returns the cell nearest to the middle of the first `Tracking::first_rows` rows.
 FixedVec middle_cell(const Tracking& tracking);
 
-/// Sets the displacement of dots, in units of 2^-12 spacings, and the places of dots that depend on
-/// this displacement.
+/// Sets the displacement of dots, in units of 2^-12 spacings, and `Tracking::displaced_q16`, which
+/// depends on the displacement.
 void set_displacement(std::int32_t displacement_q12, Tracking& tracking);
 
 }  // namespace dotpose::core

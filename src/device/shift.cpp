@@ -21,7 +21,7 @@ Shifts::Shifts(const Tracking& tracking) {
         return std::min((reach_px + kStep_px - 1) / kStep_px, kMaxSteps);
     };
     steps_ = {steps(tracking.reach_px + sideways_px), steps(tracking.reach_px)};
-    // Dots are at most half a spacing from their intersections.
+    // The dots are at most half a spacing from their intersections.
     const int margin = kStep_px * steps_.x + (tracking.spacing_q8 >> 9) + 1;
     left_ = std::max(tracking.width_px / 2 - half, margin);
     right_ = std::min(tracking.width_px / 2 + half, tracking.width_px - margin);
@@ -104,7 +104,8 @@ void Shifts::divide_by_dots() {
     }
 }
 
-/// Clears the shifts around a shift that was returned.
+/// Clears the means around a shift that was returned, so `next` does not return a neighbouring
+/// shift.
 void Shifts::forget_around(FixedVec at) {
     constexpr int kFar = 2;
     for (int y = std::max<std::int32_t>(at.y - kFar, 0);

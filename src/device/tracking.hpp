@@ -39,7 +39,8 @@ struct TrackedRow {
     FixedVec offset_i_q8;
 };
 
-/// Rectangle of the intersections for which all pixels that are read are in the image.
+/// Rectangle of the intersections for which all pixels that are read are in the image, in units of
+/// 2^-16 px.
 struct TrackedView {
     FixedVec min_q16;
     std::uint32_t width_q16 = 0;

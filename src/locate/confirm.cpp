@@ -303,7 +303,8 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
             return Confirmation::implausible;
         if (!is_clean(bits)) {
             if (hypothesis.is_exact) return Confirmation::implausible;
-            // A plane that is fitted to all dots reduces the number of misread bits.
+            // Reads the bits again through a plane that is fitted to all dots, which reduces the
+            // number of misread bits.
             if (decides && !fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
                 return Confirmation::implausible;
             if (decides) bits = reader.read_again(hypothesis, block);

@@ -11,8 +11,8 @@
 
 namespace dotpose::core {
 
-/// Returns true if the plane is plausible for a grid in the image. All stages that use the plane
-/// require this.
+/// Returns true if the plane is plausible for a grid in the image. All stages that use a plane
+/// require a plausible plane.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
 /// Result of `confirm`.

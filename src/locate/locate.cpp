@@ -1,5 +1,5 @@
-// Selects the attempts to locate a frame on a desktop and the codes in which they are made, and
-// decides when a fix is accepted.
+// Selects the attempts for a frame on a desktop, and the codes in which they are made, and decides
+// when a fix is accepted.
 //
 //   tracked    measures the dots where a prediction expects them    locate/tracked.hpp
 //   first      finds the grid in a part of the image                locate/first.hpp
@@ -34,12 +34,12 @@ namespace {
 
 namespace tuned = tuning::cascade;
 
-/// The steps of the cascade. `resampled` is the second attempt with a second sampling of doubtful
-/// bits. This step takes three times as long as `second`.
+/// The steps of the cascade. `resampled` is the second attempt, which also samples the bits again
+/// if the position is doubtful. This step takes three times as long as `second`.
 enum class Step : std::uint8_t { tracked, first, second, resampled, device };
 
-/// Returns true if the dots are on a grid, but could not be read in this code. They may be readable
-/// in another code.
+/// Returns true if the dots are on a grid, but could not be read in this code. The grid may be
+/// readable in another code.
 bool leaves_code_open(Status status) {
     return status == Status::not_in_code || status == Status::ambiguous ||
            status == Status::not_certain;

@@ -86,7 +86,7 @@ inline constexpr int kClear_percent = 97;
 inline constexpr int kMaxWrong = 2;
 inline constexpr int kDotsPerWrong = 200;
 /// Outlier limit: squared residual divided by the mean squared residual. The limit is four standard
-/// deviations.
+/// deviations of one coordinate.
 inline constexpr float kOutlier = 8.3F;
 /// Maximum distance, in spacings, between the planes before and after a fit, in a corner of the
 /// measured part. Above this distance, small centroid windows miss a part of the offsets, so the
@@ -99,7 +99,7 @@ inline constexpr int kMaxLooks = 3;
 /// beyond the sheet, where noise is as dark as dots.
 inline constexpr float kTable = 0.4F;
 /// Range of spacings for direct sampling. Below kMaxSpacingForSmallWindow_px, a dot fits in a small
-/// centroid window at any blur. Below kMinSpacingForDirectSampling_px, one sample each cannot
+/// centroid window at any blur. Below kMinSpacingForDirectSampling_px, one sample per place cannot
 /// separate the four places of a cell.
 inline constexpr float kMaxSpacingForSmallWindow_px = 13;
 inline constexpr float kMinSpacingForDirectSampling_px = 8;
@@ -108,15 +108,15 @@ inline constexpr float kMinSpacingForDirectSampling_px = 8;
 inline constexpr float kWindowRadii = 2.4F;
 /// Minimum radius of a centroid window.
 inline constexpr float kMinWindowRadius_px = 3.3F;
-/// Minimum radius of a centroid window, as a fraction of the distance between facing dots, at which
-/// the dots bias each other.
+/// Radius of a centroid window above which facing dots bias each other, as a fraction of the
+/// distance between these dots.
 inline constexpr float kFacing = 0.55F;
 /// Maximum deviation of a grid step from whole pixels at which the dots of a row or column have
 /// about the same sub-pixel phase. At a larger deviation, the phases of the dots in view are evenly
 /// distributed.
 inline constexpr float kDrift_px = 0.05F;
-/// Maximum drift of the sub-pixel phase across the view at which the pixel bias is corrected. The
-/// correction takes several times as long as the rest of the frame.
+/// Maximum drift of the sub-pixel phase across the view, in px, at which the pixel bias is
+/// corrected. The correction takes several times as long as the rest of the frame.
 inline constexpr float kDriftInView_px = 0.35F;
 /// Maximum variance of the mean of all centres, along one axis, at which biases matter.
 inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;

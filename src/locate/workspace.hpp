@@ -54,7 +54,7 @@ struct PushedImage {
     }
 };
 
-/// Memory that only `Locator` needs, in addition to the memory that both locators need.
+/// Memory of a Locator: the memory of a DeviceLocator, and the memory that only a Locator needs.
 struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;
     MeasuredDots measured;
@@ -152,8 +152,8 @@ class WorkspaceOf : public DesktopWorkspace {
     // A run may begin at every second pixel, and each run may begin a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
 
-    // Size of the largest image that can be pushed row by row: the size of the sensor of the paper,
-    // or 1280 x 1024 px.
+    // Size of the largest image that can be pushed row by row: 188 x 188 px for the sensor of the
+    // paper, otherwise 1280 x 1024 px.
     static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
 
     // Maximum number of lines that cross an image at any angle.

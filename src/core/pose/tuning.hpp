@@ -42,8 +42,8 @@ inline constexpr int kMaxRoundsOfFloats = 5;
 /// Squared length of a step, in units of the standard deviation of the pose, after which the fit
 /// ends. The next step would be much smaller.
 inline constexpr float kSettled = 0.01F;
-/// Outlier limit, in medians of the squared residuals. The median is 1.39 sigma^2, so 12 medians
-/// are 4 sigma. By chance, 1 dot in 3,000 exceeds the limit.
+/// Outlier limit, in medians of the squared residuals. The median is 1.39 sigma^2, so the limit is
+/// 4.1 sigma. By chance, 1 dot in 4,000 exceeds the limit.
 inline constexpr int kOutlier_medians = 12;
 /// Outlier limit, in variances, if the variance is known: 4.1 sigma. By chance, 1 dot in 4,000
 /// exceeds the limit.
