@@ -101,8 +101,8 @@ class CodeReader {
     bool is_given() const { return given_.has_value(); }
     /// Returns the given code variant, or the likeliest code variant so far if none is given.
     CodeVariant code() const { return given_.value_or(evidence_.likeliest()); }
-    /// Returns the evidence from the frames so far. If a code variant was given, the evidence
-    /// remains empty.
+    /// Returns the evidence from the frames so far. If a code variant was given, all code variants
+    /// remain equally likely.
     const CodeEvidence& evidence() const { return evidence_; }
 
   private:

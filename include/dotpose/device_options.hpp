@@ -104,8 +104,9 @@ struct DeviceOptions {
     LatticeOptions lattice;
     IntegrityOptions integrity;
 
-    /// Minimum contrast between paper and dots, in grey levels. With less contrast, every attempt
-    /// ends with the status no_contrast. Default 0: any contrast that can be read. [0 to 255]
+    /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast is
+    /// refused with the status no_contrast, or not_tracked if a DeviceLocator only tracks the
+    /// frame. Default 0: any contrast that can be read. [0 to 255]
     int min_contrast = 0;
 
     /// Maximum number of dots to which the first and the tracked attempt fit the pose, spread

@@ -43,8 +43,8 @@ class AnyDeviceMemory {
 };
 
 /// Memory of a DeviceLocator on a small microcontroller, with a sensor of Width x Height px. The
-/// end of this header lists the supported sizes. Frames may be smaller. Frames that are at most 188
-/// px wide may also be higher than Height.
+/// end of this header lists the supported sizes. Frames may be smaller. The memories for a width of
+/// 160 or 188 px also support frames that are higher than Height.
 template <int Width, int Height>
 class DeviceMemoryFor : public AnyDeviceMemory {
   public:
@@ -52,7 +52,7 @@ class DeviceMemoryFor : public AnyDeviceMemory {
 
   private:
     static constexpr std::size_t kBytes = bytes_for(Width, Height);
-    static_assert(kBytes > 0, "there is memory for 160 x 120, 188 x 120 and 320 x 240 px");
+    static_assert(kBytes > 0, "the supported sizes are 160 x 120, 188 x 120 and 320 x 240 px");
     alignas(8) std::array<std::byte, kBytes> bytes_;
 };
 

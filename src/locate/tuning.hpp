@@ -76,8 +76,8 @@ inline constexpr float kDenseAtMost = 17;
 inline constexpr float kDenseOfPart = 6;
 /// Reach, in spacings, within which the bits of a partial view must make the position certain.
 inline constexpr float kDecidingOfPart = 32;
-/// Factor by which the reach grows from round to round. The plane fitted to the dots of one round
-/// predicts the dots of the next round.
+/// Maximum factor by which the reach grows from round to round. The plane fitted to the dots of one
+/// round predicts the dots of the next round.
 inline constexpr float kFarther = 3.5F;
 /// Limits of clean bits, which need no second reading: minimum percentage of clear dots, and
 /// maximum number of wrong bits. The maximum is kMaxWrong (one dot) or one per kDotsPerWrong dots,
@@ -174,8 +174,8 @@ inline constexpr int kMaxTurns_deg[] = {12, 45};
 namespace cascade {
 /// Minimum odds of another code at which a frame is read again in that code.
 inline constexpr float kBetterOdds = 2;
-/// Minimum number of bits per contradicting bit at which a reading in another code is reported.
-/// Apart from misread bits, less than one bit in a hundred contradicts such a reading.
+/// Minimum number of dots per contradicting bit at which a reading in another code is reported.
+/// Less than one bit in a hundred then contradicts the reading. So few bits may be misread.
 inline constexpr int kBitsPerError = 50;
 /// Minimum odds of a different place in another code at which the place is reported next to a
 /// certain fix.

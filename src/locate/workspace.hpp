@@ -143,8 +143,8 @@ class WorkspaceOf : public DesktopWorkspace {
     WorkspaceOf& operator=(const WorkspaceOf&) = delete;
 
   private:
-    // Images up to kMaxSideWithLowTiles_px wide have low tiles, larger images have high tiles. See
-    // `begin_threshold`.
+    // Images whose shorter side is at most kMaxSideWithLowTiles_px have low tiles. All other images
+    // have high tiles, which need more memory. See `begin_threshold`.
     static constexpr int kBand_px =
         MaxWidth <= kMaxSideWithLowTiles_px ? kLowTile_px : kHighTile_px;
     static constexpr int kTiles = MaxWidth / kTileWidth_px + 1;
