@@ -48,8 +48,8 @@ bool place_patch(const ImageView& image, FixedVec around_px, int scale, DesktopW
                        kPatchHeight_px * scale, scale, *w.patch);
 }
 
-/// Finds the dots of the patch. Returns false if the patch has no contrast. Sets the status for the
-/// case that no patch contains a grid.
+/// Finds the dots of the patch. Returns false if the patch has no contrast. Sets the status that
+/// remains if no patch contains a grid.
 bool find_patch_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      DesktopWorkspace& w) {
     Patch& patch = *w.patch;

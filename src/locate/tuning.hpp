@@ -37,8 +37,8 @@ namespace tracked {
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots that determine a correction of the prediction.
 inline constexpr int kMinNear = 10;
-/// Maximum error of a prediction that the search covers, in spacings. A larger maximum is useless.
-/// Beyond half a spacing, a neighbouring dot is closer than the correct dot.
+/// Maximum error of a prediction that the search covers, in spacings. A larger maximum would be
+/// useless, because beyond half a spacing a neighbouring dot is closer than the correct dot.
 inline constexpr float kMaxOff = 0.6F;
 /// Range of spacings that can be tracked.
 inline constexpr float kFinest_px = 5;
@@ -175,7 +175,7 @@ namespace cascade {
 /// Minimum odds of another code at which a frame is read again in that code.
 inline constexpr float kBetterOdds = 2;
 /// Minimum number of dots per contradicting bit at which a reading in another code is reported.
-/// Less than one bit in a hundred then contradicts the reading. So few bits may be misread.
+/// Less than one bit in a hundred then contradicts the reading, which misread bits explain.
 inline constexpr int kBitsPerError = 50;
 /// Minimum odds of a different place in another code at which the place is reported next to a
 /// certain fix.
