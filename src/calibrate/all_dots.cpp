@@ -10,7 +10,8 @@ namespace {
 
 /// Maximum distance of a dot from its expected place: kReach_sigmas standard deviations of the fit,
 /// clamped to [kMinReach, kMaxReach] spacings. The limit exceeds all errors of print and fit, so
-/// the next fit decides which dots are outliers. It is smaller than the distance of any other dot.
+/// the next fit decides which dots are outliers. All other dots are at least 2/3 of a spacing from
+/// the expected place.
 constexpr double kReach_sigmas = 6;
 constexpr double kMinReach = 0.1;
 constexpr double kMaxReach = 1.0 / 3;
@@ -20,8 +21,8 @@ struct Candidate {
     LocatedDot dot;
 };
 
-/// Returns the blob at `pixel` as the dot of the nearest intersection. (`x`, `y`) is its place on
-/// the paper, in spacings from `start`.
+/// Returns the blob at `pixel` as the dot of the nearest intersection. (`x`, `y`) is the place of
+/// the blob on the paper, in spacings from `start`.
 Candidate candidate(PixelPoint pixel, const Place& start, double x, double y, double displacement,
                     CodeVariant code) {
     const FixedVec step{static_cast<std::int32_t>(std::lround(x)),

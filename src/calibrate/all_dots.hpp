@@ -7,13 +7,13 @@
 
 namespace dotpose::calibrate {
 
-/// Replaces the dots that `locate` read by all blobs at places where `fit` expects a dot of the
+/// Replaces the dots that `locate` read with all blobs at places where `fit` expects a dot of the
 /// code.
 ///
-/// `locate` reads only the dots that a pose needs. Where its plane fits badly, in the corners of a
-/// slightly tilted camera's image, it omits dots, mostly those whose residuals add to the error of
-/// the plane. The perspective of the remaining dots is too small: by three standard deviations at a
-/// tilt of 8 degrees, measured without this function by the unit test
+/// `locate` reads only the dots that a pose needs. In the corners of the image of a slightly tilted
+/// camera, the plane of `locate` fits badly, and `locate` omits the dots with large residuals. The
+/// perspective fitted to the remaining dots is too small: by three standard deviations at a tilt of
+/// 8 degrees, measured without this function by the unit test
 /// ASlightTiltTellsAnUnbiasedFocalLength.
 void take_all_dots(const LensFit& fit, const FitSetting& setting, CodeVariant code,
                    std::vector<LocatedFrame>& frames);

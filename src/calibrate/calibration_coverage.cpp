@@ -11,7 +11,8 @@
 namespace dotpose {
 namespace {
 
-/// Boundaries of the regions that are named corner, edge or middle, in parts across and down.
+/// Boundaries of the 3 x 3 regions that the advice names a corner, an edge or the middle, in parts
+/// across and down.
 constexpr std::array kRegionColumns = {0, 4, 8, ImageCoverage::kColumns};
 constexpr std::array kRegionRows = {0, 3, 5, ImageCoverage::kRows};
 constexpr std::size_t kRegions = 3;

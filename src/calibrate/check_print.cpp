@@ -29,7 +29,7 @@ constexpr double kMaxSpacingRatio = 2;
 constexpr std::size_t kMinFieldDots = 30;
 
 /// Reports progress. The amount of work is not known in advance, so the reported total is always
-/// kHalf steps ahead.
+/// the number of completed steps plus kHalf.
 class Work {
   public:
     explicit Work(const CheckPrintOptions& options) : options_(options) {}

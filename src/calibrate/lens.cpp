@@ -25,8 +25,8 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// Maximum distance between the places of two frames, in spacings, at which they show the same
-/// dots.
+/// Maximum distance between the places of two frames, in spacings, at which the frames count as
+/// views of the same dots.
 constexpr double kSamePlace = 1.5;
 
 /// Reads the frames given to `calibrate_lens`, and detects different sizes and duplicates.
@@ -75,7 +75,8 @@ class Series {
 };
 
 /// Returns the decrease of the squared residuals of one frame, in units of their variance, if the
-/// frame is fitted with its own scale, shear and perspective. The expected decrease by chance is 5.
+/// frame is fitted with its own scale, shear and perspective. The expected decrease by chance is 5,
+/// the number of these parameters.
 double gain_of_own_view(const LocatedFrame& frame,
                         const std::vector<std::array<double, 2>>& residuals,
                         const std::vector<char>& is_outlier, const FitSetting& setting,

@@ -57,8 +57,8 @@ struct Seen {
     }
 };
 
-/// Residual of a mounted camera: the distance between the position of a dot in the image and its
-/// printed position, in px.
+/// Residual of a mounted camera: the difference between the measured and the printed position of a
+/// dot, in px.
 struct MountedResidual {
     Seen seen;
 
@@ -81,9 +81,8 @@ struct MountedResidual {
     }
 };
 
-/// Residual of a hand-held camera: the distance between the position of a dot in the image and its
-/// printed position, in px, for the camera model of simulate.hpp, extended by pixels that are not
-/// square.
+/// Residual of a hand-held camera: the difference between the measured and the printed position of
+/// a dot, in px. The camera model is that of simulate.hpp, extended by pixels that are not square.
 struct HandheldResidual {
     Seen seen;
 

@@ -29,9 +29,9 @@ constexpr double kMinDrive_mm = 5;
 /// Maximum angle, in a straight drive, by which the robot may turn or by which its path may deviate
 /// from the mean line.
 constexpr double kMaxSwerve_rad = std::numbers::pi / 36;
-/// Probability that noise of a robot that stays on the spot is taken for a drift.
+/// Probability that noise is mistaken for a drift if the robot stays on the spot.
 constexpr double kFalseDrift = 1e-3;
-/// Minimum number of frames that distinguish a drift from noise.
+/// Minimum number of frames required to distinguish a drift from noise.
 constexpr int kMinDriftFrames = 5;
 
 /// Position (in mm from the cell of the first frame) and angle of the image centre in one frame.
@@ -225,9 +225,9 @@ double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on
     return (drifting.offset - on_the_spot.offset).norm() / std::numbers::sqrt2;
 }
 
-/// Throws Error unless the centre of rotation is accurate enough compared with the spacing. A
-/// centre that leaves its cell (residual above one spacing) was not at rest. A centre with an
-/// uncertainty of more than half a spacing does not determine the cell under the robot.
+/// Throws Error unless the centre of rotation is accurate enough compared with the spacing. If the
+/// residual is above one spacing, the centre left its cell and was not at rest. If the uncertainty
+/// is above half a spacing, the cell under the centre is not known.
 void require_spin(const SpinCalibration& spin, double spacing_mm) {
     if (spin.residual_mm > spacing_mm) {
         throw Error(
@@ -247,7 +247,7 @@ void require_spin(const SpinCalibration& spin, double spacing_mm) {
 }
 
 /// Returns the direction of the best-fitting line through the places: the major axis of their
-/// scatter, oriented like `drive`.
+/// scatter, in the sense of `drive`.
 Vector2d direction_of_line(const std::vector<Station>& stations, const Vector2d& mean,
                            const Vector2d& drive) {
     double difference = 0;  // scatter along x minus scatter along y

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Part of J^T J of one block that is not shared.
+/// The elements of J^T J in the columns of one parameter block that is not shared.
 struct UnsharedBlock {
     Index begin;           ///< first column of the block
     MatrixXd with_shared;  ///< products with the shared columns

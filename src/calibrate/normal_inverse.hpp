@@ -9,8 +9,8 @@
 namespace dotpose::calibrate {
 
 /// Returns the block of (J^T J)^-1 for the shared parameter blocks, in the order of `shared`. A
-/// residual may depend on at most one block that is not shared. ceres::Covariance needs a minute
-/// for these problems.
+/// residual may depend on at most one block that is not shared. ceres::Covariance is not used
+/// because it needs about a minute for such problems.
 Eigen::MatrixXd normal_inverse(ceres::Problem& problem, const std::vector<double*>& shared);
 
 /// Returns the derivative of the solution for the shared blocks with respect to the residuals, in

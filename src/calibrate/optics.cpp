@@ -11,7 +11,7 @@ namespace dotpose {
 namespace {
 
 constexpr double kRadPerS_per_rpm = 2 * std::numbers::pi / 60;
-/// Limits of the images that `locate` reads.
+/// Spacings in images that `locate` reads: the minimum, the recommended minimum, and the maximum.
 constexpr double kMinSpacing_px = 6;
 constexpr double kGoodSpacing_px = 8;
 constexpr double kMaxSpacing_px = 60;
@@ -58,8 +58,8 @@ void set_block(const Optics& o, OpticsReport& r) {
     r.block_fits_anywhere = shorter_mm >= r.block_anywhere_mm;
 }
 
-/// Computes the limits of motion (paper III-A.2). Blur is measured along the image axes. In a turn,
-/// the middle of the far edge of the field is fastest.
+/// Computes the limits of motion (paper III-A.2). Blur is measured along the image axes. In a turn
+/// about the image centre, the middle of the farthest edge moves fastest along an axis.
 void set_motion(const Optics& o, OpticsReport& r) {
     const double blur_mm = o.largest_blur_px * r.mm_per_px;
     const double radius_mm = std::max(r.field_width_mm, r.field_height_mm) / 2;

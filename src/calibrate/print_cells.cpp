@@ -16,8 +16,9 @@ constexpr double kMinLineShare = 0.5;
 /// longest line (exclusive).
 constexpr double kMinLength = 0.15;
 
-/// Minimum number of correct dots of an outer line, as a fraction of its dots. By chance a quarter
-/// of the dots are correct, and in another region half of them if the columns happen to agree.
+/// Minimum number of correct dots of an outer line, as a fraction of its dots. By chance, a quarter
+/// of the dots are correct. In another region of the code, half of the dots are correct if the
+/// columns happen to agree.
 constexpr double kMinRightShare = 0.7;
 
 /// Returns the located tiles whose maps predict the cells of a tile: the tile itself or, if it has

@@ -21,7 +21,8 @@ constexpr double kFloorShare = 0.15;
 /// Radius of the sums over a dot, in spacings: half the distance to the nearest possible dot.
 constexpr double kReach = 1.0 / 3;
 /// Minimum darkness of other print, such as text or pictures, on the border of a cell: relative to
-/// the darkness of a dot, and in standard deviations of blank paper. Both limits apply.
+/// the darkness of a dot, and in standard deviations of blank paper. The larger limit applies, but
+/// it is at most the darkness of a dot.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
 /// Displacement for the measurement of levels, in spacings. It need not be exact.
@@ -155,9 +156,10 @@ class Meter {
         return offset;
     }
 
-    /// Returns true if the border of a cell is not blank: darker than paper by more than
-    /// `min_darkness`, or lighter by as much if most of the tile is filled with grey. The middles
-    /// of the four sides are not checked, because swollen dots may merge there.
+    /// Returns true if the border of a cell is not blank: if its darkness differs from paper by
+    /// more than `min_darkness` in either direction. A border is lighter than `paper_` if most of
+    /// the tile is filled with grey. The middles of the four sides are not checked, because swollen
+    /// dots may merge there.
     bool is_covered(const Vector2d& intersection_px, double min_darkness) const {
         const Vector2d x = map_.px_per_cell.col(0);
         const Vector2d y = map_.px_per_cell.col(1);

@@ -9,7 +9,7 @@
 
 namespace dotpose::calibrate {
 
-/// One region of the code in the scan, with its map in each tile that shows it.
+/// One region of the code in the scan, with a map for each tile that shows the region.
 struct Field {
     Code code;
     std::vector<std::optional<LocatedTile>> tiles;  ///< indexed by the number of the tile

@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 
-/// Deviations of the mean scale from 1: minimum that only the driver can cause, and minimum that is
-/// reported. Printers and paper deviate by less than kDriverScale.
+/// Limits of the deviation of the mean scale from 1. Only a printer driver causes a deviation above
+/// kDriverScale, because printers and paper deviate less. Deviations above kNotableScale are
+/// reported.
 constexpr double kDriverScale = 0.015;
 constexpr double kNotableScale = 0.002;
 constexpr double kUnevenScale = 0.002;
@@ -342,7 +343,8 @@ double dot_error(const PrintField& field) {
 }
 
 /// For each spacing, chooses the readable patch whose printed dots are closest to a sixth of the
-/// spacing. The best patch of all is that with the finest spacing, which has the most dots in view.
+/// spacing. The best patch of all is the one with the finest spacing, because it has the most dots
+/// in view.
 void choose_best(PrintCheck& check) {
     std::map<double, std::size_t> best;
     for (std::size_t i = 0; i < check.fields.size(); ++i) {

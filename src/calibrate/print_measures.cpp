@@ -198,10 +198,10 @@ void measure_dots(const Measuring& m, const Fitted& fitted, PrintField& result) 
 /// Sets whether sizes and faults of dots in a photo are reliable despite noise, blur and the tone
 /// curve of the camera.
 void judge_photo_of_dots(const Measuring& m, PrintField& result) {
-    // Minimum diameter of dots with a known size. The edge of a dot has an uncertainty of about one
-    // pixel.
+    // Minimum diameter of a dot whose size can be measured. The edge of a dot has an uncertainty of
+    // about one pixel.
     constexpr double kMinDot_px = 6;
-    // Maximum relative scatter of the darkness, at which a cell without a dot is distinguishable
+    // Maximum relative scatter of the darkness at which a cell without a dot can be distinguished
     // from a dot with a third of the usual darkness.
     constexpr double kMaxSpread = 0.12;
     const double mm_per_px = result.pattern.spacing_mm / result.spacing_px;

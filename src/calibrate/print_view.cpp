@@ -41,13 +41,13 @@ Plane plane_seen(const PlaneFit& fit, double focal_px, const Vector2d& principal
 }  // namespace
 
 std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side_px) {
-    // Range of focal lengths, in image sides: from wide-angle lenses to the short telephoto lenses
-    // of phones.
+    // Range of focal lengths, in units of the longer image side: from wide-angle lenses to the
+    // short telephoto lenses of phones.
     constexpr double kMinFocal = 0.5;
     constexpr double kMaxFocal = 2;
     constexpr double kFocalStep = 1.02;
-    // Maximum distance of the principal point from the middle, in image sides, and maximum cosine
-    // of the angle between the printed axes.
+    // Maximum distance of the principal point from the middle, in units of the longer image side,
+    // and maximum cosine of the angle between the printed axes.
     constexpr double kPrincipalShift = 0.01;
     constexpr double kMaxCos = 0.002;
     constexpr double kMaxUncertainty = 0.005;

@@ -15,11 +15,11 @@ namespace {
 
 /// Maximum distance of the image centre from the page whose dots the frame shows, in mm.
 constexpr double kBeyondPage_mm = 400;
-/// Minimum number of dots of a view with a meaningful scale along both axes.
+/// Minimum number of dots of a view. With fewer dots, its scales along the axes are not reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// Minimum number of fields with dots of located sheets at which no further parts of a frame are
-/// located. The number of dots in a fix is not suitable, because it includes only one sheet.
+/// Number of fields with dots of located sheets, out of 64, from which no further parts of a frame
+/// are located. The number of dots in a fix is not suitable, because a fix includes only one sheet.
 constexpr int kNearlyAllFields = 58;
 
 /// Part of the image along one axis: begin and length, as fractions of the side.
@@ -114,7 +114,8 @@ void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
     view.rows = 6;
 }
 
-/// Sets the view of any other camera from the fix: the place of the image centre, and the x axis.
+/// Sets the view of a camera without a known view of the paper from the fix: the place of the image
+/// centre, and the direction of the x axis.
 void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacing_mm,
                        SheetView& view) {
     const double c = std::cos(centre.theta_rad);
@@ -149,8 +150,8 @@ SeamLocator::SeamLocator(const std::vector<SheetEntry>& sheets, const std::optio
     }
 }
 
-/// Returns the whole image first, then halves and corners, then overlapping parts of two thirds of
-/// a side.
+/// Returns the parts in the order in which they are located: the whole image, then halves and
+/// corners, then overlapping parts of two thirds of a side.
 std::vector<SeamLocator::Part> SeamLocator::parts_of(const GreyImage& image) {
     std::vector<Part> parts;
     const auto cut = [](const Stretch& stretch, int side, int& begin, int& length) {

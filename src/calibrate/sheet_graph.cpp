@@ -15,7 +15,8 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Whitened residual of a view above which its weight decreases. By chance, one in 70 exceeds it.
+/// Whitened residual of a view above which its weight decreases. By chance, one view in 70 exceeds
+/// this residual.
 constexpr double kRobust_sigmas = 4;
 /// Standard deviation of parameters that must not change.
 constexpr double kPinned = 1e-7;

@@ -41,16 +41,17 @@ class FrameSource {
     /// frames before the failure.
     virtual bool next(Frame& frame) = 0;
 
-    /// Number of frames that were captured but not returned by `next`.
+    /// Returns the number of frames that were captured but not returned by `next`.
     virtual std::int64_t dropped() const { return 0; }
 
-    /// Frame rate reported by the source, in frames per second; 0 if unknown.
+    /// Returns the frame rate reported by the source, in frames per second; 0 if unknown.
     virtual double rate() const { return 0; }
 
-    /// Mean number of bits per pixel of the compressed frames so far; 0 if unknown or lossless.
+    /// Returns the mean number of bits per pixel of the compressed frames so far; 0 if unknown or
+    /// lossless.
     virtual double bits_per_px() const { return 0; }
 
-    /// Number of frames reported by the source; 0 if unknown.
+    /// Returns the number of frames reported by the source; 0 if unknown.
     virtual std::int64_t length() const { return 0; }
 };
 

@@ -17,9 +17,10 @@ class SourceList : public FrameSource {
     /// `next_name` returns the name of the next source (source_kind.hpp), or none after the last.
     SourceList(std::function<std::optional<std::string>()> next_name, SourceOptions options);
 
-    /// Opens the first source, to make its rate available before the first frame. Otherwise, `next`
-    /// opens the source. Returns false if there are no names. Throws Error if the source does not
-    /// exist or cannot be read, and BadArgument if the size of raw frames is missing.
+    /// Opens the first source, to make its rate available before the first frame. Without this
+    /// call, `next` opens the first source. Returns false if there are no names. Throws Error if
+    /// the source does not exist or cannot be read, and BadArgument if the size of raw frames is
+    /// missing.
     bool open();
 
     /// Gets the next frame of all sources. Throws Error if a source fails; the following call
@@ -29,7 +30,7 @@ class SourceList : public FrameSource {
     double rate() const override { return source_ ? source_->rate() : 0; }
     double bits_per_px() const override { return bits_per_px_; }
 
-    /// Number of frames of the open source.
+    /// Returns the number of frames of the open source; 0 if unknown.
     std::int64_t length() const override { return source_ ? source_->length() : 0; }
 
     /// Returns the name of the newest frame: the path of an image, or SOURCE#N for frame N of
@@ -50,7 +51,7 @@ class SourceList : public FrameSource {
     std::unique_ptr<FrameSource> source_;
     std::string name_;        ///< name of the open source
     Frame newest_;            ///< newest frame without its image; `index` counts in its source
-    double bits_per_px_ = 0;  ///< of the newest source that returned a frame
+    double bits_per_px_ = 0;  ///< value of the newest source that returned a frame
     std::int64_t dropped_before_ = 0;
     std::int64_t next_index_ = 0;
     std::int64_t next_time_us_ = 0;

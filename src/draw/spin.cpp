@@ -16,7 +16,8 @@ namespace {
 
 using namespace dotpose::draw;
 
-/// Residual that fills the panel if all residuals are smaller. Noise therefore looks small.
+/// Minimum of the residual that the size of the panel represents. Mere noise therefore fills only a
+/// small part of the panel.
 constexpr double kMinFullScale_mm = 0.001;
 
 class SpinPicture {

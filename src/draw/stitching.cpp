@@ -19,7 +19,8 @@ namespace {
 using namespace dotpose::draw;
 
 constexpr double kMaxArrow = 70;
-/// Difference of the longest arrow if all differences are smaller. Noise therefore looks small.
+/// Minimum of the difference that an arrow of maximum length represents. Mere noise therefore has
+/// short arrows.
 constexpr double kMinArrowScale_mm = 0.002;
 
 /// Image centre of one frame, in world mm with y DOWN, and the difference between its positions on

@@ -12,7 +12,7 @@ namespace {
 
 using namespace evaluate_detail;
 
-/// The cell at the centre of the area. Any other cell would do.
+/// The cell at the centre of the area. The choice is arbitrary.
 constexpr Cell kMiddle{10'000, 20'000};
 
 /// Commanded pose of the device, and the page below it.

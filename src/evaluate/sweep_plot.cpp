@@ -1,5 +1,5 @@
-// Draws a sweep: the fraction of located frames at the top and the errors at the bottom, over the
-// same condition.
+// Draws a sweep: the fraction of located frames at the top and the errors at the bottom, as
+// functions of the same condition.
 #include <algorithm>
 #include <cmath>
 #include <limits>

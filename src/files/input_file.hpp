@@ -9,7 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-// Visible outside of the library because the tools library calls them too.
+// Exported, because the tools library uses these functions.
 #pragma GCC visibility push(default)
 
 namespace dotpose::files {

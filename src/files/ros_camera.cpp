@@ -16,8 +16,8 @@ namespace {
 /// replaces.
 constexpr double kMaxMisfit_px = 0.5;
 
-/// Maximum focal length and centre in px, and maximum distortion coefficients. They are far above
-/// those of real cameras. A fit to larger values may overflow.
+/// Maximum focal length and centre in px, and maximum distortion coefficients. The limits are far
+/// above the values of real cameras. A fit to larger values may overflow.
 constexpr double kMaxPx = 1e6;
 constexpr double kMaxDistortion = 1e3;
 

@@ -16,8 +16,8 @@ const SheetEntry* find(const SheetFile& file, const std::string& name) {
     return found == file.sheets().end() ? nullptr : &*found;
 }
 
-/// Returns true if two sheets have the same region. Sheets with the same name may differ, if the
-/// name was reassigned.
+/// Returns true if two sheets have the same region. Two sheets with the same name may have
+/// different regions, because the name may have been reassigned.
 bool is_same_region(const Sheet& a, const Sheet& b) {
     return a.origin == b.origin && a.columns == b.columns && a.rows == b.rows &&
            a.pattern.code == b.pattern.code && a.pattern.section == b.pattern.section;

@@ -31,7 +31,7 @@ enum Offset : std::size_t {
     x_per_metre = 38,
     y_per_metre = 42,
     palette_size = 46,
-    masks = 54,  ///< of red, green, blue and opacity
+    masks = 54,  ///< bit masks of red, green, blue and opacity
 };
 
 enum Compression : std::uint32_t { none = 0, bit_fields = 3, bit_fields_with_opacity = 6 };
@@ -47,7 +47,7 @@ struct BmpHeader {
     std::size_t palette_count;
     std::size_t palette_entry_bytes;
     std::array<std::uint32_t, 4>
-        masks;  ///< of red, green, blue and opacity, for 16 or 32 bits per pixel; 0 if missing
+        masks;  ///< bits of red, green, blue and opacity, with 16 or 32 bits per pixel; 0 if none
 };
 
 /// Reads an unsigned little-endian integer; `bytes` must be long enough.

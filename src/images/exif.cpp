@@ -18,7 +18,7 @@ bool is_of_camera(Bytes exif) {
     const std::unique_ptr<ExifData, decltype(&exif_data_unref)> data(exif_data_new(),
                                                                      exif_data_unref);
     if (!data) throw std::bad_alloc();
-    // Otherwise libexif would add and remove entries.
+    // Without this call, libexif would add and remove entries to follow the specification.
     exif_data_unset_option(data.get(), EXIF_DATA_OPTION_FOLLOW_SPECIFICATION);
     exif_data_load_data(data.get(), segment.data(), static_cast<unsigned>(segment.size()));
     return std::ranges::any_of(kCameraTags, [&](std::uint16_t tag) {

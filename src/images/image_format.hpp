@@ -18,20 +18,20 @@ namespace dotpose::images {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// A file in memory, and what is wanted of it.
+/// A file in memory, with the requested page and the maximum number of pixels.
 struct ImageInput {
     Bytes file;
-    int page = 1;  ///< of a TIFF file
+    int page = 1;  ///< number of the page of a TIFF file, from 1
     int max_pixels = kDefaultImagePixels;
 };
 
 struct ImageFormat {
-    /// Whether a file begins like this format.
+    /// Returns true if `head`, the first bytes of a file, is the signature of this format.
     bool (*matches)(std::string_view head);
     /// Decodes an image. `note` is set as in `read_image`, without the name of the file.
     GreyImage (*decode)(const ImageInput& input, std::string& note);
     /// Returns the origin and the resolution in the file, without decoding the pixels. The
-    /// resolution may be one that does not describe the page.
+    /// resolution may be a default of the program that wrote the file.
     ImageOrigin (*origin)(const ImageInput& input);
     /// Returns the number of pages; null for formats with one page.
     int (*count_pages)(Bytes file) = nullptr;
@@ -43,13 +43,14 @@ inline constexpr std::size_t kMagicBytes = 12;
 /// Detects the format from the first bytes of a file. Returns null for unknown bytes.
 const ImageFormat* format_of(Bytes head);
 
-/// A format that is not read, in this build or at all.
+/// A known format that this build cannot read.
 struct OtherFormat {
     bool (*matches)(std::string_view head);
     const char* name;    ///< for example "a GIF image"
     const char* remedy;  ///< instructions for converting it to a supported format
 };
-/// Detects a format that is not read from the first bytes of a file. Returns null for other files.
+/// Detects a known format that this build cannot read, from the first bytes of a file. Returns null
+/// for other files.
 const OtherFormat* other_format_of(Bytes head);
 
 // One source for each format.
@@ -86,8 +87,8 @@ std::optional<Resolution> resolution_from(double x, double y, double units_per_i
 /// length (CIPA DC-008).
 inline constexpr std::array<std::uint16_t, 4> kCameraTags{0x829A, 0x829D, 0x8827, 0x920A};
 
-/// Whether EXIF data, with or without the name "Exif" before their TIFF header, have a tag of
-/// cameras. Truncated or damaged data count as missing.
+/// Returns true if EXIF data contain one of kCameraTags. The name "Exif" may precede their TIFF
+/// header. Truncated or damaged data count as missing.
 bool is_of_camera(Bytes exif);
 
 }  // namespace dotpose::images

@@ -99,14 +99,15 @@ class TiffReader {
                                unit == RESUNIT_CENTIMETER ? kCentimetresPerInch : 1);
     }
 
-    /// Whether the page has EXIF data of a camera. Its directory then replaces that of the page.
+    /// Returns true if the page has EXIF data of a camera. Reading the EXIF directory replaces the
+    /// current directory of the page in libtiff.
     bool read_is_of_camera() {
         toff_t exif = 0;
         if (TIFFGetField(tiff_.get(), TIFFTAG_EXIFIFD, &exif) == 0 ||
             TIFFReadEXIFDirectory(tiff_.get(), exif) == 0)
             return false;
         return std::ranges::any_of(kCameraTags, [&](std::uint16_t tag) {
-            // The value, or the number of values and the first one.
+            // Output of libtiff: the value, or the number of values and a pointer to them.
             std::uint64_t value = 0;
             const void* values = nullptr;
             return TIFFGetField(tiff_.get(), tag, &value, &values) != 0;

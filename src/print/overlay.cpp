@@ -114,8 +114,8 @@ auto with_damage_errors(const fs::path& path, const Work& work) {
     }
 }
 
-/// Throws Error if the page is so large that it would get too many dots. A document may have pages
-/// of any size; a user unit allows even kilometres.
+/// Throws Error if the page would need more than kMaxDots dots. A page of a document may have any
+/// size, with /UserUnit even kilometres.
 void require_few_dots(const Sheet& sheet) {
     constexpr double kMaxDots = 5e7;
     const double dots = double{1} * sheet.columns * sheet.rows;
@@ -374,7 +374,7 @@ class Overlay {
     OverlayReport report_;
     /// Pages of the document, then pages of its copies.
     std::vector<QPDFPageObjectHelper> pages_;
-    /// Contents of the document's pages with dots, by page number.
+    /// Results of `scan_page` for the pages of the document that get dots, by page number.
     std::map<int, print::PageContent> contents_;
     std::vector<int> dotted_;
     std::vector<int> black_;

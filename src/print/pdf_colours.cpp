@@ -237,7 +237,7 @@ QPDFObjectHandle ColourConverter::pattern(QPDFObjectHandle original) {
         unconverted_.insert("shadings");
         return original;
     }
-    // An uncoloured tiling pattern has the colour that the using content sets.
+    // An uncoloured tiling pattern is painted in the current colour of the content that uses it.
     const bool is_coloured = original.getDict().getKey("/PaintType").isInteger() &&
                              original.getDict().getKey("/PaintType").getIntValue() == 1;
     if (!is_coloured) unconverted_.insert("uncoloured patterns");

@@ -1,5 +1,4 @@
-/// Writes a qpdf document through an OutputFile, which makes the file appear complete or not at
-/// all.
+/// Writes a qpdf document through an OutputFile, so the file appears completely or not at all.
 #pragma once
 
 #include <qpdf/Pipeline.hh>

@@ -18,7 +18,7 @@
 namespace dotpose::print {
 namespace {
 
-// Amount of black ink below which a black dot has enough contrast.
+// Amount of black ink in the content, 0 to 1, below which a black dot has enough contrast.
 constexpr double kHidingBlack = 0.1;
 
 /// The current colour. Content starts with device grey 0, which is black.

@@ -15,8 +15,8 @@ namespace dotpose {
 namespace print {
 namespace {
 
-// Offset that rounds all centres halfway between two pixels in the same direction. Without the
-// offset, rounding errors of the double would determine the direction.
+// Offset added before rounding to a pixel. All centres halfway between two pixels are then rounded
+// in the same direction. Without the offset, floating-point errors would determine the direction.
 constexpr double kTie_px = 1e-6;
 
 int diameter_px(const Sheet& sheet, double dpi) {

@@ -128,10 +128,10 @@ class MqttPublisher : public MqttClient {
     bool flush(std::chrono::milliseconds patience);
 
     std::int64_t sent() const;
-    /// Number of messages in the queue or being sent.
+    /// Returns the number of messages in the queue or being sent.
     std::int64_t unsent() const;
-    /// Number of messages that were never sent: newer messages replaced them in the queue, they
-    /// were invalid, or the connection broke while they were being sent (QoS 0).
+    /// Returns the number of messages that were never sent: newer messages replaced them in the
+    /// queue, they were invalid, or the connection broke while they were being sent (QoS 0).
     std::int64_t dropped() const;
 
   private:
@@ -147,9 +147,8 @@ class MqttPublisher : public MqttClient {
     void send_offline();
 
     std::deque<Message> waiting_;
-    std::set<int>
-        /// Messages in libmosquitto: not yet sent (QoS 0) or not yet acknowledged (QoS 1).
-        under_way_;
+    /// Messages in libmosquitto: not yet sent (QoS 0) or not yet acknowledged (QoS 1).
+    std::set<int> under_way_;
     std::set<int> presence_under_way_;  ///< presence messages that are not yet acknowledged
     bool is_online_published_ = false;  ///< true if `online` was published on this connection
     std::condition_variable done_;

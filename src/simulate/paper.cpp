@@ -34,8 +34,8 @@ class Texture {
           nodes_per_mm_(1 / (Imperfections::kGrain_px * view.camera.mm_per_px)),
           origin_{x_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_,
                   y_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_},
-          // A uniform value in [-1, 1) has the standard deviation 1/sqrt(3), and interpolation
-          // reduces it to 2/3.
+          // A uniform value in [-1, 1) has the standard deviation 1/sqrt(3). Interpolation
+          // multiplies the standard deviation by 2/3.
           amplitude_(deviation * std::sqrt(3.0) * 1.5) {
         if (deviation > 0) tabulate(view);
     }

@@ -21,7 +21,7 @@ constexpr float kDeviations = 3;
 constexpr float kMaxMotion = 2048;
 
 /// Converts a vector from the plane of the sighting to the pattern frame. The rotation between the
-/// two follows from the angle of the image x axis, which is known in both.
+/// two frames follows from the angle of the image x axis, which is known in both frames.
 std::array<float, 2> in_pattern(float x, float y, const Fix& fix, const Sighting& seen) {
     const auto pattern_bam = static_cast<std::uint32_t>(fix.theta_bam);
     const auto plane_bam = static_cast<std::uint32_t>(seen.theta_bam);

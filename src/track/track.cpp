@@ -61,8 +61,8 @@ bool is_reachable(const MotionEstimate& from, const Sighting& sighting,
            std::fabs(found.difference[2]) <= options.max_turn_rad_s * dt + slack_rad;
 }
 
-/// Returns log2 of an upper bound of the probability that a sighting within the gate is wrong.
-/// Returns 0 if the prediction does not help.
+/// Returns log2 of an upper bound on the probability that a sighting within the gate is wrong.
+/// Returns 0, the trivial bound, if the gate is too large for the prediction to reduce the bound.
 int p_wrong_with_prior(const Sighting& sighting, const Vector3& limits,
                        const TrackOptions& options) {
     const float half = std::max(limits[0], limits[1]) / options.spacing_mm;

@@ -46,7 +46,7 @@ class Device {
     int descriptor_;
 };
 
-/// Calls the driver for entries 0, 1, ... until there are no more.
+/// Calls `use` for each entry that the driver reports, at most kMaxEntries.
 template <typename Entry>
 void for_each_entry(const Device& device, unsigned long request, Entry entry,
                     const std::function<void(const Entry&)>& use) {

@@ -48,7 +48,7 @@ struct CalibrateOptions {
     std::function<bool(int done, int total)> progress;
 };
 
-/// Returns the given code variant, or none if it is to be detected.
+/// Returns the code variant of the options, or none if it must be detected from the frames.
 std::optional<CodeVariant> given_code(const CalibrateOptions& options);
 
 /// Required number of frames. With fewer frames, the verdict is `too_few_frames`.
@@ -114,7 +114,8 @@ struct SpinStation {
     double off_y_mm = 0;
 };
 
-/// Verdict on the calibration of a turn: `good`, or the reason why it is not reliable.
+/// Verdict on a calibration from a turn on the spot: `good`, or the reason why the calibration is
+/// not reliable.
 enum class MountVerdict {
     good,
     drifted,  ///< the robot drifted while it turned, by more than noise explains
@@ -178,7 +179,8 @@ struct ScaleReference {
     enum class By {
         /// No measurement: the mean of the two print scales of the fixed sheet does not change.
         fixed_sheet,
-        /// The mm per px of the camera are true, because they were calibrated with a true spacing.
+        /// The scale of the camera, in mm per px, is true, because the camera was calibrated with
+        /// the true spacing.
         camera,
         width  ///< the true width of a sheet was measured
     };
@@ -213,8 +215,8 @@ struct Seam {
     double residual_mm = 0;   ///< rms difference of the two positions over the frames, per axis
     double residual_rad = 0;  ///< rms difference of the two directions over the frames
 };
-/// Position of one frame's image centre on both sheets, relative to the first intersection of each
-/// sheet, in nominal mm.
+/// Position of the image centre of one frame on two sheets, relative to the first intersection of
+/// each sheet, in nominal mm.
 struct SeamSighting {
     std::size_t first = 0;  ///< index of the first sheet
     std::size_t second = 0;
@@ -245,10 +247,10 @@ struct Stitching {
 /// view is fitted to each part of a frame. The poses are then less accurate, and correct only if
 /// the fixed sheet has the print scales in the sheet file.
 ///
-/// Throws Error if there are fewer than two sheets, no frame shows two sheets, no sheet in view has
-/// a world pose although others have, the sheet of the reference is not stitched, or the camera
-/// gives a print scale with an error above 25 %. Throws BadArgument if the reference does not
-/// exist.
+/// Throws Error if there are fewer than two sheets, no frame shows two sheets, only sheets that no
+/// frame shows have a world pose, the sheet of the reference is not stitched, or the camera file
+/// implies a print scale that differs from 1 by more than 25 %. Throws BadArgument if the sheet of
+/// the reference does not exist.
 Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
                         const std::optional<Camera>& camera, const CalibrateOptions& options,
                         const ScaleReference& reference = {});

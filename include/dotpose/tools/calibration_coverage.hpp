@@ -82,7 +82,7 @@ struct CalibrationView {
 struct CalibrationNeed {
     enum class Kind { image, places, directions, frames, lens };
     Kind kind = Kind::frames;
-    std::string advice;  ///< advice in one line
+    std::string advice;  ///< one line for the user
 };
 
 /// The combined coverage of the frames taken.
@@ -101,10 +101,10 @@ class CalibrationCoverage {
 
     int frames() const { return frames_; }
     const ImageCoverage& image() const { return image_; }
-    /// Returns the number of places on the sheet with a distance of at least a quarter of the
-    /// shorter side of the image.
+    /// Returns the number of places on the sheet that are at least a quarter of the shorter side of
+    /// the image apart from each other.
     int places() const { return static_cast<int>(places_.size()); }
-    /// Returns the number of sectors with a frame.
+    /// Returns the number of sectors that contain the direction of at least one frame.
     int directions() const;
     /// Returns true if the image x axis of a frame is in sector `direction` of the full turn.
     /// Sectors are counted from the pattern's x axis towards its y axis.

@@ -37,8 +37,8 @@ struct DrawOptions {
     /// Spacing of the printed grid in mm, for the pose in mm. If it is not a number, the pose is in
     /// spacings.
     double spacing_mm = kDefaultSpacing_mm;
-    /// The fix after correction by a camera file, or after it was refused. Default: the fix of the
-    /// trace.
+    /// The fix to show: corrected by a camera file, or refused after `locate`. Default: the fix of
+    /// the trace.
     std::optional<Fix> fix{};
     std::string title{};  ///< for example the name of the file; default: none
     /// Place of the fix on a sheet. If it is given, the large numbers of the caption are the pose
@@ -102,14 +102,14 @@ void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> 
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 
-/// Draws Fig. 13 of the paper: the accuracy of x over the positions.
+/// Draws Fig. 13 of the paper: the accuracy of x at each position.
 void draw_figure_13(std::ostream& out, const Protocol& protocol);
-/// Draws Fig. 14 of the paper: the accuracy of y over the positions.
+/// Draws Fig. 14 of the paper: the accuracy of y at each position.
 void draw_figure_14(std::ostream& out, const Protocol& protocol);
-/// Draws Fig. 15 of the paper: the accuracy of theta over the angles.
+/// Draws Fig. 15 of the paper: the accuracy of theta at each angle.
 void draw_figure_15(std::ostream& out, const Protocol& protocol);
 
-/// Draws the success rate and the errors of both decoders over the varied condition.
+/// Draws the success rate and the errors of both decoders as functions of the varied condition.
 void draw_sweep(std::ostream& out, const Sweep& sweep);
 
 }  // namespace dotpose

@@ -32,8 +32,8 @@ struct FollowerOptions {
     DeviceOptions locate;
     /// The sheets that may be in view. If empty, poses are in the pattern frame.
     std::vector<SheetEntry> sheets;
-    /// Whether only these sheets can be in view. Otherwise other sheets are located, too, where
-    /// enough of them is seen. See Locator::set_known.
+    /// True if only these sheets can be in view. If false, other sheets are also located if enough
+    /// of their dots are in view. See Locator::set_known.
     bool has_only_sheets = false;
     /// The code variant; none to detect it from all images together. Not used if there are sheets,
     /// which have their own code variants.
@@ -71,7 +71,9 @@ struct Located {
 
 /// The result for one image of a sequence, given the previous images.
 struct Followed {
-    Located located;  ///< its `p_wrong` includes the prior if the fix needed the prior
+    /// Result of the image. If the fix was accepted only because of the predicted place, its
+    /// `p_wrong` includes the prior probability of that place.
+    Located located;
     Track track;
 };
 
@@ -80,9 +82,9 @@ class Follower {
   public:
     explicit Follower(const FollowerOptions& options);
 
-    /// Locates an image independently of other images. Reduces images larger than
-    /// `kMaxFrameSide_px`, unless there is a camera file. Accumulates the evidence for the code
-    /// variant over all images.
+    /// Locates an image without a prediction from other images. Reduces images larger than
+    /// `kMaxFrameSide_px`, unless there is a camera file. Only the evidence for the code variant is
+    /// accumulated over all images.
     Located locate(const GreyImage& image);
 
     /// Locates the next image of a sequence, taken at `time_us`. The previous images predict the
@@ -94,7 +96,7 @@ class Follower {
     bool is_in_world() const { return is_in_world_; }
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
 
-    /// Return data of the latest image: the image as located (possibly flipped and reduced), the
+    /// Return, for the latest image: the image that was located (possibly flipped and reduced), the
     /// options used, and the trace of the stages.
     ImageView image() const { return image_; }
     const DeviceOptions& used_options() const { return used_; }

@@ -53,7 +53,7 @@ struct Similarity {
     double shift_y_mm = 0;
     double turn_rad = 0;  ///< positive in the direction of the frame's angles
     double scale = 1;
-    /// Mean difference between true and found angles after the turn. It is the direction of the
+    /// Mean of true minus found angles after the turn. It is the direction of the independently
     /// measured heading in the image.
     double angle_offset_rad = 0;
 };

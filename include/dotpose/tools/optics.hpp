@@ -73,14 +73,16 @@ struct OpticsReport {
     bool block_fits_anywhere = false;
 
     double fastest_mm_s = 0;  ///< maximum speed for the exposure, without a turn
-    /// Maximum turn rate on the spot for the exposure, due to the middle of the far edge.
+    /// Maximum turn rate on the spot for the exposure. The limit is the motion of the middle of the
+    /// edge that is farthest from the image centre.
     double fastest_turn_rpm = 0;
     double longest_exposure_s = 0;  ///< maximum exposure for speed and turn rate together
     double blur_px = 0;             ///< blur at the given speed, turn rate and exposure
 
-    /// Nearest sharp distance from the lens, at which the blur is one pixel.
+    /// Distances from the lens at which the defocus blur is one pixel: nearer and farther than the
+    /// focused distance. `far_mm` may be infinite.
     double near_mm = 0;
-    double far_mm = 0;  ///< farthest sharp distance from the lens
+    double far_mm = 0;
     double depth_mm() const { return far_mm - near_mm; }
 
     std::vector<OpticsAdvice> advice;

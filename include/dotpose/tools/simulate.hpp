@@ -90,7 +90,7 @@ struct Imperfections {
     double fall = 0;
     double fall_direction_rad = 0;  ///< image direction of less light, from +u towards +v
     double blur_sigma_px = 0;
-    Vec2 motion_px;  ///< motion of the scene in the image during the exposure; the pose is that of
+    Vec2 motion_px;  ///< motion of the scene in the image during the exposure; the pose applies to
                      ///< the middle of the exposure
     double noise_sigma = 0;      ///< standard deviation in grey levels
     double salt_and_pepper = 0;  ///< fraction of the pixels that are black or white
@@ -143,7 +143,8 @@ struct Page {
     /// Printed length over nominal length, above 0. Pose and `displacement_mm` are nominal. Offsets
     /// and theta are on the paper.
     AxisScale print_scale;
-    /// Areas with printed dots, by the places of their intersections. The whole page if empty.
+    /// Areas with printed dots: a dot is printed if its intersection is in one of the areas. If
+    /// empty, all dots are printed.
     std::vector<PageArea> areas;
     /// Extent of the paper (none if unlimited), and reflectance of the table around it relative to
     /// paper.
