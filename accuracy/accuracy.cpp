@@ -104,8 +104,9 @@ void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     run.print_block("statuses", statuses);
 }
 
-/// Returns the last value up to which at least this share of the frames is located, counted from
-/// the first and easiest value. For the spacing, returns the range of values.
+/// Returns the limit of a condition: the last value such that at least the fraction `share` of the
+/// frames is located at this value and at all easier values. For the spacing, which has a lower and
+/// an upper limit, returns the range of values.
 std::string reach(const Sweep& sweep, Decoder decoder, double share) {
     const auto located = [&](std::size_t i) {
         const SweepPoint& point = sweep.points[i];

@@ -1,5 +1,5 @@
-// Bounds of any calibration: the residual with the true parameters, and the Cramer-Rao bounds for
-// the printer's jitter.
+// Bounds that no calibration can surpass: the residual with the true parameters, and the Cramer-Rao
+// bounds for the printer's jitter.
 #pragma once
 
 #include <map>

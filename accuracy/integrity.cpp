@@ -121,9 +121,9 @@ bool print(std::string_view title, const IntegrityTally& tally) {
     return all_hold;
 }
 
-/// Prints the counts of readings with p_wrong near 1e-3, 1e-4 and 1e-5, in one class of three
-/// powers of two each, with the upper confidence limit of the true rate. Returns true if all
-/// classes are consistent with p_wrong.
+/// Prints the counts of readings in three classes, with p_wrong near 1e-3, 1e-4 and 1e-5, and the
+/// upper confidence limits of the true rates. Each class comprises three powers of two. Returns
+/// true if all classes are consistent with p_wrong.
 bool print_doubtful(const IntegrityTally& tally) {
     bool all_hold = true;
     fmt::print("\n{:>15} {:>9} {:>7} {:>10} {:>16} {:>13}\n", "p_wrong", "read", "wrong", "rate",

@@ -13,7 +13,7 @@ namespace dotpose::tables {
 /// Options that accept every reading, however doubtful.
 inline constexpr IntegrityOptions kAcceptAll{0, 256};
 
-/// Number of readings in a class of p_wrong.
+/// Counts of the readings in a class of p_wrong.
 struct Bin {
     std::uint64_t frames = 0;
     std::uint64_t wrong = 0;

@@ -158,9 +158,9 @@ double apparent_information(const core::Grid& grid, const Decoding& decoding,
     return bits / 2;
 }
 
-/// Returns true if p_wrong is probably near 1e-5, the value that needs the most cases. Enough of
-/// these readings have a p_wrong near 1e-4 and 1e-3. Only such readings are verified, because
-/// `verify` takes 20 times the time of all previous steps.
+/// Returns true if p_wrong is probably near 1e-5, the class that needs the most readings. Enough of
+/// the selected readings turn out to have a p_wrong near 1e-4 and 1e-3. Only selected readings are
+/// verified, because `verify` takes 20 times the time of all previous steps.
 bool looks_doubtful(const core::Grid& grid, const Decoding& decoding,
                     const core::Nominal& nominal) {
     const double bits = apparent_information(grid, decoding, nominal);

@@ -17,7 +17,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// An A4 page as `dotpose print` makes it.
+/// Columns and rows of an A4 page of `dotpose print`, and the gap between two pages, in cells.
 constexpr std::uint32_t kColumns = 393;
 constexpr std::uint32_t kRows = 564;
 constexpr std::uint32_t kGap = 1024;

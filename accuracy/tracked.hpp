@@ -47,12 +47,12 @@ inline double quantile(std::vector<double> values, double share) {
 
 /// Results for one kind of prediction.
 struct TrackedTally {
-    std::uint64_t tracked = 0;        ///< right fixes that use the prediction
-    std::uint64_t afresh = 0;         ///< right fixes without the prediction, which was refused
-    std::uint64_t none = 0;           ///< frames without a fix
-    std::uint64_t tracked_wrong = 0;  ///< wrong fixes that use the prediction
-    std::uint64_t afresh_wrong = 0;   ///< wrong fixes without the prediction, which was refused
-    std::vector<double> errors_um;    ///< position errors of right fixes that use the prediction
+    std::uint64_t tracked = 0;        ///< number of correct fixes that use the prediction
+    std::uint64_t afresh = 0;         ///< number of correct fixes after the prediction was refused
+    std::uint64_t none = 0;           ///< number of frames without a fix
+    std::uint64_t tracked_wrong = 0;  ///< number of wrong fixes that use the prediction
+    std::uint64_t afresh_wrong = 0;   ///< number of wrong fixes after the prediction was refused
+    std::vector<double> errors_um;    ///< position errors of correct fixes that use the prediction
 
     /// Counts a fix. Without a true pose, every fix is wrong.
     void count(const Fix& fix, const std::optional<TrueView>& truth) {
@@ -135,9 +135,9 @@ TrackedTable changes_table(const TableRun& run, std::uint64_t frames);
 TrackedTable wrong_predictions_table(const TableRun& run, std::uint64_t predictions);
 
 /// Returns the wrong position that shares the maximum number of lines with `place`, among the
-/// `lines` columns that begin at `place` (rows if not `is_along_x`). The wrong position differs in
-/// the place in one secondary sequence along this axis, and in the section. All lines of the other
-/// direction are equal.
+/// `lines` columns that begin at `place` (rows if not `is_along_x`). Along this axis, the wrong
+/// position differs in its place in one secondary sequence, and in its section. All lines of the
+/// other axis are shared.
 Place worst_alternative(CodeVariant code, const Place& place, bool is_along_x, int lines);
 
 }  // namespace dotpose::tables

@@ -145,11 +145,12 @@ std::optional<View> draw_view(const ScannedPage& page, int width_px, int height_
 /// Counts of the views of one size.
 struct ViewCounts {
     int views = 0;
-    int given = 0;        ///< located with the code given
-    int alone = 0;        ///< of `given`: located without a given code, each view alone
-    int ambiguous = 0;    ///< of `given`: status ambiguous_code without a given code
-    int later_given = 0;  ///< of `given`: after the first kFirstViews views
-    int later = 0;        ///< of `later_given`: located with the evidence of all earlier views
+    int given = 0;  ///< number of views located with the code given
+    // Numbers of `given` views for which the following holds if the code is not given:
+    int alone = 0;        ///< located without evidence of other views
+    int ambiguous = 0;    ///< refused with the status ambiguous_code, without such evidence
+    int later_given = 0;  ///< follows the first kFirstViews views
+    int later = 0;        ///< counted in `later_given`, and located with the evidence of all views
     int wrong = 0;
     double max_against_log2 = 0;  ///< maximum evidence of one view alone against the given code
 };

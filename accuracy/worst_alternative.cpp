@@ -12,7 +12,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// Position and section along one axis, and along the axis across it (`cross`).
+/// Position and section along one axis, and along the perpendicular axis (`cross`).
 struct Along {
     std::uint32_t position;
     std::uint8_t section;
@@ -55,7 +55,8 @@ std::uint8_t section_of(int value) {
     return static_cast<std::uint8_t>((value % kSections + kSections) % kSections);
 }
 
-/// Returns the section with the largest number of lines, from `position`, that have these rolls.
+/// Returns the section in which the largest number of lines, from `position` on, have the rolls
+/// `rolls`.
 std::uint8_t likest_section(CodeVariant code, std::uint32_t position, std::uint32_t cross,
                             const std::vector<std::uint8_t>& rolls) {
     std::vector<std::uint8_t> there(rolls.size());

@@ -1,4 +1,5 @@
-// Measures how many frames of a tilted camera the first attempt locates, and the times.
+// Measures, at several tilts of the camera, the number of frames that the first attempt locates and
+// the time per frame.
 #include <algorithm>
 #include <cmath>
 #include <memory>

@@ -35,9 +35,9 @@ GreyImage copy_of(ImageView image) {
 
 }  // namespace
 
-/// Keeps a copy of the first frame with a status, then of the second, fourth, eighth and so on. At
-/// the end of the run, the copy is from the last half of these frames, and only few copies were
-/// made.
+/// Counts a failed frame by its status. The first, second, fourth, eighth (and so on) frame with a
+/// status replaces the copy of the previous frame. At the end of the run, the copy is therefore
+/// from the second half of the frames with this status, although few copies were made.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;

@@ -10,8 +10,8 @@
 
 namespace dotpose::cli {
 
-/// One part of the robots. The hash of its name assigns a robot to a part. The hash is the same on
-/// all computers, so fleets need no connection to each other.
+/// One part of the robots. A robot belongs to the part that the hash of its name selects. The hash
+/// is the same on all computers, so fleets need no connection to each other.
 struct Shard {
     std::uint64_t index = 1;  ///< from 1 to `count`
     std::uint64_t count = 1;

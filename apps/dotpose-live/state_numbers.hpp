@@ -13,8 +13,9 @@ namespace dotpose::cli {
 struct StateCounts {
     std::int64_t messages = 0;
     std::int64_t missed = 0;  ///< number of missing states so far, from gaps in the numbers
-    std::int64_t late = 0;    ///< states that arrived after newer states; no longer missing
-    /// States that arrived before; with QoS 1, a broken connection repeats some states.
+    std::int64_t late = 0;    ///< number of states that arrived after newer states; not in `missed`
+    /// Number of states that had arrived before. With QoS 1, some states are sent again after a
+    /// broken connection.
     std::int64_t repeated = 0;
 
     StateCounts& operator+=(const StateCounts& more);
@@ -24,10 +25,11 @@ class StateNumbers {
   public:
     enum class Arrival { news, late, repeated };
 
-    /// Takes a state and counts it. A state is news if its number is higher than all numbers
-    /// before, regardless of its time. A state with a lower number but a later time is also news,
-    /// from a restarted robot. If both are lower, the state is late. Several such states in
-    /// ascending order are news, from a robot that restarted with its clock set back.
+    /// Takes a state and counts it. A state is news if its number is higher than the numbers of all
+    /// earlier states, regardless of its time. A state with a lower number but a later time is also
+    /// news, from a restarted robot. A state with a lower number and an earlier time is late.
+    /// Several such states in ascending order of time are news, from a robot that restarted with
+    /// its clock set back.
     Arrival take(const RobotState& state, StateCounts& counts);
 
   private:

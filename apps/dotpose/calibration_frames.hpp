@@ -13,8 +13,9 @@ namespace dotpose::cli {
 inline constexpr const char* kMirrored =
     "the frames show the pattern mirrored: use --flip, which is then written into the camera file";
 
-/// All named images, and at most 50 frames of each video, camera or raw stream. These frames show
-/// different places. Images stay on disk; the chosen frames are kept in memory.
+/// The frames of a calibration: all named images, and at most 50 frames of each video, camera or
+/// raw stream, which show different places. Images are read from their files on request. The frames
+/// of videos, cameras and raw streams are kept in memory.
 class CalibrationFrames {
   public:
     /// Reads videos and raw frames to their end, and a camera until 50 places were seen. Ctrl-C

@@ -46,9 +46,9 @@ std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
     return names;
 }
 
-/// Formats the help in two columns. The first has an option with its value. The second has its
-/// description, followed in parentheses by the default and by the options that it needs or
-/// excludes.
+/// Formats the help in two columns. The first column contains an option with its value. The second
+/// column contains the description of the option, followed in parentheses by the default and by the
+/// options that the option needs or excludes.
 class HelpFormatter : public CLI::Formatter {
   public:
     HelpFormatter() {
@@ -106,7 +106,7 @@ std::pair<std::string, std::string> split(const std::string& text, std::string_v
 }
 
 /// Returns the error message for an error of CLI11, whose own messages name types and counts. The
-/// names of options and the values are available only as a part of its text.
+/// names of options and the values are available only as parts of the text of the error.
 std::string message_of(const CLI::ParseError& error) {
     const std::string text = error.what();
     if (text == "A subcommand is required") return "no command given";

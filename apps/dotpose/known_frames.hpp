@@ -21,10 +21,10 @@ struct KnownFrames {
 };
 
 /// Returns the frames of the sources with their poses. The poses are read from `poses` or, without
-/// it, from truth.csv beside the images or the video. A folder has the frames of all rows of its
-/// file; another image has the row whose `file` names it. If a video, a camera or raw frames are
-/// among the sources, row N belongs to frame N, counted over all sources. Throws Error if there are
-/// no poses, or no pose of an image.
+/// it, from truth.csv beside the images or the video. A folder stands for the frames of all rows of
+/// its truth.csv. Any other image has the pose in the row whose `file` names the image. If a video,
+/// a camera or raw frames are among the sources, row N belongs to frame N, counted over all
+/// sources. Throws Error if there are no poses, or an image has no pose.
 KnownFrames known_frames(const SourceArguments& arguments, const std::string& poses,
                          std::optional<double> spacing_mm);
 

@@ -200,7 +200,7 @@ GreyImage reduced_by(ImageView image, int by) {
     return small;
 }
 
-/// Returns the spacing of the dots in px if the dots of the reduced image lie on a grid and the
+/// Returns the spacing of the dots in px if the dots of the reduced image form a grid and the
 /// spacing is too large.
 std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {

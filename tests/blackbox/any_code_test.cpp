@@ -19,9 +19,9 @@ namespace {
 using testing::AnyOf;
 using testing::HasSubstr;
 
-/// The sequence a4 of the codes anoto and libdots differs in lines whose positions modulo 241 are
-/// 222 to 238 (docs/position-code.md): lines from 222 on are shifted by one position in the other
-/// code.
+/// Positions modulo 241, the period of the sequence a4. In the codes anoto and libdots, a4 differs
+/// at the positions 222 to 238 (docs/position-code.md): from 222 on, the digits of one code are
+/// shifted by one position in the other code.
 constexpr std::uint32_t kPeriod = 241;
 constexpr std::uint32_t kShifted = 231;
 constexpr std::uint32_t kBorder = 221;

@@ -180,8 +180,8 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
     }
 }
 
-/// Frames on a sheet. A stage measured their poses in a frame of reference with another origin,
-/// direction and unit.
+/// Frames on a sheet. A motion stage measured their poses in a frame of reference with another
+/// origin, direction and unit.
 class EvaluateMeasured : public EvaluateCommand {
   protected:
     void SetUp() override {
@@ -199,8 +199,8 @@ class EvaluateMeasured : public EvaluateCommand {
                       frame_of(sheet, x_mm, y_mm, 0.4 * i, static_cast<std::uint64_t>(i)).view());
             by_ruler << name << ",table," << x_mm << ',' << y_mm << ',' << 0.4 * i * kDegrees
                      << '\n';
-            // The stage has y up, is rotated by a quarter turn, and its millimetres are 0.3 %
-            // longer.
+            // The frame of the stage has y up and is rotated by a quarter turn. Its coordinates are
+            // 0.3 % too large.
             by_stage << name << ',' << 1.003 * y_mm / 1000 << ',' << 1.003 * x_mm / 1000 << ','
                      << 90 - 0.4 * i * kDegrees << '\n';
         }

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 70;
 
-/// Returns the number of frames. Fewer for large images, which take longer.
+/// Returns the number of frames for a camera. The number is smaller for large images, which take
+/// longer.
 std::uint64_t frames_of(const CameraModel& camera) {
     constexpr int kSmall_px = 200 * 200;
     constexpr int kMedium_px = 1280 * 960;

@@ -398,8 +398,8 @@ TEST_F(SheetFiles, pictures_show_the_profile_that_was_found) {
     ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --code microdots "
                     "--spacing 0.6"),
               0);
-    // This place is on no sheet. After the second code variant was tried, the picture shows the fix
-    // of the first.
+    // This place is on no sheet. Although the second code variant was tried afterwards, the picture
+    // shows the fix of the first.
     write_frame("elsewhere.pgm", 0);
     run("--sheets sheets.json --draw pictures elsewhere.pgm");
     EXPECT_EQ(records().at(0)["status"], "ok");

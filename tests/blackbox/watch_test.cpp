@@ -84,8 +84,8 @@ void expect_events(const std::vector<json>& lines, const Drive& drive) {
     EXPECT_NEAR(events[2].first, first_away(drive, frame_at(plan.start), 1, 0), 1);
     // The robot is lost 70 ms, or 14 frames, after the last frame before it was lifted.
     EXPECT_EQ(events[3].first, frame_at(plan.lift) - 1 + 14);
-    // This is the third frame in which the robot is farther away than it can have driven at 400
-    // mm/s.
+    // The event is reported in the third frame in which the robot is farther away than it can have
+    // driven at 400 mm/s.
     EXPECT_EQ(events[4].first, frame_at(plan.put_down) + 2);
     EXPECT_EQ(events[5].first, frame_at(plan.second_lift) - 1 + 14);
     EXPECT_EQ(events[6].first, frame_at(plan.second_put_down));
@@ -209,8 +209,8 @@ void cover_all_but(GreyImage& image, int side) {
 }
 
 TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
-    // Whole frames reach the certainty of 1e-13. Frames with about 45 dots do not, although the
-    // sheet is known.
+    // In whole frames, p_wrong is below 1e-13. In frames with about 45 dots, p_wrong is larger,
+    // although the sheet is known.
     constexpr int kSide_px = 76;
     const DriveCamera camera(188, 120);
     std::ofstream raw(directory_ / "weak.raw", std::ios::binary);

@@ -82,8 +82,8 @@ inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int 
 inline constexpr double kPivot_x_mm = 60'000;
 inline constexpr double kPivot_y_mm = 45'000;
 
-/// Error of the located robot, along its own axes, and of its angle. The means over many directions
-/// leave only the error of the calibration.
+/// Mean error of the place of a located robot, along the axes of the robot, and mean error of its
+/// heading. In the means over many directions, only the error of the calibration remains.
 struct RobotError {
     Vec2 place_mm;
     double heading_rad = 0;

@@ -58,9 +58,9 @@ TEST(CalibrateLens, FindsThePapersLens) {
     expect_near_truth(result.camera, "mm_per_px_x", paper.mm_per_px_x, truth.mm_per_px);
     expect_near_truth(result.camera, "mm_per_px_y", paper.mm_per_px_y, truth.mm_per_px);
     expect_near_truth(result.camera, "skew", paper.skew, 0);
-    EXPECT_FALSE(result.camera.focal_px.has_value());  // not determined by frames seen from
-                                                       // straight above above
-    // Without the lens, noise is only a small part of the residual.
+    // Frames seen from straight above do not determine the focal length.
+    EXPECT_FALSE(result.camera.focal_px.has_value());
+    // Without correction of the lens distortion, noise is only a small part of the residual.
     EXPECT_GT(result.residual_before_px, 3 * result.residual_px);
     EXPECT_EQ(result.coverage, 1);
 }
@@ -97,7 +97,7 @@ TEST(CalibrateLens, ASlightTiltTellsAnUnbiasedFocalLength) {
     EXPECT_LT(std::abs(normalised) / std::sqrt(kSeries), kMaxSigmas);
 }
 
-// The far corner has half the px per spacing of the middle.
+// In the farthest corner, the spacing in px is half the spacing in the middle.
 TEST(CalibrateLensAtLength, AStrongTiltIsCoveredToTheCorners) {
     CameraModel truth;
     truth.width_px = 640;

@@ -216,7 +216,7 @@ TEST_F(ImageFileTest, refuses_too_large_images) {
 
 TEST_F(ImageFileTest, refuses_more_pixels_than_asked_for) {
     const Raster grey{8, 8, 1, 8, std::vector<std::uint16_t>(64, 255)};
-    const Raster blocks{1, 1, 1, 8, {255}};  // of 8 x 8 px
+    const Raster blocks{1, 1, 1, 8, {255}};  // one block of 8 x 8 px
     for (const Bytes& bytes :
          {encode_pnm(grey, false, 255), encode_png(grey), encode_tiff(grey, false),
           encode_bmp(grey, Bytes(768, 255)), encode_jpeg(blocks)}) {

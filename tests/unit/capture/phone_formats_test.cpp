@@ -83,7 +83,7 @@ class PhoneFormatTest : public testing::TestWithParam<PhoneFormat> {
         return "";
     }
 
-    /// An image with noise.
+    /// Returns an image of noise.
     static Raster noise() {
         std::mt19937 random(7);
         Raster raster{kWidth_px, kHeight_px, 1, 8, {}};
@@ -158,7 +158,7 @@ TEST_P(PhoneFormatTest, SurvivesRandomDamage) {
     const Bytes whole = bytes_of(image);
     for (int round = 0; round < 500; ++round) {
         Bytes damaged = whole;
-        // Half of the damage hits the headers, where it matters most.
+        // Half of the damage is in the headers, where damage has the largest effect.
         const std::size_t reach = round % 2 == 0 ? whole.size() : std::size_t{400};
         for (std::uint32_t flips = 1 + random() % 8; flips > 0; --flips)
             damaged[random() % reach] = static_cast<std::uint8_t>(random());

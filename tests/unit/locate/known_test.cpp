@@ -10,7 +10,7 @@ namespace dotpose::core_test::known_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 4242;
-/// A page of A4.
+/// The region of an A4 page.
 constexpr KnownRegion kSheet{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
 
 /// Draws a view of the sheet.

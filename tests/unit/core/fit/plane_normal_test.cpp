@@ -42,7 +42,7 @@ ScaledPlane scaled(const PlaneFromImage& plane) {
     return {float_plane(plane), kReach_px};
 }
 
-/// Returns the place of a pixel as the first of four. The other three are at other pixels.
+/// Returns the places of four pixels: `pixel_q8`, and three arbitrary pixels.
 FourVecs project(const ScaledPlane& scaled, const PlaneFromImage& plane, FixedVec pixel_q8) {
     const auto x = static_cast<float>(pixel_q8.x - plane.centre_q8.x) / 256;
     const auto y = static_cast<float>(pixel_q8.y - plane.centre_q8.y) / 256;

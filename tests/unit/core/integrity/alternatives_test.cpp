@@ -75,9 +75,10 @@ TEST(Alternatives, FewLinesExcludeNone) {
 
 using Odds = std::array<float, kSections>;
 
-/// Returns the sum, over all alternatives, of the odds given by two lines, enumerating every digit
-/// of every sequence that differs. The first line of the reading is at `position`, and `factor` is
-/// the factor of the step between the lines.
+/// Returns the expected sum of the odds of all alternatives that differ in two or more sequences.
+/// `first` and `second` are the odds of two adjacent lines at each roll offset. Enumerates every
+/// digit of every sequence that differs. The first line of the reading is at `position`. `factor`
+/// multiplies the result, once for the step between the lines.
 double two_lines(std::uint32_t position, const Odds& first, const Odds& second, double factor) {
     constexpr std::array<int, 4> kBases{3, 3, 2, 3};
     const auto texts = code_test::secondary_texts(CodeVariant::anoto);
@@ -161,7 +162,8 @@ TEST(ExpectedAlternatives, OfTwoLinesAreThoseOfEveryPairOfDigits) {
 }
 
 TEST(ExpectedAlternatives, EachDifferenceHasItsOwnShare) {
-    // Each line has odds at a single shift, so the sum is the fraction of one difference.
+    // Each line has odds at a single roll offset, so the sum is the expected number of alternatives
+    // with one particular difference.
     for (const int from : {0, 5, 62}) {
         for (int to = 0; to < 63; ++to) {
             Odds first{};

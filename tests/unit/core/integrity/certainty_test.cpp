@@ -78,8 +78,8 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
 }
 
 /// Returns bits between two alternatives: where the columns of the two alternatives differ, half of
-/// the distinguishing bits belong to each. The two alternatives therefore explain the view equally
-/// well.
+/// the distinguishing bits agree with one alternative, and half with the other. The two
+/// alternatives therefore explain the view equally well.
 Block between(const Block& block, const std::vector<int>& own,
               const std::vector<int>& alternative) {
     Block mixed = block;

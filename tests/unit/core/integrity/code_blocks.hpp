@@ -113,7 +113,7 @@ inline double exact_log2(const Block& block) {
     const double odds_per_bit = core::odds_per_bit_q8(both) / 256.0;
     for (const bool is_x : {true, false}) {
         const int own_wrong = errors[is_x ? 0 : 1];
-        // Chance is at least as probable as the sum over the binomial distribution.
+        // The exact probability of chance, which the verdict must not underestimate.
         sum += std::exp2(
             static_cast<double>(exact_chance_log2(read)[static_cast<std::size_t>(own_wrong)]));
         const auto texts = code_test::secondary_texts(block.code);

@@ -28,10 +28,9 @@ double perspective_tolerance(const std::vector<PlacedDot>&) {
 struct Stage {
     const char* name;
     decltype(grow_grid)* find_grid;
-    /// Tolerance of fits to displaced dots, and of fits to dots on their intersections, in
-    /// spacings.
+    /// Returns the tolerance, in spacings, of a fit to displaced dots.
     double (*tolerance)(const std::vector<PlacedDot>& dots);
-    double plain_tolerance;
+    double plain_tolerance;  ///< tolerance of a fit to dots on their intersections, in spacings
 };
 void PrintTo(const Stage& stage, std::ostream* out) {
     *out << stage.name;
@@ -97,7 +96,7 @@ TEST_P(OutwardGrid, RefusesScatteredDots) {
     }
 }
 
-/// Cases at the limits: 7 of 10 close dots, and mean squares of 1/10 and 1/256.
+/// Cases at the limits: 7 of 10 dots near their intersections, and mean squares of 1/10 and 1/256.
 TEST(Regularity, JudgesByItsBounds) {
     const auto verdict = [](int near, double mean_square) {
         const Regularity regularity{100, near, 9};
