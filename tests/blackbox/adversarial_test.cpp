@@ -1,5 +1,5 @@
-// Frames designed to deceive `locate`: a fix must be the true pose. `dotpose_tables adversarial`
-// tests any number of such frames.
+// Tests `locate` with frames that are designed to deceive it: every fix must be the true pose.
+// `dotpose_tables adversarial` tests any number of such frames.
 #include <memory>
 #include <string>
 

@@ -1,4 +1,4 @@
-// The first afternoon of typical users, with one test each, as promised in docs/start.md.
+// Tests what typical users do on their first afternoon with dotpose, as described in docs/start.md.
 #include <cmath>
 #include <fstream>
 #include <numbers>

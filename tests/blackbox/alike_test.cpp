@@ -1,5 +1,5 @@
-// Frames in which all dots have the same sub-pixel phase, so the error of a centroid that depends
-// on the phase does not average out.
+// Tests frames in which all dots have the same sub-pixel phase. The error of a centroid depends on
+// the phase, so in these frames the errors do not average out.
 #include <cstdint>
 #include <memory>
 #include <ostream>

@@ -1,4 +1,5 @@
-// Conventions of all commands: `-o -` for standard output, and the options --format and --draw.
+// Tests conventions that all commands share: `-o -` for standard output, and the options --format
+// and --draw.
 #include <string>
 
 #include <gmock/gmock.h>

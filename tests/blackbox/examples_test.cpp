@@ -1,4 +1,4 @@
-// The small examples, run as shown in README.md and docs/tracking.md.
+// Tests the example programs, run as shown in README.md and docs/tracking.md.
 #include <cmath>
 #include <string>
 

@@ -1,5 +1,5 @@
-// Output of long operations on a terminal: progress with the remaining time, colour, and partial
-// results after Ctrl-C. `script` provides the terminal.
+// Tests the output of long operations on a terminal: progress with the remaining time, colour, and
+// partial results after Ctrl-C. The program `script` provides the terminal.
 #include <cstdint>
 #include <fstream>
 #include <string>

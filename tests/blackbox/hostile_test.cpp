@@ -1,4 +1,4 @@
-// Malicious input: names and files designed to do harm.
+// Tests malicious input: names and files designed to do harm.
 #include <filesystem>
 #include <fstream>
 #include <string>

@@ -1,5 +1,4 @@
-// The worst frames that `locate` must locate according to docs/limits.md, tested through `locate`
-// alone.
+// Tests that `locate` locates the worst frames that docs/limits.md promises.
 #include <algorithm>
 #include <cctype>
 #include <memory>

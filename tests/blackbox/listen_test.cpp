@@ -1,4 +1,4 @@
-// `dotpose listen`: packets from a file, a pipe and a serial device.
+// Tests `dotpose listen` with packets from a file, a pipe and a serial device.
 #include <string>
 #include <thread>
 #include <vector>

@@ -1,5 +1,5 @@
-// `dotpose calibrate --live` without a display: the tool takes frames that add information, reports
-// the missing requirements, and ends automatically.
+// Tests `dotpose calibrate --live` without a display: the tool takes frames that add information,
+// reports the missing requirements, and ends automatically.
 #include <fstream>
 #include <iterator>
 #include <regex>

@@ -1,5 +1,5 @@
-// Advice of `dotpose locate` on pictures that cannot be read, or that can be read only after a
-// change.
+// Tests the advice of `dotpose locate` on pictures that cannot be read, or that can be read only
+// after a change.
 #include <cmath>
 #include <numbers>
 #include <string>

@@ -1,4 +1,4 @@
-/// Runs `dotpose locate` as a black box, with frames and records.
+/// Runs `dotpose locate` as a black box, and provides frames and parsed records.
 #pragma once
 
 #include <cstdint>

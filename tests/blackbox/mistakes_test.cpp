@@ -1,5 +1,5 @@
-// Plausible mistakes of new users. The exit status reports the error, and one message names the
-// cause and the next step.
+// Tests plausible mistakes of new users. The exit status must report the error, and one message
+// must name the cause and the next step.
 #include <ostream>
 #include <string>
 

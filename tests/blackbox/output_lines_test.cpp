@@ -1,4 +1,4 @@
-// The lines of `locate`, `watch` and `listen`: schema, units and covariances.
+// Tests the lines of `locate`, `watch` and `listen`: schema, units and covariances.
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-// Frames without a valid position, tested through `locate` alone. No frame may give a fix.
+// Tests that `locate` refuses all frames without a valid position.
 #include <memory>
 #include <string>
 

@@ -1,4 +1,4 @@
-// `dotpose replay`: the figures of a log, compared with values computed by hand.
+// Tests `dotpose replay`: compares the figures of a log with values computed by hand.
 #include <string>
 
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
-// Locates frames of printed pages on the page and in the world, with the tool alone: `dotpose
-// print` with a sheet file, frames of the pages, and `dotpose locate` with the sheet file.
+// Tests poses on the page and in the world, with the tool alone: prints pages with `dotpose print`
+// and a sheet file, renders frames of the pages, and locates the frames with `dotpose locate` and
+// the sheet file.
 #include <algorithm>
 #include <cmath>
 #include <complex>

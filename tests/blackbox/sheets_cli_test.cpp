@@ -1,4 +1,4 @@
-// `dotpose sheets` edits sheet files without an editor.
+// Tests `dotpose sheets`, which edits sheet files.
 #include <filesystem>
 #include <numbers>
 #include <string>

@@ -1,4 +1,4 @@
-// Prints into a sheet file, and locates with the sheet file.
+// Prints pages into a sheet file, and locates frames with the sheet file.
 #pragma once
 
 #include <cmath>

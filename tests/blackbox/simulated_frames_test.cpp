@@ -1,5 +1,5 @@
-// Simulated frames with known poses, tested through `locate` alone. DOTPOSE_LONG_TESTS=1 in the
-// environment increases their number.
+// Tests `locate` with simulated frames of known poses. DOTPOSE_LONG_TESTS=1 in the environment
+// increases the number of frames.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Sheets that are not one plane, tested through `locate` and through the tool.
+// Tests sheets that are not one plane, with `locate` and with the tool.
 #include "../slipped_frames.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Sources of frames: checks that all commands accept the same sources, and give the same results
-// for the same frames.
+// Tests that all commands accept the same sources of frames, and give the same results for the same
+// frames.
 #include <algorithm>
 #include <cmath>
 #include <sstream>

@@ -1,5 +1,5 @@
-// `dotpose calibrate --stitch`: computes the world poses in the sheet file from frames that show a
-// seam between sheets.
+// Tests `dotpose calibrate --stitch`, which computes the world poses in the sheet file from frames
+// that show a seam between sheets.
 #include <algorithm>
 #include <cmath>
 #include <fstream>

@@ -1,4 +1,4 @@
-/// Runs `dotpose` as a black box, in a directory with files.
+/// Runs `dotpose` as a black box in a temporary directory.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Help, and messages for invalid command lines.
+// Tests the help, and the messages for invalid command lines.
 #include <sstream>
 #include <string>
 

@@ -1,4 +1,5 @@
-// `dotpose watch --camera` reports the pose of the robot, as `dotpose locate --camera` does.
+// Tests that `dotpose watch --camera` reports the pose of the robot, as `dotpose locate --camera`
+// does.
 #include <cmath>
 #include <numbers>
 #include <sstream>

@@ -1,4 +1,5 @@
-// Frames that `dotpose watch` saves for calibration, and its report of why most frames fail.
+// Tests the frames that `dotpose watch` saves for calibration, and its report of why most frames
+// fail.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>

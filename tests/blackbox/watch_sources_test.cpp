@@ -1,4 +1,4 @@
-// Messages of `dotpose watch` about its sources, and the boundaries of frames.
+// Tests the messages of `dotpose watch` about its sources, and sources that end inside a frame.
 #include <string>
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// `dotpose watch` on a simulated drive: events, accuracy and outputs.
+// Tests `dotpose watch` on a simulated drive: events, accuracy and outputs.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-// Checks of prints, scanned by an independent renderer (tests/scanned_page.hpp).
+// Tests `check_print` on prints scanned by an independent renderer (tests/scanned_page.hpp).
 #include "dotpose/tools/check_print.hpp"
 
 #include <algorithm>

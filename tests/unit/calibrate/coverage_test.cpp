@@ -1,5 +1,5 @@
-// Coverage of a calibration: the views that it still needs, and the accuracy of a lens in the
-// corner.
+// Tests the coverage of a calibration: the requirements that are not met yet, and the uncertainty
+// of a lens in the corner.
 #include <algorithm>
 #include <cmath>
 #include <optional>

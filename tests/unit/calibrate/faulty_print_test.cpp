@@ -1,4 +1,5 @@
-// Prints with one known fault each, scanned by an independent renderer (tests/scanned_page.hpp).
+// Tests `check_print` on prints with one known fault each, scanned by an independent renderer
+// (tests/scanned_page.hpp).
 #include <ostream>
 #include <string>
 #include <vector>

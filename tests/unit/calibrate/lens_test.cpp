@@ -1,4 +1,4 @@
-// Lens calibrations of simulated cameras with known lens, tilt and focal length.
+// Tests lens calibrations of simulated cameras with known lens, tilt and focal length.
 #include <cmath>
 #include <fstream>
 #include <sstream>

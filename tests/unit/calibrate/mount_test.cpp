@@ -1,4 +1,5 @@
-// The mount of a camera on a robot that turns on the spot and drives straight ahead.
+// Tests the calibration of the mount of a camera on a robot that turns on the spot and drives
+// straight ahead.
 #include <cmath>
 #include <fstream>
 #include <sstream>

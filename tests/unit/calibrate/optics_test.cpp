@@ -1,5 +1,5 @@
-// Optics reports, compared with the numbers in section III-A of the paper and with the equations of
-// a thin lens.
+// Tests optics reports against the numbers in section III-A of the paper and the equations of a
+// thin lens.
 #include "dotpose/tools/optics.hpp"
 
 #include <cmath>

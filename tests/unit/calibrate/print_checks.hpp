@@ -1,4 +1,4 @@
-/// A small print, and the faults found on its scan.
+/// Makes a small print, and returns the faults found on its scan.
 #pragma once
 
 #include <numbers>

@@ -1,5 +1,5 @@
-// Print views: pages seen by cameras. The test computes the geometry of the cameras independently
-// of the code under test.
+// Tests the detection of cameras from pages seen by cameras. The test computes the geometry of the
+// cameras independently of the code under test.
 #include "calibrate/print_view.hpp"
 
 #include <cmath>

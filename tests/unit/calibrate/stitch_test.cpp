@@ -1,4 +1,5 @@
-// Stitching of four adjacent sheets with gaps and small rotations, by a camera over their seams.
+// Tests the stitching of four adjacent sheets with gaps and small rotations, from frames over their
+// seams.
 #include <cmath>
 #include <fstream>
 #include <sstream>

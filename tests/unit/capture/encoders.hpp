@@ -1,4 +1,5 @@
-/// Image files written by hand, to test the reader independently of the library it uses.
+/// Encoders of image files, written for the tests. The tests of the reader are therefore
+/// independent of the libraries that the reader uses.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Rare kinds of image files. image_file_test.cpp tests the common kinds.
+// Tests rare kinds of image files. image_file_test.cpp tests the common kinds.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

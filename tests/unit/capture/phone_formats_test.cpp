@@ -1,4 +1,4 @@
-// WebP, HEIC and AVIF, written by the programs of libwebp and libheif.
+// Tests WebP, HEIC and AVIF files, written by the programs of libwebp and libheif.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

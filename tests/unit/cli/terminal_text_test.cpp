@@ -1,4 +1,4 @@
-// Coloured reports, and durations in words.
+// Tests coloured reports, and durations in words.
 #include "terminal_text.hpp"
 
 #include <gtest/gtest.h>

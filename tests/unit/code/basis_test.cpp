@@ -1,4 +1,4 @@
-// Positions from places in the four sequences, compared with division.
+// Tests the conversion of places in the four sequences to a position, against division.
 #include "code/basis.hpp"
 
 #include <gtest/gtest.h>

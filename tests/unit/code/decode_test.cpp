@@ -1,4 +1,4 @@
-// Positions of windows: exact if the code contains the window, and refused otherwise.
+// Tests the decoding of windows: exact if the code contains the window, refused otherwise.
 #include <array>
 #include <cstdint>
 #include <random>

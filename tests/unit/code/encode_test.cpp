@@ -1,4 +1,5 @@
-// Symbols of positions, compared with reference vectors, the plain sum, and an independent formula.
+// Tests the symbols of positions against reference vectors, the plain sum, and an independent
+// formula.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

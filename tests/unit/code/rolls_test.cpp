@@ -1,4 +1,4 @@
-// Rolls of consecutive lines, compared with rolls computed one by one and with a second
+// Tests the rolls of consecutive lines against rolls computed one by one and against a second
 // implementation.
 #include "code/rolls.hpp"
 

@@ -1,5 +1,5 @@
-// Properties of the sequences that docs/position-code.md states and dotpose relies on, checked by
-// enumeration of the results of the public functions.
+// Tests, by enumeration, the properties of the sequences that docs/position-code.md states and
+// dotpose relies on.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

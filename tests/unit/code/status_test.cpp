@@ -1,5 +1,5 @@
-// Names and messages of statuses: the name is the identifier, and the message is one plain
-// sentence.
+// Tests the names and messages of statuses: the name is the identifier, and the message is one
+// plain sentence.
 #include "dotpose/status.hpp"
 
 #include <cctype>

@@ -1,4 +1,4 @@
-// Lookup tables, compared with divisions and the text of the sequences.
+// Tests lookup tables against divisions and the text of the sequences.
 #include "code/tables.hpp"
 
 #include <gtest/gtest.h>

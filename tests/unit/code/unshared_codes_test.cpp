@@ -1,4 +1,4 @@
-// The table of unshared lines of places in other code variants, compared with the rolls of the
+// Tests the table of unshared lines of places in other code variants against the rolls of the
 // reference implementation.
 #include "code/unshared_codes.hpp"
 

@@ -1,4 +1,4 @@
-// The tables of unshared lines, compared with numbers obtained by counting lines.
+// Tests the tables of unshared lines against numbers obtained by counting lines.
 #include "code/unshared_lines.hpp"
 
 #include <algorithm>

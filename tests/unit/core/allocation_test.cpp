@@ -1,5 +1,5 @@
-// Checks that nothing is allocated after construction: a Locator uses only the memory passed to it.
-// scripts/check-core-symbols checks the same in the object code, including malloc.
+// Tests that a Locator allocates nothing after its construction: it uses only the memory passed to
+// it. scripts/check-core-symbols checks the same in the object code, including malloc.
 #include <cstdlib>
 #include <memory>
 #include <new>

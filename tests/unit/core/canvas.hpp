@@ -1,4 +1,4 @@
-// Small images drawn by hand, and the results of the pixel stages for them.
+// Draws small images by hand, and runs the pixel stages on them.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Ideal grids and dots in double precision, from plane geometry alone. The stages must find these
-// grids and dots.
+// Ideal grids and dots, computed in double precision from plane geometry alone. The stages must
+// find these grids and dots.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Ranges of options: no stage can overflow within the ranges, and values out of range are refused.
+// Tests the ranges of options: no stage overflows within the ranges, and values out of range are
+// refused.
 #include <climits>
 #include <cstdint>
 #include <functional>

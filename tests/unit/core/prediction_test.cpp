@@ -1,4 +1,4 @@
-// Predictions moved with the camera, compared with plane geometry in double precision.
+// Tests predictions that move with the camera against plane geometry in double precision.
 #include "dotpose/prediction.hpp"
 
 #include <gtest/gtest.h>

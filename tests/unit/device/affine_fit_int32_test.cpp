@@ -1,4 +1,4 @@
-// Least-squares maps from image points to cells, compared with double precision and with
+// Tests least-squares maps from image points to cells against double precision and against
 // affine_fit_int64.hpp.
 #include "device/affine_fit_int32.hpp"
 

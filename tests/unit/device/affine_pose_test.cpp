@@ -1,4 +1,4 @@
-// Compares the integer pose with a camera of known geometry.
+// Tests the integer pose against a camera of known geometry.
 #include "device/affine_pose.hpp"
 
 #include <gtest/gtest.h>

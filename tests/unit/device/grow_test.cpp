@@ -1,4 +1,5 @@
-// Growing the grid without perspective over the whole image, from a rough estimate in the middle.
+// Tests the growth of the grid without perspective over the whole image, from a rough estimate in
+// the middle.
 #include "device/grow.hpp"
 
 #include <gtest/gtest.h>

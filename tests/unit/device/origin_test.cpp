@@ -1,4 +1,5 @@
-// The origin of the grid from the phases of its dots, with displaced, missing and spurious dots.
+// Tests the origin of the grid computed from the phases of its dots, with displaced, missing and
+// spurious dots.
 #include "device/origin.hpp"
 
 #include <numeric>

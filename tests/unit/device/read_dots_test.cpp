@@ -1,4 +1,4 @@
-// Reading of dots: checks that exactly the cells with all pixels in the image are read.
+// Tests that exactly the cells whose pixels are all in the image are read.
 #include "device/read_dots.hpp"
 
 #include <array>

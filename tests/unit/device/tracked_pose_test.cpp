@@ -1,4 +1,4 @@
-// The fit of a tracked frame, compared with the map by which its dots were displaced.
+// Tests the fit of a tracked frame against the map by which its dots were displaced.
 #include "device/tracked_pose.hpp"
 
 #include <array>

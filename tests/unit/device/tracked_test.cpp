@@ -1,4 +1,4 @@
-// The tracked attempt of devices: checks that it confirms correct predictions and refuses wrong
+// Tests that the tracked attempt of devices confirms correct predictions and refuses wrong
 // predictions.
 #include "device/tracked.hpp"
 

@@ -1,5 +1,5 @@
-// Device workspaces for other frame sizes: checks that they locate and track frames of these sizes,
-// and refuse larger frames.
+// Tests device workspaces for other frame sizes: they locate and track frames of these sizes, and
+// refuse larger frames.
 #include "device/workspace.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Conversion of drawings to pixels: size, and place of the content.
+// Tests the conversion of drawings to pixels: size, and place of the content.
 #include "evaluate/raster.hpp"
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// Camera files: their keys, errors and geometry, and camera_info files of ROS.
+// Tests camera files: their keys, errors and geometry, and camera_info files of ROS.
 #include "dotpose/files/camera_file.hpp"
 
 #include <cmath>

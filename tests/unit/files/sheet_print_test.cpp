@@ -1,4 +1,4 @@
-// Print parameters of pages, and changes of names, in sheet files.
+// Tests print parameters of pages, and changes of names, in sheet files.
 #include <string>
 
 #include <gmock/gmock.h>

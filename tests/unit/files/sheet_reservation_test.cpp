@@ -1,4 +1,4 @@
-// Reservation of regions while their pages are written. No region may ever be assigned twice.
+// Tests the reservation of regions while their pages are written. No region may be assigned twice.
 #include <algorithm>
 #include <string>
 #include <vector>

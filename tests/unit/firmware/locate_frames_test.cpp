@@ -1,4 +1,4 @@
-// The program of all devices, tested with a host that reads and prints strings.
+// Tests the program of all devices with a host that reads and prints strings.
 #include "locate_frames.hpp"
 
 #include <cstring>

@@ -1,5 +1,5 @@
-// A Follower on simulated robots. The camera is mounted beside the robot's centre and sees the bare
-// pattern or a sheet.
+// Tests a Follower on simulated robots. The camera is mounted beside the robot's centre and sees
+// the bare pattern or a sheet.
 #include "dotpose/tools/follower.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Fixes without a given code variant, compared with fixes of the same frames with a given code
+// Tests fixes without a given code variant against fixes of the same frames with a given code
 // variant.
 #include <memory>
 

@@ -1,4 +1,4 @@
-// Accumulation of evidence for a code variant over several frames.
+// Tests the accumulation of evidence for a code variant over several frames.
 #include "dotpose/code_evidence.hpp"
 
 #include <array>

@@ -1,4 +1,4 @@
-// The first attempt: frames of all sizes, and its results in the workspace.
+// Tests the first attempt on frames of all sizes, and its results in the workspace.
 #include "locate/first.hpp"
 
 #include <gtest/gtest.h>

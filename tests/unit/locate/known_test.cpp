@@ -1,4 +1,5 @@
-// Locators that know their sheets: views that are too small for the whole plane.
+// Tests locators that know their sheets, with views that are too small to determine a position on
+// the whole plane.
 #include <array>
 #include <memory>
 

@@ -1,4 +1,4 @@
-// Frames without a fix, and the reasons for their refusal.
+// Tests frames without a fix, and the reasons for their refusal.
 #include <map>
 #include <memory>
 #include <set>

@@ -1,4 +1,5 @@
-// The whole pipeline, applied to rows or an image, with any memory and with frames in any order.
+// Tests the whole pipeline, with images and with single rows, with any memory, and with frames in
+// any order.
 #include "dotpose/locate.hpp"
 
 #include <cmath>

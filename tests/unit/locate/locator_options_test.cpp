@@ -1,5 +1,5 @@
-// Options in millimetres, pixels and ratios: their units, their ranges, and their effects in each
-// attempt.
+// Tests the options in millimetres, pixels and ratios: their units, their ranges, and their effects
+// in each attempt.
 #include "dotpose/locator_options.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Views that are only partly covered by the pattern, with the first attempt of `locate`.
+// Tests views that the pattern covers only partly, with the first attempt of `locate`.
 #include <memory>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The second attempt: the frames that reach this attempt, and the frames that only this attempt
-// locates.
+// Tests the second attempt: the frames that reach this attempt, and the frames that only this
+// attempt locates.
 #include "locate/second.hpp"
 
 #include <gtest/gtest.h>

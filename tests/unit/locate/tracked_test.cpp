@@ -1,4 +1,4 @@
-// The tracked attempt: correct, inaccurate, wrong and invalid predictions.
+// Tests the tracked attempt with correct, inaccurate, wrong and invalid predictions.
 #include "locate/tracked.hpp"
 
 #include <gtest/gtest.h>

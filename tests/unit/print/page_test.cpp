@@ -1,4 +1,4 @@
-// Pages with several regions, and the test page.
+// Tests pages with several regions, and the test page.
 #include <algorithm>
 #include <cmath>
 #include <string>

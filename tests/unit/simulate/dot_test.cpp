@@ -1,4 +1,4 @@
-// One dot in the image: place, area and spread, and the printing errors that belong to the page.
+// Tests one dot in the image: its place, area and spread, and the printing errors of the page.
 #include <algorithm>
 
 #include <gtest/gtest.h>

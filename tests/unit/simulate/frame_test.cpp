@@ -1,4 +1,4 @@
-// Whole frames: statistics, determinism, presets, pages with edges, refusals.
+// Tests whole frames: statistics, determinism, presets, pages with edges, refusals.
 #include <algorithm>
 #include <string>
 #include <thread>

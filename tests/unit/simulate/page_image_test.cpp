@@ -1,4 +1,4 @@
-// Pages given as images: checks that they give the same frames as pages given as patterns.
+// Tests that pages given as images give the same frames as pages given as patterns.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// The tracker's predictions of the pattern in the next frame.
+// Tests the tracker's predictions of the pattern in the next frame.
 #include <array>
 #include <cmath>
 #include <cstdint>

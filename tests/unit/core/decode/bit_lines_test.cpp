@@ -1,4 +1,4 @@
-// Blocks of bits cut from the code and turned, compared with `symbol_at`.
+// Tests blocks of bits that are cut from the code and rotated, against `symbol_at`.
 #include "core/decode/bit_lines.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Weighted correlation with the main sequence (paper section II-B.7), compared with loops over the
-// text of the sequence.
+// Tests the weighted correlation with the main sequence (paper section II-B.7) against loops over
+// the text of the sequence.
 #include "core/decode/correlation.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Quasi-probabilities (paper eq. 7-9) and the matrices P (Fig. 8).
+// Tests the quasi-probabilities (paper eq. 7-9) and the matrices P (Fig. 8).
 #include "core/decode/likelihood.hpp"
 
 #include <gtest/gtest.h>

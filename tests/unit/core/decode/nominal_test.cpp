@@ -1,4 +1,4 @@
-// The symbols of a grid at a known place, compared with a second implementation of the code.
+// Tests the symbols of a grid at a known place against a second implementation of the code.
 #include "core/decode/nominal.hpp"
 
 #include <gtest/gtest.h>

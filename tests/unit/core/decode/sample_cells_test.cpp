@@ -1,4 +1,4 @@
-// Bits sampled directly from drawn frames with known dots.
+// Tests bits that are sampled directly from drawn frames with known dots.
 #include "core/decode/sample_cells.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The position of an axis from lines with wrong bits.
+// Tests the search for the position on an axis, from lines with wrong bits.
 #include "core/decode/search.hpp"
 
 #include <algorithm>

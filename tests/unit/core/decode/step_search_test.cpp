@@ -1,4 +1,5 @@
-// The position from all steps between lines, if no run of lines determines it.
+// Tests the search for the position from all steps between lines, if no run of lines determines the
+// position.
 #include "core/decode/step_search.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Paper level and thresholds of the tiles.
+// Tests the paper levels and the thresholds of tiles.
 #include "core/detect/adaptive_threshold.hpp"
 
 #include <gtest/gtest.h>

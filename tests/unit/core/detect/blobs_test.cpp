@@ -1,4 +1,4 @@
-// Blobs and their centroids on images drawn by hand.
+// Tests blobs and their centroids on images drawn by hand.
 #include "core/detect/blobs.hpp"
 
 #include <string>

@@ -1,4 +1,4 @@
-// Sums over boxes, compared with sums of their pixels.
+// Tests sums over boxes against sums over their pixels.
 #include "core/detect/level_sums.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The level of the paper, measured on drawn images with known paper.
+// Tests the measured paper level on drawn images with known paper.
 #include "core/detect/paper.hpp"
 
 #include <array>

@@ -1,4 +1,4 @@
-// Places of patches, and their thresholds.
+// Tests the places of patches, and their thresholds.
 #include "core/detect/patch.hpp"
 
 #include <algorithm>

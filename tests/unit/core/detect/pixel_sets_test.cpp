@@ -1,4 +1,4 @@
-// Checks that blobs consist of exactly the pixels that are darker than the threshold of their tile.
+// Tests that blobs consist of exactly the pixels that are darker than the threshold of their tile.
 #include <algorithm>
 #include <utility>
 

@@ -1,4 +1,4 @@
-// Runs, compared with a pixel-by-pixel search in plain arithmetic, on random rows.
+// Tests runs in random rows against a pixel-by-pixel search in plain arithmetic.
 #include "core/detect/runs.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The filter of the second attempt, applied to drawn images.
+// Tests the filter of the second attempt on drawn images.
 #include "core/detect/smooth.hpp"
 
 #include <gtest/gtest.h>

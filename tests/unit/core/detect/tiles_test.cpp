@@ -1,4 +1,4 @@
-// Tiles of noise, compared with plain arithmetic.
+// Tests the measurement of tiles, on noise, against plain arithmetic.
 #include "core/detect/tiles.hpp"
 
 #include <algorithm>

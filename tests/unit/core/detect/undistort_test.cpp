@@ -1,4 +1,4 @@
-// Undistortion by eq. 1-2 of the paper, compared with double precision.
+// Tests the undistortion by eq. 1-2 of the paper against double precision.
 #include "core/detect/undistort.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The normal equations of the fit, compared with derivatives and solutions in double precision.
+// Tests the normal equations of the fit against derivatives and solutions in double precision.
 #include "core/fit/plane_normal.hpp"
 
 #include <cmath>

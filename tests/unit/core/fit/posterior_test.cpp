@@ -1,4 +1,4 @@
-// The posterior of the additional terms, compared with integrals over all their values.
+// Tests the posterior of the distortion terms against integrals over all their values.
 #include "core/fit/posterior.hpp"
 
 #include <cmath>

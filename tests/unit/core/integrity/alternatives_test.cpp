@@ -1,4 +1,4 @@
-// Odds of alternatives, compared with sums in double precision.
+// Tests the odds of alternatives against sums in double precision.
 #include "core/integrity/alternatives.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// p_wrong of the first and tracked attempts, compared with sums over all alternatives in double
+// Tests p_wrong of the first and tracked attempts against sums over all alternatives in double
 // precision.
 #include "core/integrity/certainty.hpp"
 

@@ -1,4 +1,4 @@
-// The probability of a match by chance, summed exactly.
+// Computes the exact probability of a match by chance.
 #pragma once
 
 #include <algorithm>

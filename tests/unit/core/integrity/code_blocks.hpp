@@ -1,4 +1,4 @@
-// Blocks of the code with known damage, and exact sums over their alternatives.
+// Cuts blocks of the code with known damage, and sums exactly over their alternatives.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Coded blocks, compared cell by cell with the encoder.
+// Tests coded blocks cell by cell against the encoder.
 #include "core/integrity/coded_block.hpp"
 
 #include <bit>

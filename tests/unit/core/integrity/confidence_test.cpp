@@ -1,4 +1,4 @@
-// Odds of bits, and the upper bound of the probability of a match by chance.
+// Tests the odds of bits, and the upper bound on the probability of a match by chance.
 #include "core/integrity/confidence.hpp"
 
 #include <gtest/gtest.h>

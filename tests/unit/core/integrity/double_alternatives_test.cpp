@@ -1,4 +1,4 @@
-// Double alternatives, compared with a sum over all of them in double precision.
+// Tests the odds of double alternatives against a sum over all of them in double precision.
 #include "core/integrity/double_alternatives.hpp"
 
 #include <gtest/gtest.h>

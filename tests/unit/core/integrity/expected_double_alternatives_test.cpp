@@ -1,5 +1,5 @@
-// Expected double alternatives, compared with a sum over every digit of every pair in double
-// precision.
+// Tests the expected odds of double alternatives against a sum over every digit of every pair of
+// places in double precision.
 #include "core/integrity/expected_double_alternatives.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Places on known sheets compared with all places one by one, in double precision.
+// Tests the search for places on known sheets against a search over all places one by one, in
+// double precision.
 #include "core/integrity/known_places.hpp"
 
 #include <cmath>

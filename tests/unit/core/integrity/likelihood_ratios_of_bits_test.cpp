@@ -1,4 +1,4 @@
-// Likelihood ratios of bits of equal certainty, compared with the ratios of bits with the weight
+// Tests the likelihood ratios of bits of equal certainty against the ratios of bits with the weight
 // 127.
 #include <algorithm>
 #include <cmath>

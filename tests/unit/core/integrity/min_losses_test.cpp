@@ -1,4 +1,4 @@
-// Minimum losses, compared with all patterns of shared lines.
+// Tests minimum losses against an enumeration of all patterns of shared lines.
 #include "core/integrity/min_losses.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Near alternatives, compared with a search for the digits of every run in double precision.
+// Tests near alternatives against a search, in double precision, for the digits of every run.
 #include "core/integrity/near_alternatives.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// p_wrong of error-free bits, compared with sums over all alternatives in double precision.
+// Tests p_wrong of error-free bits against sums over all alternatives in double precision.
 #include <gtest/gtest.h>
 
 #include "code_blocks.hpp"

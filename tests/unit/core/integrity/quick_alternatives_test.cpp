@@ -1,4 +1,4 @@
-// The quick estimate of alternatives, compared with sums in double precision.
+// Tests the quick estimate of alternatives against sums in double precision.
 #include "core/integrity/quick_alternatives.hpp"
 
 #include <gtest/gtest.h>

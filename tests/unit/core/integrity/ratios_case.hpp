@@ -1,4 +1,4 @@
-// Lines of bits, for tests of sums over alternatives.
+// Random lines of bits, for tests of sums over alternatives.
 #pragma once
 
 #include <algorithm>

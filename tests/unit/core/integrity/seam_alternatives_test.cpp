@@ -1,4 +1,4 @@
-// Seam alternatives, compared with a sum over all places, borders and shifts in double precision.
+// Tests seam alternatives against a sum over all places, borders and shifts in double precision.
 #include "core/integrity/seam_alternatives.hpp"
 
 #include <algorithm>

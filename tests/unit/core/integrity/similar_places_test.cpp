@@ -1,4 +1,5 @@
-// Similar places of alternatives, found 32 at a time, compared with the definition for each place.
+// Tests the search for similar places of alternatives, which finds 32 places at a time, against the
+// definition for each place.
 #include "core/integrity/similar_places.hpp"
 
 #include <algorithm>

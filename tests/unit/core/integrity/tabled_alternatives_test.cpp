@@ -1,4 +1,4 @@
-// Bounds from tables, compared with sums over all alternatives in double precision.
+// Tests bounds from tables against sums over all alternatives in double precision.
 #include "core/integrity/tabled_alternatives.hpp"
 
 #include <algorithm>

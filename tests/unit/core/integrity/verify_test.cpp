@@ -1,4 +1,4 @@
-// The upper bound of the probability of a match by chance, and the resulting verdicts.
+// Tests the upper bound on the probability of a match by chance, and the resulting verdicts.
 #include "core/integrity/verify.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Odds of places of other code variants, compared with sums over all places that differ in a4, and
-// with the window decoder.
+// Tests the odds of places in other code variants against sums over all places that differ in a4,
+// and against the window decoder.
 #include "core/integrity/weigh_codes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Lists of similar places, compared with plain computations.
+// Tests lists of similar places against plain computations.
 #include <algorithm>
 #include <array>
 #include <cstdint>

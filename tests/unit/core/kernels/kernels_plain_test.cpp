@@ -1,4 +1,5 @@
-// Kernels, compared with plain computations. `kernels_test.cpp` checks that all forms agree.
+// Tests kernels against plain computations. `kernels_test.cpp` tests that all forms of a kernel
+// agree.
 #include <algorithm>
 #include <array>
 #include <cstdint>

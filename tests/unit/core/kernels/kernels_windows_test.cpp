@@ -1,4 +1,4 @@
-// Windows and centres of dots, compared with plain computations.
+// Tests the kernels for centroid windows and centres of dots against plain computations.
 #include <cmath>
 #include <cstdint>
 #include <utility>

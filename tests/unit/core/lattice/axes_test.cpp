@@ -1,4 +1,4 @@
-// Directions and spacings of synthetic grids.
+// Tests the directions and spacings found for synthetic grids.
 #include "core/lattice/axes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// First estimates of grids with maximum errors, and checks of the grids that a stage computes from
-// them.
+// Makes first estimates of grids with maximum errors, and checks the grids that a stage computes
+// from these estimates.
 #pragma once
 
 #include <gtest/gtest.h>

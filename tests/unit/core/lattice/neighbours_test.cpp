@@ -1,4 +1,4 @@
-// Seeds, neighbours and symmetric edges, compared with an exhaustive search.
+// Tests seeds, neighbours and symmetric edges against an exhaustive search.
 #include "core/lattice/neighbours.hpp"
 
 #include <numeric>

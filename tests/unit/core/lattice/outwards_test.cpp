@@ -1,5 +1,5 @@
-// Growing of grids: dots of grids seen by tilted cameras, computed in double precision, and dots
-// that do not form a grid.
+// Tests the growth of grids, with dots of tilted planes, computed in double precision, and with
+// dots that do not form a grid.
 #include "core/lattice/outwards.hpp"
 
 #include <memory>

@@ -1,4 +1,4 @@
-// The grid from the periodogram of the dots, starting from inaccurate first estimates.
+// Tests the search for the grid in the periodogram of the dots, from inaccurate first estimates.
 #include "core/lattice/periodogram_search.hpp"
 
 #include <gtest/gtest.h>

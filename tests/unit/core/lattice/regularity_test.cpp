@@ -1,5 +1,5 @@
-// Common properties of growing and refining a grid: both extend the grid from a rough estimate in
-// the middle over the whole image, and refuse dots that do not form a grid.
+// Tests the common properties of growing and refining a grid: both stages extend the grid from a
+// rough estimate in the middle over the whole image, and refuse dots that do not form a grid.
 #include "core/lattice/regularity.hpp"
 
 #include <ostream>

@@ -1,4 +1,4 @@
-// Cells of points in 32-bit arithmetic, compared with double precision.
+// Tests the computation of the cells of points in 32-bit arithmetic against double precision.
 #include "core/math/cells.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Integer arithmetic, compared with <cmath> in double and long double precision.
+// Tests integer arithmetic against <cmath> in double and long double precision.
 #include "core/math/fixed.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Planes in single precision, compared with their formula in double precision.
+// Tests planes in single precision against their formula in double precision.
 #include "core/math/float_plane.hpp"
 
 #include <limits>

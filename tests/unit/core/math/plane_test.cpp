@@ -1,5 +1,5 @@
-// Mapping of points between image and plane (paper eq. 3-5, with perspective and lens), compared
-// with double precision.
+// Tests the mapping of points between image and plane (paper eq. 3-5, with perspective and lens)
+// against double precision.
 #include "core/math/plane.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// The model dot, compared with dots drawn by sampling, and with the model at the next step.
+// Tests the model dot against dots drawn by sampling, and its derivatives against difference
+// quotients.
 #include "core/pose/dot_model.hpp"
 
 #include <numbers>

@@ -1,4 +1,4 @@
-// Images of dots of any shape, drawn by sampling the ink. Slow, and independent of the dot model of
+// Draws dots of any shape by sampling the ink. This is slow, and independent of the dot model of
 // the core.
 #pragma once
 

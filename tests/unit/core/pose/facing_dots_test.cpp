@@ -1,5 +1,5 @@
-// Bias of facing dots: the measured centres of facing dots are shifted towards each other, unlike
-// the centres of other neighbours.
+// Tests the correction of the bias of facing dots: the measured centres of two facing dots are
+// shifted towards each other, unlike the centres of other neighbours.
 #include "core/pose/facing_dots.hpp"
 
 #include <map>

@@ -1,4 +1,4 @@
-// Fits to dots placed by a plane in double precision.
+// Tests fits to dots placed by a plane in double precision.
 #include "core/pose/float_fit.hpp"
 
 #include <gtest/gtest.h>

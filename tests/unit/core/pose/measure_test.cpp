@@ -1,4 +1,4 @@
-// Centres of dots measured in drawn frames with known dots.
+// Tests the centres of dots measured in drawn frames with known dots.
 #include "core/pose/measure.hpp"
 
 #include <gtest/gtest.h>

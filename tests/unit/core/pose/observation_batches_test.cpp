@@ -1,5 +1,4 @@
-// Observation batches: checks that they contain the same dots, in the same order, as
-// `Observations`.
+// Tests that observation batches contain the same dots, in the same order, as `Observations`.
 #include "core/pose/observation_batches.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Dots with equal sub-pixel phases, drawn with the shape of the dot model and with other shapes.
+// Tests the correction of the pixel bias on dots with equal sub-pixel phases, drawn with the shape
+// of the dot model and with other shapes.
 #include "core/pose/pixel_bias.hpp"
 
 #include <gtest/gtest.h>

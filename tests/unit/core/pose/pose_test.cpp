@@ -1,4 +1,4 @@
-// The pose from the place in the code, compared with a camera of known geometry.
+// Tests the pose computed from the place in the code against a camera of known geometry.
 #include <cmath>
 
 #include <gtest/gtest.h>

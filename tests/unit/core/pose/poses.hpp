@@ -1,5 +1,5 @@
-// Views of the pattern whose dots have several kinds of errors, and checks that the fitted pose is
-// the pose of the camera.
+// Makes views of the pattern whose dots have several kinds of errors, and checks that the fitted
+// pose is the pose of the camera.
 #pragma once
 
 #include <cmath>

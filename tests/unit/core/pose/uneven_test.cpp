@@ -1,5 +1,5 @@
-// Dots on sheets that are not one plane, placed by a plane in double precision and a known
-// displacement.
+// Tests fits on sheets that are not one plane. A plane in double precision and a known displacement
+// place the dots.
 #include "core/pose/uneven.hpp"
 
 #include <functional>
