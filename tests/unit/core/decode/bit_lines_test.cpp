@@ -96,7 +96,7 @@ TEST(BitLines, ABlockTurnsAsTheCodeDoes) {
         const FixedVec most{1 + static_cast<int>(rng.below(31)),
                             1 + static_cast<int>(rng.below(31))};
         const BitBlock seen = seen_block(code, zero, quarters, least, most, {}, rng);
-        // An upright camera sees the same cells.
+        // The same cells as seen by an upright camera.
         const FixedVec a = cell_turned(quarters, least);
         const FixedVec b = cell_turned(quarters, most - FixedVec{1, 1});
         const BitBlock upright =
@@ -120,8 +120,7 @@ TEST(BitLines, APlaneTurnsAsItsCellsDo) {
             const auto x = static_cast<float>(rng.uniform(-90, 90));
             const auto y = static_cast<float>(rng.uniform(-60, 60));
             const Vec2 before = at(plane, x, y);
-            // A cell moves as `turned` moves it in blocks, and points between cells move with the
-            // cells.
+            // `turned` must move points between cells in the same way as the cells of a block.
             const FixedVec zero = cell_turned(quarters, {});
             const FixedVec right = cell_turned(quarters, {1, 0}) - zero;
             const FixedVec down = cell_turned(quarters, {0, 1}) - zero;

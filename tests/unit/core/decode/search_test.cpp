@@ -106,7 +106,7 @@ TEST(FindAxis, HoldsForThePublishedCode) {
 TEST(FindAxis, CleanLinesGiveAllThatThereIsToBeHad) {
     Rng rng(kSeed);
     for (const int columns : {6, 7, 20, kMaxLines}) {
-        // One window extends across the end of the code.
+        // The window of 20 columns extends across the end of the code.
         Place place = random_place(rng);
         if (columns == 20) place.cell.x = kPositionsPerAxis - 10;
         ScoredWindow lines = window(CodeVariant::anoto, place, columns, 12, 0, rng);
@@ -176,7 +176,7 @@ TEST(FindAxis, FewerLinesThanCarryAPositionAreNotInTheCode) {
                       .find(CodeVariant::anoto, reading),
                   Status::not_in_code);
     }
-    // The misprinted sequence needs two more lines.
+    // The a4 of libdots has a misprint, and therefore needs two more lines.
     const Place place = random_place(rng);
     EXPECT_EQ(
         window(CodeVariant::libdots, place, 7, 12, 0, rng).find(CodeVariant::libdots, reading),

@@ -32,7 +32,7 @@ void for_each_band(const GreyImage& image, const ThresholdOptions& options,
         const int ready = take_row(image.view().row(v), threshold);
         ASSERT_GE(ready, 0);
         for (int i = 0; i < ready; ++i, ++next) {
-            // All rows that a band and its lower neighbour cover have been seen.
+            // All rows of the band and of the band below it have been taken.
             ASSERT_LE(std::min(band_end(threshold, next + 1), image.height_px), v + 1);
             measure_levels(next, options, threshold);
             visit(next);
@@ -51,7 +51,7 @@ TEST(AdaptiveThreshold, EveryBandBecomesReadyOnceWhateverTheHeight) {
             for_each_band(image, {}, w.threshold, [&](int band) {
                 EXPECT_EQ(band_begin(w.threshold, band), covered);
                 covered = band_end(w.threshold, band);
-                // The rows of the band are still kept.
+                // The rows of the band are still stored.
                 for (int v = band_begin(w.threshold, band); v < covered; ++v) {
                     EXPECT_EQ(kept_row(w.threshold, v)[image.width_px - 1], 200);
                 }
@@ -139,7 +139,7 @@ TEST(AdaptiveThreshold, ADefectPixelIsHalfAsDarkAsInk) {
         for (const int width : {1, 2}) {
             GreyImage image = blank(120, 80);
             fill(image, u, 34, u + width, 35, 20);
-            // The ink has 180 levels less than the paper, and also lowers the paper's mean.
+            // The ink is 180 levels darker than the paper, and also lowers the mean of its tile.
             for (const int min_contrast : {70, 100}) {
                 int dark_tiles = 0;
                 for_each_band(image, {.min_contrast = min_contrast}, w.threshold, [&](int) {
@@ -189,7 +189,8 @@ TEST(AdaptiveThreshold, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
     SmallWorkspace w;
     ThresholdOptions options;
     options.min_contrast = 8;
-    // The image has two spots of noise with a spot of ink between them.
+    // From top to bottom, the image has a spot as pale as noise, a spot of ink, and another pale
+    // spot.
     GreyImage image = blank(120, 120);
     fill(image, 18, 18, 20, 20, 190);
     fill(image, 98, 50, 100, 52, 80);

@@ -16,8 +16,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 22;
 
-/// Maximum and usual shift of a dot's centroid, which occurs because the threshold cuts off whole
-/// pixels at the rim of the dot.
+/// Maximum and rms shift of the centroid of a dot. The shift occurs because the threshold cuts off
+/// whole pixels at the rim of the dot.
 constexpr double kWorstShift_px = 0.25;
 constexpr double kUsualShift_px = 0.11;
 
@@ -41,7 +41,7 @@ TEST(Blobs, ABlurredDotIsFoundAtEverySubPixelPhase) {
         double squares = 0;
         for (int phase = 0; phase < 64; ++phase) {
             const Vec2 centre{40 + phase % 8 / 8.0, 33 + phase / 8 / 8.0};
-            // Dots of this size have a large spacing, so only large images contain enough dots.
+            // Large dots have a large spacing, which occurs only in large images.
             GreyImage image = sigma < 4 ? blank(80, 64) : blank(256, 256);
             darken(image, centre, sigma, 0.7);
             const auto dots = blobs_of(image);
@@ -186,7 +186,8 @@ TEST(Blobs, BigGraphicsAreNoDotsAndHideNone) {
     fill(image, 90, 40, 102, 80, 200);  // with a hole
     const auto dots = blobs_of(image);
     EXPECT_EQ(dots.size(), beside.size());
-    // A stroke changes the thresholds of its band, which cuts dots at the band's border.
+    // The stroke changes the thresholds of its band of tiles, which shifts the centroids of dots
+    // across the border of the band.
     constexpr double kShiftBesideGraphics_px = 0.3;
     for (const Vec2 centre : beside) {
         EXPECT_LT(nearest_px(dots, centre), kShiftBesideGraphics_px)
@@ -297,7 +298,7 @@ void compare_with_flooding(GreyImage image) {
                 continue;
             }
             ++all;
-            // The dots of any lens and spacing are smaller than this limit.
+            // With any lens and spacing, dots are smaller than this limit.
             if (blob.right - blob.left > 30 || blob.bottom - blob.top > 30) continue;
             ++least;
             ASSERT_TRUE(contains(blob))

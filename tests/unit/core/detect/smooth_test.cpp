@@ -50,7 +50,8 @@ TEST(Smooth, SinglePixelsVanish) {
         const GreyImage found = smoothed(image);
         for (int v = 0; v < 120; ++v) {
             for (int u = 0; u < 188; ++u) {
-                // The mean of at least 5 x 5 surrounding pixels includes the bright pixel: 55 / 25.
+                // A bright pixel is 55 levels above the paper. It raises the mean of the
+                // surroundings, at least 5 x 5 pixels, by up to 55 / 25 levels.
                 ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 3) << u << ", " << v;
             }
         }
@@ -63,9 +64,9 @@ TEST(Smooth, SinglePixelsVanish) {
 }
 
 TEST(Smooth, DotsAreWeightedWithTheBinomial) {
-    // A square of 3 x 3 pixels is wider than an impulse. The filter (1 4 6 4 1) / 16 along each
-    // axis keeps 2 / 16 of the light beside the middle: 1 - (14 / 16)^2. The square is an eighth
-    // darker than the paper.
+    // A square of 3 x 3 pixels is wider than an impulse. At its middle, the filter (1 4 6 4 1) / 16
+    // along each axis gives the square the weight (14 / 16)^2. The square is an eighth darker than
+    // the paper.
     GreyImage image = blank(400, 400);
     fill(image, 199, 199, 202, 202, pixel(image, 0, 0) * 7 / 8);
     const GreyImage found = smoothed(image);

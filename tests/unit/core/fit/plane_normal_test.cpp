@@ -83,13 +83,13 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
             const Vec2 change =
                 (1 / (2 * static_cast<double>(kStep))) * (formula(scaled(plane).changed(more), px) -
                                                           formula(scaled(plane).changed(less), px));
-            // The derivative with respect to the bend neglects tilt and shear.
+            // The derivative with respect to the lens term, kBend, neglects tilt and shear.
             const double most = k == kBend ? 0.15 : 0.002;
             ASSERT_NEAR(derivatives[0][k], change.x, most);
             ASSERT_NEAR(derivatives[1][k], change.y, most);
         }
-        // A large change of any parameter other than the bend is also exact, because a tilt in the
-        // pattern is a tilt in the image.
+        // `changed` is also exact for a large change of the tilt, because a tilt in the pattern is a
+        // tilt in the image.
         const Vec2 place = formula(seen, px) - formula(seen, {});
         const double by = 1 + (0.3 * place.x - 0.2 * place.y) / 9;
         const auto unit = scaled(plane).scale();

@@ -16,8 +16,8 @@ constexpr std::uint64_t kSeed = 62;
 constexpr DistortionPrior kTwo{kTilt, 2, {{{0.3F, 0}, {0.5F, 0.02F}, {0.2F, 0.2F}}}};
 constexpr DistortionPrior kOne{kBend, 1, {{{0.6F, 0}, {0.3F, 0.02F}, {0.1F, 0.2F}}}};
 
-/// Returns the normal equations of points that determine all parameters, some of them only in
-/// combination.
+/// Returns the normal equations of random points, which determine all parameters. The errors of the
+/// parameters are correlated.
 PlaneNormal random_normal(Rng& rng) {
     const auto random = [&] {
         Four values;
@@ -37,7 +37,8 @@ double density(double x, double variance) {
     return std::exp(-x * x / (2 * variance)) / std::sqrt(variance);
 }
 
-/// Mean and covariance of the whitened terms, summed over a fine grid of their values.
+/// Posterior mean and covariance of the whitened terms, computed by summation over a fine grid of
+/// values.
 struct Integral {
     double mean[2] = {};
     double covariance[2][2] = {};

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 79;
 
-/// Judges the bits as the bits of a block at `claimed`.
+/// Returns the verdict on the claim that the bits of a block are at the place `claimed`.
 Verdict judge(const Block& block, const Place& claimed, const IntegrityOptions& options = {}) {
     core::BitBlock words;
     core::Evidence evidence;
@@ -191,7 +191,8 @@ TEST(IsCertain, AgreesWithVerify) {
         const Block block = random_block(rng, i, 0.2, 0.1);
         const Verdict ours = judge(block, block.place);
         if (!ours.is_certain) continue;
-        // A view that is certain here is also certain in `verify`, up to rounding.
+        // A block that `is_certain` accepts must also be certain according to `verify`, up to
+        // rounding.
         IntegrityOptions options;
         options.max_p_wrong_log2 = -28;
         const Verdict theirs = verify_block(block, options);

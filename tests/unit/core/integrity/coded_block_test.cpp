@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 4021;
 
-/// The block around cell (0, 0) at a place of the code, with columns and rows from kFirst on.
+/// A view of the cells around cell (0, 0), which is at a given place of the code. Columns and rows
+/// begin at kFirst.
 struct Seen {
     static constexpr int kFirst = -20;
     static constexpr int kCount = 41;
@@ -71,7 +72,7 @@ TEST(CodedBlock, HasTheCodesBitsInTheMiddleAndWhichAreWrong) {
         const core::CodedBlock coded(CodeVariant::anoto, place, seen.view, seen.block);
         const core::AxisBits x = coded.axis(core::Axis::x, {});
         const core::AxisBits y = coded.axis(core::Axis::y, {});
-        // A line has at most 32 cells, from -16 on.
+        // A line has at most 32 cells, from cell -16 on, so 32 of the 37 rows are kept.
         ASSERT_EQ(x.lines.size(), 16U);
         ASSERT_EQ(y.lines.size(), 32U);
         EXPECT_EQ(x.reading.position, moved(CodeVariant::anoto, place, -7, 0).cell.x);

@@ -131,7 +131,7 @@ TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
             const double fine = chance_log2_q8(bits, odds, kThree_q8) / 256.0;
             ASSERT_GE(fine, exact[static_cast<std::size_t>(e)] + std::log2(3.0L) - 1e-9L);
             ASSERT_LE(fine, chance_log2(bits, odds) + kThree_q8 / 256.0);
-            // Without errors, the optimum odds are the odds of certain bits.
+            // Without errors, the odds of certain bits give the best bound, which is nearly exact.
             if (e == 0) {
                 ASSERT_LE(fine, exact[0] + std::log2(3.0L) + 0.05L);
             }
@@ -140,8 +140,8 @@ TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
 }
 
 TEST(Chance, EachBitThatAgreesHasItsFactor) {
-    // With this number of bits, the sum determines the logarithm of one factor, (1 + 2^-y) / 2, to
-    // 2^-20.
+    // The result for 2^20 equal bits, divided by 2^20, is the logarithm of the factor of one bit,
+    // (1 + 2^-y) / 2, to an accuracy of 2^-20.
     constexpr int kDoublings = 20;
     for (const int weight : {4, 12, 60, 124}) {
         Confidence bits = confidence(1, weight, 0);
@@ -152,8 +152,8 @@ TEST(Chance, EachBitThatAgreesHasItsFactor) {
             const double exact = std::log2(1 + std::exp2(-y)) - 1;
             const double found = std::ldexp(chance_log2(bits, odds_q8) - 37, -kDoublings);
             ASSERT_GE(found, exact - 1e-6) << weight << " at " << odds_q8;
-            // y is rounded down to 2^-8, where the slope is at most 1/2. A chord over half a unit
-            // is 0.173 / 2^5 above the curve.
+            // y is rounded down to a multiple of 2^-8, which changes the logarithm by at most 2^-9.
+            // The chords that replace the curve are at most 0.173 / 2^5 above it.
             ASSERT_LE(found, exact + 0.002 + 0.0055) << weight << " at " << odds_q8;
         }
     }
@@ -168,9 +168,9 @@ TEST(Chance, EachBitThatContradictsHasItsFactor) {
         for (int odds_q8 = 256; odds_q8 <= 4 * 256; odds_q8 += 64) {
             const int before = chance_log2(agree, odds_q8);
             const int after = chance_log2(contradict, odds_q8);
-            if (after > 30) continue;  // probabilities are limited to 1
+            if (after > 30) continue;  // near 37, the limit of probabilities to 1 has an effect
             const double y = odds_q8 / 256.0 * weight / 127;
-            // y is a multiple of 2^-8, and both results are integers.
+            // `chance_log2` rounds y to a multiple of 2^-8, and its result to an integer.
             EXPECT_NEAR(after - before, y * kBits / 16, kBits / 16 / 256.0 + 1.01)
                 << weight << " at " << odds_q8;
         }
@@ -190,7 +190,7 @@ TEST(Chance, WeakBitsThatContradictSayLittle) {
     };
     EXPECT_LT(chance_with_weak(5), chance_with_weak(60) - 20);
     EXPECT_LT(chance_with_weak(60), chance_with_weak(127) - 20);
-    // 200 fair coins all agree by chance with this probability.
+    // The probability that 200 fair bits all agree by chance is 2^-200.
     EXPECT_GE(chance_with_weak(5), 37 - 200);
 }
 
@@ -204,8 +204,8 @@ TEST(Chance, ChanceHoldsForRandomBits) {
         Confidence bits;
         for (int i = 0; i < 20; ++i)
             bits.add(static_cast<int>(rng.below(128)), rng.below(2) == 0);
-        // A result of 8 below the 2^37 hypotheses is a claim of 2^-8, so at most 781 of the trials
-        // may have it.
+        // The result includes a factor of 2^37, the number of hypotheses. A result of 37 - 8 is
+        // therefore a claim of 2^-8 for one hypothesis, which at most 781 of the trials may reach.
         beyond += chance_log2(bits, odds_per_bit_q8(bits)) <= 37 - 8;
     }
     EXPECT_LE(beyond, kTrials / 256 + 100);

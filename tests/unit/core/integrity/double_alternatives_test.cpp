@@ -16,10 +16,11 @@ using namespace core;
 constexpr std::uint64_t kSeed = 46;
 constexpr int kLines = 9;
 constexpr int kOdds_q8 = 3 * 256;
-/// Minimum of the sum: the odds added for every pair of places at every shift.
+/// Minimum of the sum: each of the 190,027 pairs of places counts at least 2^-64 at each shift.
 constexpr double kFloor = 190'027.0 * 63 * 0x1p-64;
 
-/// Lines that fit a position. The scores of other rolls are random, from `least` to `least` + 600.
+/// Lines that agree with a position. The rolls of the position have the score 1000. The scores of
+/// all other rolls are random, from `least` to `least` + 600.
 struct Case {
     Case(Rng& rng, int least) : position(rng.below(kPositionsPerAxis)) {
         lines.all = storage;
@@ -104,7 +105,7 @@ TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
         const float rest = expected_double_alternatives(lines, kLines)[2];
         const auto sum = static_cast<double>(sum_of_double_alternatives(lines, 0, 64 * rest));
         const double ratio = (sum - kFloor - 31 * static_cast<double>(rest)) / exact;
-        // Exponentials are accurate to 2 %, and exact only at multiples of 2^-8 of a power of two.
+        // Exponentials are accurate to 2 %, and their exponents are rounded to multiples of 2^-8.
         EXPECT_GE(ratio, 0.96) << "least " << least << ", seed " << kSeed;
         // Pairs that share one line or none are counted at their expectation.
         EXPECT_LE(ratio, least == 420 ? 2 : 1.04) << "least " << least << ", seed " << kSeed;

@@ -15,7 +15,8 @@ constexpr std::array<int, 4> kBases{3, 3, 2, 3};
 
 using ByAnchors = std::array<double, kMinFound>;
 
-/// Adds the alternatives that differ in two sequences and have these offsets, step by step.
+/// Adds the odds of the alternatives with these roll offsets, at each of the 63 shifts, to `sums`.
+/// The number of shared anchors, which are the first `anchors` lines by rank, selects the sum.
 void add_alternative(const RatiosCase& c, const RankedLines& lines, int anchors,
                      const std::array<int, kLines>& offsets, double weight, ByAnchors& sums) {
     for (int first = 0; first < 63; ++first) {

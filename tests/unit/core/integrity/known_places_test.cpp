@@ -91,7 +91,7 @@ double random_agreement(int bits, int wrong) {
     return sum;
 }
 
-/// Returns the sum of the odds of all places of a sheet except `best`, relative to it.
+/// Returns the sum of the odds of all places of a sheet except `best`, relative to `best`.
 double other_odds(const core::BitBlock& block, const KnownRegion& sheet,
                   const core::KnownPlace& best) {
     core::Confidence confidence;
@@ -170,7 +170,8 @@ TEST(KnownPlaces, UnknownSheetsMayHaveTheSameRows) {
         const auto best = core::find_known_place(core::kernels(), block, sheets);
         return best ? wrong_at(block, sheets, *best) : 1;
     };
-    // 25 bits of one axis, two positions of each roll, both axes.
+    // An unknown sheet may have the same rows and, by chance, the same 25 bits of the other axis.
+    // The factor 4 stands for two axes, and two positions with each roll.
     EXPECT_GE(wrong_if(OtherSheets::possible), 4 * std::exp2(-25.0));
     EXPECT_LT(wrong_if(OtherSheets::impossible), std::exp2(-25.0));
 }

@@ -206,7 +206,7 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     EXPECT_GT(doubtful, 100);
 }
 
-/// Every alternative loses at least the loss given by the table.
+/// If the table guarantees a minimum loss, every alternative must lose at least this much.
 TEST(UnsharedLines, AreNotSharedByAnyAlternative) {
     Rng rng(10);
     int known = 0;

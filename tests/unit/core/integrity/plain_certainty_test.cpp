@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 79;
 
-/// Judges only the bits, as the bits of a block at `claimed`.
+/// Returns the verdict on the claim that the bits of a block are at the place `claimed`, from the
+/// bits alone.
 Verdict judge_plainly(const Block& block, const Place& claimed,
                       const IntegrityOptions& options = {}) {
     Block there = block;

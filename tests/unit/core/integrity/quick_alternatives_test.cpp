@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 51;
 
-/// Returns some lines with missing, weak or wrong bits, and odds that match them.
+/// Returns lines with missing, weak and wrong bits, and random odds per bit.
 RatiosCase random_case(Rng& rng) {
     RatiosCase c =
         at_random_place(rng, 6 + static_cast<int>(rng.below(rng.below(2) == 0 ? 12 : 59)));
@@ -36,7 +36,7 @@ double sum_of_singles(const RatiosCase& c) {
         const std::size_t length = texts[k].size();
         for (std::size_t place = 0; place < length; ++place) {
             if (place == c.position % length) continue;
-            std::vector<int> rolls;  // rolls of the alternative, up to the shift
+            std::vector<int> rolls;  // rolls of the alternative at shift 0
             int offset = 0;
             for (std::size_t line = 0; line < count; ++line) {
                 rolls.push_back(c.rolls[line] + offset);
@@ -82,8 +82,8 @@ TEST(QuickAlternatives, CountAllThatDifferInOneSequence) {
 }
 
 TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
-    // An alternative may share five consecutive lines, or seven lines in `libdots`. In this case,
-    // only these lines are certain, and all other lines are weak.
+    // An alternative may share five consecutive lines, or seven lines in `libdots`. Here, only four
+    // to nine consecutive lines are certain, so an alternative may share nearly all certain lines.
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 400; ++i) {
@@ -103,8 +103,8 @@ TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
 }
 
 TEST(QuickAlternatives, CountOthersThatLinesFitBetter) {
-    // Some lines have the roll of no line nearby, so an alternative may regain the score that it
-    // lost elsewhere.
+    // Some lines show a random roll. If an alternative has this roll, it regains score that it lost
+    // in other lines.
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 300; ++i) {

@@ -99,8 +99,8 @@ inline std::vector<int> rolls_from(const RatiosCase& c, const PlacesOfAlternativ
     return rolls;
 }
 
-/// Returns the odds of a position with these rolls relative to the reading, limited from below by
-/// the negligible odds.
+/// Returns the odds of a position with these rolls, relative to the reading, but at least 2^-64,
+/// the value that negligible odds count.
 inline double odds_of_rolls(const RatiosCase& c, const std::vector<int>& rolls) {
     double lost = 0;
     for (std::size_t line = 0; line < rolls.size(); ++line) {

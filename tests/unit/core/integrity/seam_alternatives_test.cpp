@@ -71,7 +71,7 @@ struct Sum {
     int terms = 0;
 };
 
-/// Returns the sum over all alternatives and borders whose odds are not negligible.
+/// Returns the sum of the odds over all alternatives and borders, without negligible odds.
 Sum sum_of_all(const RatiosCase& c) {
     Sum sum;
     for (const Alternative& alternative : all_alternatives(c)) {
@@ -106,7 +106,7 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
         RatiosCase c = at_random_place(rng, 6 + static_cast<int>(rng.below(12)));
         const double wrong = rng.uniform(0, 0.1);
         for (const int own : c.rolls) {
-            // Some lines have few bits, or the roll of no line nearby.
+            // Some lines have few bits, or show a random roll.
             const int shown = rng.below(15) == 0 ? static_cast<int>(rng.below(63)) : own;
             const int bits = rng.below(3) == 0 ? 3 : 6 + static_cast<int>(rng.below(10));
             c.storage.push_back(scored_line(shown, bits, wrong, 127, rng));
@@ -122,7 +122,7 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
         const Sum sum = sum_of_all(c);
         const double log2_ratio = std::log2((counted + limit) / (sum.odds + limit));
         EXPECT_GE(log2_ratio, -0.1);
-        // Every addition rounds up.
+        // Every addition rounds up, by at most 0.012 in log2.
         EXPECT_LE(log2_ratio, 0.1 + sum.terms * 0.012);
         ++(sum.terms > 0 ? some : none);
     }
@@ -131,8 +131,8 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
 }
 
 TEST(SeamAlternatives, ASeamExplainsTenLinesAsWell) {
-    // The lines have four steps with equal digits, one step at which the digits differ, and four
-    // more equal steps.
+    // Ten lines have nine steps. The counted alternatives have the digits of the reading in all
+    // steps except the step at the border.
     constexpr std::size_t kLines = 10;
     constexpr std::size_t kBorder = 5;
     Rng rng(kSeed);
@@ -166,8 +166,8 @@ TEST(SeamAlternatives, NoneExplainsManyClearLines) {
 }
 
 TEST(SeamAlternatives, WhatTheLinesShowBetterIsDoubt) {
-    // Five lines on either side of the border are shared. One more line of the frame agrees with
-    // the alternative.
+    // The bits show an alternative that shares five lines with the reading on each side of the
+    // border. Only the first and the last line may distinguish the alternative from the reading.
     Rng rng(kSeed);
     int shown = 0;
     for (int i = 0; i < 2000; ++i) {

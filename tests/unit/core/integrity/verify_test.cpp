@@ -73,7 +73,7 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             ASSERT_GE(now.fix.p_wrong_log2, std::min(chance, 0.0L));
             before = now;
         }
-        // A second pattern in view contradicts a quarter of the bits of an axis.
+        // Now a quarter of the bits of one axis contradict, as if a second pattern were in view.
         EXPECT_EQ(before.status, Status::not_certain);
     }
 }
@@ -147,8 +147,8 @@ TEST(Verify, LinesThatAreScoredAreNotScoredAgain) {
         EXPECT_EQ(verify(reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
                   Status::ok);
         EXPECT_EQ(fix.p_wrong_log2, fresh.fix.p_wrong_log2);
-        // The result depends on the scores in the storage: lines that agree with every roll exclude
-        // no alternative.
+        // `verify` must use the scores in the storage. Cleared scores are equal for all rolls, so
+        // they exclude no alternative.
         storage.fill({});
         EXPECT_EQ(verify(reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
                   Status::not_certain);
