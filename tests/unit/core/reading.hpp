@@ -10,7 +10,8 @@
 
 namespace dotpose::core_test {
 
-/// The dots of a view in the matrices P, with the grid found at a quarter turn and cell.
+/// The matrices P of a view. The grid is rotated by the quarter turn `turn`, and its cell (0, 0) is
+/// near the image centre.
 struct Reading {
     Reading(const View& view_, QuarterTurn turn_, std::vector<DetectedDot> dots_, int side = 64)
         : view(view_), turn(turn_), dots(std::move(dots_)), owned(side) {
@@ -42,7 +43,7 @@ struct Reading {
     FixedVec zero;  ///< steps on the pattern from `view.place` to the grid's cell (0, 0)
     PlaneFromImage plane;
     Status status;
-    Decoding decoding;  ///< with the regions to decode
+    Decoding decoding;  ///< contains only the regions to decode
 };
 
 }  // namespace dotpose::core_test

@@ -51,7 +51,8 @@ TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
         const Lattice first = lattice_of(spoilt(mesh, rng));
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), first, plane), Status::ok);
-        // Dots beyond 500 cells are ignored. The first lattice may be too wide by 3 %.
+        // Dots beyond 500 cells are ignored. The first estimate may be 3 % too wide, so the
+        // additional dots are at 530 cells.
         const Vec2 far = mesh.at(530, 0);
         dots.resize(dots.size() + 5000, dot_at(far));
         PlaneFromImage same;
@@ -82,8 +83,8 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), lattice_of(spoilt(mesh, rng)), plane),
                   Status::ok);
-        // Half of the dots suffice to distinguish cells in which dots are displaced by 1/6.
-        // Spurious dots increase the errors.
+        // The remaining dots must suffice to find the correct cells. The tolerance is large because
+        // spurious dots increase the errors.
         expect_grid(plane, placed, intersections(mesh, placed), 0.25);
         if (testing::Test::HasFatalFailure()) return;
     }

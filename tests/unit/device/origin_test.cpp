@@ -27,8 +27,8 @@ Vec2 origin_of(const std::vector<DetectedDot>& dots, const Mesh& mesh, Vec2 near
     return real(lattice.origin_q16, 16);
 }
 
-/// Returns the distance of a point from the nearest intersection, in spacings, along the axis on
-/// which it is larger.
+/// Returns the larger of the distances of a point from the nearest intersection along the two axes
+/// of the grid, in spacings.
 double off_intersection(const Mesh& mesh, Vec2 p) {
     const Vec2 g = mesh.inverse(p);
     return std::max(std::abs(g.x - std::round(g.x)), std::abs(g.y - std::round(g.y)));

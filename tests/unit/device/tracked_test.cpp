@@ -125,8 +125,8 @@ TEST_F(DeviceTracked, LocatesAfreshWhatItRefuses) {
     EXPECT_EQ(fix.cell, before.cell);
 }
 
-/// Returns the place whose columns, from 16 to the left of `place` to 16 to the right, share the
-/// maximum number of rolls with the columns of `place`.
+/// Returns the wrong place whose 20 columns share the maximum number of rolls with the 20 columns
+/// that begin at `place`. The wrong place differs in one secondary sequence and in the section.
 Place worst_alternative(Place place) {
     constexpr std::size_t kLines = 20;
     const code::Basis& basis = code::basis(CodeVariant::anoto);
@@ -156,7 +156,7 @@ Place worst_alternative(Place place) {
             }
         }
     }
-    // The rows are unchanged.
+    // The rolls of the rows must not change.
     const int row =
         code::roll_from(CodeVariant::anoto, place.cell.y, place.section.v, place.cell.x);
     alternative.section.v = static_cast<std::uint8_t>(
@@ -183,7 +183,8 @@ TEST_F(DeviceTracked, FollowsNoWrongPrediction) {
         std::swap(wrong[5].pattern_from_image.du_q24, wrong[5].pattern_from_image.dv_q24);
         wrong[5].pattern_from_image.du_q24.x *= -1;
         wrong[5].pattern_from_image.du_q24.y *= -1;
-        // Relative to the first line in view.
+        // The alternative must share the columns in view, so the prediction is relative to the
+        // first column in view.
         const Place first = moved(CodeVariant::anoto, right.place,
                                   (right.pattern_from_image.at_centre_q16.x >> 16) - 10, 0);
         wrong[6].place = worst_alternative(first);
@@ -222,7 +223,8 @@ TEST_F(DeviceTracked, TakesPredictionsOfAnyBits) {
         Prediction prediction = Prediction::like(before);
         std::array<std::uint32_t, sizeof prediction / 4> words;
         std::memcpy(words.data(), &prediction, sizeof words);
-        // Either all words of the prediction are random, or only a few.
+        // In every fourth trial, nearly all words of the prediction are random. In all other
+        // trials, two to four words are changed.
         const int changes = i % 4 == 0 ? static_cast<int>(4 * words.size()) : 1 + i % 4;
         for (int n = 0; n < changes; ++n) {
             const auto word = static_cast<std::size_t>(rng_.below(words.size()));

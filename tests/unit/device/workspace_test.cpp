@@ -21,7 +21,7 @@ template <int Width, int Height, int MinDots, int Limit_log2 = -30>
 struct Size {
     static constexpr int kWidth_px = Width;
     static constexpr int kHeight_px = Height;
-    /// Number of dots, 11 px apart, in the stored cells of almost every frame.
+    /// Every fix uses more than this number of dots, which are 11 px apart.
     static constexpr int kMinDots = MinDots;
     /// Maximum probability of a wrong position, log2. The smallest frames have too few dots for the
     /// usual limit.
@@ -103,8 +103,7 @@ TYPED_TEST(DeviceWorkspace, LocatesAndTracksFramesOfItsSize) {
         EXPECT_EQ(next.attempt, Attempt::tracked);
         EXPECT_EQ(next.section, fix.section);
         EXPECT_GT(next.dots_used, 100) << i;
-        // Planes count pixels from the corner of the frame, independent of the part that was
-        // tracked.
+        // The centre of the plane is the centre of the frame, not of the part that was tracked.
         EXPECT_EQ(next.pattern_from_image.centre_q8.x, (TypeParam::kWidth_px - 1) * 128);
         EXPECT_EQ(next.pattern_from_image.centre_q8.y, (TypeParam::kHeight_px - 1) * 128);
         tracked_squares += std::pow(distance(next, shot), 2);

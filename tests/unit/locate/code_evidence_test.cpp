@@ -59,7 +59,8 @@ TEST(CodeEvidence, CountsAPlaceAtMost32BitsHoweverManyFramesSayMore) {
     for (int frame = 0; frame < 3; ++frame)
         evidence.add(kPlace, against(CodeVariant::anoto, 60));
     EXPECT_EQ(evidence.log2_q8(CodeVariant::anoto), -32 * 256);
-    // Here, one frame in 256 is strong: 40 bits, the maximum per frame, minus 8 bits.
+    // Now one frame in 256 is strong. The maximum per frame is 40 bits, so the mean factor is 2^40 /
+    // 256 = 2^32.
     for (int frame = 0; frame < 3 * 255; ++frame)
         evidence.add(kPlace, against(CodeVariant::anoto, 0));
     EXPECT_NEAR(evidence.log2_q8(CodeVariant::anoto), -32 * 256, kRounding);
@@ -77,9 +78,9 @@ TEST(CodeEvidence, FramesAgainstEachOtherCancelOut) {
     EXPECT_EQ(evidence.log2_q8(CodeVariant::anoto), evidence.log2_q8(CodeVariant::libdots));
 }
 
-// Overlapping views of the same bits. The probability of a bit is one half in the true code variant
-// and three quarters in the other code variants. Each bit in view therefore adds log2(1.5) for the
-// other code variants, or log2(2) against them.
+// Overlapping views of the same bits. In the true code variant, each bit is 1 with a probability of
+// one half, in the other code variants with a probability of three quarters. Each bit in view
+// therefore multiplies the odds of the other code variants by 1.5 or by 0.5.
 TEST(CodeEvidence, IsSeldomMuchAgainstTheTruth) {
     constexpr std::size_t kBits = 40;
     constexpr std::size_t kSeen = 25;

@@ -64,7 +64,7 @@ TEST_F(Known, SmallFramesAreLocatedOnKnownSheetsOnly) {
         EXPECT_TRUE(is_right(fix, shot)) << "frame " << i;
     }
     EXPECT_GE(located, 19);
-    // No image is too small for the memory that the kernels read.
+    // Kernels must not read beyond the pixels of small images, which a sanitizer would report.
     for (int side = kMinKnownFrameSide_px; side < 40; ++side)
         static_cast<void>(locator_.locate({image.pixels.data(), side, side, image.width_px}));
     EXPECT_EQ(locator_.set_known({}), Status::ok);

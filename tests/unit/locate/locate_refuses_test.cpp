@@ -129,7 +129,7 @@ TEST(LocateRefuses, EveryStageCanRefuse) {
     options = {};
     options.lattice.min_dots = 10000;
     EXPECT_EQ(Locator(memory, options).locate(frame.view()).status, Status::too_few_dots);
-    // Another code variant differs in a4, and therefore in almost every difference.
+    // Another code variant differs in a4, and therefore in almost every difference of rolls.
     options = {};
     options.code = CodeVariant::microdots;
     const Status other = Locator(memory, options).locate(frame.view()).status;

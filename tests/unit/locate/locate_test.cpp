@@ -224,7 +224,7 @@ TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
         EXPECT_EQ(used.locate(big.view()).status, Status::ok);
         expect_same(used.locate(frame.view()), fresh);
         EXPECT_EQ(used.locate(tiny.view()).status, Status::image_too_small);
-        // The frame is begun, and dropped half-way.
+        // Begins the frame, and abandons it half-way.
         EXPECT_EQ(used.begin(frame.width_px, frame.height_px), Status::ok);
         for (int v = 0; v < 50; ++v)
             used.push_row(frame.view().row(v));
@@ -323,9 +323,8 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             const double tolerance = 0.01 + length(offset) * 1e-4;
             EXPECT_NEAR(x, from_pose.x, tolerance);
             EXPECT_NEAR(y, from_pose.y, tolerance);
-            // Noise may be fitted as a slight tilt, whose rotation of the axes varies across the
-            // image. The rotation is up to the position error over half of the image, and larger
-            // outside of the image.
+            // The fit may interpret noise as a slight tilt. The direction of the axes then varies
+            // across the image, and more outside of the image.
             const double apart_rad =
                 std::remainder(fix.theta_rad() - at_centre.theta_rad(), 2 * std::numbers::pi);
             EXPECT_NEAR(apart_rad, 0, 1e-4 * std::max(1.0, length(offset) / 100));

@@ -33,7 +33,7 @@ void expect_located_at_once(const PartialView& view) {
         outcome.fix = Locator(*memory, options).locate(image.view());
         EXPECT_EQ(outcome.fix.status, Status::ok) << "frame " << i;
         EXPECT_FALSE(outcome.is_wrong()) << "frame " << i;
-        // The next prediction is relative to the image centre.
+        // The plane of the fix is relative to the image centre, as predictions require.
         EXPECT_EQ(outcome.fix.pattern_from_image.centre_q8, (FixedVec{639 * 128, 479 * 128}));
         const Fix next =
             Locator(*memory, options).locate(image.view(), Prediction::like(outcome.fix));
@@ -83,8 +83,8 @@ TEST(PartialViews, BordersAndCornersAreLocatedByDevices) {
 }
 
 TEST(PartialViews, CoverWhatTheyShould) {
-    // Ink covers pi / 36 of the area of each cell. Pixels darker than any paper show the places of
-    // the dots.
+    // Each cell has the same amount of ink, so the ratio of the darkness of the two images is the
+    // covered fraction.
     PartialView view;
     view.min_share = view.max_share = 0.3;
     for (std::uint64_t i = 0; i < 4; ++i) {

@@ -70,7 +70,8 @@ DeviceOptions options_for(const Shot& shot) {
     return options;
 }
 
-/// Returns predictions that are far away in the same section, near, and in another section.
+/// Returns wrong predictions: displaced by some cells, rotated by quarter turns, in another
+/// section, and at a random place.
 std::vector<Prediction> wrong_predictions(const Shot& shot, Rng& rng) {
     const Prediction truth = true_prediction(shot);
     std::vector<Prediction> wrong;
@@ -257,7 +258,7 @@ Prediction garbled(Prediction p, Rng& rng) {
                              &p.displacement_q16,
                              &p.sigma_q16,
                              &p.sigma_theta_bam};
-    // One or more fields are changed.
+    // Either one field is random, or about half of the fields.
     const std::uint32_t share = rng.below(2) == 0 ? 1 : 8;
     const std::size_t one = rng.below(static_cast<std::uint32_t>(numbers.size() + 4));
     const auto is_hit = [&](std::size_t i) { return i == one || rng.below(16) < share - 1; };

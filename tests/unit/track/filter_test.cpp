@@ -40,8 +40,8 @@ Sighting at(int frame, const Pose& pose, const Matrix3& covariance) {
     return sighting;
 }
 
-/// Returns the covariance of a view of 8 mm: the same standard deviation along x and y, and a
-/// proportional standard deviation of the angle.
+/// Returns a covariance typical of a view of 8 mm: `sigma_mm` along x and y, and `sigma_mm` / 4 rad
+/// for the angle.
 Matrix3 round_covariance(double sigma_mm) {
     const auto variance = static_cast<float>(sigma_mm * sigma_mm);
     return {{{variance, 0, 0}, {0, variance, 0}, {0, 0, variance / 16}}};
@@ -221,7 +221,8 @@ TEST(Filter, IsNeverWorseThanWhatItSees) {
 }
 
 TEST(Filter, DoesNotTrustErrorsThatAllSightingsShare) {
-    // Printing errors remain, because averaging does not reduce them.
+    // Like printing errors, the constant error is not reduced by averaging. The covariance must
+    // include it.
     const Errors errors = track_eight(0, 0.00005, 0.0005);
     EXPECT_LT(errors.normalised, 1.2);
     EXPECT_GT(errors.normalised, 0.3);

@@ -63,7 +63,7 @@ TEST(FramePacer, TakesEveryFrameOfAMovingDevice) {
 
 TEST(FramePacer, TakesAFrameASecondAfterFiveSecondsOfRest) {
     Device device;
-    // Noise of a resting device, 0.01 spacings.
+    // A device at rest, with noise of 0.01 spacings.
     device.run_until(65 * kSecond_us, [](std::int64_t t) {
         return at(100 + (t / kFrame_us % 2 == 0 ? 0.01 : -0.01));
     });
@@ -76,7 +76,8 @@ TEST(FramePacer, TakesAFrameASecondAfterFiveSecondsOfRest) {
     EXPECT_EQ(device.frames_us.back(), 64 * kSecond_us);
 }
 
-/// Rests for 10.5 s, then changes the place: the frame at 11 s shows the new place.
+/// Checks whether a device at rest wakes. The device rests for 10.5 s and then changes its place, so
+/// the frame at 11 s shows the new place.
 void expect_wakes(const Fix& rest, const Fix& after, bool wakes, const PacerOptions& options = {}) {
     Device device(options);
     device.run_until(12 * kSecond_us,

@@ -261,7 +261,7 @@ TEST(TrackerPredict, SurvivesAnyInput) {
     Followed other = driven;
     other.sighting.spacing_nm = 0;
     expect_as_seen(other.predict(205'000), other.fix);
-    other.sighting.spacing_nm = 1;  // the robot then jumps
+    other.sighting.spacing_nm = 1;  // the predicted motion, in spacings, is then too large
     expect_as_seen(other.predict(205'000), other.fix);
     other.sighting = driven.sighting;
     other.sighting.x_nm += 1'000'000'000'000;

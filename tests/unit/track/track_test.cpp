@@ -159,7 +159,7 @@ TEST(Tracker, IsKidnappedIfFoundBeyondReach) {
     Tracker tracker({.max_speed_mm_s = 300});
     drive(tracker, 0, 100'000);
     tracker.update(200'000, nullptr);  // lost
-    // 300 mm/s for 0.3 s are at most 90 mm.
+    // At 300 mm/s, the robot moves by at most 90 mm in 0.3 s.
     EXPECT_EQ(events_of(see(tracker, at(395'000, 130))), "");
     EXPECT_TRUE(tracker.track().is_lost);
     EXPECT_EQ(events_of(see(tracker, at(400'000, 130))), "");
@@ -187,8 +187,8 @@ TEST(Tracker, BelievesWeakSightingsThatThePriorSupports) {
     drive(tracker, 0, 100'000);
     const Track& track = see(tracker, weak(at(100'000, 10, 0, 0.2), -12));
     EXPECT_EQ(track.verdict, Verdict::with_prior);
-    // The gate is at least +-0.125 mm wide (half of the permitted acceleration times the squared
-    // time) and narrower than a cell. It contains 2 to 4 cells of 2^36 hypotheses.
+    // The gate extends at least 0.125 mm to each side (half of the permitted acceleration times the
+    // squared time), but is narrower than a cell. It contains 2 to 4 cells, out of 2^36 hypotheses.
     EXPECT_GE(track.p_wrong_log2, -12 + 1 - 36);
     EXPECT_LE(track.p_wrong_log2, -12 + 2 - 36);
 }
@@ -200,8 +200,8 @@ TEST(Tracker, RefusesOtherWeakSightings) {
         tracker.update(time_us - 1, nullptr);
         return see(tracker, sighting).verdict;
     };
-    // The sightings are outside of the gate, have a certainty close to chance, or are of a lost
-    // robot.
+    // In this order: a sighting outside of the gate, a sighting with a p_wrong close to chance, and
+    // a sighting of a lost robot.
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 12, 0, 0.2), -12)), Verdict::too_weak);
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 10, 0, 0.2), -9)), Verdict::too_weak);
     EXPECT_EQ(verdict(165'000, weak(at(165'000, 16.5, 0, 0.33), -12)), Verdict::too_weak);
@@ -232,8 +232,8 @@ TEST(Tracker, TellsRestFromMovement) {
     ASSERT_EQ(events.size(), 3U);
     EXPECT_EQ(events[0].second, "fix ");
     EXPECT_EQ(events[1].second, "stationary ");
-    // The time starts when the robot is within 0.1 mm of its resting place. After such a sudden
-    // stop, the filter needs some frames to settle.
+    // The time at rest starts when the robot is within 0.1 mm of its resting place. After the
+    // sudden stop, the filter needs some frames to settle.
     EXPECT_NEAR(static_cast<double>(events[1].first), 1.5e6, 30e3);
     EXPECT_EQ(events[2].second, "moving ");
     EXPECT_NEAR(static_cast<double>(events[2].first), 2.0e6, 10e3);  // moving by 0.1 mm takes 2 ms

@@ -17,7 +17,7 @@ constexpr std::uint64_t kSeed = 20261;
 
 class KernelsTest : public ::testing::Test {
   protected:
-    /// Calls `use(rng)` a number of times, each time with different random numbers.
+    /// Calls `use(rng)` `times` times, each time with different random numbers.
     template <typename Use>
     void repeat(int times, Use use) {
         for (int i = 0; i < times; ++i) {

@@ -111,8 +111,8 @@ TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
     repeat_with_each_form(200, [](const Kernels& kernels, Rng& rng) {
         constexpr double kMargin_px = 2;
         const double sigma_px = rng.uniform(0.7, 4);
-        // Smaller windows contain little more than the flat top of a dot, because of the rounding
-        // to whole grey levels.
+        // A smaller window would contain little more than the top of the dot, which is flat after
+        // rounding to whole grey levels.
         const auto reach_px = static_cast<float>(rng.uniform(std::max(3.3, 2.5 * sigma_px), 12));
         const auto anywhere = [&] { return rng.uniform(20, OneDot::kSide_px - 21); };
         const auto at_border = [&] { return rng.uniform(kMargin_px, kMargin_px + 1); };
@@ -145,8 +145,8 @@ TEST(KernelsWindows, CentresFarFromTheirDotsStay) {
 
 TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
     repeat_with_each_form(100, [](const Kernels& kernels, Rng& rng) {
-        // Lists one dot several times with different predictions around it. The kernel estimates
-        // the slope of the moment over the offset from the close predictions.
+        // Lists one dot several times with different predictions around it. From the predictions
+        // close to the dot, the kernel estimates how the moment depends on the offset.
         const double u = rng.uniform(20, OneDot::kSide_px - 21);
         const double v = rng.uniform(20, OneDot::kSide_px - 21);
         OneDot dot(u, v, rng.uniform(0.9, 1.5), 0);
@@ -188,8 +188,8 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
     });
 }
 
-/// Sixteen Gaussian dots in a square, on paper with the level level(x, y). The error of each
-/// prediction is a tenth of a pixel.
+/// Sixteen Gaussian dots in a square, on paper with the level level(x, y). Each prediction has an
+/// error of up to a tenth of a pixel per axis.
 struct LitDots {
     static constexpr int kSide_px = 80;
     static constexpr std::size_t kDots = 16;
@@ -306,7 +306,7 @@ TEST(KernelsWindows, PredictedDotsAreReadByTheDarkestPlace) {
         EXPECT_EQ(columns.bits[i], columns.valid[i]);
         EXPECT_EQ(rows.valid[j], std::uint64_t{1} << i);
         EXPECT_EQ(rows.bits[j], rows.valid[j]);
-        // No dot is found if the expected dot is much darker.
+        // No dot is seen if there is no ink near the prediction.
         dots.x[0] = 20;
         EXPECT_EQ(kernels.read_levels(dot.view, view, 100, dots, nullptr, nullptr).seen, 0);
     });

@@ -30,10 +30,10 @@ inline std::vector<const core::Kernels*> forms() {
     return all;
 }
 
-/// The output of a kernel as words.
+/// The output of a kernel as bytes.
 class Record {
   public:
-    /// Adds a value that consists of words only.
+    /// Adds a value without padding.
     template <typename T>
     void add(const T& value) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -66,8 +66,8 @@ void expect_same(Run run) {
 
 inline constexpr std::uint64_t kPlainSeed = 20262;
 
-/// Calls `use(kernels, rng)` a number of times for each form, each time with different random
-/// numbers.
+/// Calls `use(kernels, rng)` `times` times for each form. Each call has different random numbers,
+/// which are the same for all forms.
 template <typename Use>
 void repeat_with_each_form(int times, Use use) {
     for (const core::Kernels* form : forms()) {

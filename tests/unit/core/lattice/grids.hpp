@@ -9,7 +9,8 @@
 
 namespace dotpose::core_test {
 
-/// Returns the mesh with the maximum errors of a first estimate, in length, angle and place.
+/// Returns the mesh with random errors in length, angle and place, up to the maximum errors of a
+/// first estimate.
 inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
     const auto turned = [&](Vec2 a) {
         const double angle = radians(rng.uniform(-1, 1));

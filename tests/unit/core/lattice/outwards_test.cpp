@@ -19,7 +19,7 @@ constexpr std::uint64_t kSeed = 75;
 struct Trouble {
     double missing = 0;
     double extra = 0;      ///< number of false dots at random places, per dot
-    double jitter_px = 0;  ///< standard deviation of dots, per axis
+    double jitter_px = 0;  ///< standard deviation of the places of dots, per axis
     double displacement = 1 / 6.0;
 };
 
@@ -49,7 +49,8 @@ std::unique_ptr<Patch> patch_of(const FloatPlane& plane, const Trouble& trouble,
     for (int j = -70; j <= 70; ++j) {
         for (int i = -70; i <= 70; ++i) {
             const Vec2 d = 6 * trouble.displacement * random_displacement(rng);
-            // There are no dots behind the horizon of a tilted plane.
+            // A point behind the horizon of a tilted plane has no place in the image. The condition
+            // below excludes it.
             const Vec2 at = image_of(plane, {i + d.x, j + d.y});
             const Vec2 seen = at + trouble.jitter_px * Vec2{rng.normal(), rng.normal()};
             if (!(std::abs(seen.x) < half.x - 2 && std::abs(seen.y) < half.y - 2)) continue;
@@ -138,7 +139,8 @@ TEST(FindGrid, FindsCoarseGridsInReducedPatches) {
         ASSERT_TRUE(core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid))
             << scale;
         EXPECT_LT(difference(grid.grid_from_image, truth, {112.0 * scale, 80.0 * scale}), 0.05);
-        // The spacing of these dots is too large or too small for a patch of another scale.
+        // At another scale, the spacing is too large or too small. The search must not find a wrong
+        // grid.
         patch->scale = scale == 2 ? 4 : 1;
         EXPECT_FALSE(core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid) &&
                      difference(grid.grid_from_image, truth, {40, 40}) > 0.2);
@@ -150,7 +152,7 @@ TEST(FindGrid, RefusesWhatIsNoGrid) {
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << i << ", seed " << kSeed);
         core::PatchGrid grid;
-        // Dots are at random places.
+        // Dots at random places.
         const auto scattered = empty_patch();
         std::vector<Vec2> dots;
         const int count = 60 + static_cast<int>(rng.below(400));
@@ -159,11 +161,11 @@ TEST(FindGrid, RefusesWhatIsNoGrid) {
         finish_patch(*scattered, dots);
         EXPECT_FALSE(
             core::find_grid(core::kernels(), *scattered, core::whole_view(*scattered), grid));
-        // The dots are on their intersections.
+        // Dots on their intersections, without displacement.
         const auto plain =
             patch_of(random_float_plane(rng.uniform(7, 15), 1e-4, rng), {0, 0, 0.02, 0}, rng);
         EXPECT_FALSE(core::find_grid(core::kernels(), *plain, core::whole_view(*plain), grid));
-        // There are too few dots.
+        // Too few dots.
         const auto few = patch_of(random_float_plane(11, 0, rng), {}, rng);
         few->dots.count = 39;
         EXPECT_FALSE(core::find_grid(core::kernels(), *few, core::whole_view(*few), grid));

@@ -78,7 +78,7 @@ TEST(SearchPeriodogram, RecoversTheGridThatATiltedCameraSees) {
         const std::vector<DetectedDot> dots = dots_of(placed_dots(mesh, 40, image, displacement));
         std::array<std::uint16_t, kMaxSeeds> seeds;
         const int count = choose_seeds(dots, fixed(centre, 8), seeds);
-        // Clustered edges result in an estimate that is about square.
+        // The first estimate, which comes from clustered edges, is about square.
         Lattice lattice = lattice_of({0.97 * flat.u, 0.97 * flat.v, centre});
         search_periodogram(dots, std::span(seeds).first(static_cast<std::size_t>(count)),
                            fixed(centre, 8), 12, lattice);

@@ -64,8 +64,9 @@ TEST(Plane, OfALatticeGivesItsCoordinates) {
             const Vec2 p{rng.uniform(0, 4095), rng.uniform(0, 4095)};
             const Vec2 expected = mesh.inverse(p);
             const Vec2 found = real(plane_point_q16(plane, fixed(p, 8)), 16);
-            // The inverse has a resolution of 2^-24 per px and axis, 5e-4 over 4096 px. Points and
-            // the origin have 1/256 px, 7e-4 at 6 px.
+            // The inverse map has a resolution of 2^-24 per px and axis, which is 5e-4 over 4096
+            // px. Points and the origin have a resolution of 1/256 px, which is 7e-4 spacings at 6
+            // px per spacing.
             ASSERT_NEAR(found.x, expected.x, 1.2e-3) << "lattice " << i << ", seed " << kSeed;
             ASSERT_NEAR(found.y, expected.y, 1.2e-3) << "lattice " << i << ", seed " << kSeed;
         }
@@ -89,8 +90,9 @@ TEST(Plane, ImagePointsAreTheInverse) {
 }
 
 TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
-    // The plane has the maximum lens that a fit can represent, far outside of the dots to which it
-    // was fitted. No image point maps there, and no intermediate result may overflow.
+    // The lens term has any value that a fit can represent, and the points are far outside the dots
+    // of a fit. There may be no image point for such a point, and no intermediate result may
+    // overflow.
     Rng rng(kSeed);
     for (int i = 0; i < 2000; ++i) {
         SCOPED_TRACE(testing::Message() << "plane " << i << ", seed " << kSeed);

@@ -139,7 +139,7 @@ TEST(PixelBias, IsTakenFromDiscs) {
     const MeanError error = typical_error(disc(1), 1.05F);
     EXPECT_GT(error.before.x, 0.006);
     EXPECT_GT(error.before.y, 0.006);
-    // Noise alone causes 0.0016.
+    // Noise alone causes an error of 0.0016 px.
     EXPECT_LT(error.after.x, 0.0024);
     EXPECT_LT(error.after.y, 0.0024);
 }

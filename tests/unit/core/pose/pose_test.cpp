@@ -59,8 +59,8 @@ TEST(Pose, FittedToExactDotsIsExact) {
         const Reading reading = reading_off_grid(i, rng);
         const Fitted fit = fitted(reading);
         ASSERT_TRUE(fit.ok);
-        // The rounding to 1/256 px depends on the place in the image, which has the same effect as
-        // a lens.
+        // The rounding to 1/256 px varies across the image, which has the same effect as a slight
+        // lens distortion.
         expect_pose(reading, fit.pose, reading.view.centre_px(), 2e-4);
         EXPECT_GE(fit.fix.dots_used, static_cast<int>(reading.dots.size()) * 9 / 10);
     }
@@ -162,7 +162,7 @@ TEST(Pose, PastTheEndOfTheCodeItContinuesInAnotherSection) {
     EXPECT_EQ(fix.fraction_x_q16, 0.75 * 65536);
 }
 
-/// Sums for the covariance of (x, y, theta): squared errors, and the covariances of the fixes.
+/// Sums over many fixes: products of the errors of (x, y, theta), and covariances of the fixes.
 struct Scatter {
     double squares[3][3] = {};
     double claimed[3][3] = {};
@@ -238,9 +238,9 @@ struct HalfDark {
 };
 
 TEST(Pose, DotsInTheDarkCountLess) {
-    // Noise of 0.02 px in the light part corresponds to 0.08 px in the dark part. With two halves
-    // of 1 and 16 times the variance, the variance of the plain mean is 8.5 times the variance of
-    // the better half, and the variance of the weighted mean is 1.9 times.
+    // Noise of 0.02 px in the light part corresponds to 0.08 px in the dark part, which is 16 times
+    // the variance. Compared with the same number of dots in the light part, the variance of the
+    // plain mean is 8.5 times as large, and the variance of the weighted mean 1.9 times as large.
     Rng rng(kSeed);
     const HalfDark paper;
     const View view = random_view(rng);
