@@ -76,8 +76,8 @@ TEST(FramePacer, TakesAFrameASecondAfterFiveSecondsOfRest) {
     EXPECT_EQ(device.frames_us.back(), 64 * kSecond_us);
 }
 
-/// Checks whether a device at rest wakes. The device rests for 10.5 s and then changes its place, so
-/// the frame at 11 s shows the new place.
+/// Checks whether a device at rest wakes. The device rests for 10.5 s and then changes its place,
+/// so the frame at 11 s shows the new place.
 void expect_wakes(const Fix& rest, const Fix& after, bool wakes, const PacerOptions& options = {}) {
     Device device(options);
     device.run_until(12 * kSecond_us,

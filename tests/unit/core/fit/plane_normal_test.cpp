@@ -88,8 +88,8 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
             ASSERT_NEAR(derivatives[0][k], change.x, most);
             ASSERT_NEAR(derivatives[1][k], change.y, most);
         }
-        // `changed` is also exact for a large change of the tilt, because a tilt in the pattern is a
-        // tilt in the image.
+        // `changed` is also exact for a large change of the tilt, because a tilt in the pattern is
+        // a tilt in the image.
         const Vec2 place = formula(seen, px) - formula(seen, {});
         const double by = 1 + (0.3 * place.x - 0.2 * place.y) / 9;
         const auto unit = scaled(plane).scale();
