@@ -12,8 +12,8 @@ namespace dotpose::cli {
 enum class RecordFormat { json, csv, text };
 
 /// Version of the JSON lines, the first field of each line. docs/schema/lines-VERSION.json
-/// describes the lines. Within a version, keys may be added. No key is removed or changes its
-/// meaning.
+/// describes the lines. Within a version, keys may be added. No key is removed, and no key
+/// changes its meaning.
 inline constexpr const char* kSchemaVersion = "1";
 
 struct Field {

@@ -107,7 +107,7 @@ struct RunStatistics {
     double mean_speed_mm_s = 0;  ///< mean over the frames in which the robot moves
     double largest_speed_mm_s = 0;
     double largest_p_wrong = 0;
-    std::set<std::string> planes;  ///< frames of the poses: pattern, world
+    std::set<std::string> planes;  ///< frames of reference of the poses: pattern, world
 };
 
 RunStatistics statistics_of(const std::vector<LogRow>& rows);

@@ -25,8 +25,8 @@ constexpr double kImplausibleScale = 0.25;
 constexpr double kNotableRotation_rad = 0.2 * kDegree_rad;
 constexpr double kNotableSkew_rad = 0.1 * kDegree_rad;
 constexpr double kNotableDistortion_mm = 0.1;
-/// Minimum growth and maximum shrinkage of the dot diameter that are faults. Usual printers do not
-/// reach these limits.
+/// Limits of the relative growth of the dot diameter; a growth outside them is a fault. Usual
+/// printers stay within the limits.
 constexpr double kSwollenGain = 0.5;
 constexpr double kThinGain = -0.3;
 constexpr double kNotableShare = 0.01;

@@ -37,7 +37,7 @@ struct ImageFormat {
     int (*count_pages)(Bytes file) = nullptr;
 };
 
-/// Number of bytes by which formats are recognized.
+/// Number of bytes at the beginning of a file that identify its format.
 inline constexpr std::size_t kMagicBytes = 12;
 
 /// Detects the format from the first bytes of a file. Returns null for unknown bytes.

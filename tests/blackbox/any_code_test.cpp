@@ -1,4 +1,4 @@
-// Tests of `dotpose locate` on sheets whose code is not given: detection of the code, or a report
+// Tests `dotpose locate` on sheets whose code is not given: detection of the code, or a report
 // of the alternatives.
 #include <cmath>
 #include <cstdint>
@@ -92,7 +92,8 @@ TEST_F(AnyCode, two_places_are_told_where_both_explain_the_frame) {
 
 TEST_F(AnyCode, other_frames_of_the_call_decide) {
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::libdots}) {
-        // The first two places are unique to the code, and the third place is not.
+        // The first two frames occur in only one code. The third frame also occurs in the other
+        // code.
         write_at("1.pgm", code, kCommon, kBorder);
         write_at("2.pgm", code, kBorder + kPeriod, kCommon);
         const Shot truth = write_at("3.pgm", code, kCommon, kShifted);

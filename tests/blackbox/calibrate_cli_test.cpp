@@ -128,7 +128,7 @@ TEST_F(CalibrateCommand, ASpacingThatTheCameraFileContradictsIsReported) {
     EXPECT_EQ(warning("0.508"), "");
     EXPECT_EQ(warning("0.498"), "");
     EXPECT_EQ(warning("0.518"), "");
-    EXPECT_THAT(warning("0.493"), HasSubstr("a spacing of 0.50"));  // printed at 97 %
+    EXPECT_THAT(warning("0.493"), HasSubstr("a spacing of 0.50"));  // 97 % of the true spacing
     EXPECT_THAT(warning("0.3"), HasSubstr("lengths are computed with 0.3 mm"));
 
     const std::string before = file("camera.yaml");

@@ -135,7 +135,7 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(exit_code_, 0) << output_;
     EXPECT_THAT(output_, HasSubstr("note:  scale was not checked, because this is a photo"));
 
-    // A scan without a resolution, and a scan with a wrong resolution.
+    // The first scan has no resolution, and the second scan has a wrong one.
     const GreyImage scan = test::scan_page(sheet, {});
     write_jpeg("scan.jpg", scan, 0);
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json"), 1);

@@ -25,8 +25,8 @@ class Hostile : public ToolCommand {
     }
 };
 
-/// Sequences that set the title and the colours of a terminal and ring its bell, followed by a
-/// complete line.
+/// Control sequences that set the title and the colour of a terminal and ring its bell, and a line
+/// break with a forged output line.
 constexpr const char* kActs = "\x1b]0;OWNED\x07\x1b[31m\x7f\xc2\x9b\n{\"status\":\"ok\"}";
 
 void expect_harmless(const std::string& text) {

@@ -135,7 +135,7 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
     EXPECT_EQ(calibrate("--size 188x120 --fps 10 - <drive.raw"), 0) << errors_;
     EXPECT_TRUE(has_file());
     EXPECT_GE(used(), 10);
-    // There is no frame at rest for 2 s.
+    // At 30 frames per second, the frames end after 2 s, before the program stops waiting.
     fs::remove(directory_ / "camera.yaml");
     EXPECT_EQ(calibrate("--size 188x120 --fps 30 - <drive.raw"), 1);
     EXPECT_FALSE(has_file());
@@ -198,7 +198,7 @@ TEST_F(LiveCalibration, RefusesWhatItCannotDo) {
         EXPECT_THAT(errors_, HasSubstr("cannot be given together")) << other;
     }
     EXPECT_EQ(run("calibrate --no-window frames"), 2);
-    // The error is reported before the camera is moved in vain.
+    // The error is reported before the user has moved the camera for nothing.
     EXPECT_EQ(run("calibrate --live --no-window frames -o nowhere/camera.yaml"), 1);
     EXPECT_THAT(errors_, HasSubstr("nowhere/camera.yaml"));
     EXPECT_THAT(errors_, Not(HasSubstr("taken")));

@@ -102,7 +102,7 @@ TEST_F(LocateCommand, a_picture_that_is_tilted_out_of_focus_or_shaken_says_so) {
     run("blurred.pgm");
     EXPECT_NE(records().at(0)["status"], "ok") << output_;
     EXPECT_THAT(records().at(0)["message"], HasSubstr("the picture is out of focus, shaken"));
-    // Sharp pictures of other objects get neither piece of advice.
+    // A sharp picture of a text gets neither the advice on focus nor the advice on tilt.
     write_pgm(directory_ / "text.pgm", render_scene(Scene::text, clean_shot(14)).view());
     run("text.pgm");
     EXPECT_NE(records().at(0)["status"], "ok") << output_;

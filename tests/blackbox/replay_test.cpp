@@ -61,7 +61,7 @@ TEST_F(Replay, CountsARun) {
     EXPECT_EQ(figures["planes"], json{"world"});
 }
 
-// The lines of a similar run: the robot is lost, and placed elsewhere.
+// Three lines of a run in which the robot is lost, and an incomplete line.
 TEST_F(Replay, ReadsTheJsonLinesOfWatch) {
     put(R"({"schema":1,"frame":0,"t_s":0.0,"status":"ok","dots_seen":150,"p_wrong":1e-20,"state":"moving","events":"fix","verdict":"accepted","plane":"pattern","x_mm":0.0,"y_mm":0.0,"theta_deg":0.0,"covariance_mm_deg":[1e-06,0,0,0,4e-06,0,0,0,9e-06],"track_x_mm":0.0,"track_y_mm":0.0,"track_theta_deg":0.0,"vx_mm_s":0.0,"vy_mm_s":0.0}
 {"schema":1,"frame":1,"t_s":0.1,"status":"ok","dots_seen":150,"p_wrong":1e-12,"state":"moving","verdict":"accepted","plane":"pattern","track_x_mm":30.0,"track_y_mm":40.0,"vx_mm_s":300,"vy_mm_s":400}

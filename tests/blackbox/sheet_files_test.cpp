@@ -86,7 +86,7 @@ TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
     ASSERT_EQ(print("-o table.svg --paper 80x60 --sheets sheets.json --name table"), 0) << errors_;
     json sheet = sheets().at(0);
     const GreyImage frame = frame_of(sheet, 40, 30, 0.3, 1);
-    // The middle of the frame, six to seven cells wide and high.
+    // The middle of the frame is a square with a side of six to seven cells.
     constexpr int kSide_px = 72;
     const ImageView whole = frame.view();
     const std::uint8_t* first =

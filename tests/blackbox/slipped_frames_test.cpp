@@ -38,8 +38,8 @@ double sigmas_off(const Fix& fix, const Shot& shot) {
     return sigmas_off(fix, truth_of(shot));
 }
 
-// With the current code, 99.8 % of the errors are within 4 sigmas. Before small steps in the middle
-// were detected, 97.6 % were.
+// With the current code, 99.8 % of the errors are within 4 sigmas. Before `locate` detected small
+// steps in the middle of the view, the fraction was 97.6 %.
 TEST(SeamedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     constexpr int kFrames = 400;
     constexpr double kAnywhere_px = std::numeric_limits<double>::infinity();
@@ -110,9 +110,9 @@ struct Claims {
     }
 };
 
-// Waves of 8 mm and more cannot be observed in a view of 9 x 6 mm. Before mean residuals of blocks
-// above 1.5 standard deviations were counted, only 62 % (slight wrinkles) and 72 % (stronger
-// wrinkles) of the errors were within 4 sigmas.
+// Wrinkles with wavelengths of 8 mm and more cannot be observed in a view of 9 x 6 mm. Before
+// `locate` counted blocks with mean residuals above 1.5 standard deviations, only 62 % (slight
+// wrinkles) and 72 % (stronger wrinkles) of the errors were within 4 sigmas.
 TEST(WrinkledSheet, MostErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Claims slightly(0.02);
     EXPECT_EQ(slightly.fixes, 150);

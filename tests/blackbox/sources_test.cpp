@@ -160,7 +160,7 @@ TEST_F(Sources, EvaluateSaysWhichPosesAreMissing) {
     fs::copy_file(directory_ / image(0), directory_ / "frames/other.pgm");
     EXPECT_EQ(run("evaluate frames/other.pgm"), 1);
     EXPECT_EQ(errors_, "dotpose: frames/truth.csv has no pose of frames/other.pgm\n");
-    // The video is shorter or longer than the file of poses.
+    // First, the file of poses has more rows than the video has frames; then it has fewer rows.
     const std::string truth = file("frames/truth.csv");
     std::ofstream(directory_ / "more.csv") << truth << truth.substr(truth.find('\n') + 1);
     EXPECT_EQ(run("evaluate drive.mkv --format json --poses more.csv"), 1);

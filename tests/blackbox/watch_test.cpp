@@ -291,7 +291,7 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
                                                  : " has gaps, from damage or from its ")));
         EXPECT_THAT(errors_, HasSubstr(" of 60 frames were read\n"));
     }
-    // An AVI without some of its bytes, so its index does not match.
+    // Removes bytes from an AVI file, so the positions in its index are wrong.
     std::string video = file("whole.avi");
     video.erase(video.size() / 2, video.size() / 50);
     std::ofstream(directory_ / "lacking.avi", std::ios::binary) << video;
