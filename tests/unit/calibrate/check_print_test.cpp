@@ -124,9 +124,10 @@ TEST(CheckPrint, tells_other_print_from_faults) {
     EXPECT_LT(field.missing_share(), 0.002);
     EXPECT_LT(field.merged_share(), 0.002);
     EXPECT_LT(field.wrong_share(), 0.002);
-    // A bar covers a row of cells if its distance from the intersections is at most half a cell: 1
-    // mm and a cell of every 5 mm, over 30 of the 60 mm across. Along the edge of the grey area,
-    // cells differ from the paper in up to one tile of 24 cells (12 mm).
+    // A bar covers the cells whose intersections are at most half a cell from the bar: a stripe of
+    // 1 mm plus one cell. There is a bar every 5 mm, and a bar is 30 mm long on a page of 60 mm.
+    // Along the edge of the grey area, cells in up to one tile of 24 cells (12 mm) differ from the
+    // paper.
     const double bars = (1 + 0.508) / 5 * 30 / 60;
     const double edge = 12.0 * (25 + 30 + 25) / (60 * 80);
     EXPECT_GT(field.covered_share(), 0.9 * bars);
@@ -323,8 +324,8 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
         EXPECT_EQ(field->bits_wrong, 0);
         EXPECT_NEAR(field->gain(), 0.5, 0.1);
     }
-    // The best dots have a diameter of a sixth of the spacing: 4 and 6 units, printed as 6 (or 3)
-    // and as 9 (or 6).
+    // The optimal printed diameters are a sixth of the spacings: 4 and 6 units. With a growth of
+    // 1.5, nominal diameters of 2 and 4 are printed as 3 and 6, the values nearest to the optimum.
     ASSERT_EQ(result.best_per_spacing.size(), 2U);
     const auto dot_of = [&](std::size_t i) {
         return std::lround(result.fields[result.best_per_spacing[i]].pattern.dot_mm / kTestUnit_mm);

@@ -18,7 +18,7 @@ using test::ScanSettings;
 struct Fault {
     const char* name;
     ScanSettings settings;
-    std::vector<std::string> verdict;  ///< exactly the faults that must be found
+    std::vector<std::string> verdict;  ///< identifiers of all expected faults
 };
 void PrintTo(const Fault& fault, std::ostream* out) {
     *out << fault.name << " at " << fault.settings.dpi << " dpi";

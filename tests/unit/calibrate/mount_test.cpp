@@ -90,8 +90,9 @@ double off_mm(const RobotError& error) {
     return std::hypot(error.place_mm.x, error.place_mm.y);
 }
 
-// The uncertainties of the turn, of the image centre and of the image axis add up in quadrature. At
-// a distance of 15.8 mm, 4 µm per axis and 3e-4 rad of the camera file give 5.2 µm per axis.
+// The standard deviations of the turn, of the image centre and of the image axis add up in
+// quadrature. At a distance of 15.8 mm from the camera, the two values of the camera file, 4 µm per
+// axis and 3e-4 rad, contribute 5.2 µm per axis.
 TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
     const CameraModel model = paper_camera();
     const auto frame_at = [&](int i) {

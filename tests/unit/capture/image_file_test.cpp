@@ -178,8 +178,8 @@ TEST_F(ImageFileTest, reads_jpeg) {
     EXPECT_EQ(block_levels(grey), kGreyLevels);
     const Raster colour{3, 1, 3, 8, {0, 128, 128, 90, 128, 128, 255, 128, 128}};
     EXPECT_THAT(block_levels(read(encode_jpeg(colour))), ElementsAre(0, 90, 255));
-    // The values are stored inverted: no ink, all black, half black, the three coloured inks in
-    // full.
+    // The values are stored inverted, so 255 means no ink. The pixels have no ink, full black, part
+    // of black, and full cyan, magenta and yellow.
     const Raster cmyk{4,
                       1,
                       4,

@@ -121,7 +121,8 @@ TEST(Encode, RollAtRandomPositionsIsTheCountedSum) {
     std::mt19937 rng(kSeed);
     for (const CodeVariant code : kCodeVariants) {
         for (int i = 0; i < 20'000; ++i) {
-            const auto p = static_cast<std::uint32_t>(rng());  // below L in a tenth of the cases
+            // A tenth of the positions are below L, the number of positions.
+            const auto p = static_cast<std::uint32_t>(rng());
             const int expected = roll_by_counting(code, p);
             ASSERT_EQ(roll(code, p), expected) << "p " << p << " seed " << kSeed;
             ASSERT_EQ(reference_roll(code, p), expected) << "p " << p << " seed " << kSeed;

@@ -192,10 +192,11 @@ TEST(validate_resolution, wants_a_displacement_of_a_printer_pixel) {
 
 TEST(validate_resolution, wants_white_between_dots) {
     SheetOptions options;
-    options.pattern.dot_mm = 0.33;  // 8 of the 8 pixels at 600 dpi
+    // At 600 dpi, the centres of neighbouring dots may be only 8 px apart.
+    options.pattern.dot_mm = 0.33;  // 8 px
     EXPECT_THAT([&] { validate_resolution(make_sheet(options), 600); },
                 ThrowsMessage<BadArgument>(HasSubstr("neighbouring dots of 8 printer pixels")));
-    options.pattern.dot_mm = 0.29;  // 7 of 8
+    options.pattern.dot_mm = 0.29;  // 7 px
     EXPECT_NO_THROW(validate_resolution(make_sheet(options), 600));
 }
 

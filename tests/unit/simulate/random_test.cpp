@@ -45,7 +45,8 @@ TEST(Random, BelowTakesEachValueEquallyOften) {
     EXPECT_EQ(rng.below(1), 0u);
 }
 
-// The definition of random.hpp: the number of ones in 128 bits, and a uniform step.
+// Compares normal numbers with their definition in random.hpp: the number of ones among 128 bits,
+// smoothed by a uniform number.
 TEST(Random, NormalCountsOnes) {
     Rng rng(4);
     Rng same(4);

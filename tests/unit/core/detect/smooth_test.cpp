@@ -101,7 +101,8 @@ TEST(Smooth, AGradientOfTheLightBecomesEven) {
                 ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 2) << u << ", " << v;
             }
         }
-        // Closer to the border, the surroundings extend only 4 px inwards, over 2 px of the slope.
+        // Less than 4 px from the border, the border cuts off a part of the surroundings. Their
+        // middle is then up to 2 px from the pixel, so the slope changes the mean.
         expect_even(found, 5);
     }
 }

@@ -93,7 +93,7 @@ TEST(Fixed, SquareRootIsTheLargestWhoseSquareFits) {
     for (const std::uint64_t n : numbers) {
         const std::uint64_t root = square_root(n);
         ASSERT_LE(root * root, n);
-        // (root + 1)^2 > n, without overflow.
+        // Expects that (root + 1)^2 > n, without overflow.
         ASSERT_GE(root * root + 2 * root, n) << "seed " << kSeed;
         const auto narrow = static_cast<std::uint32_t>(n);
         ASSERT_EQ(square_root(narrow), square_root(std::uint64_t{narrow})) << "seed " << kSeed;

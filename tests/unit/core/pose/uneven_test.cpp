@@ -24,7 +24,8 @@ constexpr int kReach_px = 95;
 constexpr double kJitter = 0.02;
 constexpr double kMaxSigmas = 4.5;
 
-/// Displacement, in spacings, of a place relative to the image centre.
+/// Function that returns the displacement of a place, in spacings. The place is relative to the
+/// image centre.
 using Shift = std::function<Vec2(Vec2)>;
 
 /// A printed sheet in an image of 188 x 120 px.
