@@ -131,7 +131,8 @@ void add(GoldenTally& tally, const GoldenSet& set, std::uint64_t index) {
     }
 }
 
-/// Returns the shot after the camera has moved by a quarter of a spacing and turned by 2 degrees.
+/// Returns the shot after the camera has moved by a quarter of a spacing along each axis and turned
+/// by 2 degrees.
 Shot moved(Shot shot) {
     constexpr double kStep = 0.25;
     constexpr double kTurn_rad = 0.035;

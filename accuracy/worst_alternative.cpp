@@ -79,8 +79,8 @@ Along worst(CodeVariant code, const Along& true_place, int lines) {
     Along alternative = true_place;
     alternative.position = code::position_at(basis, worst_places(basis, places, lines));
     alternative.section = likest_section(code, alternative.position, alternative.cross, rolls);
-    // The rolls of the crossing lines depend on the position along them. This choice of their
-    // section keeps the rolls unchanged.
+    // The rolls of the crossing lines depend on the position. The section of the perpendicular axis
+    // is chosen to keep these rolls unchanged.
     const auto residue = [](std::uint32_t position) {
         return static_cast<int>(position % static_cast<std::uint32_t>(kSections));
     };

@@ -9,7 +9,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the processor time, which does not depend on other processes.
+/// Returns the processor time, which depends less on other processes than the elapsed time.
 double us_of(const benchmark::BenchmarkReporter::Run& run) {
     return 1e6 * run.cpu_accumulated_time / static_cast<double>(run.iterations);
 }

@@ -21,7 +21,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// The pose in the pattern frame: columns of the brief format only without sheets.
+/// Columns of the pose in the pattern frame, which the brief format contains only without sheets.
 constexpr std::array<std::string_view, 6> kPatternPose = {
     "x_mm", "y_mm", "theta_deg", "x_pattern_m", "y_pattern_m", "yaw_pattern_rad"};
 constexpr std::array<std::string_view, 18> kBriefColumns = {

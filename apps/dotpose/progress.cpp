@@ -33,8 +33,8 @@ std::int64_t now_ns() {
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
-/// `timeout` sends the signal twice, to the program and to its group, within 500 ms. Only a later
-/// second signal ends the program immediately.
+/// Stores the first signal. A second signal ends the program immediately, unless it arrives within
+/// 500 ms: `timeout` sends its signal twice, to the program and to its process group.
 void on_signal(int signal_number) {
     constexpr std::int64_t kTwice_ns = 500'000'000;
     if (signal_seen == 0) {

@@ -95,7 +95,7 @@ std::optional<WorldPlace> world_place(const SheetPlace& place) {
     const auto& world = place.entry->world;
     if (!world) return std::nullopt;
     // On a sheet, y points down and angles are clockwise. In the world, y points up and angles are
-    // counter-clockwise. Only this function converts between the two frames.
+    // counter-clockwise.
     const double right_m = place.x_mm / 1000;
     const double up_m = -place.y_mm / 1000;
     const double yaw_of_image_rad = -place.theta_rad;

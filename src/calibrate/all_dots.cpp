@@ -53,8 +53,8 @@ void take_all_dots(const LensFit& fit, const FitSetting& setting, CodeVariant co
                 nearest.try_emplace({found.dot.step.x, found.dot.step.y}, found);
             if (!is_new && found.off < entry->second.off) entry->second = found;
         }
-        // If the fit describes less than half of the dots of a frame, the frame keeps the dots that
-        // were read.
+        // If the number of dots found is less than half of the number of dots that were read, the
+        // frame keeps the dots that were read.
         if (2 * nearest.size() < frame.dots.size()) continue;
         frame.dots.clear();
         for (const auto& [step, found] : nearest)

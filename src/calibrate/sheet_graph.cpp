@@ -205,7 +205,7 @@ PlanePose SheetGraph::image_centre(const SheetView& view) const {
 }
 
 /// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. Each pose comes
-/// from the frame that shows most of both sheets.
+/// from the frame with the most dots of both sheets: the smaller of the two numbers counts.
 void SheetGraph::spread_from_fixed() {
     const auto start = [this](std::size_t sheet, const PlanePose& pose) {
         const AxisScale scale = sheets_[sheet].print_scale();

@@ -28,7 +28,8 @@ double text_width(const std::string& text, double size) {
     return 0.72 * size * static_cast<double>(std::ranges::count_if(text, is_first_byte));
 }
 
-/// Draws entries in columns of equal width. Entries wider than a column have a smaller font.
+/// Draws entries in columns of equal width. All entries have the same font size. If an entry is
+/// wider than its column, the font size is reduced.
 void draw_entries(const std::vector<Entry>& entries, double y, double column, double size,
                   Svg& svg) {
     double font = size;
@@ -97,7 +98,7 @@ Shown in_pattern(const Fix& fix, double spacing_mm) {
             deviation(0), deviation(1),        sigma(fix.covariance, 2)};
 }
 
-/// Returns the pose in the world, or on the sheet if the pose of the sheet is not known.
+/// Returns the pose in the world, or on the sheet if the world pose of the sheet is not known.
 Shown on_sheet(const SheetPlace& place) {
     const auto shown = [](const char* frame, const char* format, double x, double y, double rad,
                           const PoseCovariance& covariance, double um) {

@@ -38,7 +38,8 @@ double wrapped(double angle_rad) {
     return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
 
-/// Returns true if both places of the frame are known and on the same sheet.
+/// Returns true if both places of the frame are known and, if the sheet of the true place is known,
+/// on the same sheet.
 bool is_comparable(const MeasuredFrame& frame) {
     return frame.truth && frame.found &&
            (frame.truth->sheet.empty() || frame.truth->sheet == frame.found->sheet);

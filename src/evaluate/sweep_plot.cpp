@@ -87,7 +87,8 @@ void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder)
     }
 }
 
-/// Returns a logarithmic scale that contains all errors. Its ends are round numbers.
+/// Returns a logarithmic scale that contains the medians and the 95 % quantiles of the position
+/// errors. Its ends are round numbers.
 Scale error_scale(const Sweep& sweep) {
     double low_um = 1e300;
     double high_um = 0;

@@ -20,8 +20,9 @@ using namespace std::chrono_literals;
 constexpr auto kPatience = 3s;
 /// Time between attempts to reach a broker that does not answer.
 constexpr auto kBetweenAttempts = 500ms;
-/// Maximum number of messages that libmosquitto has not sent yet. libmosquitto sends messages in
-/// order.
+/// Maximum number of messages that libmosquitto has not sent (QoS 0) or the broker has not
+/// acknowledged (QoS 1). The number is small, because the newest messages are sent first, but
+/// libmosquitto sends its messages in order.
 constexpr std::size_t kMaxUnderWay = 20;
 /// Quality of service of presence messages: at least once.
 constexpr int kPresenceQos = 1;

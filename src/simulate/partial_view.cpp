@@ -67,7 +67,7 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     // The corner moves into the view along a line near the diagonal of the square.
     const double across = is_corner ? rng.uniform(0.6, 1.0) : 0;
     const auto advance = [&](double by) {
-        // Moves the square until its edge or corner is `by` beyond the image centre.
+        // Places the square with its edge or corner `by` spacings beyond the image centre.
         const double u = by - size;
         const double v = is_corner ? across * by - size : 0;
         area.x_grid = x_grid(shot.pose) + u * along.x - v * along.y;

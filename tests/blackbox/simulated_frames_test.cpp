@@ -39,8 +39,8 @@ struct Tally {
     }
 };
 
-/// Judges a fix. It is wrong if the cell is neither the true one nor a neighbour, or if the section
-/// or the direction differs.
+/// Judges a fix. A fix is wrong if its position differs from the true position by more than half a
+/// spacing, its angle differs by more than 0.1 rad, or its section differs.
 void judge(const Fix& fix, const Shot& shot, Tally& tally) {
     ++tally.frames;
     if (fix.status != Status::ok) return;

@@ -137,7 +137,7 @@ TEST(labels, show_the_origin_and_its_pattern_coordinates) {
     EXPECT_THAT(narrow, HasSubstr(fmt::format("{:.3f}", 508 - sheet.origin_x_mm)));
 }
 
-/// Positions of all texts and ticks on a page without margins.
+// Checks the positions of all texts and ticks on pages with different margins.
 TEST(labels, stay_clear_of_the_dots) {
     for (const double margin_mm : {3.0, 5.0, 7.0, 10.0, 20.0}) {
         const Sheet sheet = make_sheet(small_page(margin_mm));
@@ -158,7 +158,8 @@ TEST(labels, stay_clear_of_the_dots) {
             x *= mm_per_pt;
             y = sheet.height_mm - y * mm_per_pt;
             EXPECT_TRUE(x > 0 && y > 0 && y < sheet.height_mm) << line;
-            // Text below the dots begins below its capitals, 0.718 * 6 pt = 1.52 mm high.
+            // The position of a text is its baseline. Capitals extend 0.718 * 6 pt = 1.52 mm above
+            // the baseline.
             EXPECT_TRUE(x < left || y < top || y > bottom + (is_text ? 1.52 : 0))
                 << margin_mm << ": " << line;
         }

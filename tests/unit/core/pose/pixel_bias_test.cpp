@@ -26,8 +26,8 @@ struct MeanError {
     core::FloatVec variance_px2;
 };
 
-/// A frame of dots with equal sub-pixel phases, which are whole pixels apart and displaced by two
-/// pixels.
+/// A frame of dots with equal sub-pixel phases: the spacing is a whole number of pixels, and the
+/// displacement is two pixels.
 class AlikeFrame {
   public:
     AlikeFrame(const InkAt& ink, Vec2 phase, Rng& rng)
@@ -70,7 +70,7 @@ class AlikeFrame {
         }
         MeanError error;
         error.before = mean_error();
-        // The origin of a plane that was fitted to these centres.
+        // A plane fitted to the measured centres has the same error as their mean.
         const Vec2 origin = truth_.front() + error.before - place_of_first();
         core::FloatPlane plane;
         plane.du_x = plane.dv_y = 1.0F / kSpacing_px;
