@@ -322,7 +322,7 @@ TEST_F(CheckPrintCommandAtLength, test_page_is_printed_in_every_format_but_text)
         EXPECT_THAT(output_, HasSubstr("test page 148 x 210 mm, 20 patches"));
         EXPECT_TRUE(fs::exists(directory_ / name));
     }
-    // The image shows two of the patches, printed and scanned without errors.
+    // The PNG file and the rendered PDF file are perfect scans of the test page.
     ASSERT_EQ(
         shell("qpdf --check test.pdf && pdftoppm -gray -r 600 -png -singlefile test.pdf scan"), 0)
         << output_ << errors_;

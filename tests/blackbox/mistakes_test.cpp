@@ -96,7 +96,7 @@ constexpr Mistake kMistakes[] = {
     {"NoPackets", "listen notes.txt", 0, "0 packets", "watch --packets"},
 };
 
-/// Prints the name of the mistake in lists of tests.
+/// Prints the command of the mistake for lists of tests.
 void PrintTo(const Mistake& mistake, std::ostream* out) {
     *out << "dotpose " << mistake.arguments;
 }

@@ -56,7 +56,7 @@ void expect_equal(const Matrix& actual, const Matrix& expected) {
 
 class OutputLines : public ToolCommand {
   protected:
-    /// Writes frames of a drive over two sheets, a frame without a pattern, and packets.
+    /// Writes frames of a drive over two sheets, frames without a pattern, and packets.
     void SetUp() override {
         save_drive_sheets(directory_ / "sheets.json");
         json file = json::parse(read_file(directory_ / "sheets.json"));
@@ -104,7 +104,7 @@ class OutputLines : public ToolCommand {
         json::parse(read_file(test::source_dir() + "/docs/schema/lines-1.json"))};
 };
 
-/// All commands that write lines, with the values of each option that changes their fields.
+/// All commands that write lines, with the values of each option that changes the fields of a line.
 constexpr std::array kRuns = {
     "locate frames/f0.pgm frames/g10.pgm",
     "locate frames/f0.pgm --sheets sheets.json",

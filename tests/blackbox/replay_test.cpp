@@ -104,7 +104,7 @@ TEST_F(Replay, PrintsAndDraws) {
     const std::string picture = file("run.svg");
     EXPECT_THAT(picture, HasSubstr("speed [mm/s]"));
     EXPECT_THAT(picture, HasSubstr("</svg>"));
-    // There are three gaps, one in each plot over time.
+    // The times without a fix are marked in each of the three plots over time.
     std::size_t bands = 0;
     for (std::size_t at = picture.find("fill-opacity=\"0.10\""); at != std::string::npos;
          at = picture.find("fill-opacity=\"0.10\"", at + 1)) {

@@ -338,7 +338,8 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
 }
 
 TEST(CheckPrint, patches_whose_dots_reach_all_around_are_not_good) {
-    // Dots of 0.27 mm are 0.25 mm apart at their closest, and 0.38 mm elsewhere.
+    // The dots have a diameter of 0.27 mm. The minimum distance of two centres is 0.25 mm, and the
+    // spacing is 0.38 mm.
     TestPageOptions options;
     options.paper = {60, 60};
     options.margin_mm = 5;

@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::uint32_t kSeed = 20130;
 
-/// Returns the roll by counting: residue i of a sequence occurs ceil((p - i) / length) times before
-/// p.
+/// Returns the roll by counting: digit i of a sequence occurs ceil((p - i) / length) times before
+/// position p.
 int roll_by_counting(CodeVariant code, std::uint64_t p) {
     const auto texts = secondary_texts(code);
     std::uint64_t sum = 5 * p;

@@ -48,8 +48,8 @@ inline constexpr std::array<CodeVector, 7> kCodeVectors{{
 }};
 
 /// Offsets of the main sequence in adjacent rows of commercial paper, as published in 2005 with the
-/// Free Dot Toolkit. Six offsets (five differences) determine a position. All offsets form one
-/// contiguous run.
+/// Free Dot Toolkit. Six offsets (five differences) determine a position. The rows of each array
+/// are consecutive, and the name of the array contains the position of the first row.
 inline constexpr std::array<std::uint8_t, 25> kPaperRollsFrom1117{
     34, 46, 6, 33, 46, 41, 9, 52, 28, 44, 10, 18, 1, 59, 17, 8, 42, 54, 40, 29, 59, 31, 56, 51, 7};
 inline constexpr std::array<std::uint8_t, 30> kPaperRollsFrom1097{

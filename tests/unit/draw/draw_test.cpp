@@ -135,7 +135,7 @@ TEST(DrawFrame, shows_every_dot_where_it_is) {
 }
 
 TEST(DrawFrame, connects_only_the_dots_that_were_connected) {
-    // The first attempt connects no dots, because its grid comes from waves.
+    // Uses the attempt of devices, because the first attempt finds its grid without edges.
     DeviceOptions device;
     device.effort = Effort::device;
     const Located at_once(render(clean_shot()), device);

@@ -130,7 +130,8 @@ TEST(find_sheet, applies_the_print_scale_about_the_first_intersection) {
     ASSERT_TRUE(place);
     EXPECT_NEAR(place->x_mm, 4 + 5.1, 1e-12);
     EXPECT_NEAR(place->y_mm, 3 + 3.96, 1e-12);
-    // The diagonal of a square is the diagonal of a 1.02 x 0.99 rectangle on the paper.
+    // On the paper, a nominal square is a rectangle of 1.02 x 0.99, which changes the angle of its
+    // diagonal.
     EXPECT_NEAR(std::tan(place->theta_rad), 0.99 / 1.02, 1e-8);
 }
 

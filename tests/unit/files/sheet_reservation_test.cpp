@@ -144,7 +144,8 @@ TEST_F(SheetReservations, wait_for_a_lock_say_so_and_end) {
     EXPECT_THAT([&] { SheetFile(path_, wait); }, ThrowsMessage<Error>(HasSubstr("stopped")));
 }
 
-/// Prints "n" and dies at a given time, as by kill -9, because the signal has no handler.
+/// Prints sheet number `n` in a child process. After `after_us`, a timer signal without a handler
+/// ends the child process, as kill -9 would.
 void print_and_die(const fs::path& folder, int n, int after_us) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);

@@ -151,7 +151,8 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
             0.01);
         EXPECT_LE(fix.p_wrong_log2, device.integrity.max_p_wrong_log2);
         EXPECT_GE(fix.dots_used, 36);
-        // A device does not compute this floating-point value.
+        // A device computes neither the residual nor the covariance, which are floating-point
+        // values.
         EXPECT_EQ(fix.residual_px, 0);
         for (const auto& row : fix.covariance)
             EXPECT_THAT(row, testing::Each(0.0F));
@@ -224,7 +225,7 @@ TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
         EXPECT_EQ(used.locate(big.view()).status, Status::ok);
         expect_same(used.locate(frame.view()), fresh);
         EXPECT_EQ(used.locate(tiny.view()).status, Status::image_too_small);
-        // Begins the frame, and abandons it half-way.
+        // Begins the frame, and abandons it after 50 rows.
         EXPECT_EQ(used.begin(frame.width_px, frame.height_px), Status::ok);
         for (int v = 0; v < 50; ++v)
             used.push_row(frame.view().row(v));

@@ -54,7 +54,7 @@ void record(const BitLines& lines, Record& record) {
     record.add(lines.valid);
 }
 
-/// Returns dots at random places. Their number is not a multiple of the vector size.
+/// Returns `count` dots at random places. The remaining elements of the arrays have no dot.
 std::unique_ptr<PatchDots> random_dots(int count, Rng& rng) {
     auto dots = std::make_unique<PatchDots>();
     dots->count = count;

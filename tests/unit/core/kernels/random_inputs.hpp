@@ -196,8 +196,8 @@ inline core::FloatPlane random_plane(Rng& rng, double spacing_px, double tilt, d
     return plane;
 }
 
-/// Returns measured dots: row by row, some missing, some displaced, with a number that is not a
-/// multiple of the vector size.
+/// Returns `count` measured dots, row by row. Some dots are missing, and some dots have another
+/// symbol than their place suggests.
 inline DotTable random_measures(const core::FloatPlane& plane, int count, float displacement,
                                 Rng& rng) {
     DotTable table(count);
