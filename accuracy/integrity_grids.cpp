@@ -120,8 +120,8 @@ void draw(GridKind kind, Rng& rng, Reading& reading) {
     }
 }
 
-/// Returns true if all cells of the grid have the same symbols at the decoded place as at the true
-/// place.
+/// Returns true if the decoded orientation is correct, and all cells of the grid have the same
+/// symbols at the decoded place as at the true place.
 bool is_right(const Reading& reading, const Decoding& decoding) {
     if (decoding.pattern_from_grid.quarters != reading.turn.quarters) return false;
     const core::Grid& grid = reading.grid;
