@@ -30,7 +30,7 @@ BitLines in_opposite_order(const BitLines& lines) {
     return result;
 }
 
-/// Returns each line reversed and with its bits flipped, as half a turn changes them. The order of
+/// Returns each line as it reads after a half turn: reversed, with its bits flipped. The order of
 /// the lines does not change.
 BitLines backwards(const BitLines& lines) {
     BitLines result;
@@ -42,8 +42,9 @@ BitLines backwards(const BitLines& lines) {
     return result;
 }
 
-/// Returns the range of lines that have bits. If the range is longer than `max_count` lines,
-/// returns its middle `max_count` lines.
+/// Returns the range from the first to the last line that has bits. If the range is longer than
+/// `max_count` lines, returns the `max_count` lines of it that are nearest to the middle of the
+/// block.
 LineRange lines_with_bits(const BitLines& lines, int max_count) {
     int first = 0;
     int last = BitBlock::kSide - 1;
@@ -56,9 +57,10 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
     return {std::clamp(BitBlock::kMiddle - max_count / 2, first, last + 1 - max_count), max_count};
 }
 
-/// Returns the score of a line read backwards minus its score read forwards. By chance, a line of
-/// six bits almost always also agrees exactly in the wrong direction. Each additional bit halves
-/// this probability.
+/// Returns the score of a line read backwards minus its score read forwards. If the line agrees
+/// exactly in only one direction, only its bits beyond the first six count: six bits almost always
+/// also agree exactly in the wrong direction, by chance, and each further bit halves this
+/// probability.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);
@@ -76,14 +78,14 @@ int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid
     return backwards.best.score - forwards.best.score;
 }
 
-/// Returns the sum over several middle lines of the score read backwards minus the score read
-/// forwards.
+/// Returns the sum of the scores of several lines read backwards, minus the sum of their scores
+/// read forwards. Ends early if the sums differ clearly.
 int backwardness(const Kernels& kernels, const BitLines& lines) {
     constexpr int kVoters = tuning::turns::kVotersOfBits;
     const LineRange range = lines_with_bits(lines, BitBlock::kSide);
     int sum = 0;
     for (int voter = 0; voter < kVoters; ++voter) {
-        // Voters are in the middle half of the lines, where the lines are longest.
+        // The voting lines are in the middle half of the range, where the lines are longest.
         const auto i = static_cast<std::size_t>(range.first + range.count / 4 +
                                                 range.count * voter / (2 * kVoters));
         if (i >= lines.bits.size()) break;

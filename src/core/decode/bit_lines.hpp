@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// The bits of a block of cells: x bits by column, y bits by row. Cell (0, 0) is at index kMiddle
-/// of its column and of its row.
+/// The bits of a block of cells: x bits by column, y bits by row. Cell (0, 0) is in column kMiddle
+/// and in row kMiddle of the block.
 struct BitBlock {
     static constexpr int kSide = 64;
     static constexpr int kMiddle = 32;
@@ -27,10 +27,11 @@ struct BlockRanges {
     LineRange rows;
 };
 
-/// Returns the columns and rows that have bits: at most `max_count` of each, from the middle.
+/// Returns the range of columns and the range of rows that have bits. Each range is limited to the
+/// `max_count` lines nearest to the middle of the block.
 BlockRanges ranges_with_bits(const BitBlock& block, int max_count);
 
-/// The lines of a block that are scored, and the cell indices of the first column and row.
+/// The scored lines of a block, and the indices in the block of the first scored column and row.
 struct BlockLines {
     int first_column = 0;
     int first_row = 0;
@@ -38,29 +39,30 @@ struct BlockLines {
     Lines rows;
 };
 
-/// Returns the number of quarter turns from the grid to the pattern, by a vote of lines near the
-/// middle. `turned` applies these quarter turns.
+/// Returns the most likely number of quarter turns from the grid to the pattern, 0 to 3, by a vote
+/// of columns and rows near the middle. `turned` applies this rotation.
 int likeliest_turn(const Kernels& kernels, const BitBlock& block);
 
-/// Returns the block rotated to the upright orientation of the pattern. 0 to 3 quarter turns map
-/// cell (i, j) to (i, j), (-1 - j, i), (-1 - i, -1 - j) or (j, -1 - i).
+/// Returns the block rotated by `quarters` quarter turns. 0 to 3 quarter turns map cell (i, j) to
+/// (i, j), (-1 - j, i), (-1 - i, -1 - j) or (j, -1 - i).
 BitBlock turned(int quarters, const BitBlock& block);
-/// Returns the plane rotated like the block. The result maps image points to cells of the rotated
+/// Returns the plane after the same rotation. The result maps image points to cells of the rotated
 /// block.
 FloatPlane turned(int quarters, const FloatPlane& grid_from_image);
 
-/// Scores the lines of an upright block that have bits. Half of the storage is for columns and half
-/// for rows. If half of the storage is too small for all lines, the middle lines are scored.
+/// Scores the lines of an upright block that have bits. Columns use the first half of `storage`,
+/// and rows use the second half. If half of `storage` is too small for all lines, only the lines
+/// nearest to the middle are scored.
 BlockLines score_block(const Kernels& kernels, const BitBlock& block,
                        std::span<ScoredLine> storage);
 
-/// Returns the place of cell (0, 0) of an upright block, from the readings of the column with index
-/// `first_column` and the row with index `first_row`.
+/// Returns the place of cell (0, 0) of an upright block. `column` is the reading of the column with
+/// index `first_column` in the block, and `row` is the reading of the row with index `first_row`.
 Place place_of_middle(CodeVariant code, int first_column, int first_row, const AxisReading& column,
                       const AxisReading& row);
 
-/// Finds the place of cell (0, 0) of an upright block. Returns false if the lines have no position
-/// in the code.
+/// Finds the place of cell (0, 0) of an upright block. Returns false if there are fewer than six
+/// columns or rows, or if the search finds no position in the code.
 bool find_place(CodeVariant code, const BlockLines& lines, Place& place);
 
 }  // namespace dotpose::core

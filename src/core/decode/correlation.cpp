@@ -7,18 +7,19 @@
 namespace dotpose::core {
 namespace {
 
-/// Weights are summed in groups of kGroup weights, for all combinations of signs. kGroups groups
-/// are added at a time.
+/// The signed sums of a group of kGroup consecutive weights are tabulated for all combinations of
+/// signs. Up to kGroups of these tables are added in one pass over the rolls.
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
-/// Weights of two lines, or sums of weights, packed into one number. Both values fit in 16 bits, so
-/// a + 65536 b is added like a single number.
+/// Weights of two lines a and b, packed as a + 65536 b. Adding packed weights adds the weights of
+/// each line, because the sums of each line fit in 16 bits.
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
 /// The kGroup bits of the main sequence that begin at each index. The first bit is the lowest bit.
-/// Stored as byte offsets in Sums, which saves small processors a multiplication.
+/// Each string of bits is stored as its byte offset in Sums, which saves small processors a
+/// multiplication.
 constexpr auto kStrings = [] {
     std::array<std::uint8_t, 2 * kSections + kAtOnce> strings{};
     for (std::size_t i = 0; i < strings.size(); ++i) {
@@ -38,7 +39,8 @@ std::int32_t sum_at(const Sums& sums, std::uint8_t bytes) {
 
 using Line = std::span<const std::int8_t>;
 
-/// Copies the weights of both lines, starting at `first`, padded with zeros.
+/// Packs the kAtOnce weights of both lines that start at `first`. Weights beyond the end of a line
+/// are 0.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
     const auto rest = [&](Line line) {
         line = line.subspan(std::min(first, line.size()));
@@ -58,8 +60,8 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
     ((sums[sizeof...(I) + I] = sums[I] + 2 * weight), ...);
 }
 
-/// Sets, for each string of bits, the sum of a group of weights. A weight is negated if its bit is
-/// 0. Unrolling halves the time. Not inlined, because the unrolled code is long.
+/// Sets the sum of a group of weights for each string of bits. A weight is negated if its bit is 0.
+/// Unrolling halves the time. Not inlined, because the unrolled code is long.
 [[gnu::noinline]] void sum_signed(const std::int32_t* weights, Sums& sums) {
     static_assert(kGroup == 5);
     sums[0] = -(weights[0] + weights[1] + weights[2] + weights[3] + weights[4]);
@@ -70,7 +72,7 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
     append_sums(sums, weights[4], std::make_index_sequence<16>{});
 }
 
-/// Adds the sums of all groups to the scores, or overwrites the scores with them.
+/// Adds the sums of all groups to the score of each roll, or overwrites the scores with these sums.
 template <std::size_t Groups, bool Adds>
 void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineScores& scores_a,
                LineScores& scores_b) {
@@ -81,7 +83,8 @@ void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineSco
         std::int32_t sum = sum_at(sums[0], string[0]);
         for (std::size_t group = 1; group < Groups; ++group)
             sum += sum_at(sums[group], string[group * kGroup]);
-        // Computes (sum + 0x8000) >> 16 without a constant, which would need a register.
+        // Unpacks the sum of line b: (sum + 0x8000) >> 16, without the constant, which would occupy
+        // a register.
         const std::int32_t of_b = ((sum >> 15) + 1) >> 1;
         *a = static_cast<std::int16_t>(Adds ? *a + sum : sum);
         *b = static_cast<std::int16_t>(Adds ? *b + of_b : of_b);
@@ -94,7 +97,8 @@ void correlate_both(Line a, Line b, LineScores& scores_a, LineScores& scores_b) 
     const auto are_zero = [&](std::size_t i) {
         return (i >= a.size() || a[i] == 0) && (i >= b.size() || b[i] == 0);
     };
-    // Lines of a grid that is rotated in the image are empty at both ends.
+    // Skips empty cells at both ends. If the grid is rotated in the image, most lines have empty
+    // ends.
     std::size_t end = std::max(a.size(), b.size());
     std::size_t first = 0;
     while (first < end && are_zero(first))

@@ -14,9 +14,9 @@ struct Match {
     std::uint8_t roll = 0;
 };
 
-/// Sets the score of each roll o: the sum of the weights whose signs agree with the main sequence,
-/// beginning at index o, minus the sum of the magnitudes of all other weights. Doubtful bits have
-/// small weights. There are at most 256 weights, in [-127, 127].
+/// Sets the score of each roll: the sum of all weights, each multiplied by +1 if its bit of the
+/// main sequence is 1, and by -1 if the bit is 0. At roll o, the first weight belongs to bit o.
+/// Doubtful bits have small weights. There are at most 256 weights, in [-127, 127].
 void correlate(std::span<const std::int8_t> weights, LineScores& scores);
 
 /// Correlates two lines in little more time than one line.
@@ -26,7 +26,8 @@ void correlate_both(std::span<const std::int8_t> a, std::span<const std::int8_t>
 /// Returns the roll with the best score. Ties are broken by the smallest roll.
 Match best_match(const LineScores& scores);
 
-/// Returns the best match after `last`: a lower score, or an equal score and a larger roll.
+/// Returns the match that follows `last` in decreasing order of scores. Matches of equal score are
+/// in increasing order of rolls.
 Match next_match(const LineScores& scores, Match last);
 
 /// Returns the best score and its margin over the second best score.

@@ -30,7 +30,9 @@ std::uint64_t main_word(int index) {
                                                                    << 32;
 }
 
-/// Finds the position of the first line of a range, and its roll at `first_cell`.
+/// Finds the position of the first line of a range, and its roll at `first_cell`. Returns false if
+/// too few adjacent lines are exact, if their rolls do not occur in the code, or if the lines have
+/// too many bit errors at the position.
 bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange& range,
                        int first_cell, AxisReading& reading) {
     const auto count = static_cast<std::size_t>(range.count);
@@ -42,7 +44,8 @@ bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange&
     };
     const auto length = static_cast<std::size_t>(run_length(code));
     std::array<std::uint8_t, BitBlock::kSide> rolls;
-    // The middle lines are longest and therefore most reliable.
+    // Skips the first quarter of the lines. The middle lines are longest and therefore most
+    // reliable.
     std::size_t end = count / 4;
     for (std::size_t run = 0; run < length; ++end) {
         if (end == count) return false;
@@ -61,8 +64,8 @@ bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange&
     int wrong = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const int here = below_sections(reading.roll + rolls[i]);
-        // Counts wrong bits in a loop, because most lines have no wrong bits, and many processors
-        // lack a popcount instruction.
+        // Counts wrong bits one by one, because most lines have none, and many processors lack a
+        // popcount instruction.
         std::uint64_t differ = (bits(i) ^ main_word(here)) & valid(i);
         for (; differ != 0; differ &= differ - 1)
             ++wrong;

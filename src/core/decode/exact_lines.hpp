@@ -1,6 +1,6 @@
-// Exact lines: decoding of lines with few misread bits. Six bits of a line give its roll, and a
-// comparison of words checks all its other bits. This takes a tenth of the time of scoring lines.
-// Paper sections II-B.6 and II-B.7.
+// Exact lines: decoding of lines with few misread bits. Six bits of a line determine its roll, and
+// a comparison of words checks all its other bits. This takes a tenth of the time that scoring the
+// lines takes. Paper sections II-B.6 and II-B.7.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"
@@ -13,8 +13,8 @@ namespace dotpose::core {
 std::uint8_t exact_roll(std::uint64_t bits, std::uint64_t valid);
 
 /// Finds the place of cell (0, 0) of an upright block from exact lines. Returns false if too few
-/// adjacent lines are exact, or if there are more bit errors at the place than half the number of
-/// lines.
+/// adjacent lines are exact, if their rolls do not occur in the code, or if the columns or the rows
+/// have more bit errors at the place than half the number of their lines.
 bool find_place_exactly(CodeVariant code, const BitBlock& block, Place& place);
 
 }  // namespace dotpose::core

@@ -11,7 +11,7 @@ struct Extent {
 };
 
 /// Returns the range of cells from `min` to `max`. If the range has more than `capacity` cells,
-/// returns `capacity` cells around the origin.
+/// returns the `capacity` cells of it that are nearest to the origin.
 Extent extent(int min, int max, int capacity) {
     if (max - min < capacity) return {min, max - min + 1};
     const int first = std::clamp(-capacity / 2, min, max - capacity + 1);
@@ -42,7 +42,8 @@ std::int8_t quasi_probability(std::int32_t projection_q16) {
 
 namespace {
 
-/// Fills the grid from all dots. `point_of(dot)` returns the place of a dot in the grid.
+/// Fills the grid from all dots. `point_of(dot)` returns the nearest cell of a dot and the offset
+/// from its centre.
 template <typename PointOf>
 Status assign(std::span<const DetectedDot> dots, PointOf point_of, Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};
@@ -66,7 +67,8 @@ Status assign(std::span<const DetectedDot> dots, PointOf point_of, Grid& grid) {
         const GridPoint g = point_of(dot);
         const auto i = static_cast<unsigned>(g.cell.x - here.i0);
         const auto j = static_cast<unsigned>(g.cell.y - here.j0);
-        // Eq. 7-8. differs: with y down, x bit 1 is left and down, y bit 1 is right and down.
+        // Eq. 7-8. differs: y points down, so the x bit is 1 for left and down, and the y bit is 1
+        // for right and down.
         if (i < columns && j < rows) {
             const GridCell read{quasi_probability(g.offset_q16.y - g.offset_q16.x),
                                 quasi_probability(g.offset_q16.y + g.offset_q16.x), index};

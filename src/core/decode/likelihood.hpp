@@ -1,4 +1,5 @@
-// Likelihood: probabilities of the bits of each dot. Paper section II-B.4, eq. 7-9, Fig. 7-8.
+// Likelihood: the quasi-probabilities of the bits of each dot. Paper section II-B.4, eq. 7-9, Fig.
+// 7-8.
 #pragma once
 
 #include "core/decode/grid.hpp"
@@ -10,21 +11,22 @@ namespace dotpose::core {
 /// The result is in units of 1/127, in [-127, 127].
 std::int8_t quasi_probability(std::int32_t projection_q16);
 
-/// Clears the grid and sets its extent to the cells from `min` to `max`. If there are more cells
-/// than its capacity, the extent is limited to the middle cells.
+/// Clears the grid and sets its extent to the cells from `min` to `max`. If an axis has more than
+/// `grid.side` cells, the extent is limited to the cells nearest to cell (0, 0).
 void lay_out(FixedVec min, FixedVec max, Grid& grid);
 
-/// Fills the matrices P of Fig. 8 from all dots. A larger grid is cropped to the middle `grid.side`
-/// cells along each axis. Errors: grid_too_small.
+/// Fills the matrices P of Fig. 8 from all dots. A larger grid is cropped to the `grid.side` cells
+/// along each axis that are nearest to cell (0, 0). Error: grid_too_small, if the dots extend over
+/// fewer than kWindowSide columns or rows.
 Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid);
 
-/// Fills the matrices through a plane without perspective and lens, which is faster.
+/// Faster variant of `assign_likelihoods` for a plane without perspective and lens distortion.
 Status assign_affine_likelihoods(std::span<const DetectedDot> dots,
                                  const PlaneFromImage& grid_from_image, Grid& grid);
 
-/// Returns the quality |P^(x) P^(y)| of a cell, at most 127 * 127. The quality is large if the dot
-/// of the cell shows a symbol clearly.
+/// Returns the quality |P^(x) P^(y)| of a cell, at most 127 * 127. The quality is high if the dot
+/// of the cell is close to the place of a symbol.
 inline int quality(const GridCell& cell) {
     const int product = cell.x * cell.y;
     return product < 0 ? -product : product;

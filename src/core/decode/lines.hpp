@@ -24,16 +24,16 @@ struct Lines {
     const BestScore& best(int line) const { return all[static_cast<std::size_t>(line)].best; }
 };
 
-/// Returns the half of the storage that is used for an axis.
+/// Returns the half of the storage that contains the lines of an axis.
 inline std::span<ScoredLine> scores_of(Axis axis, std::span<ScoredLine> storage) {
     const std::size_t half = storage.size() / 2;
     return axis == Axis::x ? storage.first(half) : storage.last(half);
 }
 
-/// Scores all lines of the region. `storage` must have room for them.
+/// Scores all lines of the region along one axis. `storage` must have room for all these lines.
 Lines score_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
-/// Returns the lines that the last call of `score_lines` scored.
+/// Returns the lines that the last call of `score_lines` with the same arguments scored.
 Lines scored_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
 /// The position of the lines of one axis, with its score.
@@ -44,8 +44,8 @@ struct AxisReading {
     /// Sum of the best scores of all lines, regardless of their rolls.
     std::int32_t max_possible = 0;
 
-    /// Returns true if the score is so close to the maximum that no other reading can have a
-    /// similar score.
+    /// Returns true if the score exceeds 7/8 of `max_possible`. Searches stop at such a reading,
+    /// because no other reading is likely to have a similar score.
     bool is_clear() const { return 8 * std::int64_t{score} > 7 * std::int64_t{max_possible}; }
 };
 

@@ -1,4 +1,4 @@
-// Nominal: the symbols of the code in every cell of the grid, for a known position.
+// Nominal: the symbols that the code has in the cells of a grid, if the place of the grid is known.
 #pragma once
 
 #include <array>
@@ -9,15 +9,15 @@
 
 namespace dotpose::core {
 
-/// The symbols of the code in a grid.
+/// The symbols of the code in the cells of a grid, at the place and turn of a decoding.
 class Nominal {
   public:
     Nominal(const Grid& grid, CodeVariant code, const Decoding& decoding);
 
-    /// Returns the position of a grid cell on the pattern, in spacings relative to
-    /// `Decoding::place`.
+    /// Returns the pattern step of a grid cell: its column and row on the upright pattern, relative
+    /// to `Decoding::place`.
     FixedVec pattern_step(FixedVec grid_cell) const { return turn_(grid_cell); }
-    /// Returns the symbol at a position on the pattern, which must be in the grid.
+    /// Returns the symbol at a pattern step, which must belong to a cell of the grid.
     Symbol symbol(FixedVec pattern_step) const;
 
   private:

@@ -11,7 +11,7 @@ namespace {
 /// the lines are longest.
 constexpr int kVoters = tuning::turns::kVoters;
 
-/// The voting columns or rows of a region, and the bit that is read from their cells.
+/// The voting columns or rows of a region, and the bit (x or y) that is read from their cells.
 class Voters {
   public:
     Voters(const Grid& grid, const GridRegion& region, bool are_columns, std::int8_t GridCell::*bit)
@@ -86,7 +86,8 @@ std::int32_t max_possible(const Voters& voters) {
     return sum;
 }
 
-/// Returns the agreement of the best of the four ways to read the voting lines.
+/// Returns the largest agreement over the four ways to read the voting lines: forwards or
+/// backwards, with bits as read or flipped.
 std::int32_t best_agreement(const Voters& voters) {
     const auto [forwards, backwards] = agreement(voters);
     return std::max(std::max(forwards.as_is, forwards.flipped),
@@ -97,7 +98,7 @@ std::int32_t best_agreement(const Voters& voters) {
 
 Orientation rank_turns(const Grid& grid, const GridRegion& region) {
     // differs: the paper counts the lines that occur exactly in the main sequence. The sum of the
-    // best scores gives the same vote, but also uses lines with a misread bit.
+    // best scores also uses lines with misread bits.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
     const BothWays of_columns = agreement(x_columns);

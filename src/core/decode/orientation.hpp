@@ -16,11 +16,12 @@ struct Orientation {
 };
 
 /// Ranks the four turns by a vote of the columns and rows. The lines of each axis are compared with
-/// the main sequence both as read and after a half turn, which flips and reverses them.
+/// the main sequence both as read and after a half turn, which reverses the lines and flips their
+/// bits.
 Orientation rank_turns(const Grid& grid, const GridRegion& region);
 
-/// Returns true if the region agrees much better with the mirrored pattern than with the pattern.
-/// The columns of the mirrored pattern contain the bits of rows. `agreement` is the result of
+/// Returns true if the region agrees much better with a mirrored pattern than with the pattern. In
+/// a mirrored pattern, columns contain y bits and rows contain x bits. `agreement` is the result of
 /// `rank_turns`.
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t agreement);
 

@@ -12,7 +12,7 @@ namespace {
 /// Minimum number of lines that determine a position.
 constexpr int kMinLines = 6;
 
-/// Reads the position of one axis. Each line contributes its best roll.
+/// Reads the position of one axis from the best roll of each line.
 Status read_axis(CodeVariant code, const Lines& lines, AxisReading& reading) {
     std::array<std::uint8_t, kMaxLines> rolls{};
     for (int i = 0; i < lines.count(); ++i) {
@@ -25,7 +25,7 @@ Status read_axis(CodeVariant code, const Lines& lines, AxisReading& reading) {
     return position_from_rolls(code, used, reading.position);
 }
 
-/// Sets the turn, and computes the place from the readings of both axes.
+/// Sets the turn and the place of a decoding from the readings of both axes.
 void set_place(CodeVariant code, const Upright& upright, QuarterTurn turn, const AxisReading& x,
                const AxisReading& y, Decoding& decoding) {
     const auto section = [&](const AxisReading& own, const AxisReading& other) {

@@ -24,8 +24,8 @@ FixedVec place_60th(Symbol symbol) {
 /// Measurements at one of the four places of a cell.
 struct PlaceView {
     bool is_seen = false;
-    int darkness_q8 = 0;  ///< relative to the paper
-    int shade_q8 = 0;     ///< mean darkness of a square of 2/5 spacing around the place
+    int darkness_q8 = 0;  ///< relative to the paper level, in 1/256
+    int shade_q8 = 0;     ///< mean darkness of a square with a side of 2/5 spacing around the place
 };
 
 /// Measurements of one cell.
@@ -33,7 +33,7 @@ struct CellView {
     FixedVec centre_q8;
     FixedVec u_q8;  ///< one spacing along the rows of the grid, in 2^-8 px of the image
     FixedVec v_q8;
-    int half_px = 0;                  ///< half the side of a square of 2/5 spacing, in px
+    int half_px = 0;                  ///< half the side of the square for `shade_q8`, in px
     std::array<PlaceView, 4> places;  ///< indexed by Symbol
 
     CellView(const ImageView& image, FixedVec centre, FixedVec right, FixedVec below)
@@ -60,17 +60,17 @@ class CellSampler {
                 const PlaneFromImage& plane)
         : image_(image), paper_(paper), lens_(lens), plane_(plane) {}
 
-    /// Calls `use(cell, view)` for each cell with a place in the image. The view is not yet
-    /// sampled.
+    /// Calls `use(cell, view)` for each cell that has at least one of its four places in the image.
+    /// `view` contains no samples yet.
     template <typename Use>
     void visit(const Grid& grid, Use use) const;
-    /// Sets the darkness and shade of the places in the image.
+    /// Sets the darkness and shade of each place that is in the image.
     void sample(CellView& view) const;
-    /// Returns the paper level at the middle of the cell divided by the paper level at the middle
-    /// of the image.
+    /// Returns the paper level at the centre of the cell divided by the paper level at the centre
+    /// of the image, in 1/256.
     int light_q8(const CellView& view) const;
-    /// Returns, for each place in the image, the shade of the darkest square at a distance of 2/15
-    /// spacing from the place.
+    /// Returns, for each place in the image, the shade of the darkest of eight squares at a
+    /// distance of about 2/15 spacing from the place.
     std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
@@ -80,7 +80,7 @@ class CellSampler {
     }
     /// Returns the mean darkness of a square, from a sample of its pixels.
     int shade_q8(FixedVec centre_q8, int half_px) const;
-    /// Returns the mean darkness of a square, from the sum over its pixels.
+    /// Returns the mean darkness of a square from the sum of the grey levels of its pixels.
     int darkness_q8(FixedVec centre_q8, int sum, int pixels) const;
     template <typename Shade>
     static std::array<int, 4> darkest_around_q8(const CellView& view, Shade shade_q8);
@@ -91,8 +91,8 @@ class CellSampler {
     const PlaneFromImage& plane_;
 };
 
-/// Returns the distance between sampled pixels, in px. The distance is larger than 1 for large
-/// squares.
+/// Returns the distance between sampled pixels of a square, in px. In large squares, the distance
+/// is more than 1 px, which limits the time.
 int step_px(int half_px) {
     return std::max(half_px / 3, 1);
 }
@@ -120,7 +120,7 @@ int CellSampler::shade_q8(FixedVec centre_q8, int half_px) const {
 
 template <typename Use>
 void CellSampler::visit(const Grid& grid, Use use) const {
-    // Rows of intersections are computed once, because adjacent rows of cells share them.
+    // Each row of intersections is computed once and used by two adjacent rows of cells.
     std::array<FixedVec, kMaxGridSide + 1> here;
     std::array<FixedVec, kMaxGridSide + 1> below;
     const auto find_row = [&](int j, std::array<FixedVec, kMaxGridSide + 1>& row) {
@@ -172,7 +172,7 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade sh
 }
 
 std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
-    // The centres of all squares are within a third of the spacing from the middle of the cell.
+    // The centres of all squares are within a third of the spacing from the centre of the cell.
     const int reach_px =
         std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
         view.half_px;
@@ -193,8 +193,8 @@ int CellSampler::light_q8(const CellView& view) const {
     return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
-/// Returns the median darkness and the median shade, over a sample of the cells, of the darkest
-/// place of each cell.
+/// Returns the medians of the darkness and of the shade at the darkest place of a cell. The medians
+/// are over a sample of the cells that are entirely in the image.
 PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
     std::array<std::int32_t, tuned::kMedianSample> darkness;
     std::array<std::int32_t, tuned::kMedianSample> shade;
@@ -215,19 +215,21 @@ PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
             std::max<std::int32_t>(median(std::span(shade).first(count)), 1)};
 }
 
-/// Darkness of dots and graphics in an image. Provides the weights of the bits.
+/// Typical darkness of dots and of graphics in an image. Computes the weights of bits from the
+/// darkness at the places of a cell.
 class Ink {
   public:
     Ink(const CellSampler& sampler, const Grid& grid) : sampler_(sampler) {
         const PlaceView typical = typical_place(sampler, grid);
         contrast_q8_ = typical.darkness_q8;
-        // Graphics are darker than the geometric mean of the shade of a dot and the shade of solid
-        // ink.
+        // A place counts as graphics if its shade exceeds the geometric mean of the shade of a
+        // typical dot and the shade of solid ink.
         graphics_q8_ = static_cast<int>(
             square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
 
-    /// Darkness at the places of a cell, and the reliability of its bits.
+    /// Darkness at the places of a cell, the reliability of its bits in 1/16, and the light at the
+    /// cell relative to the centre of the image.
     struct Sample {
         std::array<int, 4> darkness_q8;  ///< indexed by Symbol
         int reliability_q4 = 16;
@@ -242,8 +244,8 @@ class Ink {
         const std::array<int, 4> darkest_around_q8 = sampler_.darkest_around_q8(view);
         for (std::size_t i = 0; i < view.places.size(); ++i) {
             const PlaceView& place = view.places[i];
-            // A place outside the image counts as half as dark as a dot, which favours neither
-            // value of a bit.
+            // A place outside the image or under graphics counts as half as dark as a dot, which
+            // favours neither value of a bit.
             sample.darkness_q8[i] = contrast_q8_ / 2;
             if (!place.is_seen) continue;
             const int around_q8 = darkest_around_q8[i];
@@ -279,14 +281,15 @@ class Ink {
                4 * sorted[2] > tuned::kSecondDot_4ths * sorted[3];
     }
 
-    /// Returns the weight of a bit. `one_q8` and `zero_q8` are the darkness at the places where the
-    /// bit is 1 and 0.
+    /// Returns the weight of a bit, in [-127, 127]. `one_q8` is the maximum darkness of the two
+    /// places where the bit is 1, and `zero_q8` of the two places where the bit is 0.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
-        // The weight is the difference divided by the noise of the sensor. The difference in grey
-        // levels and the contrast are both proportional to the light.
+        // The weight is a log-likelihood ratio. At constant sensor noise, the ratio is proportional
+        // to the difference in grey levels times the contrast in grey levels. Both factors are
+        // proportional to the light, so the weight is proportional to the square of the light.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
-        // The weight is limited. Above some contrast, errors are not caused by noise.
+        // The weight is limited, because bit errors at high contrast are not caused by noise.
         const int weight = static_cast<int>(
             std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
         return static_cast<std::int8_t>(weight * sample.reliability_q4 / 16);
@@ -298,7 +301,8 @@ class Ink {
     int graphics_q8_ = 0;
 };
 
-/// Sets the extent of the grid to the range of the cells in the image.
+/// Clears the grid, and sets its extent to the range of the cells at 5 x 5 points that cover the
+/// image.
 void cover_image(const ImageView& image, const FixedLens& lens, const PlaneFromImage& plane,
                  Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};

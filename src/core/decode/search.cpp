@@ -34,7 +34,8 @@ class Choices {
           last_(roll_of(line.best.score, line.scores)),
           rolls_{last_} {}
 
-    /// Returns the `i`-th roll; `i` is less than kChoices.
+    /// Returns the roll of rank `i`, which must be less than kChoices. Rank 0 has the highest
+    /// score.
     std::uint8_t roll(int i) {
         for (; known_ <= i; ++known_) {
             last_ = next_match(*scores_, {(*scores_)[last_], last_}).roll;
@@ -42,7 +43,7 @@ class Choices {
         }
         return rolls_[static_cast<std::size_t>(i)];
     }
-    /// Returns the best score minus the score of the `i`-th roll.
+    /// Returns the highest score minus the score of the roll of rank `i`.
     int loss(int i) { return i == 1 ? margin_ : (*scores_)[rolls_[0]] - (*scores_)[roll(i)]; }
 
   private:
@@ -53,8 +54,8 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Returns the reading for which line `line` is at `position` with `roll`. The score of the reading
-/// is the sum over all lines.
+/// Returns the reading in which line `line` is at `position` with `roll`, with its score over all
+/// lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     std::array<std::uint8_t, kMaxLines> storage;
@@ -70,8 +71,8 @@ AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32
 
 using Run = std::array<Choices, kMaxRunLength>;
 
-/// Returns the number of choices of each line of a run that are combined. Repeatedly adds the
-/// choice with the smallest loss, until there would be more than `max_readings` combinations.
+/// Returns the number of rolls to try for each line of a run. Repeatedly adds the roll with the
+/// smallest loss, as long as there are at most `max_readings` combinations of rolls.
 std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     std::array<int, kMaxRunLength> widths;
     widths.fill(1);
@@ -95,8 +96,9 @@ std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     }
 }
 
-/// Reads the lines that start at `first` with the given rolls, and replaces `best` if the reading
-/// has a higher score over all lines. Returns true if the new reading is clear.
+/// Reads the position from the rolls of the lines that start at `first`. Replaces `best` if this
+/// reading has a higher score over all lines. Returns true if `best` was replaced by a clear
+/// reading.
 bool improve(CodeVariant code, const Lines& lines, int first, std::span<const std::uint8_t> rolls,
              AxisReading& best) {
     std::uint32_t position = 0;
@@ -108,7 +110,8 @@ bool improve(CodeVariant code, const Lines& lines, int first, std::span<const st
     return best.is_clear();
 }
 
-/// Reads one run with all combinations of the choices of its lines, until a reading is clear.
+/// Reads one run with up to `max_readings` combinations of the most likely rolls of its lines,
+/// until a reading is clear.
 void try_run(CodeVariant code, const Lines& lines, int first, int length, int max_readings,
              AxisReading& best) {
     Run run;
@@ -122,7 +125,7 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
     const auto widths = widen(run, length, max_readings);
     std::array<int, kMaxRunLength> choice{};
     while (true) {
-        // Advances to the next combination. The choice of the last line changes fastest.
+        // Advances to the next combination. The roll of the last line changes fastest.
         std::size_t n = rolls.size();
         while (n > 0 && choice[n - 1] + 1 == widths[n - 1]) {
             choice[--n] = 0;
@@ -153,7 +156,7 @@ int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLine
     return clearest;
 }
 
-/// Maximum number of runs of lines that are read, and of readings per run.
+/// Maximum number of runs of lines to read, and of readings per run.
 struct Limits {
     int runs;
     int readings;  ///< per run

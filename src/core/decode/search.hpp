@@ -12,8 +12,8 @@ namespace dotpose::core {
 /// unique.
 int run_length(CodeVariant code);
 
-/// Returns the reading of the first line if line `line` is at `position` with `roll`. Sets the
-/// rolls of all lines, modulo 63, relative to the roll of the first line.
+/// Returns the position and roll of the first line if line `line` is at `position` with `roll`.
+/// Sets `rolls` to the roll of each line minus the roll of the first line, modulo 63.
 AxisReading reading_of_first(CodeVariant code, std::uint32_t position, int roll, int line,
                              std::span<std::uint8_t> rolls);
 

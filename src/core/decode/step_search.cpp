@@ -14,11 +14,12 @@ constexpr std::size_t kSequences = 4;
 constexpr std::size_t kDigits = 3;
 constexpr std::size_t kStepSizes = code::kMaxDelta - code::kMinDelta + 1;
 
-/// Loss of score for each sequence and digit, if the step between two lines has this digit in this
-/// sequence.
+/// Minimum loss of score, indexed by sequence and digit, if the step between two adjacent lines has
+/// this digit in this sequence.
 using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
 
-/// Returns the maximum sum of the scores of two lines whose rolls differ by `step`.
+/// Returns the maximum, over all rolls, of the sum of the scores of two adjacent lines whose rolls
+/// differ by `step`.
 int best_agreement(const LineScores& line, const LineScores& next, std::size_t step) {
     std::int16_t best = INT16_MIN;
     const std::size_t whole = kSections - step;
@@ -45,8 +46,7 @@ StepLosses losses_of(const LineScores& line, const LineScores& next) {
     return losses;
 }
 
-/// Number of places of the first line that are kept in each secondary sequence. The most likely
-/// places are kept.
+/// Number of most likely places of the first line that are kept in each secondary sequence.
 constexpr std::size_t kChoices = tuning::step_search::kChoices;
 using Choices = std::array<std::uint32_t, kChoices>;
 
@@ -74,8 +74,8 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
     return places;
 }
 
-/// Returns the reading with the first line at `position` and the best roll. The score of the
-/// reading is the sum over all lines.
+/// Returns the reading with the first line at `position` and the roll that has the highest score
+/// over all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;
     code::follow_rolls(code, position, 0, std::span(rolls).first(lines.all.size()));

@@ -1,13 +1,13 @@
-// Window: finds the square of cells with the largest quality. Paper section II-B.5, with 8 x 8
-// cells.
+// Window: finds the square of cells with the highest sum of qualities. Paper section II-B.5, with 8
+// x 8 cells.
 #pragma once
 
 #include "core/decode/grid.hpp"
 
 namespace dotpose::core {
 
-/// Returns the square of `side` x `side` cells with the largest sum of qualities. The result is
-/// smaller if the grid is smaller.
+/// Returns the square of `side` x `side` cells with the highest sum of qualities. If the grid has
+/// fewer columns or rows, the result contains all of them.
 GridRegion choose_window(const Grid& grid, int side);
 
 /// Returns the mean quality of the cells of a region, in 1/256. The mean is 256 if every dot is

@@ -12,8 +12,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Half of a low threshold for which every pixel is dark. It serves as a sentinel after the last
-/// pixel of a row, and ends the search for dark pixels.
+/// Half of a low threshold for which every pixel is dark. This sentinel after the levels of the
+/// last column ends the search for dark pixels.
 constexpr std::uint8_t kAlwaysDark = 128;
 
 constexpr int kBandsKept = 4;  // three are needed; a power of two is faster
@@ -66,8 +66,8 @@ ThreeBands three_bands(const AdaptiveThreshold& threshold, int band) {
             band + 1 < band_count(threshold) ? tiles_of(threshold, band + 1).data() : here};
 }
 
-/// Computes, for each tile, the brightest mean and the largest darkness of this tile and the tiles
-/// above and below it.
+/// Computes the maximum mean and the maximum darkness of each tile and the tiles above and below
+/// the tile.
 void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
                 std::uint8_t* darknesses) {
     for (std::size_t t = 0; t < count; ++t) {
@@ -78,7 +78,7 @@ void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
     }
 }
 
-/// Replaces each number by the maximum of the number and its two neighbours.
+/// Replaces each number with the maximum of the number and its two neighbours.
 void join_neighbours(std::uint8_t* number, std::size_t count) {
     std::uint8_t* const last = number + count - 1;
     int here = *number;
@@ -92,7 +92,7 @@ void join_neighbours(std::uint8_t* number, std::size_t count) {
     *last = static_cast<std::uint8_t>(of_two);
 }
 
-/// Sets the columns of a tile to a level. Returns the columns of the next tile.
+/// Sets the columns of a tile to a level. Returns a pointer to the first column of the next tile.
 inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     const Word word = in_all_bytes(1) * level;
     for (std::size_t k = 0; k < kTileWidth_px; k += sizeof word)
@@ -100,11 +100,11 @@ inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     return column + kTileWidth_px;
 }
 
-/// Number of tiles for each contrast relative to the paper level, in steps of 1/kContrastBins.
+/// Number of tiles for each ratio of contrast to paper level, in steps of 1/kContrastBins.
 using Histogram = std::array<std::uint16_t, kContrastBins>;
 
-/// Adds each tile with contrast to the histogram, and sets the mean of all other tiles to 0.
-/// Returns the number of tiles with contrast.
+/// Adds each tile with at least `min_contrast` to the histogram, and sets the mean of all other
+/// tiles to 0. Updates `max_contrast`. Returns the number of tiles in the histogram.
 int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                    int min_contrast, int& max_contrast, Histogram& histogram) {
     int blank = 0;
@@ -127,10 +127,10 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
     return static_cast<int>(tiles) - blank;
 }
 
-/// Returns the contrast of dots relative to paper in a band, in 1/256, or 0 if no tile has
-/// contrast. Ink reflects the same fraction of the light everywhere, so all tiles have the same
-/// relative contrast. Strokes of graphics increase the contrast of the tiles around the strokes.
-/// The 30 % quantile over a band is the contrast of dots even if strokes cross the band.
+/// Returns the contrast of the dots of a band relative to the paper level, in 1/256, or 0 if no
+/// tile has contrast. Ink reflects the same fraction of the light everywhere, so all tiles have the
+/// same relative contrast. Strokes of graphics increase the contrast of the tiles around the
+/// strokes. The 30 % quantile over a band is the contrast of dots even if strokes cross the band.
 unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                              int min_contrast, int& max_contrast) {
     Histogram histogram{};
@@ -145,7 +145,9 @@ unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses
     return (2 * bin + 1) * (256 / (2 * kContrastBins));
 }
 
-/// Sets the thresholds of all columns from their contrasts relative to paper, in units of 2^-16.
+/// Sets the thresholds of all columns. The low threshold is darker than the paper by the fraction
+/// `to_low_q16` of the paper level, and the high threshold by the fraction `to_high_q16`. Both
+/// fractions are in units of 2^-16.
 void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q16,
                 unsigned to_high_q16, AdaptiveThreshold& threshold) {
     std::uint8_t* half_low_levels = threshold.half_low_levels.data();
@@ -202,11 +204,12 @@ void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold
     std::uint8_t* const darknesses = threshold.high_levels.data();
     join_bands(three_bands(threshold, band), tiles, papers, darknesses);
     // The darkness includes the tiles on both sides, because dots may be farther apart than the
-    // width of a tile. The paper level does not include these tiles. Each tile contains paper, and
-    // the brightest of several tiles would be too bright.
+    // width of a tile. The paper level does not include these tiles, because each tile contains
+    // paper, and the brightest of several tiles would be too bright.
     join_neighbours(darknesses, tiles);
-    // If less than half of the columns of a tile are in the image, the tile consists mostly of the
-    // repeated last pixel.
+    // If less than half of the columns of the last tile are in the image, the tile consists mostly
+    // of the repeated last pixel. Its paper level is then at least the paper level of the tile
+    // before it.
     if (whole_width(threshold) - threshold.width_px > kTileWidth_px / 2)
         papers[tiles - 1] = std::max(papers[tiles - 2], papers[tiles - 1]);
     const unsigned contrast_q8 = typical_contrast_q8(

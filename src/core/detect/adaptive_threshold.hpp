@@ -1,6 +1,6 @@
-// Adaptive threshold: measures paper level and contrast in tiles, and sets the thresholds of each
-// column. This is the first half of the thresholding of paper section II-B.1. differs: the paper
-// uses one global threshold; LEDs next to a wide lens never light the paper evenly.
+// Adaptive threshold: measures the paper level and the contrast of tiles, and sets the thresholds
+// of each column. First half of the thresholding of paper section II-B.1. differs: the paper uses
+// one global threshold; LEDs next to a wide lens never light the paper evenly.
 #pragma once
 
 #include <algorithm>
@@ -13,21 +13,22 @@
 namespace dotpose::core {
 
 /// Width and height of the tiles of the adaptive threshold. The height is kLowTile_px for images
-/// whose shorter side is at most `kMaxSideWithLowTiles_px`, and kHighTile_px for larger images.
-/// Three adjacent tiles must contain a dot. If 8 dots are visible along the shorter side, the
-/// spacing is at most 1/8 of this side, and a dot is at most a third of the spacing wide.
+/// whose shorter side is at most `kMaxSideWithLowTiles_px`, and kHighTile_px for larger images. Any
+/// three adjacent tiles must contain a part of a dot. If at least 8 dots are visible along the
+/// shorter side, the spacing is at most 1/8 of this side.
 inline constexpr int kTileWidth_px = 16;
 inline constexpr int kLowTile_px = 8;
 inline constexpr int kHighTile_px = 16;
 inline constexpr int kMaxSideWithLowTiles_px = 240;
-/// Number of bytes after the last row and after the last level that may be read. The values of
-/// these bytes have no effect.
+/// Number of bytes that the search for dark pixels may read after the last row and after the last
+/// low level. The bytes after the last row may have any value. The bytes after the last low level
+/// contain a sentinel.
 inline constexpr int kReadAhead_px = 8;
 
 /// Grey levels of one tile.
 struct Tile {
     std::uint8_t mean = 0;
-    std::uint8_t darkness = 0;  ///< 255 minus the level of the darkest pair of pixels of the tile
+    std::uint8_t darkness = 0;  ///< 255 minus the mean level of the darkest pair of adjacent pixels
 };
 
 /// The newest rows of the image with their tiles, and the thresholds of one band. A *band* is a row
@@ -41,22 +42,23 @@ struct AdaptiveThreshold {
     int rows_taken = 0;
     bool has_contrast = false;  ///< true if any tile so far has contrast
     int max_contrast =
-        0;  ///< largest contrast between paper and ink of all tiles so far, in grey levels
-    /// Pixels of the two newest bands. Rows are filled up to whole tiles.
+        0;  ///< largest contrast between paper and ink in all tiles so far, in grey levels
+    /// Pixels of the two newest bands. Rows are extended to whole tiles.
     std::span<std::uint8_t> rows;
     std::span<Tile> tiles;  ///< tiles of the four newest bands
     /// Half of the low threshold in each column of the current band. Pixels darker than the low
-    /// threshold belong to a blob. The element is 0 if no pixel belongs to a blob.
+    /// threshold belong to a blob. The value is 0 in blank tiles, where no pixel belongs to a blob.
     std::span<std::uint8_t> half_low_levels;
-    std::span<std::uint8_t>
-        high_levels;  ///< high threshold: a blob needs a pixel darker than this level
+    std::span<std::uint8_t> high_levels;  ///< high threshold in each column; a blob must contain a
+                                          ///< pixel darker than this level
 };
 
 /// Starts a frame.
 void begin_threshold(int width_px, int height_px, AdaptiveThreshold& threshold);
 
-/// Stores and measures the next row. Returns the number of bands that are ready for thresholding
-/// with this row: 0 or 1, and up to 2 with the last row of the image.
+/// Stores the next row. Measures the tiles of a band after its last row. Returns the number of
+/// bands that this row makes ready for thresholding: 0 or 1, and up to 2 for the last row of the
+/// image.
 int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold);
 
 /// Sets `threshold.half_low_levels` and `threshold.high_levels` for one band from its tiles and the
@@ -64,9 +66,9 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold);
 /// a band as ready.
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold);
 
-/// Returns the contrast, in grey levels, below which tiles of the next band are blank. The limit
-/// increases with the largest contrast so far. If some tiles contain dots, noise in the other tiles
-/// is thus rejected.
+/// Returns the minimum contrast, in grey levels, of tiles of the next band that are not blank. The
+/// minimum increases with the largest contrast so far. After tiles with dots, noise in blank tiles
+/// is therefore rejected.
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold);
 
 /// Returns the number of bands in the image.
@@ -84,8 +86,8 @@ inline int band_end(const AdaptiveThreshold& threshold, int band) {
 inline int whole_width(const AdaptiveThreshold& threshold) {
     return threshold.tiles_per_band * kTileWidth_px;
 }
-/// Returns a row of one of the two newest bands: whole tiles, filled beyond `width_px` with the
-/// last pixel. The row begins at a multiple of 8 bytes.
+/// Returns a stored row of one of the two newest bands. The row is extended to whole tiles by
+/// repetition of its last pixel, and begins at a multiple of 8 bytes.
 inline std::uint8_t* kept_row(const AdaptiveThreshold& threshold, int v) {
     const int slot = v & (2 * threshold.band_px - 1);
     return threshold.rows.data() + slot * whole_width(threshold);

@@ -10,12 +10,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum area and side of a dot. A blurred dot with a diameter of 0.35 spacing at a spacing of 60
-/// px is smaller.
+/// Maximum area and maximum side of the bounding box of a dot. A blurred dot with a diameter of
+/// 0.35 spacings is smaller, up to a spacing of 60 px.
 constexpr int kMaxDotArea_px = 1024;
 constexpr int kMaxDotSide_px = 48;
 constexpr std::uint32_t kMaxMass = 65535;
-/// Marks a merged blob, in place of its last row.
+/// Value of `OpenBlob::last_v` that marks a blob as merged into another blob.
 constexpr std::uint16_t kNoRow = UINT16_MAX;
 
 /// Returns an upper bound on the distance of a dot from the image centre, along either axis.
@@ -59,15 +59,16 @@ void keep_dots(DotList list, Predicate is_to_keep) {
     return true;
 }
 
-/// Returns sum / mass in units of 1/256, rounded. For the largest blobs, drops the lowest one or
-/// two bits to stay within 32 bits.
+/// Returns sum / mass in units of 1/256, rounded. For the largest blobs, drops the lowest bits of
+/// both numbers to stay within 32 bits.
 std::int32_t mean_q8(std::uint32_t sum, std::uint32_t mass) {
     for (; sum >= 1U << 23; sum /= 2)
         mass /= 2;
     return static_cast<std::int32_t>((sum * 256 + mass / 2) / mass);
 }
 
-/// Returns true if a blob is small, away from the border, and has a pixel below the high threshold.
+/// Returns true if a blob is small, is not at the border of the image, and has a pixel darker than
+/// the high threshold.
 bool may_be_dot(const OpenBlob& blob, const AdaptiveThreshold& threshold) {
     return blob.passes_high && blob.area_px <= kMaxDotArea_px && blob.first_v > 0 &&
            blob.left > 0 && blob.right < threshold.width_px &&
@@ -82,7 +83,8 @@ void close_blob(const OpenBlob& blob, const AdaptiveThreshold& threshold, DotLis
          blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
         static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
         static_cast<std::uint16_t>(blob.area_px)};
-    // Distances are compared only after the list was full for the first time.
+    // As long as the list was never full, `kept_within_px` includes all dots, so no distance is
+    // compared.
     while (list.kept_within_px == all_within_px(threshold) || IsKept(threshold, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
             list.dots[static_cast<std::size_t>(list.count++)] = dot;
@@ -92,7 +94,7 @@ void close_blob(const OpenBlob& blob, const AdaptiveThreshold& threshold, DotLis
     }
 }
 
-/// Returns an unused blob, or null if all are in use.
+/// Returns an unused blob, or null if all blobs are in use.
 OpenBlob* unused_blob(OpenBlobs& open) {
     OpenBlob* const blob = open.first_unused;
     if (blob != nullptr) {
@@ -144,7 +146,8 @@ void unite(OpenBlob& blob, OpenBlob& other) {
     other.last_v = kNoRow;
 }
 
-/// Returns the blob that a run belongs to after all merges.
+/// Returns the blob that contains `blob` after all merges: `blob` itself if it was not merged, or
+/// null if it is null.
 OpenBlob* whole(OpenBlob* blob) {
     while (blob != nullptr && blob->part_of != nullptr)
         blob = blob->part_of;
@@ -156,8 +159,9 @@ void end_row(Run& after_last) {
     after_last.begin = after_last.end = UINT16_MAX;
 }
 
-/// Adds each run of row `v` to the blob of a touching run in the row above. Runs that meet at a
-/// corner touch. Opens a new blob for a run that touches no other run.
+/// Adds each run of row `v` to the blob of the runs above that touch it. Runs that meet only at a
+/// corner also touch. Merges the blobs of runs above that touch the same run. Opens a new blob for
+/// a run that touches no run above.
 void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
     bool some_united = false;
     for (Run& run : below) {
@@ -196,14 +200,15 @@ void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& thr
         OpenBlob* const blob = run.blob;
         if (blob == nullptr || blob->last_v == v) continue;
         if (blob->part_of == nullptr) close_blob(*blob, threshold, list);
-        blob->last_v = static_cast<std::uint16_t>(v);  // makes the other runs of the blob skip it
+        blob->last_v = static_cast<std::uint16_t>(v);  // the loop then skips the other runs of this
+                                                       // blob
         blob->part_of = open.first_unused;
         open.first_unused = blob;
     }
 }
 
-/// Returns the upper quartile of a member over a sample of the dots. There may be as many blobs of
-/// noise as dots, but few blobs are larger than dots.
+/// Returns the upper quartile of a member over a sample of the blobs in the list. There may be as
+/// many blobs of noise as dots, but few blobs are larger than dots.
 std::int32_t typical(std::span<const DetectedDot> dots, std::uint16_t DetectedDot::*member) {
     constexpr std::size_t kSample = 128;
     const std::size_t step = dots.size() / kSample + 1;

@@ -1,5 +1,5 @@
-// Blobs: connected dark pixels and their centroids weighted by darkness, and the selection of dots
-// among them. Paper section II-B.1.
+// Blobs: finds connected dark pixels with their centroids weighted by darkness, and selects the
+// dots among these blobs. Paper section II-B.1.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace dotpose::core {
 
-/// A blob that may continue in the next row, as sums over its pixels. The sums are modulo 2^32,
-/// which is exact for blobs small enough to be dots.
+/// A blob that may continue in the next row, as sums over its pixels. The sums are modulo 2^32. For
+/// blobs small enough to be dots, the sums are exact relative to the corner of the blob.
 struct OpenBlob {
     std::uint32_t sum_x = 0;  ///< sum of weight times u
     std::uint32_t sum_y = 0;  ///< sum of weight times v
@@ -39,28 +39,28 @@ struct OpenBlobs {
     int max_runs = INT32_MAX;  ///< maximum number of runs per image; further runs are ignored
     int runs_left = 0;
     std::span<OpenBlob> blobs;
-    std::size_t blobs_begun = 0;       ///< number of blobs used in this image so far
-    OpenBlob* first_unused = nullptr;  ///< first unused blob among `blobs`
+    std::size_t blobs_begun = 0;  ///< number of elements of `blobs` that this image has used so far
+    OpenBlob* first_unused = nullptr;  ///< first blob in the list of unused blobs, or null
 };
 
-/// The dots found so far.
+/// The blobs found so far that may be dots.
 struct DotList {
     std::span<DetectedDot> dots;
     int& count;
     int& kept_within_px;  ///< distance from the image centre, per axis, within which dots are kept
 };
 
-/// Starts the blobs of a frame, with no dots.
+/// Starts a frame: discards all blobs and dots.
 void begin_blobs(const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
-/// Finds the runs of row `v` with `threshold.half_low_levels` and `threshold.high_levels`,
-/// continues the blobs of the row above, and adds the blobs that ended in the row above to the
-/// list.
+/// Finds the runs of row `v` with `threshold.half_low_levels` and `threshold.high_levels`, and
+/// continues the blobs of the row above. Adds the blobs that ended in the row above to the list if
+/// they may be dots.
 void grow_blobs(int v, const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
-/// Removes dots that are much lighter or larger than the upper quartile, and dots with too few
-/// pixels. Paper section II-B.1 ("only blobs with sufficient pixels are retained"). The limits are
-/// relative to the other dots and therefore suit any spacing.
+/// Removes blobs with too few pixels, with a mass far below the upper quartile of the list, or with
+/// an area far above it. Paper section II-B.1 ("only blobs with sufficient pixels are retained").
+/// Limits relative to the upper quartile suit any spacing.
 void sift_dots(const BlobOptions& options, DotList list);
 
 }  // namespace dotpose::core

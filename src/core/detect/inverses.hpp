@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Returns 1 / (n + 1) in units of 2^-22.
+/// Returns 1 / (n + 1) in units of 2^-22, rounded down.
 constexpr std::uint32_t inverse_q22(std::uint32_t n) {
     return (1U << 22) / (n + 1);
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr int kTaps = 4;
 
 /// Returns the weights of the binomial (1 2 1) shifted by a fraction of a pixel, in 1/1024. A wider
-/// window would collect more of a blurred dot, but also more of its surroundings.
+/// window would include more of a blurred dot, but also more of its surroundings.
 std::array<int, kTaps> taps(std::int32_t position_q8) {
     constexpr std::array<int, kTaps + 1> kBinomial{0, 1, 2, 1, 0};
     const int fraction = position_q8 & 255;
@@ -24,8 +24,8 @@ std::array<int, kTaps> taps(std::int32_t position_q8) {
     return weights;
 }
 
-/// Returns a pixel with defects corrected. Pixels at the border have too few neighbours, so the
-/// nearest inner pixel replaces them.
+/// Returns the level of a pixel, corrected if the pixel is defective. Pixels at the border have too
+/// few neighbours, so the nearest inner pixel replaces a pixel at the border or outside the image.
 int level_near(const ImageView& image, int u, int v) {
     return without_defect(image, std::clamp(u, 1, image.width_px - 2),
                           std::clamp(v, 1, image.height_px - 2));

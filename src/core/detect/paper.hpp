@@ -1,4 +1,5 @@
-// Paper: the grey level of the paper everywhere in the image, also below dots and graphics.
+// Paper: measures the grey level of the paper everywhere in the image, including under dots and
+// graphics.
 #pragma once
 
 #include <algorithm>
@@ -10,18 +11,19 @@
 
 namespace dotpose::core {
 
-/// Paper level in the square blocks of an image.
+/// Paper levels of the square blocks of an image.
 struct PaperMap {
     int block_px = 0;
     int columns = 0;
     int rows = 0;
     std::span<std::uint8_t> levels;  ///< row by row
-    /// Brightest level of each block and the eight blocks around it.
+    /// For each block, the brightest level of the block and of the eight blocks around it.
     std::span<std::uint8_t> brightest;
 };
 
-/// Measures the paper level of square blocks: the level that a third of the pixels of the block
-/// exceed. The side of a block is a tenth of the shorter side of the image.
+/// Measures the paper level of each block: the grey level that a third of the pixels of the block
+/// exceed. If graphics cover most of a block, its level is replaced by the brightest level around
+/// it. The side of a block is a tenth of the shorter side of the image.
 void measure_paper(const ImageView& image, PaperMap& map);
 
 /// Returns the index of the block of a pixel. Pixels outside the image belong to the nearest block.
@@ -31,13 +33,12 @@ inline std::size_t block_at(const PaperMap& map, int u, int v) {
     return static_cast<std::size_t>(row * map.columns + column);
 }
 
-/// Returns the brightest paper level of the block of a pixel and the eight blocks around it.
+/// Returns the brightest paper level of the block of a pixel and of the eight blocks around it.
 inline int brightest_paper_near(const PaperMap& map, int u, int v) {
     return map.brightest[block_at(map, u, v)];
 }
 
-/// Returns the paper level at a pixel: the level of its block or, if graphics cover most of the
-/// block, the brightest level around it.
+/// Returns the paper level of the block of a pixel. The level is at least 1.
 inline int paper_at(const PaperMap& map, int u, int v) {
     return map.levels[block_at(map, u, v)];
 }

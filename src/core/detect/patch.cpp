@@ -50,8 +50,8 @@ bool measure_contrast(Patch& patch) {
     const auto tile = [](int column, int row) {
         return static_cast<std::size_t>(row * Patch::kTilesPerRow + column);
     };
-    // Number of tiles by darkness relative to their paper level, in units of 1/64. The last bin
-    // counts tiles without contrast.
+    // Number of tiles, indexed by the ratio of their darkness to their paper level in units of
+    // 1/64. The last bin counts tiles without contrast.
     constexpr std::size_t kFlat = 65;
     std::array<int, kFlat + 1> counts{};
     for (int row = 0; row < rows; ++row) {
@@ -71,8 +71,7 @@ bool measure_contrast(Patch& patch) {
     patch.dot_contrast_q8 = 4 * static_cast<int>(median) + 2;
     const int contrast_q16 = patch.dot_contrast_q8 * tuned::kThreshold_q8;
     for (int row = 0; row < rows; ++row) {
-        // The thresholds of the whole row are computed as one vector, including the thresholds of
-        // unused tiles.
+        // Computes the thresholds of a whole row, including unused tiles, as one vector.
         const auto paper = std::span(patch.brightest).subspan(tile(0, row), Patch::kTilesPerRow);
         std::array<std::uint8_t, Patch::kTilesPerRow> thresholds;
         for (std::size_t i = 0; i < thresholds.size(); ++i)

@@ -1,5 +1,5 @@
-// Patch: the part of an image in which the grid is searched, with its thresholds. Paper section
-// II-B.1.
+// Patch: places a patch, in which the grid is searched, and finds its thresholds and dots. Paper
+// section II-B.1.
 #pragma once
 
 #include "core/patch_memory.hpp"
@@ -7,9 +7,10 @@
 
 namespace dotpose::core {
 
-/// Places a patch of the given size, in px, around a point of the image. Clips the patch to the
-/// image and to its memory, and reduces it by `scale`: 1, 2 or 4. Returns false if the clipped
-/// patch is too small to contain a grid.
+/// Places a patch of the given size, in px of the image, around a point of the image. Clips the
+/// patch to the image and to the memory of the patch. Each pixel of the patch covers `scale` x
+/// `scale` pixels of the image; `scale` is 1, 2 or 4. Returns false if the clipped patch is too
+/// small to contain a grid.
 bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int width_px,
                  int height_px, int scale, Patch& patch);
 
@@ -17,9 +18,9 @@ bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int w
 /// typical darkness of dots. Returns false if too few tiles have contrast.
 bool measure_contrast(Patch& patch);
 
-/// Removes minima that are noise: minima on plateaus, minima in tiles without contrast, and minima
-/// with dark surroundings in more than two of eight directions, as on a dark table beyond the edge
-/// of a sheet.
+/// Removes minima that are not dots: minima on plateaus, minima in tiles without contrast, and
+/// minima with dark surroundings in more than two of eight directions, as on a dark table beyond
+/// the edge of a sheet.
 void keep_isolated(Patch& patch);
 
 /// Coordinates of the middle of the patch, in px of the image.

@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::size_t kWord_px = sizeof(Word);
 
-/// Sets the top bit of each light pixel. The other bits are undefined.
+/// Returns a word in which the top bit of each byte is set if the pixel is light. The lower bits of
+/// the bytes are undefined.
 Word light_tops(Word pixels, Word half_low) {
     return (pixels >> 1 | kTops) - half_low;
 }
@@ -25,8 +26,8 @@ bool is_group_light(const std::uint8_t* pixels, const std::uint8_t* half_low_lev
     return tops == kTops;
 }
 
-/// Returns the first dark pixel of a row, starting at `begin`. The sentinel, a dark pixel after the
-/// end of the row, ends the search.
+/// Returns the first dark pixel of a row at or after `begin`. The sentinel after the end of the
+/// row, a threshold for which every pixel is dark, ends the search.
 const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row,
                               const std::uint8_t* half_low_levels) {
     const auto before = static_cast<std::size_t>(begin - row) % kWord_px;
@@ -58,7 +59,8 @@ const std::uint8_t* write_run(const std::uint8_t* pixel, const std::uint8_t* row
     run.begin = static_cast<std::uint16_t>(pixel - row);
     bool passes_high = false;
     std::uint32_t mass = 0;
-    // Sum of depth * (last column - column). Each depth is added again for every following pixel.
+    // Sum of depth * (last column - column): the depth of a pixel is added again for every pixel
+    // that follows.
     std::uint32_t moment = 0;
     const std::uint8_t* tile_end = nullptr;
     do {

@@ -1,5 +1,5 @@
-// Runs: sequences of adjacent dark pixels in a row, with their sums. Second half of the
-// thresholding of paper section II-B.1.
+// Runs: finds sequences of adjacent dark pixels in a row, with sums over their pixels. Second half
+// of the thresholding of paper section II-B.1.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace dotpose::core {
 
 struct OpenBlob;
 
-/// A sequence of adjacent blob pixels in one row.
+/// A sequence of adjacent pixels in one row that are darker than the low threshold.
 struct Run {
     std::uint16_t begin = 0;
     std::uint16_t end = 0;     ///< exclusive
@@ -21,13 +21,13 @@ struct Run {
     OpenBlob* blob = nullptr;  ///< blob of the run; null if there were too many blobs
 };
 
-/// Number of pixels that are compared together. All pixels of such a group have the same
-/// thresholds.
+/// Number of pixels in a group of pixels that are compared together. All pixels of a group have the
+/// same thresholds.
 inline constexpr std::size_t kGroup_px = 8;
 static_assert(kTileWidth_px % kGroup_px == 0);
 
-/// Finds the runs of row `v` from left to right, at most runs.size(), and returns their number. A
-/// run at the right border of the image may end beyond the border.
+/// Finds the runs of row `v` from left to right, at most runs.size() runs, and returns their
+/// number. A run at the right border of the image may end beyond the border.
 int find_runs(int v, const AdaptiveThreshold& threshold, std::span<Run> runs);
 
 }  // namespace dotpose::core

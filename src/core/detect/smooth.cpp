@@ -76,12 +76,12 @@ int half_side(int at, int length, int max_half) {
 }
 
 /// Adds a row to the sums of the columns, or subtracts the row. A pixel much darker than the paper
-/// around it counts as paper, because a stroke of graphics is not shadow.
+/// around it counts as paper, because a stroke of graphics is not a shadow.
 void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     const std::uint8_t* row = image.row(v);
     std::uint32_t* sums = smoothing.column_sums.data();
     const int block_px = smoothing.paper.block_px;
-    // x ^ flip - flip is -x if flip is -1.
+    // (x ^ flip) - flip is x if flip is 0, and -x if all bits of flip are set.
     const std::uint32_t flip = add ? 0 : UINT32_MAX;
     for (int begin = 0; begin < image.width_px; begin += block_px) {
         const auto paper =
@@ -95,7 +95,7 @@ void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     }
 }
 
-/// Moves the window of rows that are summed in the column sums to [begin, end).
+/// Updates the column sums to include exactly the rows [begin, end).
 void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing) {
     while (smoothing.sums_end < end)
         add_row(image, smoothing.sums_end++, true, smoothing);
@@ -107,8 +107,8 @@ void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing)
 constexpr std::uint32_t kMinLevel = kNormalLevel * tuned::kMinLevel_5ths / 5;
 
 /// Computes quotients, rounded down, by multiplication. The quotients are exact for n / d < 256 and
-/// d < 2^20: `factor_` is too large by less than 1, which increases n / d by less than n / 2^48 < 1
-/// / d.
+/// d < 2^20: `factor_` is too large by at most 1, which increases n / d by at most n / 2^48 < 1 /
+/// d.
 class Divider {
   public:
     std::uint32_t quotient(std::uint32_t n, std::uint32_t d) {
@@ -125,13 +125,13 @@ class Divider {
     std::uint64_t factor_ = 0;
 };
 
-/// Returns kNormalLevel / mean in units of 2^-24, rounded up. The product of this factor and a
-/// pixel is too large by less than 1 / 256. The mean is not 0.
+/// Returns kNormalLevel / mean in units of 2^-24, rounded up. Due to the rounding, the product of
+/// this factor and a pixel is too large by less than 2^-16. The mean is not 0.
 constexpr std::uint32_t normalising_factor_q24(std::uint32_t mean) {
     return mean == 0 ? 0 : ((std::uint32_t{kNormalLevel} << 24) - 1) / mean + 1;
 }
 
-/// Divides each pixel by the mean of its surroundings, times kNormalLevel.
+/// Multiplies each pixel of row `v` by kNormalLevel divided by the mean of its surroundings.
 void normalise_light(const ImageView& image, int v, Smoothing& smoothing) {
     const int max_half = smoothing.paper.block_px;
     const int half_height = half_side(v, image.height_px, max_half);

@@ -1,5 +1,5 @@
-// Smooth: the filter of the second attempt. The filter normalises the light, filters pixel noise at
-// the size of a blurred dot, and removes single defect pixels. differs: not in the paper;
+// Smooth: the filter of the second attempt. The filter normalises the light, averages noise over
+// about the area of a blurred dot, and removes single defective pixels. differs: not in the paper;
 // docs/differs-from-paper.md.
 #pragma once
 
@@ -11,14 +11,14 @@
 
 namespace dotpose::core {
 
-/// Rows of an image during the filtering of the second attempt.
+/// State of the filter: the rows and sums that the next filtered row needs.
 struct Smoothing {
     std::span<std::uint16_t> lines;  ///< the five newest rows, filtered along the row
     std::span<std::uint8_t> row;
     int lines_ready = 0;
     int rows_given = 0;
     PaperMap paper;
-    /// Sums over the rows [sums_begin, sums_end), one per column.
+    /// For each column, the sum of its pixels over the rows [sums_begin, sums_end).
     std::span<std::uint32_t> column_sums;
     int sums_begin = 0;
     int sums_end = 0;
@@ -27,12 +27,12 @@ struct Smoothing {
 /// Grey level to which the mean of the surroundings is scaled.
 inline constexpr int kNormalLevel = 192;
 
-/// Starts an image and discards the rows of the previous image.
+/// Starts an image and discards the state of the previous image.
 void begin_smoothing(const ImageView& image, Smoothing& smoothing);
 
 /// Returns the next row, from the top, of the filtered image. Each pixel is clamped to the range of
-/// its eight neighbours, smoothed with the 5 x 5 binomial (sigma 1 px), and divided by the mean of
-/// a rectangle around it. The row is valid until the next call.
+/// its eight neighbours, smoothed with the 5 x 5 binomial (sigma 1 px), and normalised by the mean
+/// of a rectangle around it. The row is valid until the next call.
 const std::uint8_t* next_smooth_row(const ImageView& image, Smoothing& smoothing);
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// Surroundings: the grey levels around a pixel.
+// Surroundings: the grey levels around a pixel, and the correction of defective pixels.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@ struct LevelRange {
     int high = 0;
 };
 
-/// Returns the range of the eight neighbours of a pixel. The pixel must not be on the border.
+/// Returns the range of the grey levels of the eight neighbours of a pixel. The pixel must not be
+/// on the border.
 inline LevelRange range_around(const ImageView& image, int u, int v) {
     LevelRange range;
     for (int dv = -1; dv <= 1; ++dv) {
@@ -26,8 +27,8 @@ inline LevelRange range_around(const ImageView& image, int u, int v) {
     return range;
 }
 
-/// Returns a pixel, or the mean of its neighbours if the level of the pixel is far outside their
-/// range. Such a pixel is a defect of the sensor. The pixel must not be on the border.
+/// Returns the level of a pixel, or the mean level of its neighbours if the pixel is defective: if
+/// its level is far outside the range of its neighbours. The pixel must not be on the border.
 inline int without_defect(const ImageView& image, int u, int v) {
     const auto [low, high] = range_around(image, u, v);
     const int level = image.row(v)[u];

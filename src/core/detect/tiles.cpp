@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Row step: every kRowsEvery-th row is measured. Some dots of a tile always extend over a measured
-/// row.
+/// Row step: every kRowsEvery-th row is measured. At least some dots of a tile extend over a
+/// measured row.
 constexpr int kRowsEvery = 4;
 
 /// The measured rows of a band.
@@ -20,7 +20,8 @@ struct Rows {
 
     Rows(int band, const AdaptiveThreshold& threshold) {
         const int rows = band_end(threshold, band) - band_begin(threshold, band);
-        // The rows are centred in the band. A narrow last band is measured from its first row.
+        // The measured rows are centred in the band. In a last band of one or two rows, the first
+        // row is measured.
         const int first = rows > kRowsEvery / 2 ? kRowsEvery / 2 : 0;
         begin = kept_row(threshold, band_begin(threshold, band) + first);
         stride = kRowsEvery * whole_width(threshold);
@@ -43,23 +44,25 @@ class Means {
     std::uint32_t inverse_q20_;
 };
 
-/// Returns the darkness of a pair of pixels from the sum of its levels.
+/// Returns the darkness of a pair of pixels from the sum of their levels.
 constexpr std::uint8_t darkness_of_pair(std::uint32_t min) {
     return static_cast<std::uint8_t>(255 - min / 2);
 }
 
-/// A word contains sums of two adjacent pixels in fields of 16 bits, or sums of many such pairs.
+/// Masks of the low byte and of the top bit of each 16-bit field of a word. A field contains the
+/// sum of two adjacent pixels, called a pair, or the sum of many pairs.
 constexpr Word kPairs = static_cast<Word>(0x00FF00FF00FF00FF);
 constexpr Word kPairTops = static_cast<Word>(0x8000800080008000);
 
-/// Returns max(a - b, 0) in each pair. The top bits must be set in `a` and clear in `b`.
+/// Returns max(a - b, 0) in each field. The top bits of the fields must be set in `a` and clear in
+/// `b`.
 constexpr Word excess_of_pairs(Word a, Word b) {
     const Word difference = a - b;
     const Word is_positive = difference & kPairTops;
     return difference & (is_positive - (is_positive >> 15));
 }
 
-/// Returns the minimum of all pairs. The top bits of the pairs must be set.
+/// Returns the minimum of all fields without their top bits, which must be set.
 constexpr std::uint32_t min_of_pairs(Word pairs) {
     for (std::size_t shift = 4 * sizeof pairs; shift >= 16; shift /= 2)
         pairs -= excess_of_pairs(pairs, pairs >> shift & ~kPairTops);

@@ -18,39 +18,42 @@ inline constexpr int kSamplesPerSide = 12;
 /// smaller fraction, and noise is symmetric about the level.
 inline constexpr int kDarker_3rds = 2;
 /// Minimum level of a block, in fourths of the level of the brightest block around it. A darker
-/// block is covered by graphics, because the light changes less from block to block. The brightest
-/// level replaces the level of such a block.
+/// block counts as covered by graphics, because the light changes less from block to block. The
+/// brightest level replaces the level of a covered block.
 inline constexpr int kCovered_4ths = 3;
 }  // namespace paper
 
 /// Normalisation of the light in the second attempt (detect/smooth).
 namespace smooth {
-/// Minimum half side of the surroundings, in px: half the width of a dot. The minimum applies at
-/// the border of the image.
+/// Minimum half side of the surroundings, in px: about half the width of a dot. The minimum takes
+/// effect near the border of the image.
 inline constexpr int kMinHalf_px = 4;
 /// Maximum level of a stroke, in tenths of the brightest paper level nearby. Darker pixels count as
-/// paper in the mean of the surroundings, because a stroke of graphics is not a shadow. With 4:
-/// 1,995; with 9: 1,995.
+/// paper in the mean of the surroundings, because a stroke of graphics is not a shadow. Frames
+/// located with 4: 1,995; with 9: 1,995.
 inline constexpr int kStroke_10ths = 7;
-/// Minimum level of the normalised image, in fifths of the paper level. With this limit, graphics
-/// are at most as dark as a weak dot, which keeps the contrast of nearby dots visible. With 2:
-/// 1,937.
+/// Minimum level of the normalised image, in fifths of kNormalLevel. This limit makes graphics at
+/// most as dark as a weak dot. Darker graphics would raise the thresholds above the contrast of
+/// nearby dots. Frames located with 2: 1,937.
 inline constexpr int kMinLevel_5ths = 4;
 }  // namespace smooth
 
-/// Patch of the image (detect/patch).
+/// Detection of dots in a patch of the image (detect/patch).
 namespace patch {
-/// Side of a patch, in px, below which its number of tiles is too small for `kMinTiles`.
+/// Minimum side, in px, of a patch to which `kMinTiles` applies. Smaller patches have too few
+/// tiles.
 inline constexpr int kSmall_px = 48;
-/// Minimum darkness of a smoothed dot, in grey levels, and minimum number of tiles with at least
-/// this darkness; half of the tiles in a small patch. Tiles with less darkness count as blank.
+/// Minimum darkness, in grey levels, of the darkest smoothed pixel of a tile. Tiles with less
+/// darkness count as blank. At least kMinTiles tiles of a patch, or half of the tiles of a small
+/// patch, must not be blank.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
 /// Minimum darkness of a dot, in units of 1/256 of the darkness of a typical dot. Lighter minima of
-/// the smoothed patch are noise.
+/// the smoothed patch count as noise.
 inline constexpr int kThreshold_q8 = 150;
 /// Distances in px, along the axes and diagonally, at which the surroundings of a minimum are
-/// tested. At most kMaxDark of the eight directions may be dark, as next to another dot.
+/// tested. At most kMaxDark of the eight directions may be dark, for example towards a neighbouring
+/// dot.
 inline constexpr int kAway_px = 4;
 inline constexpr int kDiagonally_px = 3;
 inline constexpr int kMaxDark = 2;

@@ -1,5 +1,5 @@
-// Undistort: converts image points to the image points of a lens without distortion, and back.
-// Paper eq. 1-2.
+// Undistort: converts image points of a lens with distortion to those of a lens without distortion,
+// and back. Paper eq. 1-2.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -7,10 +7,10 @@
 
 namespace dotpose::core {
 
-/// Returns the image point for a lens without distortion, by eq. 1-2.
+/// Returns the undistorted image point of an image point, by eq. 1-2.
 FixedVec undistorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8);
 
-/// Replaces the centres of dots by their undistorted points.
+/// Replaces the centres of dots with their undistorted points.
 void undistort(const FixedLens& lens, FixedVec image_centre_q8, std::span<DetectedDot> dots);
 
 /// Returns the distorted image point of an undistorted image point, by the inverse of eq. 2: r_d =

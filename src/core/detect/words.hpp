@@ -1,5 +1,5 @@
-// Words: pixels that fit in one register and are processed together. The first pixel is in the
-// lowest byte.
+// Words: the adjacent pixels that fit in one register, to process them together. The first pixel is
+// in the lowest byte.
 #pragma once
 
 #include <bit>
@@ -17,8 +17,8 @@ constexpr Word in_all_bytes(std::uint8_t byte) {
     return static_cast<Word>(0x0101010101010101) * byte;
 }
 
-/// The top bit of every byte. Comparisons use the seven lower bits of the pixels and store the
-/// result in the top bit.
+/// The top bit of every byte. Comparisons use half of each level, which fits in the seven lower
+/// bits, and store their result in the top bit.
 inline constexpr Word kTops = in_all_bytes(0x80);
 
 /// Loads a word. `pixels` must be aligned to the size of a word.
