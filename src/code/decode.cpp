@@ -1,5 +1,5 @@
-// Decoding: finds the exact position of a window of symbols without errors (paper sections II-A and
-// II-B.7).
+// Decoding: finds the place in the code of a window of symbols without errors (paper sections II-A
+// and II-B.7).
 #include <array>
 #include <cstddef>
 
@@ -15,8 +15,8 @@ constexpr int kMinWindow = code::kMainOrder;
 using Rolls = std::array<std::uint8_t, kMaxWindow>;
 using Deltas = std::array<std::uint8_t, kMaxWindow - 1>;
 
-/// Places of one secondary sequence at which its digits match the digits of all differences of a
-/// window.
+/// The places in one secondary sequence at which its digits match the digits of all differences of
+/// a window: the first of these places, and their number.
 struct Places {
     std::uint32_t first = 0;
     int count = 0;
@@ -76,8 +76,8 @@ std::uint8_t place_in_main(const SymbolWindow& window, bool columns, int line) {
     return place;
 }
 
-/// Reads the rolls of all columns (or rows) of a window. Sets the first roll and the position of
-/// the first column (or row). Errors: not_in_code, ambiguous.
+/// Reads the rolls of all columns (or rows) of a window. Sets the roll and the position of the
+/// first column (or row). Errors: not_in_code, ambiguous.
 Status read_axis(CodeVariant code, const SymbolWindow& window, bool columns,
                  std::uint8_t& first_roll, std::uint32_t& position) {
     Rolls rolls{};

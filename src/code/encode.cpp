@@ -13,15 +13,15 @@ int delta(CodeVariant code, std::uint32_t p) noexcept {
 }
 
 int roll(CodeVariant code, std::uint32_t p) noexcept {
-    // The sum of p differences is 5 p plus a contribution of each sequence. The contribution is the
-    // sum over the whole turns of the sequence and over the digits of its last, incomplete turn.
-    // The number of whole turns is the number of lines in these turns divided by the length of the
-    // sequence. Modulo 63, this division is a multiplication by the inverse.
+    // The sum of p differences is 5 p plus one contribution from each sequence: the sum over the
+    // full periods of the sequence, plus the sum over the digits of its last, incomplete period.
+    // The number of full periods is the number of lines in them divided by the length of the
+    // sequence. Modulo 63, this division is a multiplication by the inverse of the length.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
     std::uint32_t sum = code::kMinDelta * lines;
     for (const code::Secondary& a : code::basis(code)) {
         const std::uint32_t place = a.place_of(p);
-        sum += (lines - place) * a.turn_roll + a.rolls[place];
+        sum += (lines - place) * a.period_roll + a.rolls[place];
     }
     return static_cast<int>(code::modulo_sections(sum));
 }
@@ -46,14 +46,14 @@ int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
 namespace {
 
 /// Position and sections of a place along one axis. `own` is the section of the lines of this axis,
-/// `cross` the section of the lines of the other axis.
+/// and `cross` is the section of the lines of the other axis.
 struct AxisPlace {
     std::uint32_t position;
     std::uint8_t own;
     std::uint8_t cross;
 };
 
-// Not inlined, because it is called twice and its second half is rarely executed.
+// Not inlined, because there are two calls, and most of the code is rarely executed.
 [[gnu::noinline]] AxisPlace moved(CodeVariant code, AxisPlace place, std::int32_t distance) {
     const std::int64_t target = std::int64_t{place.position} + distance;
     const bool is_before = target < 0;
@@ -61,16 +61,16 @@ struct AxisPlace {
         place.position = static_cast<std::uint32_t>(target);
         return place;
     }
-    // A whole turn along x adds the roll of one turn to the columns. After the turn, the bits of
-    // the rows are read at an x that is larger by the length of a turn.
+    // A full period along x adds the roll of the period to the rolls of the columns. The position
+    // then starts at 0 again, so the length of the period is added to the section of the rows.
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);
         return static_cast<std::uint8_t>(sum % kSections);
     };
     place.own = shifted(place.own, roll(code, kPositionsPerAxis));
     place.cross = shifted(place.cross, kPositionsPerAxis % kSections);
-    const std::int64_t turn = kPositionsPerAxis;
-    place.position = static_cast<std::uint32_t>(is_before ? target + turn : target - turn);
+    const std::int64_t period = kPositionsPerAxis;
+    place.position = static_cast<std::uint32_t>(is_before ? target + period : target - period);
     return place;
 }
 

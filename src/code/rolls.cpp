@@ -13,16 +13,16 @@ int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32
 }
 
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place) {
-    // The contribution of a4 to a roll is the sum over the whole turns of a4 and over the digits
-    // before the place. The contribution is less than kTurns, a multiple of 63. Adding kTurns keeps
-    // the difference of two contributions positive.
-    constexpr std::uint32_t kTurns = 512 * kSections;
+    // The contribution of a4 to a roll is the sum over the full periods of a4, plus the sum over
+    // the digits before the place. The contribution is less than kPeriods, a multiple of 63. Adding
+    // kPeriods keeps the difference of two contributions positive.
+    constexpr std::uint32_t kPeriods = 512 * kSections;
     const std::uint32_t lines = modulo_sections(position) + 4 * kSections;
     const auto by_a4 = [&](CodeVariant code) {
         const Secondary& a4 = basis(code)[3];
-        return (lines - place) * a4.turn_roll + a4.rolls[place];
+        return (lines - place) * a4.period_roll + a4.rolls[place];
     };
-    return static_cast<int>(modulo_sections(by_a4(other) + kTurns - by_a4(read)));
+    return static_cast<int>(modulo_sections(by_a4(other) + kPeriods - by_a4(read)));
 }
 
 void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,

@@ -1,5 +1,5 @@
-// Rolls of single lines and of runs of consecutive lines. Computing a run in one call is faster
-// than computing the run line by line.
+// Rolls of single lines and of runs of consecutive lines. Computing the rolls of a run in one call
+// is faster than computing them line by line.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace dotpose::code {
 
 /// Returns the roll, in [0, 63), of line `position` (a column or a row) of a section, if the first
-/// bit of the line is at index `cross` of the other axis.
+/// bit of the line is at position `cross` of the other axis.
 int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross);
 
 /// Returns the roll of a position in the code variant `other` minus its roll in the variant `read`,
@@ -19,7 +19,7 @@ int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place);
 
 /// Sets rolls[i] to the roll of line `position` + i. `first_roll` is the roll of line `position`.
-/// Lines may be beyond the end of the code, because the rolls are computed as sums of differences.
+/// Lines may be beyond the last position, because the differences repeat after it.
 void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls);
 

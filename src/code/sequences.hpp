@@ -51,7 +51,7 @@ inline constexpr auto kA4Microdots = digits(
 
 // ---- Proofs, by enumeration at compile time -----------------------------------------------------
 
-/// Returns `length` digits of a cyclic sequence, beginning at `start`, as one number in base
+/// Returns `length` digits of a cyclic sequence, beginning at place `start`, as one number in base
 /// `base`.
 template <std::size_t Length>
 constexpr unsigned key(const Digits<Length>& sequence, std::size_t start, int length,
@@ -63,8 +63,8 @@ constexpr unsigned key(const Digits<Length>& sequence, std::size_t start, int le
     return value;
 }
 
-/// Returns true if every string of `order` digits occurs at most once in the cyclic sequence and
-/// every digit is less than `base`. This is the definition of a quasi De Bruijn sequence.
+/// Returns true if every digit is less than `base`, and every string of `order` digits occurs at
+/// most once in the cyclic sequence. This is the definition of a quasi De Bruijn sequence.
 template <std::size_t Length>
 consteval bool is_quasi_de_bruijn(const Digits<Length>& sequence, int order, unsigned base) {
     constexpr std::size_t kMaxStrings = 2187;  // 7 digits in base 3
@@ -78,8 +78,8 @@ consteval bool is_quasi_de_bruijn(const Digits<Length>& sequence, int order, uns
     return true;
 }
 
-/// Returns true if the cyclic sequence contains a string of `length` bits and also the flipped and
-/// reversed string.
+/// Returns true if the cyclic sequence contains a string of `length` bits and also the same string
+/// reversed with its bits flipped.
 template <std::size_t Length>
 consteval bool has_flipped_reverse(const Digits<Length>& sequence, std::size_t length) {
     for (std::size_t i = 0; i < Length; ++i) {

@@ -1,4 +1,4 @@
-// Names and messages of all statuses, in one table.
+// A table of the names and messages of all statuses.
 #include "dotpose/status.hpp"
 
 #include <algorithm>
@@ -70,8 +70,8 @@ constexpr std::size_t row_of(Status status) {
     return std::min<std::size_t>(static_cast<std::size_t>(status), kStatusCount);
 }
 
-/// Names, stored separately from the messages, so a program for a device that prints no messages
-/// does not contain the messages.
+/// The names without the messages. The linker then omits the messages from programs for devices
+/// that print only names.
 constexpr auto kNames = [] {
     std::array<std::array<char, 16>, kTexts.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) {

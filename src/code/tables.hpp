@@ -1,5 +1,5 @@
-// Lookup tables, computed from the sequences at compile time: rolls for encoding in O(1), and
-// places of digit strings for decoding.
+// Lookup tables, computed from the sequences at compile time: rolls, for encoding in O(1), and
+// places of digit strings, for decoding.
 #pragma once
 
 #include <array>
@@ -14,16 +14,16 @@ namespace dotpose::code {
 /// Marks a string of digits that does not occur in the sequence.
 inline constexpr std::uint8_t kAbsent = 255;
 /// Number of consecutive differences that determine a place in a secondary sequence. Each
-/// difference provides one digit.
+/// difference contributes one digit of the sequence.
 inline constexpr int kOrder = 5;
 
-/// Numbers of entries by which the tables of a sequence extend beyond its end: kLinesAhead entries
-/// for the lines after the first line, and kVectorAhead entries for the lanes of a vector that
-/// begins at the last line.
+/// Numbers of entries by which the tables of a sequence extend beyond its end. kLinesAhead entries
+/// are for the lines that follow a first line at the last place. kVectorAhead entries are for the
+/// lanes of a vector that begins at the last of these lines.
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
-/// Returns n modulo 63 for n < 4095 without a division, because 64 modulo 63 is 1.
+/// Returns n modulo 63, for n < 4095. Needs no division, because 64 modulo 63 is 1.
 constexpr std::uint32_t short_modulo_sections(std::uint32_t n) {
     n = (n & 63) + (n >> 6);
     return n < kSections ? n : n - kSections;
@@ -36,10 +36,10 @@ constexpr std::uint32_t modulo_sections(std::uint32_t n) {
     return short_modulo_sections((n & 63) + (n >> 6));
 }
 
-/// A secondary number sequence with its tables, in one type for all lengths and bases.
+/// A secondary sequence with its tables. The type is the same for all lengths and bases.
 struct Secondary {
     const std::uint8_t* digits;  ///< `length` digits
-    /// Sums of the weighted digits before each place, modulo 63. The element of a place is the
+    /// For each place, the sum of the weighted digits before this place, modulo 63: the
     /// contribution of the sequence to the roll. The table extends beyond the end of the sequence
     /// by kLinesAhead + kVectorAhead entries.
     const std::uint8_t* rolls;
@@ -53,12 +53,13 @@ struct Secondary {
     std::uint32_t reciprocal;     ///< 2^20 / length
     std::uint16_t rest_of_65536;  ///< 65536 modulo length
     std::uint8_t length;
-    std::uint8_t turn_roll;  ///< roll of one turn divided by `length`, modulo 63; see `roll`
+    std::uint8_t period_roll;  ///< roll of one period divided by `length`, modulo 63; see `roll`
     std::uint8_t base;
-    std::uint8_t weight;  ///< weight in the basis equation of section II-A
+    std::uint8_t weight;  ///< weight of the digits in the basis equation of section II-A
     bool has_twins;       ///< true if any string of 5 digits occurs twice
 
-    /// Returns the position modulo `length`, without a division.
+    /// Returns the place of a position in the sequence: `position` modulo `length`. Needs no
+    /// division.
     constexpr std::uint32_t place_of(std::uint32_t position) const {
         // The sum is less than 2^24.
         const std::uint32_t n = (position >> 16) * rest_of_65536 + (position & 0xFFFF);
@@ -67,9 +68,9 @@ struct Secondary {
             rest -= length;
         return rest;
     }
-    /// Returns the places at which the next `count` digits equal the digits at `place`. The result
-    /// is a bit set of places 32 * word to 32 * word + 31, including `place`. Bits beyond the end
-    /// of the sequence are 0.
+    /// Returns the places at which the next `count` digits equal the next `count` digits at
+    /// `place`. The result is a bit set of the places 32 * word to 32 * word + 31, and includes
+    /// `place` itself. Bits beyond the end of the sequence are 0.
     constexpr std::uint32_t equal_places(std::uint32_t place, int count, std::uint32_t word) const {
         const std::uint32_t rest = length - 32 * word;
         std::uint32_t places = rest < 32 ? ~(~std::uint32_t{0} << rest) : ~std::uint32_t{0};
@@ -104,12 +105,12 @@ consteval auto places_of(const Digits<Length>& sequence, int digit) {
     return words;
 }
 
-/// Returns the roll of a whole turn of a sequence divided by the length of the sequence, modulo 63.
-consteval std::uint8_t turn_roll(std::size_t length, unsigned roll_of_turn) {
+/// Returns the roll of one period of a sequence divided by the length of the sequence, modulo 63.
+consteval std::uint8_t period_roll(std::size_t length, unsigned roll_of_period) {
     std::size_t inverse = 1;
     while (length * inverse % kSections != 1)
         ++inverse;
-    return static_cast<std::uint8_t>(roll_of_turn * inverse % kSections);
+    return static_cast<std::uint8_t>(roll_of_period * inverse % kSections);
 }
 
 /// Returns the first place of each string of `Order` digits in base `Base`, indexed by the key of
@@ -148,7 +149,7 @@ struct Tables {
                                           (1U << 20) / kLength,
                                           65536 % kLength,
                                           kLength,
-                                          turn_roll(kLength, kRolls[kLength]),
+                                          period_roll(kLength, kRolls[kLength]),
                                           Base,
                                           Weight,
                                           !is_quasi_de_bruijn(Sequence, kOrder, Base)};
@@ -180,7 +181,7 @@ constexpr unsigned digit_of_delta(std::size_t delta, std::size_t n) {
     return kDigitsOfDelta[delta - kMinDelta] >> 2 * n & 3U;
 }
 
-/// The main sequence, repeated to provide 256 bits after any index.
+/// The main sequence, repeated to provide 256 bits from any index.
 inline constexpr auto kMainRepeated = [] {
     std::array<std::uint8_t, kSections + 256> bits{};
     for (std::size_t i = 0; i < bits.size(); ++i)

@@ -1,6 +1,6 @@
-// Minimum number of lines whose rolls differ between a position in one code variant and any
-// position in another variant, by place in a4. The place itself is excluded if it has the same
-// rolls in both variants. Generated; tests/unit/code/unshared_codes_test.cpp recomputes the table.
+// Table of the minimum number of lines that a position in one code variant does not share with any
+// position in another variant; see unshared_lines.hpp. Generated;
+// tests/unit/code/unshared_codes_test.cpp recomputes the table.
 #pragma once
 
 #include <array>
@@ -13,9 +13,10 @@
 namespace dotpose::code {
 
 /// Minimum numbers of unshared lines, indexed by the code variant read, the other variant, and the
-/// number of lines (`kUnsharedOf`). Each string contains one digit per place of the first line in
-/// a4. The minimum is over all places and shifts of the other variant, except the place itself if
-/// it has the same rolls in both variants.
+/// number of lines (`kUnsharedOf`). Each string contains the minimum, as one digit, for each place
+/// of the first line in a4. The minimum is over all places in the a4 of the other variant and all
+/// shifts. Most of a4 is the same in anoto and libdots, so the same place at shift 0 is excluded
+/// for these two variants.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kCodeVariantCount>,
                             kCodeVariantCount>
     kUnsharedInOther{{

@@ -1,5 +1,7 @@
-// Number of lines in which a position differs from positions with another place in one sequence.
-// Generated; tests/unit/code/unshared_lines_test.cpp recomputes the table.
+// Tables of the numbers of lines that a position does not share with positions that have another
+// place in one sequence. Two positions share a line at a *shift* if their rolls in this line differ
+// by the shift. The shift is the same for all lines, as between sections. Generated;
+// tests/unit/code/unshared_lines_test.cpp recomputes the tables.
 #pragma once
 
 #include <array>
@@ -8,14 +10,15 @@
 
 namespace dotpose::code {
 
-/// Numbers of consecutive lines for which the table contains values.
+/// Numbers of consecutive lines for which the tables contain values. Each number corresponds to a
+/// *row* of the tables.
 inline constexpr std::array<int, 3> kUnsharedOf{10, 13, 16};
 
 /// Index of the first entry of each sequence in the table, in the order a1, a2, a3, restored a4.
 inline constexpr std::array<std::size_t, 4> kUnsharedFrom{0, 236, 469, 500};
 
-/// Minimum numbers of unshared lines, indexed by sequence and place of the first line.
-/// `unshared_at_one_shift` and `unshared_on_two_sides` unpack the entries.
+/// Packed minimum numbers of unshared lines, indexed by `kUnsharedFrom` plus the place of the first
+/// line in the sequence. `unshared_at_one_shift` and `unshared_on_two_sides` unpack the entries.
 inline constexpr std::array<std::uint16_t, 741> kUnshared{
     0x2A48, 0x2A48, 0x2A49, 0x2889, 0x4A91, 0x4892, 0x5292, 0x2A92, 0x2A51, 0x2892, 0x2A52, 0x324A,
     0x328A, 0x288A, 0x2A92, 0x2A52, 0x3249, 0x328A, 0x0849, 0x2A92, 0x4A92, 0x42D2, 0x2ADA, 0x08DA,
@@ -85,9 +88,9 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
 inline constexpr std::size_t kMaxCounted = 7;
 
 /// Upper bounds on the number of positions with exactly n unshared lines, indexed by row, sequence
-/// and n - 1. Only positions that differ from the position read only in the given sequence are
-/// counted, once for each shift at which they share a line. The bounds hold at all places and for
-/// the a4 of every code variant.
+/// and n - 1. Counts the positions that differ from the position read only in this sequence, once
+/// for each shift at which they share a line. The bounds hold at all places and for the a4 of every
+/// code variant.
 inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>, 3>
     kMaxPositionsWith{{
         {{{1, 4, 15, 34, 64, 120, 227},
@@ -105,15 +108,16 @@ inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>
     }};
 
 /// Returns the minimum number of unshared lines, among `kUnsharedOf[row]` consecutive lines, over
-/// all positions that differ only in the sequence of `entry`. The minimum is at least row + 1.
-/// Three bits of the entry store the excess.
+/// all shifts and all positions that differ only in the sequence of `entry`. The minimum is at
+/// least row + 1. Three bits of the entry store the excess.
 constexpr std::size_t unshared_at_one_shift(std::size_t entry, std::size_t row) {
     return row + 1 + (kUnshared[entry] >> 3 * row & 7U);
 }
 
-/// Returns the minimum number of unshared lines if one part of a view is read at one shift of a
-/// position that differs only in the sequence of `entry`, and the rest of the view at another
-/// shift. The minimum is at least row. Two bits of the entry store the excess.
+/// Returns the minimum number of unshared lines, among `kUnsharedOf[row]` consecutive lines, if the
+/// shift may change once: from one shift for the first lines to another shift for the remaining
+/// lines. The minimum is over all such pairs of shifts and all positions that differ only in the
+/// sequence of `entry`. The minimum is at least `row`. Two bits of the entry store the excess.
 constexpr std::size_t unshared_on_two_sides(std::size_t entry, std::size_t row) {
     return row + (kUnshared[entry] >> (9 + 2 * row) & 3U);
 }

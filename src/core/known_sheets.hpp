@@ -8,8 +8,9 @@
 
 namespace dotpose::core {
 
-/// Number of positions, along one axis, at which the first of `lines` adjacent lines can be if one
-/// of them is on a region. `first` and `size` are those of the region along the axis.
+/// The positions, along one axis, at which the first of `lines` adjacent lines can be if at least
+/// one of the lines is on a region. `region_first` and `region_size` are the first position and the
+/// number of positions of the region along the axis.
 struct PositionRange {
     std::uint32_t first;
     std::uint32_t count;
@@ -23,15 +24,15 @@ struct PositionRange {
     friend bool operator==(const PositionRange&, const PositionRange&) = default;
 };
 
-/// The sheets that a locator knows.
+/// The known sheets of a locator, and whether other sheets are possible.
 struct KnownSheets {
     std::span<const KnownRegion> regions;
     OtherSheets others = OtherSheets::possible;
 
     bool any() const { return !regions.empty(); }
     bool are_all() const { return any() && others == OtherSheets::impossible; }
-    /// Returns true if a block of cells is on a known sheet, at least in part. `corner` is the
-    /// place of its upper left cell.
+    /// Returns true if a block of cells is at least partly on a known sheet. `corner` is the place
+    /// of the upper left cell of the block.
     bool show(CodeVariant code, const Place& corner, int columns, int rows) const {
         for (const KnownRegion& region : regions) {
             if (region.code == code && region.section == corner.section &&

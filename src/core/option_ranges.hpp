@@ -1,5 +1,5 @@
 // Ranges of the options. Within these ranges, no stage can overflow. Options that are safe with any
-// value are not listed: k of the lens (see bend_q48), max_dots (clamped), show_stages.
+// value have no range, for example k of the lens (see bend_q48).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace dotpose::core {
 
 /// Calls `is_good(name, value, low, high)` for each option until it returns false. Returns true if
-/// it never returned false.
+/// `is_good` returned true for all options.
 template <typename IsGood>
 constexpr bool all_options(const DeviceOptions& options, IsGood is_good) {
     constexpr std::int32_t kFarthestReference_q8 = 16384 * 256;

@@ -1,5 +1,5 @@
 // Other codes: agreement of the bits of a frame with code variants other than the variant read. The
-// attempts compute it, and `Locator` evaluates it.
+// attempts compute the agreement, and `Locator` evaluates it.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ struct OtherCodes {
     static constexpr int kNoneInQuestion = -1;
     /// log2 of the number of possible code variants, each weighted by its odds, in units of 2^-8.
     int log2_in_question_q8 = 0;
-    /// First column and row that were compared, as positions in the code variant that was read.
+    /// First compared column and row, as positions in the code variant that was read.
     Cell first;
     std::array<OtherCode, kCodeVariantCount>
         of;  ///< by code variant; the entry of the variant read is not used

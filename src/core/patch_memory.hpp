@@ -1,4 +1,5 @@
-// Patch: a part of the image and the dots measured in it, for the attempts of desktops.
+// Patch memory: a part of the image with its dots, and the measured dots of a frame, for the
+// desktop attempts.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@ struct PatchDots {
     alignas(64) std::array<float, kMax + 16> y;
 };
 
-/// A part of an image, reduced by the factor `scale`, with a margin.
+/// A part of an image, reduced by the factor `scale`, with a margin on all sides.
 struct Patch {
     static constexpr int kMaxWidth_px = 256;
     static constexpr int kMaxHeight_px = 192;
@@ -54,8 +55,8 @@ struct Patch {
     }
 };
 
-/// Measured dots with the cells of the pattern to which they belong, in whole vectors. Unused
-/// elements are far outside the image.
+/// Measured dots with their cells of the pattern, in whole vectors. Unused elements are far outside
+/// the image.
 struct MeasuredDots {
     int count = 0;
     std::span<float> column;  ///< column of the cell, in the coordinates of the current plane
@@ -68,8 +69,8 @@ struct MeasuredDots {
     std::span<std::int32_t> sum_u;  ///< sum of darkness times px from the left of the window
     std::span<std::int32_t> sum_v;  ///< sum of darkness times px from the top of the window
     std::span<std::int32_t> paper;  ///< grey level of the paper around the dot
-    /// Measured centre, undistorted, in px relative to the centre of the plane. kNoDot_px if there
-    /// is no dot. Before the measurement, the predicted place in the image.
+    /// Measured centre, undistorted, in px relative to the centre of the plane. `x` is kNoDot_px if
+    /// there is no dot. Before the measurement, `x` and `y` contain the predicted image point.
     std::span<float> x;
     std::span<float> y;
 

@@ -1,4 +1,4 @@
-// Common parts of Locator and DeviceLocator.
+// The parts that Locator and DeviceLocator have in common.
 #include <span>
 
 #include "core/steps.hpp"

@@ -21,7 +21,7 @@ FixedVec image_centre_q8(const AdaptiveThreshold& threshold);
 FixedVec reference_q8(FixedVec centre_q8, const DeviceOptions& options);
 
 /// Returns ok if a frame of this size can be started, or if the image can be located. Otherwise
-/// returns the reason.
+/// returns the reason for the refusal.
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w);
 Status check(const ImageView& image, const DeviceOptions& options, const Workspace& w);
 
@@ -35,7 +35,7 @@ void forget_frame(Workspace& w);
 /// Starts a frame. The size of the frame must be within the capacity of the workspace.
 void begin_frame(int width_px, int height_px, Workspace& w);
 
-/// Detects the blobs in `ready` bands of rows.
+/// Detects the blobs in the next `ready` bands of rows.
 void threshold_bands(int ready, const DeviceOptions& options, Workspace& w);  // II-B.1
 
 /// Processes the next row of pixels, and detects the blobs of the bands that the row completes.
@@ -59,7 +59,7 @@ Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w);
 /// for lines.
 void choose_region(Workspace& w);
 
-/// Returns `mirrored` if the bits are the bits of a mirrored pattern. Otherwise returns `reason`.
+/// Returns `mirrored` if the bits agree with a mirrored pattern. Otherwise returns `reason`.
 Status refused(Status reason, const Workspace& w);
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// Workspace: the memory of a locator, which contains the results of every stage after a frame.
+// Workspace: the memory of a locator, which contains the results of the stages after a frame.
 // Capacities are fixed. The workspace is constructed in the DeviceMemory, SmallMemory or
 // LargeMemory of the caller and is reused for each frame.
 #pragma once
@@ -24,7 +24,7 @@ struct Workspace {
     std::int16_t min_side_px = kMinFrameSide_px;
     std::int16_t max_width_px = 0;
     std::int16_t max_height_px = kMaxFrameSide_px;
-    /// True if each stage has its own memory, which keeps the results of every stage.
+    /// True if the stages do not share memory, so the results of every stage remain available.
     bool keeps_every_stage = false;
     // detect
     AdaptiveThreshold threshold;
@@ -47,7 +47,7 @@ struct Workspace {
     PlaneFromImage grid_from_image;
     // decode
     Grid grid;
-    /// The columns in the first half, the rows in the second half.
+    /// Scores of the columns in the first half, and of the rows in the second half.
     std::span<ScoredLine> line_scores;
     Decoding decoding;
     // pose
@@ -59,7 +59,7 @@ struct Workspace {
     }
 };
 
-/// Constructs the workspace in the bytes of a Memory.
+/// Constructs a workspace in the bytes of a memory of the caller.
 template <typename Space, std::size_t Bytes>
 Space* make_workspace(std::array<std::byte, Bytes>& bytes) {
     static_assert(sizeof(Space) <= Bytes, "Memory::kBytes is too small");

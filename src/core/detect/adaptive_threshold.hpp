@@ -21,8 +21,8 @@ inline constexpr int kLowTile_px = 8;
 inline constexpr int kHighTile_px = 16;
 inline constexpr int kMaxSideWithLowTiles_px = 240;
 /// Number of bytes that the search for dark pixels may read after the last row and after the last
-/// low level. The bytes after the last row may have any value. The bytes after the last low level
-/// contain a sentinel.
+/// low threshold. The bytes after the last row may have any value. The bytes after the last low
+/// threshold contain a sentinel.
 inline constexpr int kReadAhead_px = 8;
 
 /// Grey levels of one tile.

@@ -10,8 +10,8 @@
 
 namespace dotpose::core {
 
-/// The normal equations M p = right of N parameters. `decompose` replaces M by its Cholesky factor
-/// L, with M = L L^T. Rows are computed four at a time.
+/// The normal equations M p = right of N parameters p. `decompose` replaces M by its Cholesky
+/// factor L, with M = L L^T. Rows are computed four at a time.
 template <std::size_t N>
 class NormalEquations {
   public:
@@ -21,7 +21,8 @@ class NormalEquations {
     void set(std::size_t row, std::size_t column, float number) {
         columns_[column].set(row, number);
     }
-    /// Adds an equation with these derivatives by the parameters, residual and weight.
+    /// Adds an equation, given its derivatives with respect to the parameters, its residual and its
+    /// weight.
     void add(const Vector& derivatives, float residual, float weight) {
         const Column all(derivatives);
         for (std::size_t i = 0; i < N; ++i) {
@@ -32,7 +33,7 @@ class NormalEquations {
     void set_right(const Vector& right) { right_ = right; }
     const Vector& right() const { return right_; }
 
-    /// Multiplies the diagonal of M (Marquardt 1963).
+    /// Multiplies the diagonal of M by a factor (Marquardt 1963).
     void scale_diagonal(float by) {
         for (std::size_t i = 0; i < N; ++i)
             columns_[i].set(i, columns_[i].at(i) * by);
@@ -66,12 +67,12 @@ class NormalEquations {
 
     // The following functions require `decompose`.
 
-    /// Returns true if the equations determine the parameter.
+    /// Returns true if `decompose` did not leave out the parameter.
     bool determines(std::size_t parameter) const { return columns_[parameter].at(parameter) > 0; }
     /// Returns an element of L.
     float factor(std::size_t row, std::size_t column) const { return columns_[column].at(row); }
 
-    /// Returns L^-1 vector. The inner product of two whitened vectors is a . M^-1 . b.
+    /// Returns L^-1 `vector`. The inner product of whitened(a) and whitened(b) is a . M^-1 b.
     Vector whitened(const Vector& vector) const {
         Column rest(vector);
         Vector result;
@@ -81,10 +82,10 @@ class NormalEquations {
         }
         return result;
     }
-    /// Returns L^-T vector.
+    /// Returns L^-T `vector`.
     Vector unwhitened(const Vector& vector) const {
-        // Each element depends on the element computed before it, so that element is subtracted
-        // last. The other products need not wait for it.
+        // The product with the element that was computed last is subtracted last. The other
+        // products then do not wait for this element.
         Vector result{};
         for (std::size_t i = N; i-- > 0;) {
             float rest = vector[i];
@@ -94,7 +95,7 @@ class NormalEquations {
         }
         return result;
     }
-    /// Returns L^T vector.
+    /// Returns L^T `vector`.
     Vector times_transposed(const Vector& vector) const {
         const Column other(vector);
         Vector result;
@@ -102,7 +103,7 @@ class NormalEquations {
             result[i] = columns_[i].inner(other);
         return result;
     }
-    /// Returns the least-squares solution M^-1 right.
+    /// Returns the least-squares solution M^-1 `right`.
     Vector solution() const { return unwhitened(whitened(right_)); }
 
   private:

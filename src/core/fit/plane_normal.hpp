@@ -1,5 +1,5 @@
-// Least squares of a plane with perspective, shear and lens, in single precision: the normal
-// equations.
+// Plane normal: the normal equations for the least-squares fit of a plane with perspective, shear
+// and lens, in single precision.
 #pragma once
 
 #include "core/fit/normal_equations.hpp"
@@ -14,7 +14,8 @@ struct Residuals {
     Four weight;
 };
 
-/// Weighted sums over the points and their residuals: the elements of the normal equations.
+/// Weighted sums over points and their residuals, from which the elements of the normal equations
+/// are computed.
 class PlaneSums {
   public:
     void add(const FourVecs& places, const Residuals& residuals);
@@ -24,7 +25,7 @@ class PlaneSums {
     /// Negated number of points, because a vector comparison yields -1 for true.
     FourInts less_points_{};
     std::array<Four, 4> places_{};
-    std::array<Four, 3> residuals_{};  ///< includes the squared residuals
+    std::array<Four, 3> residuals_{};  ///< includes the sum of the squared residuals
 };
 
 /// The normal equations of the parameters of `jacobian`.
@@ -33,7 +34,8 @@ class PlaneNormal : public NormalEquations<kPoseParameters> {
     PlaneNormal() = default;
     explicit PlaneNormal(const FitSums& sums);
 
-    /// Decomposes. Returns false if the points do not determine place, scale and turn.
+    /// Decomposes the matrix. Returns false if the points do not determine position, scale and
+    /// rotation.
     bool decompose() {
         constexpr float kDetermined = 1e-4F;
         return NormalEquations::decompose(kDetermined, kTilt);

@@ -13,8 +13,8 @@ using Pair = std::array<float, 2>;
 
 using Symmetric = Symmetric2<float>;
 
-/// Returns the covariance of the whitened terms, in units of the noise variance, for terms of
-/// variance 1.
+/// Returns the prior covariance of the whitened terms, in units of the noise variance, if the
+/// variance of each term before whitening is 1.
 Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, float variance) {
     const std::size_t i = terms.first;
     const float scale = 1 / variance;
@@ -27,11 +27,13 @@ Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, flo
 
 /// Posterior of the terms under one component of the prior.
 struct PosteriorOfKind {
-    /// Precision of noise and terms together, in units of the precision of the noise.
+    /// Precision (inverse covariance) of the sum of terms and noise, in units of the precision of
+    /// the noise.
     Symmetric precision;
     Pair mean;
-    float distance;     ///< squared distance of the fitted terms from 0, in deviations
-    float probability;  ///< prior probability of the component; posterior probability after `weigh`
+    float distance;     ///< squared Mahalanobis distance of the fitted terms from 0
+    float probability;  ///< prior probability of the component, or its posterior probability after
+                        ///< `weigh`
 
     PosteriorOfKind() = default;
     PosteriorOfKind(const DistortionPrior::Kind& kind, const Symmetric& spread, const Pair& seen,
@@ -47,7 +49,8 @@ struct PosteriorOfKind {
 using PosteriorsByKind =
     std::array<PosteriorOfKind, std::tuple_size_v<decltype(DistortionPrior::kinds)>>;
 
-/// Sets the posterior probability of each component, given its agreement with the fitted terms.
+/// Replaces the prior probability of each component with its posterior probability, given the
+/// fitted terms.
 void weigh(PosteriorsByKind& kinds) {
     float nearest = kinds[0].distance;
     for (const PosteriorOfKind& kind : kinds)
@@ -62,8 +65,8 @@ void weigh(PosteriorsByKind& kinds) {
         kind.probability /= sum;
 }
 
-/// Returns the posterior of the mixture. Its covariance is the mean of the covariances plus the
-/// spread of the means.
+/// Returns the posterior of the mixture. Its covariance is the mean of the covariances of the
+/// components plus the covariance of their means.
 Posterior mixed(const PosteriorsByKind& kinds, float variance) {
     Posterior posterior{};
     for (const PosteriorOfKind& kind : kinds) {

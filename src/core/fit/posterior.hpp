@@ -1,7 +1,7 @@
-// Posterior: shrinks the distortion terms, which are 0 for a camera straight above flat paper.
-// Fitting a tilt that is not present costs accuracy, and so does omitting a tilt that is present.
-// The amount of shrinkage depends on the probability that a tilt is present. differs: the paper has
-// no such terms.
+// Posterior: estimates the distortion terms by Bayes' rule, which shrinks the fitted terms towards
+// 0. The terms are 0 for a camera straight above flat paper. Fitting a tilt that is not present
+// costs accuracy, and so does omitting a tilt that is present. The amount of shrinkage depends on
+// the probability that a tilt is present. differs: the paper has no such terms.
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@ struct Posterior {
 };
 
 /// Returns the posterior by Bayes' rule. `whitened` contains the fitted terms, as returned by
-/// normal.times_transposed. `variance` is the variance of each element of `whitened`, `unit` the
-/// unit of the standard deviations of the prior.
+/// normal.times_transposed. `variance` is the noise variance of each element of `whitened`. `unit`
+/// is the unit of the standard deviations of the prior.
 Posterior posterior_of(const DistortionPrior& terms, const PlaneNormal& normal,
                        const Parameters& whitened, float variance, float unit);
 

@@ -1,5 +1,5 @@
-// Projections: the map of four image points through a plane, and its derivatives with respect to
-// the parameters of the plane.
+// Projections: maps four image points through a plane, and computes the derivatives of this map
+// with respect to the parameters of the plane.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace dotpose::core {
 
-/// Parameters of a plane, the most important first: at_centre (x, y), scale, turn, perspective (x,
-/// y), shear (2), lens. The unit of each parameter is its effect, in spacings, at a place one unit
-/// from the origin. kTilt, kShear and kBend are the indices of the first parameter of perspective,
-/// shear and lens.
+/// Parameters of a plane, the most important first: at_centre (x, y), scale, rotation, perspective
+/// (x, y), shear (2), lens. The value of each parameter is its effect, in spacings, at a place one
+/// unit from the origin. kTilt, kShear and kBend are the indices of the first parameter of
+/// perspective, shear and lens.
 constexpr std::size_t kPoseParameters = 9;
 constexpr std::size_t kTilt = 4;
 constexpr std::size_t kShear = 6;
@@ -26,27 +26,28 @@ struct FourVecs {
     Four y;
 };
 
-/// Returns the derivatives of x and of y with respect to all parameters, at one of four places. On
-/// the pattern the derivatives are polynomials of the place: (place . (1, 0)) place and (place .
-/// (0, 1)) place for perspective, and (place . place) place for the lens.
+/// Returns the derivatives of x and of y with respect to all parameters, at one of four places. In
+/// pattern coordinates, the derivatives are polynomials of the place: (place . (1, 0)) place and
+/// (place . (0, 1)) place for perspective, and (place . place) place for the lens.
 std::array<Parameters, 2> jacobian(const FourVecs& places, std::size_t point);
 
-/// A plane with parameters that act on the pattern instead of the image. For scale, turn,
-/// perspective and shear this is exact at any tilt. Places on the pattern are relative to the
+/// A plane with parameters that act on the pattern instead of the image. Changes of scale,
+/// rotation, perspective and shear are exact at any tilt. Places on the pattern are relative to the
 /// plane's `at`, in units of its scale. With this unit, the derivatives with respect to all
 /// parameters have similar sizes, and single precision suffices.
 class ScaledPlane {
   public:
     ScaledPlane(const FloatPlane& plane, float reach_px);
 
-    /// Returns the places of four image points. The points are in px relative to the plane's
+    /// Returns the places on the pattern of four image points, given in px relative to the plane's
     /// centre.
     FourVecs project(Four x_px, Four y_px) const;
 
     /// Returns perspective, shear and lens relative to a camera that looks straight at the sheet.
     /// The other parameters are 0.
     Parameters distortions() const;
-    /// Returns the unit of places, in spacings: the length of `reach_px` on the pattern.
+    /// Returns the unit of places, in spacings: the length on the pattern that corresponds to
+    /// `reach_px`.
     float scale() const { return scale_; }
     /// Returns the plane with `by` added to its parameters.
     FloatPlane changed(const Parameters& by) const;

@@ -7,18 +7,18 @@
 namespace dotpose::core {
 namespace {
 
-/// Prior standard deviations of tilt, shear and lens distortion, relative to the scale. A tilt is
-/// the change of scale from the centre to the outermost dot, about 0.01 for 2 degrees. A bend is
-/// the displacement of the outermost dot relative to its distance from the centre. The prior
-/// accepts a bend only if it is significant.
+/// Priors of perspective, shear and lens distortion. Their standard deviations are relative to the
+/// scale. A perspective term is the relative change of scale from the centre to the outermost dot:
+/// about 0.01 for a tilt of 2 degrees. The lens term is the displacement of the outermost dot
+/// relative to its distance from the centre. Its prior accepts only significant lens distortion.
 constexpr std::array<DistortionPrior, 3> kTerms{{
     {kTilt, 2, {{{0.1F, 0}, {0.8F, 0.01F}, {0.1F, 0.1F}}}},
     {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
     {kBend, 1, {{{0.99F, 0}, {0.005F, 0.01F}, {0.005F, 0.1F}}}},
 }};
 
-/// Shrinks the distortion terms of a step to their posterior means. `whole` contains the fitted
-/// terms, whitened. Sets the covariance of `fit`.
+/// Shrinks the distortion terms of a step to their posterior means. `whole` contains the whitened
+/// terms of the plane after the step without shrinkage. Sets the covariance of `fit`.
 void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
     fit.covariance = {};
     for (std::size_t i = 0; i < kTilt; ++i)
@@ -60,8 +60,8 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
     constexpr float kExact = 1e-12F;
     fit.variance = std::max(residual_squares / static_cast<float>(freedom), kExact);
-    // After whitening, the contribution of each distortion term is independent of the terms after
-    // it.
+    // Adds the step to the terms of the current plane in whitened form, in which the errors of all
+    // terms are independent and have the variance `fit.variance`.
     Parameters whole = normal.times_transposed(distortions);
     for (std::size_t i = 0; i < kPoseParameters; ++i)
         whole[i] += step[i];

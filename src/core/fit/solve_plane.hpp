@@ -14,7 +14,7 @@ struct PoseFit {
     int reach_px = 1;        ///< unit of length in the image, in px
     int dots = 0;            ///< number of inliers
     float variance = 0;      ///< variance of one coordinate of one dot, in spacings^2
-    float squares = 0;       ///< squared residuals of all inliers after the last step
+    float squares = 0;       ///< sum of the squared residuals of all inliers after the last step
     float displacement = 0;  ///< distance of a typical dot from its intersection, in spacings
     PlaneNormal normal;      ///< normal equations of the parameters of `jacobian`, decomposed
     std::array<Parameters, kPoseParameters> covariance;  ///< covariance of the whitened parameters
@@ -23,8 +23,8 @@ struct PoseFit {
     std::array<std::array<float, 3>, 3> uneven{};
 };
 
-/// Returns the plane for the computation of a step, with `at_centre` set to 0, because `at_centre`
-/// may need more bits than a float has.
+/// Returns the plane for the computation of a step. Its `at_centre` is set to 0, because
+/// `at_centre` may need more bits than a float has.
 ScaledPlane scaled_from_centre(const PlaneFromImage& plane, int reach_px);
 /// Returns the plane after a step. `scaled` is the result of `scaled_from_centre` for the plane.
 PlaneFromImage stepped(const PlaneFromImage& plane, const ScaledPlane& scaled,
@@ -32,9 +32,10 @@ PlaneFromImage stepped(const PlaneFromImage& plane, const ScaledPlane& scaled,
 
 /// Solves the normal equations of `fit` for the step to the least-squares plane, and shrinks the
 /// distortion terms to their posterior means. `distortions` contains the distortion terms of the
-/// current plane, and `unit` is the scale of the current plane. Sets `moved` to the squared length
-/// of the step in units of the standard deviation of the pose, and all members of `fit` except the
-/// displacement. Returns false if the dots do not determine the plane.
+/// current plane, and `unit` is the scale of the current plane. Sets the number of dots, the
+/// variance, the squares and the covariance of `fit`. Sets `moved` to the squared length of the
+/// step in units of the standard deviation of the pose. Returns false if the dots do not determine
+/// the plane.
 bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step, float& moved);
 
 }  // namespace dotpose::core

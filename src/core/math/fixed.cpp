@@ -68,7 +68,8 @@ std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
 
 std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
     if (shift > 0) {
-        // Shifts the numerator left as far as `shift` and the limit of 62 bits allow.
+        // Shifts the numerator left by at most `shift` bits, to at most 62 bits. Shifts the
+        // denominator right by the rest of `shift`.
         const auto bits = std::bit_width(static_cast<std::uint64_t>(magnitude(numerator)));
         const int up = std::clamp(62 - static_cast<int>(bits), 0, shift);
         numerator *= std::int64_t{1} << up;
@@ -118,8 +119,8 @@ std::int32_t angle_bam(FixedVec direction) {
         y = -y;
         angle = static_cast<std::uint32_t>(kHalfTurn);
     }
-    // Scales the vector to 41 bits. The sum of the truncation errors is then far below the last
-    // step.
+    // Scales the vector to 41 bits. The sum of the truncation errors is then far smaller than the
+    // last angle of the table.
     const auto bits = std::bit_width(static_cast<std::uint64_t>(x + magnitude(y)));
     x <<= 41 - static_cast<int>(bits);
     y *= std::int64_t{1} << (41 - bits);

@@ -109,7 +109,7 @@ std::int64_t log2_q16(std::uint32_t n);
 /// Interpolates linearly between whole powers and subtracts a correction.
 constexpr std::int64_t exp2_q16(int n_q8) {
     const std::int32_t fraction_q8 = n_q8 & 255;
-    // 1 + f exceeds 2^f by at most 0.086, which is about f (1 - f) / 3. 21846 / 2^16 is a third.
+    // 1 + f exceeds 2^f by about f (1 - f) / 3, at most 0.086. 21846 / 2^16 is a third.
     const std::int32_t mantissa_q16 =
         65536 + fraction_q8 * 256 - (fraction_q8 * (256 - fraction_q8) * 21846 >> 16);
     return std::int64_t{mantissa_q16} << (n_q8 >> 8);
@@ -118,12 +118,14 @@ constexpr std::int64_t exp2_q16(int n_q8) {
 /// Represents the log2 of zero, in units of 2^-8.
 inline constexpr int kNever_q8 = -(1 << 20);
 
-/// log2(1 + 2^-d) in units of 2^-8 for d = 0, 1, ... The function is convex, so it is below its
-/// chords. The table is outside the function, because each inlined call would copy it.
+/// log2(1 + 2^-d) in units of 2^-8, for d = 0, 1, ..., rounded up. The first value is 255 instead
+/// of 256 to fit in a byte, and `add_log2` adds 1. The function is convex, so linear interpolation
+/// gives an upper bound. The table is not local to `add_log2`, because each inlined call would copy
+/// it.
 inline constexpr std::array<std::uint8_t, 12> kGain{255, 150, 83, 44, 23, 12, 6, 3, 2, 1, 1, 1};
 
-/// Returns an upper bound on log2(n) in units of 2^-8, for 0 < n < 2^24: log2(1 + f) is at most f +
-/// 0.087.
+/// Returns an upper bound on log2(n) in units of 2^-8, for 0 < n < 2^24. Uses that log2(1 + f) is
+/// at most f + 0.087 for f in [0, 1).
 constexpr int log2_at_most_q8(std::uint32_t n) {
     if (n == 1) return 0;
     const int whole = static_cast<int>(std::bit_width(n)) - 1;
@@ -144,8 +146,7 @@ constexpr int add_log2(int a_q8, int b_q8) {
 /// median. Reorders the values.
 std::int32_t median(std::span<std::int32_t> values);
 
-/// Returns the value that a quarter of the values exceed, or 0 if there are no values. Reorders the
-/// values.
+/// Returns the upper quartile, or 0 if there are no values. Reorders the values.
 std::int32_t upper_quartile(std::span<std::int32_t> values);
 
 /// Returns the sine of a phase, times 2^14, with an error of at most 6 %, from two parabolas.
@@ -158,8 +159,8 @@ constexpr std::int32_t rough_cosine(std::int32_t phase_q16) {
     return rough_sine(phase_q16 + 16384);
 }
 
-/// Returns the angle of a vector from +x towards +y, with an error of about 1e-9 turns. The angle
-/// of (0, 0) is 0. Requires |x|, |y| < 2^29.
+/// Returns the binary angle of a vector, from +x towards +y, with an error of about 1e-9 turns. The
+/// angle of (0, 0) is 0. Requires |x|, |y| < 2^29.
 std::int32_t angle_bam(FixedVec direction);
 
 /// Returns (cosine, sine) of an angle, times 2^30.

@@ -1,4 +1,4 @@
-// Planes in single precision, for the attempts of desktops.
+// Planes in single precision, for the desktop attempts.
 #pragma once
 
 #include <cmath>
@@ -34,7 +34,7 @@ struct FloatVec {
 };
 
 /// Returns the plane point, in spacings, of an image point in px relative to the centre. The
-/// divisor is clamped to at least 1/4, because the map folds where the divisor is 0.
+/// divisor is clamped to at least 1/4, because the map folds if the divisor reaches 0.
 FloatVec plane_point(const FloatPlane& plane, FloatVec px);
 
 /// Returns the same plane relative to another image point. The result is an approximation if the

@@ -22,7 +22,7 @@ inline float power_of_two(int n_q8) {
     return static_cast<float>(exp2_q16(n - whole * 256)) * power_of_two_exactly(whole - 16);
 }
 
-/// Returns log2 of an upper bound on the odds, in units of 2^-8.
+/// Returns an upper bound on log2 of the odds, in units of 2^-8. Odds below 1e-30 count as 1e-30.
 inline int log2_of_odds_q8(float odds) {
     int exponent = 0;
     const float mantissa = std::frexp(std::max(odds, 1e-30F), &exponent);

@@ -3,7 +3,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns du x + dv y in units of 2^-16 spacings.
+/// Returns du x + dv y in units of 2^-16 spacings, clamped to +-kBeyondReason.
 FixedVec linear_q16(const PlaneFromImage& plane, FixedVec from_centre_q8) {
     const std::int64_t x = from_centre_q8.x;
     const std::int64_t y = from_centre_q8.y;
@@ -55,7 +55,7 @@ FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point) {
     // Newton's method, with the slope at the current point. For an affine plane, one round is exact
     // except for the truncation in the division.
     constexpr int kMaxRounds = 12;
-    // Where the map folds, the iteration may leave the coordinate range of all images.
+    // Maximum coordinate of an image point. If the map folds, the iteration might leave this range.
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
     FixedVec point_q8 = plane.centre_q8;
     for (int round = 0; round < kMaxRounds; ++round) {

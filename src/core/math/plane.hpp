@@ -13,13 +13,13 @@ struct GridPoint {
 };
 
 /// Limit of coordinates, in units of 2^-16 spacings, and of slopes, in units of 2^-24 spacings per
-/// px. All images are within the limit, but planes fitted to false dots may exceed it. Four times
-/// the limit fits in 32 bits.
+/// px. Planes of real images are within the limit, but planes fitted to false dots may exceed the
+/// limit. Four times the limit fits in 32 bits.
 inline constexpr std::int32_t kBeyondReason = 1 << 28;
 
-/// Returns k r^2 in units of 2^-48, with r clamped to 4096 px. Points of images are rarely farther
-/// from the centre, but points of planes seen from the side may be. With this limit, the result
-/// fits in 64 bits for any k.
+/// Returns k r^2 in units of 2^-48, with r clamped to 4096 px. With this limit, the result fits in
+/// 64 bits for any k. Points of images are rarely farther from the centre, but projected points of
+/// steeply tilted planes may be.
 inline std::int64_t bend_q48(std::int32_t k_q40, FixedVec r_q8) {
     constexpr std::int64_t kFarthest_q8 = 0xFFFFFFFF;
     return k_q40 * std::min(squared(r_q8) >> 8, kFarthest_q8);
@@ -30,7 +30,8 @@ inline bool is_affine(const PlaneFromImage& plane) {
     return plane.perspective_q30 == FixedVec{} && plane.lens_q40 == 0;
 }
 
-/// Returns the plane of a lattice, without perspective or lens. Requires u x v > 0.
+/// Returns the plane that maps image points to the coordinates of a lattice, without perspective or
+/// lens. Requires u x v > 0.
 PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 
 /// Returns the plane point of an image point by eq. 3, in units of 2^-16 spacings. differs: the

@@ -1,4 +1,4 @@
-// Symmetric systems of two equations, as in least squares with two unknowns.
+// Symmetric systems of two linear equations, as in least squares with two unknowns.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Tabled: functions of small integers as tables, because the smallest processors have no divider.
+// Tabled: tables of functions of small integers. The smallest processors have no divider.
 #pragma once
 
 #include <array>
