@@ -1,7 +1,7 @@
 // Kernels: the loops over pixels, dots and cells, which take most of the time of the desktop
 // attempts. Each kernel has several implementations, one per kind of processor, with bit-identical
-// results. `select.hpp` selects one implementation. All numbers are in single precision; lengths in
-// the image are in px.
+// results. `select.hpp` selects one implementation. Floating-point numbers are in single precision.
+// Lengths in the image are in px.
 #pragma once
 
 #include <array>
@@ -16,22 +16,22 @@
 
 namespace dotpose::core {
 
-/// Two plane waves of the same length at right angles: cos(2 pi (kx x + ky y) - phase).
+/// Two perpendicular plane waves of the same wavelength: cos(2 pi (kx x + ky y) - phase).
 struct Waves {
-    /// Frequency of the first wave, in turns per px. The second wave is perpendicular to the first
+    /// Frequency of the first wave, in cycles per px. The second wave is perpendicular to the first
     /// wave.
     float kx = 0;
     float ky = 0;
-    float power = 0;  ///< power of both waves; at most 2 for a grid without displacements
-    /// Phases of both waves, as cosine and sine.
+    float power = 0;  ///< sum of the powers of both waves; at most 2 n^2 for n dots
+    /// Phases of both waves, as sums of the cosine and of the sine over all dots.
     std::array<float, 2> phase_cos{};
     std::array<float, 2> phase_sin{};
 };
 
-/// Options of one pass that assigns dots to cells.
+/// Options of `sum_cells`: one pass that assigns dots to cells.
 struct CellPass {
     float reach_px = 0;  ///< maximum distance of a dot from the centre along each axis
-    /// Maximum distance of a dot from the nearest place of its cell, in spacings.
+    /// Maximum distance of a used dot from the nearest place of its cell, in spacings.
     float max_off = 0;
     /// Distance of the four places of a cell from its centre, in spacings, or 0 for one place at
     /// the centre.
@@ -39,27 +39,28 @@ struct CellPass {
     bool with_perspective = false;
 };
 
-/// Sums over the dots of one pass, for the least-squares plane with perspective: i (1 + g x + h y)
-/// = a x + b y + c, and j (1 + g x + h y) = d x + e y + f. Without perspective, only the first
-/// three elements of `i` and `j` are set, and `square` is 0.
+/// Sums over the used dots of one pass, for the least-squares plane with perspective: i (1 + g x +
+/// h y) = a x + b y + c, and j (1 + g x + h y) = d x + e y + f. (x, y) is the image point of a dot,
+/// and (i, j) is the nearest place of its cell. Without perspective, only the first three elements
+/// of `i` and `j` are set, and `square` is 0.
 struct CellSums {
     float seen = 0;  ///< number of dots within reach
     float used = 0;  ///< number of dots within reach that are near a place
     /// Sum of the squared distances of the used dots from their places, in spacings^2.
     float squares = 0;
     std::array<float, 6> one{};     ///< sums of 1, x, y, xx, xy, yy
-    std::array<float, 6> i{};       ///< the six sums with each term multiplied by i
-    std::array<float, 6> j{};       ///< the six sums with each term multiplied by j
-    std::array<float, 6> square{};  ///< the six sums with each term multiplied by i^2 + j^2
+    std::array<float, 6> i{};       ///< the same six sums, with each term multiplied by i
+    std::array<float, 6> j{};       ///< the same six sums, with each term multiplied by j
+    std::array<float, 6> square{};  ///< the same six sums, with each term multiplied by i^2 + j^2
 };
 
-/// Maximum number of columns, and of rows, of cells in view, at any angle of the image.
+/// Maximum number of columns, and of rows, of cells in view, at any rotation of the image.
 inline constexpr int kMaxLinesInView = 1024;
 
-/// Places of the windows of listed cells: none, intersections or dots.
+/// Where `list_cells` places the windows of cells: nowhere, on intersections or on dots.
 enum class Windows : std::uint8_t { none, on_intersections, on_dots };
 
-/// Options of `list_cells`: the cells whose dots are in view.
+/// Options of `list_cells`, which lists the cells whose dots are in view.
 struct CellsInView {
     FloatPlane plane;  ///< upright pattern; image points are relative to `centre`
     FloatLens lens;
@@ -67,16 +68,17 @@ struct CellsInView {
     float centre_y = 0;
     float width_px = 0;
     float height_px = 0;
-    float margin_px = 0;     ///< minimum distance of a dot from the border
+    float margin_px = 0;     ///< minimum distance of a dot from the border of the image
     float reach_px = 0;      ///< maximum distance of a dot from the centre along each axis
     float displacement = 0;  ///< distance of dots from their intersections, in spacings
     Windows windows = Windows::on_intersections;
     int step = 1;  ///< row subsampling step: every `step`-th cell of a row is listed
-    /// Index in the main sequence of each column at row `first_row`. `row_rolls` contains the index
-    /// of each row at column `first_column`.
+    /// For each column, the index in the main sequence of its cell in row `first_row`. `row_rolls`
+    /// contains, for each row, the index of its cell in column `first_column`.
     const std::uint8_t* column_rolls = nullptr;
     const std::uint8_t* row_rolls = nullptr;
-    int first_column = 0;  ///< first column of the pattern for which rolls are given
+    int first_column = 0;  ///< column of the pattern to which the first element of `column_rolls`
+                           ///< belongs
     int first_row = 0;
     int columns = 0;
     int rows = 0;
@@ -86,9 +88,10 @@ struct CellsInView {
 struct WindowOptions {
     float spacing_px = 11;  ///< spacing at the image centre
     float reach = 0.36F;    ///< half the side of a window, in spacings; at most kMaxHalfWindow_px
-    /// Threshold, in 1/256 of the paper level: minimum contrast of a pixel of a dot.
+    /// Minimum contrast of a pixel of a dot, in 1/256 of the paper level.
     int cut_q8 = 128;
-    /// Mass of a dot relative to the paper level, or 0 to use the mass of most windows.
+    /// Mass of a typical dot relative to the paper level, or 0 to determine this mass from the
+    /// windows.
     float typical_mass = 0;
 };
 /// Maximum half side of a window, and maximum radius of a centroid window.
@@ -100,41 +103,43 @@ inline constexpr float kSmallCentroidRadius_px = 4;
 /// to include the edge of the dot at 8 to 13 px per spacing.
 inline constexpr float kPredictedCentroidRadius_px = 3.65F;
 
-/// Sums over dots for the fit of nine parameters; see PlaneNormal. Places (u, v) are the places
-/// of the dots in the plane, relative to its `at`, in units of its scale. Residuals (x, y) are in
-/// spacings.
+/// Sums over the inliers for the fit of nine parameters; see PlaneNormal. Places (u, v) are the
+/// places of the dots in the plane, relative to its `at`, in units of its scale. Residuals (x, y)
+/// are in spacings.
 struct FitSums {
     int points = 0;       ///< number of inliers
     int outliers = 0;     ///< number of outliers
     float farthest = 0;   ///< largest squared residual of an inlier
-    float projected = 0;  ///< sum of the offsets along the direction of the displacement
+    float projected = 0;  ///< sum of the components of the offsets along the direction of the
+                          ///< displacement
     float squares = 0;    ///< sum of the squared residuals
-    /// 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv, quu, quv, qvv, qqu, qqv, qqq; q = uu + vv.
+    /// Sums of 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv, quu, quv, qvv, qqu, qqv and qqq, with q =
+    /// uu + vv.
     std::array<float, 16> places{};
-    std::array<float, 9> residuals{};  ///< x, y, xu, yv, yu, xv, au, av, aq; a = xu + yv
+    /// Sums of x, y, xu, yv, yu, xv, au, av and aq, with a = xu + yv.
+    std::array<float, 9> residuals{};
 };
 
-/// Sums over predicted dots: of their places, in px relative to the image centre, and of their
-/// offsets.
+/// Sums over predicted dots. The place of a dot is its predicted image point, in px relative to the
+/// image centre. The offset of a dot is its measured centre minus its place, in px.
 struct DotOffsets {
     int points = 0;
     float u = 0;  ///< sum of places
     float v = 0;
-    float squares = 0;  ///< sum of the squared distances from the centre
+    float squares = 0;  ///< sum of the squared distances of the places from the image centre
     float squared = 0;  ///< sum of the squared offsets
     float off_u = 0;    ///< sum of offsets
     float off_v = 0;
-    /// Sum of offset times place: the component parallel to the place (along) and perpendicular to
-    /// it (across).
+    /// Sum of the inner products of place and offset. `across` is the sum of their cross products.
     float along = 0;
     float across = 0;
-    /// Sums of offsets times the direction of the displacement along x. `of_y` contains the sums
-    /// along y.
+    /// Sums of u and v offsets times the x component of the direction of the displacement. `of_y`
+    /// contains the sums for the y component.
     std::array<float, 2> of_x{};
     std::array<float, 2> of_y{};
 };
 
-/// Sums of residuals over the dots in square blocks of the image, in spacings.
+/// Sums of residuals, in spacings, over the inliers in each square block of the image.
 struct BlockSums {
     static constexpr std::size_t kMaxAlong = 9;
     struct Block {
@@ -145,18 +150,20 @@ struct BlockSums {
     std::array<Block, kMaxAlong * kMaxAlong> all;
     float dots = 0;      ///< number of inliers
     float outliers = 0;  ///< number of outliers
-    float squares = 0;   ///< sum of the squared residuals of the dots, in spacings^2
+    float squares = 0;   ///< sum of the squared residuals of the inliers, in spacings^2
 };
 
-/// Result of reading bits.
+/// Result of reading the bits of cells and comparing them with the code.
 struct BitsRead {
     int seen = 0;  ///< number of cells with a dark spot
     int read = 0;  ///< number of `seen` cells whose spot is near one of the four places
     int wrong_x = 0;
     int wrong_y = 0;
-    int right = 0;        ///< number of dots without a wrong bit
-    float projected = 0;  ///< sum of the distances of right dots from their intersections
-    float squares = 0;    ///< sum of the squared distances of right dots from their places
+    int right = 0;        ///< number of `read` cells without a wrong bit
+    float projected = 0;  ///< sum of the distances of `right` dots from their intersections, in
+                          ///< spacings
+    float squares = 0;    ///< sum of the squared distances of `right` dots from their places, in
+                          ///< spacings^2
 };
 
 /// Minimum loss of an alternative, in bits, in a line that it does not share.
@@ -165,8 +172,8 @@ struct LineLoss {
     std::uint8_t loss = 0;
 };
 
-/// List of places in the four sequences of a position. Each place has a line that it shares with
-/// the reading.
+/// List of places in the secondary sequences, each with a line that an alternative at this place
+/// shares with the reading.
 struct SimilarPlaceList {
     static constexpr int kMax = 256;
     struct Entry {
@@ -178,30 +185,31 @@ struct SimilarPlaceList {
     std::array<Entry, kMax> places;
 };
 
-/// Set of places of a sequence, one bit per place. The first place is the lowest bit.
+/// Set of places in a sequence, one bit per place. Bit 0 of the first word is the first place.
 using PlaceBits = std::array<std::uint32_t, 8>;
 
-/// Minimum loss of an alternative in each step from one line to the next in which its digit differs
-/// from the digit of the reading. Such an alternative does not share at least one of the two lines.
-/// The unit is 1/kLimitParts of the loss limit.
+/// Lower bound of the loss of an alternative in each step where its digit differs from the digit of
+/// the reading. A step is the pair of a line and the next line. Such an alternative does not share
+/// at least one of the two lines. The unit is 1/kLimitParts of the loss limit.
 struct StepLosses {
     static constexpr int kLimitParts = 8;
     int count = 0;
     std::array<std::uint8_t, 64> parts;  ///< loss of each step; at most kLimitParts
 };
 
-/// Alternatives, grouped by the set of sequences in which they differ: the number of alternatives,
-/// and the probability that all their digits in a step equal the digits of the reading.
+/// Groups of alternatives. The alternatives of a group differ from the reading in the same set of
+/// sequences. For each group: the number of alternatives, and the probability that all digits of an
+/// alternative in a step equal the digits of the reading.
 struct FarAlternatives {
     std::array<float, 8> equal{1, 1, 1, 1, 1, 1, 1, 1};
     std::array<float, 8> number{};
 };
 
-/// Sums of the n smallest losses, indexed by n.
+/// Sum of the n smallest losses, indexed by n.
 using SmallestSums = std::array<std::int32_t, 9>;
 
-/// Bits of 64 lines of 64 cells, one word per line. `valid` has one bit for each cell that was
-/// read.
+/// Bits of 64 lines of 64 cells, one word per line. In `valid`, the bit of a cell is 1 if the cell
+/// was read.
 struct BitLines {
     std::array<std::uint64_t, 64> bits{};
     std::array<std::uint64_t, 64> valid{};
@@ -210,89 +218,94 @@ struct BitLines {
 /// Function table of one implementation of the kernels, such as portable or AVX2.
 struct Kernels {
     const char* name;
-    /// Copies a part of the image, reduced by an integer factor, with a white margin.
+    /// Copies the part of the image that the patch covers, reduced by the scale of the patch, and
+    /// adds a white margin.
     void (*fill_patch)(const ImageView& image, Patch& patch);
-    /// Smooths the patch by 1-2-1 along both axes, and finds the brightest and the darkest pixel of
-    /// each tile.
+    /// Smooths the patch by 1-2-1 along both axes, and finds the brightest and the darkest smoothed
+    /// pixel of each tile.
     void (*smooth_patch)(Patch& patch);
-    /// Lists the dots: minima of the smoothed patch that are darker than its thresholds. The place
-    /// of a dot is the vertex of the parabolas through the neighbouring pixels, relative to the
-    /// middle of the patch.
+    /// Lists the dots: minima of the smoothed patch that are at most as bright as the threshold of
+    /// their tile. The place of a dot is the vertex of the parabolas through the minimum and its
+    /// neighbouring pixels, in px of the image relative to the middle of the patch.
     void (*find_minima)(Patch& patch);
-    /// Returns the strongest waves of 12 directions, with about `per_px` turns per px.
+    /// Evaluates a pair of perpendicular waves with a frequency of `per_px` cycles per px in 12
+    /// directions (steps of 7.5 degrees). Returns the pair with the highest power.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
-    /// Returns the sums of one pass over the dots.
+    /// Assigns the dots to cells, and returns the sums over the dots.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
-    /// Sets the bits of the cells that contain the dots. Cell (-32, -32) is the first cell.
+    /// Sets the bits of the cells that contain dots. The first column and the first row are those
+    /// of cell (-32, -32).
     void (*read_cells)(const PatchDots& dots, const FloatPlane& plane, float displacement,
                        BitLines& columns, BitLines& rows);
     /// Scores 64 cells of a line against the main sequence at each roll.
     void (*score_line)(std::uint64_t bits, std::uint64_t valid, ScoredLine& line);
-    /// Sums the scores of adjacent lines for `positions` positions of the first line. `rolls` are
-    /// those of the line at the first position and of the lines that follow.
+    /// Sums the scores of all lines for each of `positions` consecutive positions of the first
+    /// line. `rolls` contains the rolls of consecutive lines, beginning with the line at the first
+    /// position.
     void (*sum_rolls)(const RollScores& scores, const std::uint8_t* rolls, int positions,
                       RollSums* sums);
-    /// Lists the cells in view, with the centres of their windows, the symbols of their dots and,
-    /// in `x` and `y`, the places of the dots in the image, including lens distortion.
+    /// Lists the cells in view, with the centres of their windows and the symbols of the code. Sets
+    /// `x` and `y` to the expected image points of the dots, including lens distortion.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
-    /// Finds the shift of all dots at which the mean of their surroundings is darkest. Sets
-    /// `cut_q8` to the contrast at this shift relative to the paper level, in 1/256. Returns false
-    /// if too few dots are in view.
+    /// Finds the common shift of all dots, up to `max_px` in steps of `step_px`, at which the sum
+    /// of their images is darkest. Sets `cut_q8` to the contrast at this shift relative to the
+    /// paper level, in 1/256. Returns false if too few dots are in view.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
-    /// Sets the centroids of the dark pixels in the windows of the dots. Drops dots whose mass is
-    /// much larger or smaller than the mass of a typical window. Returns the mass of a typical
-    /// window.
+    /// Sets `x` and `y` to the centroids of the dark pixels in the windows of the dots. Drops dots
+    /// whose mass is much larger or smaller than the mass of a typical dot. Returns the mass of a
+    /// typical dot relative to the paper level.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowOptions& options, MeasuredDots& dots);
-    /// Sets the centres to weighted centroids in centroid windows, without a threshold, which would
-    /// bias the centres. `radius_px` is at most kMaxCentroidRadius_px. Windows at the border of the
-    /// image are smaller.
-    void (*refine_centres)(const ImageView& image, const CellsInView& view, float reach_px,
+    /// Replaces the centres with weighted centroids in centroid windows. These centroids need no
+    /// threshold, which would bias the centres. `radius_px` is at most kMaxCentroidRadius_px.
+    /// Windows at the border of the image are smaller.
+    void (*refine_centres)(const ImageView& image, const CellsInView& view, float radius_px,
                            MeasuredDots& dots);
     /// Reads the bits of cells whose dots are predicted to a fraction of their displacement: the
     /// dot is at the darkest of the four places of its cell. `depth_q8` is the contrast of a
-    /// typical dot. Bits are compared and added to lines as in `read_bits`. Drops dots with a wrong
-    /// bit.
+    /// typical dot relative to the paper level, in 1/256. Bits are compared and added to lines as
+    /// in `read_bits`. Drops dots that are not read or have a wrong bit.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
-    /// Sets the centres of predicted dots as `refine_centres` does, in windows of
+    /// Measures the centres of predicted dots as `refine_centres` does, in windows with a radius of
     /// kPredictedCentroidRadius_px. Drops dots with an offset above `max_off_px`. `weight_px` is
     /// the offset, in px, that corresponds to a moment-to-weight ratio of 1, or 0 to estimate this
     /// offset from dots in the middle of the list. Returns the sums over the remaining dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`
-    /// and `rows`, unless these are null. Cell (-32, -32) is the first cell. The lines must be
-    /// empty, and no cell may have two dots.
+    /// and `rows`, unless one of these pointers is null. The first column and the first row are
+    /// those of cell (-32, -32). The lines must be empty, and no cell may have two dots.
     BitsRead (*read_bits)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                           BitLines* columns, BitLines* rows);
-    /// Returns the sums over the inliers, whose squared residuals are at most `limit` (spacings^2).
-    /// `scale` is the unit of places.
+    /// Returns the sums over the inliers, whose squared residuals are at most `limit` (in
+    /// spacings^2). `scale` is the unit of places, in spacings.
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float scale, float limit);
-    /// Adds up the residuals of the inliers, whose squared residuals are at most `limit`
-    /// (spacings^2), in `side` x `side` blocks that extend `reach_px` from the centre of the plane
-    /// along both axes.
+    /// Adds up the residuals of the inliers, whose squared residuals are at most `limit` (in
+    /// spacings^2), in `side` x `side` blocks. The blocks cover the image points up to `reach_px`
+    /// from the centre of the plane along both axes.
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
-    /// Returns the places of a sequence, other than the place of the reading, that may lose less
-    /// than the limit according to `steps`.
+    /// Returns the places of a sequence, other than the place `own` of the reading, at which an
+    /// alternative may lose less than the limit according to `steps`.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
     /// Returns the expected odds of the far alternatives. `best` contains, for each line, the odds
-    /// of the best roll other than the roll of the reading. At most `max_shared` adjacent lines are
-    /// shared.
+    /// of the best roll other than the roll of the reading. A far alternative shares at most
+    /// `max_shared` adjacent lines with the reading.
     float (*sum_far_alternatives)(std::span<const float> best, int max_shared,
                                   const FarAlternatives& sets);
-    /// Lists the places other than the place of the reading, in the sequences whose bit is set,
-    /// that may lose less than `loss_limit` over the given lines. The lines are sorted by
-    /// decreasing loss. Returns false if there are too many places, or if places that share none of
-    /// the first lines may lose less than the limit.
+    /// Lists the places, other than those of the reading (`own`), at which an alternative may lose
+    /// less than `loss_limit` over the given lines. Searches the sequences whose bit is set in
+    /// `sequences`. The lines must be sorted by decreasing loss. Returns false if there are too
+    /// many places, or if an alternative that shares none of the first four lines may lose less
+    /// than the limit.
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 unsigned sequences, std::span<const LineLoss> lines, int loss_limit,
                                 SimilarPlaceList& list);
-    /// Adds up the smallest of 8 to 16 losses. Negative losses count as 0.
+    /// Sets `sums` to the sums of the smallest of 8 to 16 losses. Negative losses count as 0.
     void (*sum_smallest_losses)(std::span<const std::int16_t> losses, SmallestSums& sums);
 };
 

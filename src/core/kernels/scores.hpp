@@ -15,7 +15,7 @@ inline constexpr int kMaxLines = 64;
 /// Agreement of one column or row with the main sequence at each roll.
 using LineScores = std::array<std::int16_t, kSections>;
 
-/// The best score, and its margin over the second best score.
+/// The highest score of a line, and its margin over the second highest score.
 struct BestScore {
     std::int16_t score = 0;
     std::int16_t margin = 0;
@@ -27,18 +27,19 @@ struct ScoredLine {
     BestScore best;
 };
 
-/// Number of entries in a table by roll: kSections, rounded up to whole vectors. The last one is
-/// not used.
+/// Number of entries of a table indexed by roll: kSections, rounded up to whole vectors. The last
+/// entry is not used.
 inline constexpr std::size_t kRollEntries = 64;
 
-/// Scores of up to kMaxLines adjacent lines at each roll: the number of cells that agree.
-/// They are stored twice around, to be read from any roll on.
+/// Scores of up to kMaxLines adjacent lines at each roll. The score is the number of cells that
+/// agree with the main sequence. The scores of a line are stored twice in succession, so
+/// kRollEntries scores can be read from any roll.
 struct RollScores {
     int count = 0;  ///< number of lines
     std::array<std::array<std::uint16_t, 2 * kRollEntries>, kMaxLines> lines;
 };
 
-/// Sums of the scores of all lines, by the roll that is added to those of all lines.
+/// Sums of the scores of all lines, indexed by the roll that is added to the rolls of all lines.
 using RollSums = std::array<std::uint16_t, kRollEntries>;
 
 }  // namespace dotpose::core

@@ -7,23 +7,23 @@
 
 namespace dotpose::core {
 
-/// Sums of the darkness of pixels below a level: unweighted (mass), and weighted with the distance
-/// from the middle along x and y. For at most 11 x 11 pixels, the mass is below 2^15 and the
-/// moments are below 2^18.
+/// Sums, over the pixels of a square, of the darkness below a level: unweighted (mass), and
+/// weighted with the signed distance from the middle of the square along x and y. For at most 11 x
+/// 11 pixels, the mass is below 2^15 and the moments are below 2^18.
 struct DarkSums {
     std::int32_t mass = 0;
     std::int32_t x = 0;
     std::int32_t y = 0;
 };
 
-/// Half side of the squares whose corners are excluded. In these corners, dots of tracked sizes
-/// have no pixels that are more than half as dark as their middle.
+/// Half side of the squares whose corners are excluded, which leaves a diamond. In these corners,
+/// dots of tracked sizes have no pixels that are more than half as dark as the middle of the dot.
 inline constexpr int kHalfOfDiamond = 2;
 
-/// Returns the sums of a square of 2 Half + 1 pixels per side that begins at `row`. The size is a
-/// compile-time constant, so the pixels of a row are summed without a loop, and the coordinates of
-/// the pixels are constants. Not inlined, because small processors then keep all variables in
-/// registers.
+/// Returns the sums of a square of 2 Half + 1 pixels per side whose upper left pixel is at `row`.
+/// The size is a compile-time constant, so the pixels of a row are summed without a loop, and the
+/// coordinates of the pixels are constants. Not inlined, so that small processors keep all
+/// variables in registers.
 template <int Half>
 DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t stride,
                                            std::int32_t level) {
@@ -33,7 +33,7 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
     const auto add_row = [&](int reach) {
 #pragma GCC unroll 16
         for (int x = -reach; x <= reach; ++x) {
-            // Most pixels are paper. The sign of the difference identifies them without a further
+            // Most pixels are paper. The sign of the difference identifies paper without a further
             // comparison.
             const std::int32_t darkness = level - row[Half + x];
             if (darkness < 0) continue;
