@@ -1,5 +1,5 @@
-// Rolls of single lines and of runs of consecutive lines. Computing the rolls of a run in one call
-// is faster than computing them line by line.
+// Rolls: computes the rolls of single lines and of runs of consecutive lines. Computing a run in
+// one call is faster than computing its rolls line by line.
 #pragma once
 
 #include <cstdint>

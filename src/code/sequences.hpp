@@ -95,11 +95,12 @@ consteval bool has_flipped_reverse(const Digits<Length>& sequence, std::size_t l
 }
 
 static_assert(kMain.size() == 63, "the main sequence has 63 bits");
-static_assert(is_quasi_de_bruijn(kMain, 6, 2), "6 bits of main determine the place in it");
+static_assert(is_quasi_de_bruijn(kMain, 6, 2), "6 bits determine a place in main");
 static_assert(!has_flipped_reverse(kMain, 8),
-              "8 bits of main determine whether they are upside down");
+              "8 bits of main determine whether main is upside down");
 static_assert(!has_flipped_reverse(kMain, 7), "7 bits suffice; the paper asks for 8");
-static_assert(has_flipped_reverse(kMain, 6), "6 bits do not suffice: the test above can fail");
+static_assert(has_flipped_reverse(kMain, 6),
+              "6 bits do not suffice, so has_flipped_reverse can be true");
 
 static_assert(kA1.size() == 236 && is_quasi_de_bruijn(kA1, 5, 3), "a1: order 5, length 236");
 static_assert(kA2.size() == 233 && is_quasi_de_bruijn(kA2, 5, 3), "a2: order 5, length 233");

@@ -31,7 +31,7 @@ struct Patch {
     static constexpr int kTiles = kTilesPerRow * kMaxHeight_px / kTileHeight_px;
     static constexpr int kStrips = kMaxWidth_px / 32;
 
-    /// Minimum side on unknown sheets: 8 dots at a spacing of 6 px.
+    /// Minimum side of a patch if no sheets are known: 8 dots at a spacing of 6 px.
     static constexpr int kMinSide_px = 48;
 
     int min_side_px = kMinSide_px;

@@ -43,8 +43,8 @@ BitLines backwards(const BitLines& lines) {
 }
 
 /// Returns the range from the first to the last line that has bits. If the range is longer than
-/// `max_count` lines, returns the `max_count` lines of it that are nearest to the middle of the
-/// block.
+/// `max_count` lines, returns the `max_count` lines of the range that are nearest to the middle of
+/// the block.
 LineRange lines_with_bits(const BitLines& lines, int max_count) {
     int first = 0;
     int last = BitBlock::kSide - 1;
@@ -58,9 +58,9 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
 }
 
 /// Returns the score of a line read backwards minus its score read forwards. If the line agrees
-/// exactly in only one direction, only its bits beyond the first six count: six bits almost always
-/// also agree exactly in the wrong direction, by chance, and each further bit halves this
-/// probability.
+/// exactly in only one direction, only its bits beyond the first six count. By chance, six bits
+/// almost always also agree exactly in the wrong direction. Each further bit halves the probability
+/// of such an agreement.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);

@@ -43,8 +43,8 @@ struct BlockLines {
 /// of columns and rows near the middle. `turned` applies this rotation.
 int likeliest_turn(const Kernels& kernels, const BitBlock& block);
 
-/// Returns the block rotated by `quarters` quarter turns. 0 to 3 quarter turns map cell (i, j) to
-/// (i, j), (-1 - j, i), (-1 - i, -1 - j) or (j, -1 - i).
+/// Returns the block rotated by `quarters` quarter turns. 0, 1, 2 and 3 quarter turns map cell (i,
+/// j) to (i, j), (-1 - j, i), (-1 - i, -1 - j) and (j, -1 - i), respectively.
 BitBlock turned(int quarters, const BitBlock& block);
 /// Returns the plane after the same rotation. The result maps image points to cells of the rotated
 /// block.

@@ -1,4 +1,5 @@
-// Correlation of a line of likelihoods with the main sequence at every roll. Paper section II-B.7.
+// Correlation: correlates the weights of the bits of a line with the main sequence at every roll.
+// Paper section II-B.7.
 #pragma once
 
 #include <cstdint>

@@ -64,7 +64,7 @@ bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange&
     int wrong = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const int here = below_sections(reading.roll + rolls[i]);
-        // Counts wrong bits one by one, because most lines have none, and many processors lack a
+        // Counts wrong bits one by one. Most lines have no wrong bits, and many processors lack a
         // popcount instruction.
         std::uint64_t differ = (bits(i) ^ main_word(here)) & valid(i);
         for (; differ != 0; differ &= differ - 1)

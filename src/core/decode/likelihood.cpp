@@ -35,7 +35,7 @@ std::int8_t quasi_probability(std::int32_t projection_q16) {
     const int r_q8 = (projection_q16 * 6 + 128) >> 8;  // r / r0
     const int square_q16 = r_q8 * r_q8;
     if (square_q16 >= 3 * 65536) return 0;
-    // Eq. 9: (3 r - r^3) / 2 in units of r0
+    // Eq. 9: (3 r - r^3) / 2, with r in units of r0.
     const int f_q8 = (r_q8 * (3 * 65536 - square_q16)) >> 17;
     return static_cast<std::int8_t>((f_q8 * 127 + 128) >> 8);
 }
@@ -58,7 +58,7 @@ Status assign(std::span<const DetectedDot> dots, PointOf point_of, Grid& grid) {
     }
     lay_out(min, max, grid);
 
-    // A local copy, because small processors would reload the members of the grid for each dot.
+    // Copies the grid, because small processors would otherwise reload its members for each dot.
     const Grid here = grid;
     const auto columns = static_cast<unsigned>(here.columns);
     const auto rows = static_cast<unsigned>(here.rows);

@@ -41,7 +41,7 @@ struct AxisReading {
     std::uint32_t position = 0;  ///< position of the first line
     std::uint8_t roll = 0;       ///< roll of the first line, at the first cell of that line
     std::int32_t score = 0;      ///< sum of the scores of all lines
-    /// Sum of the best scores of all lines, regardless of their rolls.
+    /// Sum of the highest scores of all lines, each at its own best roll.
     std::int32_t max_possible = 0;
 
     /// Returns true if the score exceeds 7/8 of `max_possible`. Searches stop at such a reading,

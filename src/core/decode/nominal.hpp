@@ -1,4 +1,4 @@
-// Nominal: the symbols that the code has in the cells of a grid, if the place of the grid is known.
+// Nominal: the symbols of the code in the cells of a grid whose place is known.
 #pragma once
 
 #include <array>

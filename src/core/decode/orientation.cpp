@@ -105,11 +105,11 @@ Orientation rank_turns(const Grid& grid, const GridRegion& region) {
     const BothWays of_rows = agreement(y_rows);
     const std::int32_t columns = of_columns.forwards.as_is;
     const std::int32_t rows = of_rows.forwards.as_is;
-    // Half a turn flips and reverses lines.
+    // A half turn reverses the lines and flips their bits.
     const std::int32_t turned_columns = of_columns.backwards.flipped;
     const std::int32_t turned_rows = of_rows.backwards.flipped;
-    // A quarter turn exchanges columns and rows and flips either the columns or the rows (`turned`
-    // in upright.hpp).
+    // A quarter turn exchanges columns and rows. It reverses and flips either the columns or the
+    // rows (see `turned` in upright.hpp).
     const std::array<std::int32_t, 4> scores{columns + rows, turned_columns + rows,
                                              turned_columns + turned_rows, columns + turned_rows};
     std::array<QuarterTurn, 4> turns{QuarterTurn{0}, QuarterTurn{1}, QuarterTurn{2},
@@ -125,7 +125,8 @@ Orientation rank_turns(const Grid& grid, const GridRegion& region) {
 }
 
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t upright) {
-    // A mirror image exchanges the projections of eq. 7 and 8, and may reverse lines.
+    // A mirror image exchanges x and y bits (the projections of eq. 7 and 8), and may reverse
+    // lines.
     const Voters y_columns(grid, region, true, &GridCell::y);
     const Voters x_rows(grid, region, false, &GridCell::x);
     const auto is_much_more = [&](std::int32_t mirrored) {

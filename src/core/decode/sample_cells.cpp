@@ -120,7 +120,7 @@ int CellSampler::shade_q8(FixedVec centre_q8, int half_px) const {
 
 template <typename Use>
 void CellSampler::visit(const Grid& grid, Use use) const {
-    // Each row of intersections is computed once and used by two adjacent rows of cells.
+    // Each row of intersections is computed only once, although two adjacent rows of cells need it.
     std::array<FixedVec, kMaxGridSide + 1> here;
     std::array<FixedVec, kMaxGridSide + 1> below;
     const auto find_row = [&](int j, std::array<FixedVec, kMaxGridSide + 1>& row) {

@@ -87,9 +87,9 @@ namespace step_search {
 inline constexpr std::size_t kChoices = 3;
 }  // namespace step_search
 
-/// The quarter turn of the grid (decode/orientation, decode/bit_lines).
+/// Search for the quarter turn of the grid (decode/orientation, decode/bit_lines).
 namespace turns {
-/// Number of lines per axis that vote on the turn, an even number. The vote of several lines
+/// Number of lines per axis that vote on the turn. Must be even. The vote of several lines
 /// outweighs one misread line.
 inline constexpr int kVoters = 4;
 /// Number of lines per axis that vote on the turn if bits are hard.

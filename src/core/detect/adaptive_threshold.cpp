@@ -12,8 +12,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Half of a low threshold for which every pixel is dark. This sentinel after the levels of the
-/// last column ends the search for dark pixels.
+/// Half of a low threshold for which every pixel is dark. Stored after the last column as a
+/// sentinel, which ends the search for dark pixels.
 constexpr std::uint8_t kAlwaysDark = 128;
 
 constexpr int kBandsKept = 4;  // three are needed; a power of two is faster
@@ -37,7 +37,8 @@ void keep_row(const std::uint8_t* pixels, const AdaptiveThreshold& threshold, st
     const std::uint8_t* const end = pixels + threshold.width_px;
     std::uint8_t* const whole = row + whole_width(threshold);
     if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
-        // The `memcpy` of small devices copies byte by byte, which is slower.
+        // Copies blocks of constant size, which compilers inline. The `memcpy` of small devices
+        // would copy byte by byte.
         copy_blocks<28>(pixels, end, row);
         copy_blocks<12>(pixels, end, row);
         copy_blocks<4>(pixels, end, row);

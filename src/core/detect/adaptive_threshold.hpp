@@ -67,8 +67,8 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold);
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold);
 
 /// Returns the minimum contrast, in grey levels, of tiles of the next band that are not blank. The
-/// minimum increases with the largest contrast so far. After tiles with dots, noise in blank tiles
-/// is therefore rejected.
+/// minimum increases with the largest contrast so far. This rejects noise in blank tiles as soon as
+/// tiles with dots have been measured.
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold);
 
 /// Returns the number of bands in the image.

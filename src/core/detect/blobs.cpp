@@ -10,8 +10,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum area and maximum side of the bounding box of a dot. A blurred dot with a diameter of
-/// 0.35 spacings is smaller, up to a spacing of 60 px.
+/// Maximum area and maximum side of the bounding box of a dot. The limits accept a blurred dot with
+/// a diameter of 0.35 spacings up to a spacing of 60 px.
 constexpr int kMaxDotArea_px = 1024;
 constexpr int kMaxDotSide_px = 48;
 constexpr std::uint32_t kMaxMass = 65535;
@@ -51,7 +51,7 @@ void keep_dots(DotList list, Predicate is_to_keep) {
 
 /// Reduces the distance at which dots are kept, and removes the dots beyond it to make room for
 /// inner dots. Returns false if the distance is 0. Not inlined, because small devices need their
-/// registers for the frequent case.
+/// registers for the frequent path of the caller.
 [[gnu::noinline]] bool make_room(const AdaptiveThreshold& threshold, DotList list) {
     if (list.kept_within_px == 0) return false;
     list.kept_within_px -= list.kept_within_px / 8 + 1;

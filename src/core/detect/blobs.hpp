@@ -1,5 +1,5 @@
-// Blobs: finds connected dark pixels with their centroids weighted by darkness, and selects the
-// dots among these blobs. Paper section II-B.1.
+// Blobs: finds sets of connected dark pixels, computes their centroids weighted by darkness, and
+// selects the dots among these blobs. Paper section II-B.1.
 #pragma once
 
 #include <cstddef>

@@ -23,7 +23,7 @@ bool measure_contrast(Patch& patch);
 /// the edge of a sheet.
 void keep_isolated(Patch& patch);
 
-/// Coordinates of the middle of the patch, in px of the image.
+/// Return the coordinates of the middle of the patch, in px of the image.
 float middle_u_px(const Patch& patch);
 float middle_v_px(const Patch& patch);
 

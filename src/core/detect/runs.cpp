@@ -52,7 +52,7 @@ const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row
     return pixels;
 }
 
-/// Writes the run that begins at `pixel` and returns its end.
+/// Sets `run` to the run that begins at `pixel`. Returns the end of the run.
 const std::uint8_t* write_run(const std::uint8_t* pixel, const std::uint8_t* row,
                               const AdaptiveThreshold& threshold, Run& run) {
     const std::uint8_t* const row_end = row + whole_width(threshold);

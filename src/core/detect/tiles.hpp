@@ -1,4 +1,5 @@
-// Tiles: the mean and the darkest pixels of each tile, from which the thresholds are computed.
+// Tiles: measures the mean and the darkest pixels of each tile, from which the thresholds are
+// computed.
 #pragma once
 
 #include <span>

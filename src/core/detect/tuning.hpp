@@ -8,14 +8,14 @@ namespace dotpose::core::tuning {
 
 /// Measurement of the paper level in blocks of the image (detect/paper).
 namespace paper {
-/// Side of a block, as a part (1/n) of the shorter side of the image. A block contains several
-/// spacings even if few dots are in view, but is small compared with the shading of lamps and
-/// lenses.
+/// Side of a block, as a part (1/n) of the shorter side of the image. A block shows enough paper
+/// even if only 8 dots are in view along this side, but is small enough to follow the gradients of
+/// the light.
 inline constexpr int kBlockPart = 10;
 /// Number of pixels sampled along each side of a block.
 inline constexpr int kSamplesPerSide = 12;
 /// Fraction of the pixels of a block, in thirds, that are darker than its paper level. Dots cover a
-/// smaller fraction, and noise is symmetric about the level.
+/// much smaller fraction of a block, so pixels of this level are paper.
 inline constexpr int kDarker_3rds = 2;
 /// Minimum level of a block, in fourths of the level of the brightest block around it. A darker
 /// block counts as covered by graphics, because the light changes less from block to block. The
@@ -33,8 +33,8 @@ inline constexpr int kMinHalf_px = 4;
 /// located with 4: 1,995; with 9: 1,995.
 inline constexpr int kStroke_10ths = 7;
 /// Minimum level of the normalised image, in fifths of kNormalLevel. This limit makes graphics at
-/// most as dark as a weak dot. Darker graphics would raise the thresholds above the contrast of
-/// nearby dots. Frames located with 2: 1,937.
+/// most as dark as a weak dot. Near darker graphics, the required contrast would exceed the
+/// contrast of dots. Frames located with 2: 1,937.
 inline constexpr int kMinLevel_5ths = 4;
 }  // namespace smooth
 

@@ -1,5 +1,5 @@
-// Words: the adjacent pixels that fit in one register, to process them together. The first pixel is
-// in the lowest byte.
+// Words: adjacent pixels in one register, which are processed together. The first pixel is in the
+// lowest byte.
 #pragma once
 
 #include <bit>

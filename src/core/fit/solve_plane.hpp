@@ -1,5 +1,5 @@
-// Solve: one Gauss-Newton step to the least-squares plane. Distortion terms are shrunk according to
-// their probability.
+// Solve: one Gauss-Newton step to the least-squares plane. Shrinks the distortion terms according
+// to the probability that distortion is present.
 #pragma once
 
 #include <array>

@@ -15,7 +15,7 @@ class Cells {
           dv_q18_{plane.dv_q24.x >> 6, plane.dv_q24.y >> 6} {}
 
     /// Returns the offset of an image point from the centre of the plane, in 1/8 px. The rounding
-    /// error is at most 1/16 px, which is 1/100 of the smallest spacing.
+    /// error is at most 1/16 px, about 1/100 of the smallest spacing.
     FixedVec from_centre_q3(FixedVec image_point_q8) const {
         const FixedVec p = image_point_q8 - rounding_centre_q8_;
         return {p.x >> 5, p.y >> 5};

@@ -163,7 +163,7 @@ constexpr std::int32_t rough_cosine(std::int32_t phase_q16) {
 /// angle of (0, 0) is 0. Requires |x|, |y| < 2^29.
 std::int32_t angle_bam(FixedVec direction);
 
-/// Returns (cosine, sine) of an angle, times 2^30.
+/// Returns (cosine, sine) of a binary angle, times 2^30.
 FixedVec unit_q30(std::int32_t angle_bam);
 
 }  // namespace dotpose::core

@@ -55,7 +55,7 @@ FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point) {
     // Newton's method, with the slope at the current point. For an affine plane, one round is exact
     // except for the truncation in the division.
     constexpr int kMaxRounds = 12;
-    // Maximum coordinate of an image point. If the map folds, the iteration might leave this range.
+    // Limit of the coordinates of the result. Where the map folds, the iteration may not converge.
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
     FixedVec point_q8 = plane.centre_q8;
     for (int round = 0; round < kMaxRounds; ++round) {

@@ -1,4 +1,5 @@
-// Tabled: tables of functions of small integers. The smallest processors have no divider.
+// Tabled: tables of functions of small integers, which replace divisions on processors without a
+// divider.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Vectors: arithmetic on four numbers at once, with vector instructions where the processor has
+// Vectors: vectors of four numbers. Their arithmetic uses vector instructions if the processor has
 // them.
 #pragma once
 
