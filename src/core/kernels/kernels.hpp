@@ -62,7 +62,9 @@ enum class Windows : std::uint8_t { none, on_intersections, on_dots };
 
 /// Options of `list_cells`, which lists the cells whose dots are in view.
 struct CellsInView {
-    FloatPlane plane;  ///< upright pattern; image points are relative to `centre`
+    /// Plane from the image to the upright pattern. Image points are relative to (centre_x,
+    /// centre_y).
+    FloatPlane plane;
     FloatLens lens;
     float centre_x = 0;  ///< origin of image points, in px relative to the first pixel of the image
     float centre_y = 0;
@@ -97,15 +99,16 @@ struct WindowOptions {
 /// Maximum half side of a window, and maximum radius of a centroid window.
 inline constexpr int kMaxHalfWindow_px = 24;
 inline constexpr float kMaxCentroidRadius_px = 24;
-/// Maximum radius of a small centroid window, which takes a tenth of the time of a larger window.
+/// Maximum radius of a small centroid window. Small windows take a tenth of the time of larger
+/// windows.
 inline constexpr float kSmallCentroidRadius_px = 4;
 /// Radius of the centroid window for predicted dots. Small enough to limit noise, and large enough
 /// to include the edge of the dot at 8 to 13 px per spacing.
 inline constexpr float kPredictedCentroidRadius_px = 3.65F;
 
-/// Sums over the inliers for the fit of nine parameters; see PlaneNormal. Places (u, v) are the
-/// places of the dots in the plane, relative to its `at`, in units of its scale. Residuals (x, y)
-/// are in spacings.
+/// Sums over the inliers for the fit of nine parameters; see PlaneNormal. (u, v) is the place of a
+/// dot on the pattern, relative to `at` of the plane, in units of `scale`. (x, y) is the residual
+/// of the dot, in spacings.
 struct FitSums {
     int points = 0;       ///< number of inliers
     int outliers = 0;     ///< number of outliers
@@ -156,7 +159,7 @@ struct BlockSums {
 /// Result of reading the bits of cells and comparing them with the code.
 struct BitsRead {
     int seen = 0;  ///< number of cells with a dark spot
-    int read = 0;  ///< number of `seen` cells whose spot is near one of the four places
+    int read = 0;  ///< number of `seen` cells whose spot is clearly at one of the four places
     int wrong_x = 0;
     int wrong_y = 0;
     int right = 0;        ///< number of `read` cells without a wrong bit
@@ -237,7 +240,8 @@ struct Kernels {
     /// of cell (-32, -32).
     void (*read_cells)(const PatchDots& dots, const FloatPlane& plane, float displacement,
                        BitLines& columns, BitLines& rows);
-    /// Scores 64 cells of a line against the main sequence at each roll.
+    /// Scores a line of 64 cells at each roll. Each valid cell adds 127 if its bit agrees with the
+    /// main sequence, and subtracts 127 if it does not.
     void (*score_line)(std::uint64_t bits, std::uint64_t valid, ScoredLine& line);
     /// Sums the scores of all lines for each of `positions` consecutive positions of the first
     /// line. `rolls` contains the rolls of consecutive lines, beginning with the line at the first

@@ -53,8 +53,8 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
         for (int y = -Half; y <= Half; ++y)
             add_row(Half);
     }
-    // `cumulative` contains the mass of row y (-Half to Half) Half + 1 - y times. The difference is
-    // therefore the sum of y times the mass of row y.
+    // `cumulative` counts the mass of row y (-Half to Half) Half + 1 - y times. The difference is
+    // therefore the sum over the rows of y times the mass of row y.
     return {mass, sum_x, (Half + 1) * mass - cumulative};
 }
 
