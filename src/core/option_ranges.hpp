@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Calls `is_good(name, value, low, high)` for each option until it returns false. Returns true if
-/// `is_good` returned true for all options.
+/// Calls `is_good(name, value, low, high)` for each option until `is_good` returns false. Returns
+/// true if `is_good` returned true for all options.
 template <typename IsGood>
 constexpr bool all_options(const DeviceOptions& options, IsGood is_good) {
     constexpr std::int32_t kFarthestReference_q8 = 16384 * 256;

@@ -11,7 +11,7 @@ struct Extent {
 };
 
 /// Returns the range of cells from `min` to `max`. If the range has more than `capacity` cells,
-/// returns the `capacity` cells of it that are nearest to the origin.
+/// returns the `capacity` cells of the range that are nearest to the origin.
 Extent extent(int min, int max, int capacity) {
     if (max - min < capacity) return {min, max - min + 1};
     const int first = std::clamp(-capacity / 2, min, max - capacity + 1);

@@ -284,9 +284,10 @@ class Ink {
     /// Returns the weight of a bit, in [-127, 127]. `one_q8` is the maximum darkness of the two
     /// places where the bit is 1, and `zero_q8` of the two places where the bit is 0.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
-        // The weight is a log-likelihood ratio. At constant sensor noise, the ratio is proportional
-        // to the difference in grey levels times the contrast in grey levels. Both factors are
-        // proportional to the light, so the weight is proportional to the square of the light.
+        // The weight is proportional to the log-likelihood ratio of the bit. At constant sensor
+        // noise, this ratio is proportional to the difference in grey levels times the contrast in
+        // grey levels. Both factors are proportional to the light, so the weight is proportional to
+        // the square of the light.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
         // The weight is limited, because bit errors at high contrast are not caused by noise.

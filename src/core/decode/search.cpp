@@ -54,8 +54,8 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Returns the reading in which line `line` is at `position` with `roll`, with its score over all
-/// lines.
+/// Returns the reading in which line `line` is at `position` with `roll`. Its score is the sum over
+/// all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     std::array<std::uint8_t, kMaxLines> storage;

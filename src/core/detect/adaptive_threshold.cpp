@@ -208,9 +208,9 @@ void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold
     // width of a tile. The paper level does not include these tiles, because each tile contains
     // paper, and the brightest of several tiles would be too bright.
     join_neighbours(darknesses, tiles);
-    // If less than half of the columns of the last tile are in the image, the tile consists mostly
-    // of the repeated last pixel. Its paper level is then at least the paper level of the tile
-    // before it.
+    // If less than half of the columns of the last tile are in the image, this tile consists mostly
+    // of the repeated last pixel. Its paper level is then set to at least the paper level of the
+    // preceding tile.
     if (whole_width(threshold) - threshold.width_px > kTileWidth_px / 2)
         papers[tiles - 1] = std::max(papers[tiles - 2], papers[tiles - 1]);
     const unsigned contrast_q8 = typical_contrast_q8(

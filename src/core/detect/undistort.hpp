@@ -1,5 +1,5 @@
-// Undistort: converts image points of a lens with distortion to those of a lens without distortion,
-// and back. Paper eq. 1-2.
+// Undistort: converts image points between a lens with distortion and a lens without distortion.
+// Paper eq. 1-2.
 #pragma once
 
 #include "dotpose/device_options.hpp"

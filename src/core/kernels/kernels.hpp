@@ -124,12 +124,12 @@ struct FitSums {
 };
 
 /// Sums over predicted dots. The place of a dot is its predicted image point, in px relative to the
-/// image centre. The offset of a dot is its measured centre minus its place, in px.
+/// centre of the view. The offset of a dot is its measured centre minus its place, in px.
 struct DotOffsets {
     int points = 0;
     float u = 0;  ///< sum of places
     float v = 0;
-    float squares = 0;  ///< sum of the squared distances of the places from the image centre
+    float squares = 0;  ///< sum of the squared distances of the places from the centre of the view
     float squared = 0;  ///< sum of the squared offsets
     float off_u = 0;    ///< sum of offsets
     float off_v = 0;
@@ -289,7 +289,7 @@ struct Kernels {
                        float scale, float limit);
     /// Adds up the residuals of the inliers, whose squared residuals are at most `limit` (in
     /// spacings^2), in `side` x `side` blocks. The blocks cover the image points up to `reach_px`
-    /// from the centre of the plane along both axes.
+    /// from the centre of the plane along both axes. Dots outside belong to the nearest block.
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
     /// Returns the places of a sequence, other than the place `own` of the reading, at which an

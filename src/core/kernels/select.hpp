@@ -7,7 +7,8 @@ namespace dotpose::core {
 
 /// Returns scalar kernels, for any processor. Tests compare all other kernels with these kernels.
 const Kernels& portable_kernels();
-/// Returns kernels with vectors of 16 bytes, for all x86-64 and 64-bit ARM processors.
+/// Returns kernels with vectors of 16 bytes, for all x86-64 and 64-bit ARM processors and for
+/// WebAssembly with SIMD instructions.
 const Kernels& wide_kernels();
 /// Returns kernels for AVX2, or null if the processor or the compiler does not support AVX2.
 const Kernels* avx2_kernels();

@@ -39,7 +39,8 @@ PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 /// is not tilted.
 FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 
-/// Returns the nearest intersection and the offset from it, by eq. 3-5.
+/// Returns the nearest intersection of an image point and the offset from this intersection, by eq.
+/// 3-5.
 GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the inverse of plane_point_q16, in units of 2^-8 px.

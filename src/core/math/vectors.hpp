@@ -1,5 +1,5 @@
-// Vectors: vectors of four numbers. Their arithmetic uses vector instructions if the processor has
-// them.
+// Vectors of four numbers. Their arithmetic uses the vector instructions of the processor, if
+// available.
 #pragma once
 
 #include <cstdint>
