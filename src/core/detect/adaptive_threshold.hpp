@@ -49,8 +49,8 @@ struct AdaptiveThreshold {
     /// Half of the low threshold in each column of the current band. Pixels darker than the low
     /// threshold belong to a blob. The value is 0 in blank tiles, where no pixel belongs to a blob.
     std::span<std::uint8_t> half_low_levels;
-    std::span<std::uint8_t> high_levels;  ///< high threshold in each column; a blob must contain a
-                                          ///< pixel darker than this level
+    /// High threshold in each column. A blob must contain a pixel darker than this level.
+    std::span<std::uint8_t> high_levels;
 };
 
 /// Starts a frame.

@@ -201,8 +201,7 @@ void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& thr
         OpenBlob* const blob = run.blob;
         if (blob == nullptr || blob->last_v == v) continue;
         if (blob->part_of == nullptr) close_blob(*blob, threshold, list);
-        blob->last_v = static_cast<std::uint16_t>(v);  // the loop then skips the other runs of this
-                                                       // blob
+        blob->last_v = static_cast<std::uint16_t>(v);  // skips other runs of this blob
         blob->part_of = open.first_unused;
         open.first_unused = blob;
     }

@@ -31,9 +31,9 @@ struct PosteriorOfKind {
     /// the noise.
     Symmetric precision;
     Pair mean;
-    float distance;     ///< squared Mahalanobis distance of the fitted terms from 0
-    float probability;  ///< prior probability of the component, or its posterior probability after
-                        ///< `weigh`
+    float distance;  ///< squared Mahalanobis distance of the fitted terms from 0
+    /// Prior probability of the component, or its posterior probability after `weigh`.
+    float probability;
 
     PosteriorOfKind() = default;
     PosteriorOfKind(const DistortionPrior::Kind& kind, const Symmetric& spread, const Pair& seen,

@@ -79,8 +79,7 @@ struct CellsInView {
     /// contains, for each row, the index of its cell in column `first_column`.
     const std::uint8_t* column_rolls = nullptr;
     const std::uint8_t* row_rolls = nullptr;
-    int first_column = 0;  ///< column of the pattern to which the first element of `column_rolls`
-                           ///< belongs
+    int first_column = 0;  ///< column of the first element of `column_rolls`
     int first_row = 0;
     int columns = 0;
     int rows = 0;
@@ -113,8 +112,7 @@ struct FitSums {
     int points = 0;       ///< number of inliers
     int outliers = 0;     ///< number of outliers
     float farthest = 0;   ///< largest squared residual of an inlier
-    float projected = 0;  ///< sum of the components of the offsets along the direction of the
-                          ///< displacement
+    float projected = 0;  ///< sum of the offsets along the direction of the displacement
     float squares = 0;    ///< sum of the squared residuals
     /// Sums of 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv, quu, quv, qvv, qqu, qqv and qqq, with q =
     /// uu + vv.
@@ -162,11 +160,11 @@ struct BitsRead {
     int read = 0;  ///< number of `seen` cells whose spot is clearly at one of the four places
     int wrong_x = 0;
     int wrong_y = 0;
-    int right = 0;        ///< number of `read` cells without a wrong bit
-    float projected = 0;  ///< sum of the distances of `right` dots from their intersections, in
-                          ///< spacings
-    float squares = 0;    ///< sum of the squared distances of `right` dots from their places, in
-                          ///< spacings^2
+    int right = 0;  ///< number of `read` cells without a wrong bit
+    /// Sum of the distances of `right` dots from their intersections, in spacings.
+    float projected = 0;
+    /// Sum of the squared distances of `right` dots from their places, in spacings^2.
+    float squares = 0;
 };
 
 /// Minimum loss of an alternative, in bits, in a line that it does not share.
