@@ -43,7 +43,7 @@ std::int8_t quasi_probability(std::int32_t projection_q16) {
 namespace {
 
 /// Fills the grid from all dots. `point_of(dot)` returns the nearest cell of a dot and the offset
-/// from its centre.
+/// of the dot from the centre of this cell.
 template <typename PointOf>
 Status assign(std::span<const DetectedDot> dots, PointOf point_of, Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};

@@ -10,8 +10,8 @@
 namespace dotpose::core {
 
 enum class Axis : std::uint8_t {
-    x,  ///< the x bits, down the columns
-    y,  ///< the y bits, along the rows
+    x,  ///< columns, which are read downwards and contain the x bits
+    y,  ///< rows, which are read to the right and contain the y bits
 };
 
 /// The scores of all lines of one axis.

@@ -94,8 +94,8 @@ namespace turns {
 inline constexpr int kVoters = 4;
 /// Number of lines per axis that vote on the turn if bits are hard.
 inline constexpr int kVotersOfBits = 5;
-/// Difference of the summed scores of the two reading directions, forwards and backwards, at which
-/// the vote ends early: the score of 8 bits.
+/// The vote ends early if the summed scores of the two reading directions (forwards and backwards)
+/// differ by at least this value, which is the score of 8 bits.
 inline constexpr int kLandslide = 8 * 127;
 /// The image counts as mirrored if its agreement with the mirrored pattern exceeds this value, in
 /// fourths of its agreement with the pattern. Lines of random bits have about 60 % of the agreement

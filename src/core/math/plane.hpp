@@ -50,7 +50,7 @@ FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point_q16);
 /// has the same value and slope at this point.
 PlaneFromImage tangent(const PlaneFromImage& plane, FixedVec image_point_q8);
 
-/// Returns the tangent of a plane that has neither perspective nor lens.
+/// Variant of `tangent` for a plane that has neither perspective nor lens.
 PlaneFromImage affine_tangent(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the divisor 1 + perspective . (x, y) + lens (x^2 + y^2), at least 1/4.
