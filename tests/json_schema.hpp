@@ -122,7 +122,14 @@ class JsonSchema {
             keys, [&](const Json& key) { return object.contains(key.get<std::string>()); });
     }
 
-    static bool has_type(const std::string& type, const Json& value) {
+    /// `rule` is the name of a type, or an array of names.
+    static bool has_type(const Json& rule, const Json& value) {
+        if (rule.is_array()) {
+            return std::ranges::any_of(rule,
+                                       [&](const Json& type) { return has_type(type, value); });
+        }
+        const auto type = rule.get<std::string>();
+        if (type == "null") return value.is_null();
         if (type == "object") return value.is_object();
         if (type == "array") return value.is_array();
         if (type == "string") return value.is_string();

@@ -216,7 +216,7 @@ TEST_F(SheetFiles, may_mix_codes_and_spacings) {
     const json record = locate_with_sheets(frame_of(elsewhere, 20, 20, 0, 5));
     EXPECT_EQ(record["status"], "ok");
     EXPECT_NEAR(record["x_grid"], 300'000'000 + (20 - 5.207) / 0.508, 0.04);
-    for (const char* field : {"sheet", "x_sheet_mm", "x_m", "x_mm", "y_mm", "sigma_x_mm"})
+    for (const char* field : {"x_sheet_mm", "x_m", "x_mm", "y_mm", "sigma_x_mm"})
         EXPECT_FALSE(record.contains(field)) << record;
 }
 

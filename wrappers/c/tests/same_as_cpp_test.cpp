@@ -73,6 +73,17 @@ std::vector<GreyImage> drive(int frames) {
     return images;
 }
 
+/// Returns a view of six by six cells of a sheet.
+GreyImage small_view_of(const KnownRegion& sheet) {
+    Setup setup;
+    setup.camera.width_px = 66;
+    setup.camera.height_px = 66;
+    Shot shot = draw_shot(setup, 3);
+    shot.page.pattern.section = sheet.section;
+    shot.pose.cell = {sheet.first.x + 100, sheet.first.y + 200};
+    return render(shot);
+}
+
 /// Returns frames of distant places on a sheet of a code other than the default.
 std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
     Setup setup;
@@ -354,13 +365,7 @@ TEST(C, LocatesSmallViewsOfKnownSheets) {
     ASSERT_EQ(core.set_known({&region, 1}, OtherSheets::impossible), Status::ok);
     const CLocator locator = make_locator();
     ASSERT_EQ(dotpose_set_known(locator.get(), &sheet, 1, DOTPOSE_OTHERS_IMPOSSIBLE), DOTPOSE_OK);
-    Setup setup;
-    setup.camera.width_px = 66;
-    setup.camera.height_px = 66;
-    Shot shot = draw_shot(setup, 3);
-    shot.page.pattern.section = {};
-    shot.pose.cell = {1100, 2200};
-    const GreyImage image = render(shot);
+    const GreyImage image = small_view_of(region);
     const Fix expected = core.locate(image.view());
     ASSERT_EQ(expected.status, Status::ok);
     EXPECT_TRUE(same(locate(locator.get(), image), as_c(expected)));
