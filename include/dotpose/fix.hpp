@@ -29,8 +29,9 @@ enum class Surface : std::uint8_t {
     even,     ///< one plane explains all dots
     divided,  ///< a part of the paper is displaced; the pose is that of the part that contains the
               ///< reference point
-    uneven,   ///< neighbouring dots have similar residuals, as on wrinkled paper; the covariance is
-              ///< larger
+    /// neighbouring dots have similar residuals, as on wrinkled paper; the covariance is widened to
+    /// account for them
+    uneven,
 };
 /// Returns the identifier, such as "divided".
 const char* name(Surface surface) noexcept;

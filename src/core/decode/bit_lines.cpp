@@ -57,10 +57,10 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
     return {std::clamp(BitBlock::kMiddle - max_count / 2, first, last + 1 - max_count), max_count};
 }
 
-/// Returns the score of a line read backwards minus its score read forwards. If the line agrees
-/// exactly in only one direction, only its bits beyond the first six count. By chance, six bits
-/// almost always also agree exactly in the wrong direction. Each further bit halves the probability
-/// of such an agreement.
+/// Returns the score of a line read backwards minus its score read forwards. If all bits of the
+/// line agree with the main sequence in only one direction, the score counts only the bits beyond
+/// the first six. By chance, six bits almost always also agree exactly in the wrong direction. Each
+/// further bit halves the probability of such an agreement.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);
@@ -79,7 +79,7 @@ int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid
 }
 
 /// Returns the sum of the scores of several lines read backwards, minus the sum of their scores
-/// read forwards. Ends early if the sums differ clearly.
+/// read forwards. Ends early if the sums differ by at least `kLandslide`.
 int backwardness(const Kernels& kernels, const BitLines& lines) {
     constexpr int kVoters = tuning::turns::kVotersOfBits;
     const LineRange range = lines_with_bits(lines, BitBlock::kSide);

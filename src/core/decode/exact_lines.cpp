@@ -31,8 +31,9 @@ std::uint64_t main_word(int index) {
 }
 
 /// Finds the position of the first line of a range, and its roll at `first_cell`. Returns false if
-/// too few adjacent lines are exact, if their rolls do not occur in the code, or if the lines have
-/// too many bit errors at the position.
+/// the last three quarters of the lines contain no `run_length(code)` adjacent exact lines, if
+/// their rolls do not occur in the code, or if the number of wrong bits at the position exceeds
+/// half the number of lines.
 bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange& range,
                        int first_cell, AxisReading& reading) {
     const auto count = static_cast<std::size_t>(range.count);

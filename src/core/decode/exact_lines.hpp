@@ -12,9 +12,11 @@ namespace dotpose::core {
 /// bits.
 std::uint8_t exact_roll(std::uint64_t bits, std::uint64_t valid);
 
-/// Finds the place of cell (0, 0) of an upright block from exact lines. Returns false if too few
-/// adjacent lines are exact, if their rolls do not occur in the code, or if the columns or the rows
-/// have more bit errors at the place than half the number of their lines.
+/// Finds the place of cell (0, 0) of an upright block from exact lines: lines for which
+/// `exact_roll` returns a roll. Returns false if, on either axis, the last three quarters of the
+/// lines contain no `run_length(code)` adjacent exact lines, if their rolls do not occur in the
+/// code, or if the columns or the rows have more bit errors at the place than half the number of
+/// their lines.
 bool find_place_exactly(CodeVariant code, const BitBlock& block, Place& place);
 
 }  // namespace dotpose::core

@@ -15,9 +15,9 @@ struct Orientation {
                              ///< likely turn
 };
 
-/// Ranks the four turns by a vote of the columns and rows. The lines of each axis are compared with
-/// the main sequence both as read and after a half turn, which reverses the lines and flips their
-/// bits.
+/// Ranks the four turns (0 to 3 quarter turns) by a vote of columns and rows. The lines of each
+/// axis are compared with the main sequence both as read and after a half turn, which reverses the
+/// lines and flips their bits.
 Orientation rank_turns(const Grid& grid, const GridRegion& region);
 
 /// Returns true if the region agrees much better with a mirrored pattern than with the pattern. In

@@ -16,7 +16,8 @@ Status decode_window(const Grid& grid, CodeVariant code, std::span<ScoredLine> s
                      Decoding& decoding);
 
 /// Decodes all dots: correlates all lines with the main sequence, and finds the position with the
-/// highest sum of scores. Tries the two most likely turns and keeps the turn with the higher sum.
+/// highest sum of scores. Tries the most likely turn and, unless the position is already clear
+/// (`AxisReading::is_clear`), the second most likely turn. Keeps the turn with the higher sum.
 /// Errors: grid_too_small, not_in_code.
 Status decode_all(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                   Decoding& decoding);

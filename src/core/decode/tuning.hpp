@@ -19,9 +19,8 @@ inline constexpr std::size_t kMedianSample = 256;
 /// Half the side of the square for the shade of a place, as a part (1/n) of the spacing. The square
 /// is wider than a dot and does not reach the dots of neighbouring cells.
 inline constexpr int kShadePart = 5;
-/// Distances from a place to the squares in which graphics are searched, in 1/60 spacings, along
-/// the axes and diagonally. With these distances, the search finds every stroke that touches the
-/// dot.
+/// Distances from a place to the squares that are tested for graphics, in 1/60 spacings, along the
+/// axes and diagonally. With these distances, the test finds every stroke that touches the dot.
 inline constexpr int kBeside_60th = 8;
 inline constexpr int kBesideDiagonally_60th = 5;
 /// Darkness of solid ink relative to the paper level, in 1/256. A shade above the geometric mean of

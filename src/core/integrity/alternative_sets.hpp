@@ -1,5 +1,6 @@
 // Alternative sets: the far alternatives, grouped by the sequences in which their places differ
-// from the places of the reading. See docs/integrity.md.
+// from the places of the reading. A far alternative differs from the reading in two or more
+// sequences. See docs/integrity.md.
 #pragma once
 
 #include <array>

@@ -6,10 +6,11 @@
 
 namespace dotpose::core {
 
-/// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up and
-/// limited to 0. The odds of the far alternatives are an expectation, the other odds are upper
-/// bounds. The sum is only as precise as necessary for a comparison with 2^limit_log2. Returns 0 if
-/// there are at most 5 lines.
+/// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up, at
+/// most 0. For the alternatives that differ from the position read in several sequences and share
+/// few adjacent lines (far alternatives), the sum contains expected odds, except for the
+/// alternatives that are counted one by one. All other odds are upper bounds. The sum is only as
+/// precise as necessary for a comparison with 2^limit_log2. Returns 0 if there are at most 5 lines.
 int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

@@ -16,8 +16,8 @@
 
 namespace dotpose::core {
 
-/// Hard bits of one axis near the middle of the view, from the first to the last line that has
-/// bits.
+/// Hard bits (bits that all have the full weight, 127) of one axis near the middle of the view,
+/// from the first to the last line that has bits.
 struct AxisBits {
     std::span<const ComparedLine> lines;
     AxisReading reading;    ///< reading of the first line, at the first bit of its word
@@ -27,9 +27,9 @@ struct AxisBits {
 
 /// Returns true if the hard bits alone, without the scores of lines, make the position certain.
 /// This takes a tenth of the work of `is_certain` and suffices for clean frames. Returns false if
-/// in doubt. Only the bits near the middle of the view are compared with alternatives, which can
-/// only increase the bound. Sets `bit_errors` of the fix. If the result is true, also sets
-/// `p_wrong_log2` of the fix and, unless `others` is null, the odds of the other codes.
+/// in doubt. Only the bits near the middle of the view are compared with alternatives. Ignoring the
+/// other bits can only increase the bound. Sets `bit_errors` of the fix. If the result is true,
+/// also sets `p_wrong_log2` of the fix and, unless `others` is null, the odds of the other codes.
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
                           CodeVariant code, const IntegrityOptions& options, Fix& fix,
                           OtherCodes* others = nullptr);

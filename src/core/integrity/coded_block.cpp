@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Index of the first of the middle lines, and of the first of the middle cells of each line:
-/// relative to cell (0, 0), and in a BitBlock.
+/// Index of the first line that is compared, and of the first cell of each line that is compared.
+/// `kFirst` is relative to cell (0, 0), `kFirstOfBlock` is the index in a BitBlock.
 constexpr int kFirst = -kMaxComparedLines / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 
@@ -31,8 +31,9 @@ std::uint32_t longest_run(std::uint32_t bits) {
 
 }  // namespace
 
-/// Compares `count` lines of one axis, from the line `first_line` on, with the code. `rolls`
-/// contains the rolls of these lines at the cell `first_cell`.
+/// Compares `count` lines of one axis, from the line `first_line` on, with the code. Skips lines
+/// outside the middle kMaxComparedLines lines. `rolls` contains the rolls of the `count` lines at
+/// the cell `first_cell`.
 CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rolls, int first_line,
                                   int count, int first_cell) {
     Half half;

@@ -1,5 +1,5 @@
 // Confidence: the reliability of the bits, and the probability that random bits agree with the code
-// equally well. docs/integrity.md derives the formulas.
+// at least as well as the bits that were read. docs/integrity.md derives the formulas.
 #pragma once
 
 #include <array>
@@ -66,9 +66,10 @@ class Confidence {
 /// information.
 int odds_per_bit_q8(const Confidence& confidence);
 
-/// Returns log2 of an upper bound on the probability that random bits of these weights agree at
-/// least as well with the code, at any position, in any section and turn of one axis. These are L *
-/// 63 * 4 hypotheses. Chernoff's bound, with weights scaled to log odds, applies to each
+/// Returns log2 of an upper bound on the probability that random bits of these weights agree with
+/// the code at least as well as the bits that were read, at any position, in any section and any of
+/// the four orientations of one axis. These are L * 63 * 4 hypotheses, where L = 410,815,348 is the
+/// number of positions. Chernoff's bound, with weights scaled to log odds, applies to each
 /// hypothesis. The result is an upper bound for any value of `odds_per_bit_q8`, and is smallest
 /// near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);

@@ -10,7 +10,7 @@ namespace dotpose::core {
 /// Maximum number of anchors. The anchors are the lines with the most information, which have the
 /// first ranks.
 inline constexpr int kMaxAnchors = 12;
-/// Alternatives that share at least this number of anchors are always counted one by one.
+/// Alternatives that share at least this number of anchors are never part of the expected odds.
 inline constexpr int kMinFound = 7;
 
 /// Returns the expected sum of the odds of all double alternatives that share fewer than n anchors,

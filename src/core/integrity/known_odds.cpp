@@ -72,8 +72,8 @@ class OddsByClass {
 };
 
 /// Returns an upper bound on the probability that at most `wrong` of `bits` random bits contradict
-/// a given place. The terms of the binomial sum, from the last term on, decrease at least as fast
-/// as a geometric series.
+/// a given place. From the last term backwards, the terms of the binomial sum decrease at least as
+/// fast as a geometric series. Returns 1 if at least a third of the bits are wrong.
 float random_agreement(int bits, int wrong) {
     if (3 * wrong >= bits) return 1;
     float term = 1;  // probability of exactly k wrong bits, divided by 2^exponent
@@ -157,7 +157,8 @@ float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const Odd
 
 float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
                         CodeVariant code, const Place& place) {
-    const int bits = number_of_bits(block.columns);  // of each axis
+    // Number of bits read per axis, the same for columns and rows.
+    const int bits = number_of_bits(block.columns);
     const ScoredTurn upright(kernels, block);
     const CornerPlace best{code, moved(code, place, upright.columns_range.first - BitBlock::kMiddle,
                                        upright.rows_range.first - BitBlock::kMiddle)};

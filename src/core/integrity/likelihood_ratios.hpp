@@ -1,4 +1,14 @@
 // Likelihood ratios: the losses and odds of alternatives, relative to the position read.
+//
+// Terms of this folder. The reading is the position and section that was read; its odds are 1. An
+// alternative is any other position or section. Its roll offset in a line is its roll minus the
+// roll of the reading, modulo 63. The line is shared if the roll offset is 0. The places of an
+// alternative in the four secondary sequences determine its roll offsets up to a shift that is
+// common to all lines; the shift depends on the section. A step leads from one line to the next.
+// A single alternative differs from the reading in the place in one secondary sequence, a double
+// alternative in two, a far alternative in two or more. A near alternative shares several adjacent
+// lines. A seam alternative has one shift before a border between two lines, and another shift
+// beyond the border.
 #pragma once
 
 #include <algorithm>

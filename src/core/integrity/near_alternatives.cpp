@@ -14,8 +14,8 @@ namespace {
 /// positive.
 constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 
-/// The places in one sequence where the digits of the reading between the lines of a run occur.
-/// These places include the place of the reading.
+/// The places of one sequence at which the digits of a run occur: the digits that the reading has
+/// between adjacent lines of the run. Includes the place of the reading itself.
 class TwinPlaces {
   public:
     /// The run begins at line `run` and has `digits` + 1 lines.

@@ -7,9 +7,10 @@
 namespace dotpose::core {
 
 /// Returns an upper bound on the summed odds of all alternatives that share at least `shared_lines`
-/// (4 or 5) adjacent lines. Counts the alternatives one by one, from the places in the secondary
-/// sequences where the 3 or 4 digits between these lines occur again. Alternatives that share more
-/// lines are counted more than once. Hopeless alternatives count with the odds kNegligible.
+/// (4 or 5) adjacent lines. Enumerates the alternatives by looking up, in each secondary sequence,
+/// all places of the 3 or 4 digits between these lines. An alternative that shares more lines is
+/// counted more than once. A hopeless alternative (`LikelihoodRatios::is_hopeless`) contributes
+/// kNegligible.
 float sum_of_near_alternatives(const RankedLines& lines, int shared_lines);
 
 }  // namespace dotpose::core

@@ -43,7 +43,8 @@ class PossibleCodes {
     /// Returns log2 of 2^log2 * factor, rounded up. Factors up to 1.01 count as 1.
     static int rounded_up(int log2, float factor);
 
-    /// Judges a fix with status ok, read in the code `read`.
+    /// Returns the certainty of a fix with status ok that was read in the code `read`. `others`
+    /// contains the odds of the other codes.
     Judgement judge(CodeVariant read, const OtherCodes& others, const Fix& fix,
                     int max_p_wrong_log2) const;
 

@@ -94,8 +94,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
 }
 
 /// Returns log2 of an upper bound on the odds of the alternatives of all sets that share at most
-/// seven lines, in units of 2^-8. Such an alternative loses at least the minimum losses of all
-/// lines except the seven largest losses. The odds of this loss are multiplied by the number of
+/// seven lines, in units of 2^-8. Such an alternative loses at least the sum of the minimum losses
+/// of all lines, without the seven largest. The odds of this loss are multiplied by the number of
 /// alternatives, the number of rolls in the first line, and the number of subsets of shared lines,
 /// which is at most 2^lines.
 int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
@@ -130,10 +130,10 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
         odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
-    // The other four sets contain more alternatives, but these alternatives share lines more
-    // rarely. In each of these sets, the alternatives that share more than seven lines have less
-    // than half of the odds of the first set. For all five sets together, these odds are less than
-    // three times the odds of the first set.
+    // The other four sets contain more alternatives, but these alternatives share lines more rarely
+    // than those of the first set. In each of these sets, the alternatives that share more than
+    // seven lines have less than half of the odds of the first set. For all five sets together,
+    // these odds are less than three times the odds of the first set.
     constexpr int kThreeTimes_q8 = 406;
     if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
         const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(ratios));

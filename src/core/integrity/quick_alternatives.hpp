@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Returns log2 of the bound, in units of 2^-8, at most 0. Returns 0 as soon as a part of the bound
-/// reaches the limit.
+/// Returns log2 of the bound, in units of 2^-8, at most 0. Returns 0 if the bound on the far
+/// alternatives and the other sections alone reaches the limit.
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8 = 0);
 
 }  // namespace dotpose::core

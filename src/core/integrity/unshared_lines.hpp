@@ -52,8 +52,9 @@ class UnsharedLines {
     int min_loss(const std::array<std::string_view, 3>& unshared_in_other) const;
 
   private:
-    /// Chooses the table, and returns the minimum losses of the table lines. Lines in the middle of
-    /// the view are the longest. Returns an empty span if there are too few lines for any table.
+    /// Chooses the table, and returns the minimum losses of the table lines. The table lines are in
+    /// the middle of the view, where the lines have the most bits. Returns an empty span if there
+    /// are too few lines for any table.
     std::span<const std::int16_t> choose_lines(int max_lines);
 
     const LikelihoodRatios& ratios_;

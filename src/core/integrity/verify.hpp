@@ -34,8 +34,8 @@ Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
 Status verify_tracked(CodeVariant code, std::span<const ComparedLine> lines, const Place& corner,
                       const IntegrityOptions& options, Decoding& decoding, Fix& fix);
 
-/// Sets the odds of the codes other than `code`, in which the grid was read. Does nothing if
-/// `others` is null.
+/// Sets the odds of all codes other than `code`, the code in which the grid was read. Does nothing
+/// if `others` is null.
 void weigh_other_codes(const Kernels& kernels, const Grid& grid, CodeVariant code,
                        const Decoding& decoding, std::span<ScoredLine> storage, OtherCodes* others);
 

@@ -257,8 +257,8 @@ std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
     return dot;
 }
 
-/// Rejects dots whose mass differs much from the typical mass. Such dots are dirt, graphics, or
-/// bare paper where a dot is missing.
+/// Rejects dots whose mass is below half, or above kTooDark_halves halves, of the typical mass.
+/// Such dots are dirt, graphics, or bare paper where a dot is missing.
 void reject_mass_outliers(Grid& grid, std::span<DetectedDot> dots) {
     constexpr std::size_t kSample = tuned::kMedianSample;
     std::array<std::int32_t, kSample> masses;

@@ -91,8 +91,9 @@ struct Symmetric3 {
     }
 };
 
-/// Least-squares affine map of all coherent dots. The gain of a step at a line is relative to this
-/// map, because an affine map absorbs most of a step in the middle of the view.
+/// Least-squares affine map from the places of all coherent dots to their residuals. The gain of a
+/// step at a line is relative to this map, because an affine map absorbs most of a step in the
+/// middle of the view.
 class AffineFit {
   public:
     AffineFit() = default;
@@ -181,15 +182,16 @@ class Search {
         const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
         lines_ = std::clamp(wanted, std::size_t{4}, kLines);
         per_spacing_ = static_cast<float>(lines_) / length;
-        // If outliers are frequent, as among words, additional outliers beyond a line are weak
-        // evidence.
+        // If outliers are frequent, for example in printed text, outliers beyond a line are only
+        // weak evidence that the paper is displaced there.
         off_plane_ = std::log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
             sums_[k] = sums_of(dots_[k]);
         fit_affine();
     }
 
-    /// Replaces `best` by the best line perpendicular to a direction if its gain is larger.
+    /// Replaces `best` with the best line perpendicular to a direction if that line has a larger
+    /// gain than `best`.
     void try_direction(FloatVec direction, PaperStep& best) const {
         std::array<PartSums, kLines> beyond = strips_along(direction);
         const auto consider = [&](std::size_t line, float gain) {
@@ -285,9 +287,9 @@ class Search {
     }
 
     /// Returns the gain of separate planes for the two parts relative to the single plane, as a log
-    /// likelihood ratio. The near part also has its own plane, because the single plane may be a
-    /// compromise between the parts. If the dots beyond the line have no common plane, their log
-    /// odds are 0.
+    /// likelihood ratio. The part on the side of the reference point also has its own plane,
+    /// because the single plane may be a compromise between the parts. If the dots beyond the line
+    /// have no common plane, their log odds are 0.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));

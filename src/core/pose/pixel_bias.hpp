@@ -1,7 +1,7 @@
 // Pixel bias: corrects the bias of the centroids due to the sub-pixel phase of the dots. If the
 // phases of the dots are evenly distributed, the bias averages out. If all dots have the same
-// phase, the bias is computed from a model dot and subtracted. differs: the frames of the paper
-// contain all phases.
+// phase, the bias is computed from a model dot and subtracted. differs: the paper needs no such
+// correction, because its frames contain all phases.
 #pragma once
 
 #include "core/kernels/kernels.hpp"

@@ -76,8 +76,9 @@ bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
                        split.fit))
             return false;
         if (round + 1 == tuned::kRounds) break;
-        // Relative to the plane of one side, the line is found more precisely. The gain relative to
-        // this plane is not used, because the dots beyond the line did not contribute to the plane.
+        // Relative to the plane of one side, the search finds the line more precisely than relative
+        // to the plane of all dots. The gain relative to this plane is not used, because the dots
+        // beyond the line did not contribute to the plane.
         const PaperStep step = find_paper_step(dots, split.plane, split.fit, reference_px);
         if (step.gain > 0) split.step = step;
     }

@@ -39,7 +39,7 @@ namespace fit {
 /// Maximum number of Gauss-Newton rounds, in `refine_pose` and in `fit_plane`.
 inline constexpr int kMaxRounds = 4;
 inline constexpr int kMaxRoundsOfFloats = 5;
-/// Squared length of a step, in units of the standard deviation of the pose, after which the fit
+/// Squared step length, in units of the standard deviation of the pose, up to which `refine_pose`
 /// ends. The next step would be much smaller.
 inline constexpr float kSettled = 0.01F;
 /// Outlier limit, in medians of the squared residuals. The median is 1.39 sigma^2, so the limit is
@@ -55,8 +55,9 @@ inline constexpr float kMaxByNoise = 0.9F;
 /// Minimum number of dots for `fit_plane`.
 inline constexpr int kMinDots = 20;
 /// Squared length of a step, in units of the standard deviation of the pose, below which the fit
-/// has converged: kNonlinearSettled / nonlinearity^2, clamped to [kMinSettled, kMaxSettled]. After
-/// the last step, the remaining error is about a fifth of a standard deviation.
+/// has converged: kNonlinearSettled / n^2, where n is the nonlinearity of the plane (`settled` in
+/// float_fit.cpp), clamped to [kMinSettled, kMaxSettled]. After the last step, the remaining error
+/// is about a fifth of a standard deviation.
 inline constexpr float kMinSettled = 0.2F;
 inline constexpr float kMaxSettled = 30;
 inline constexpr float kNonlinearSettled = 0.04F;
@@ -113,11 +114,12 @@ inline constexpr float kSlopes = 0.03F;
 /// Correlation of residuals (pose/uneven).
 namespace uneven {
 /// Limits of the excess of the scatter between blocks, in standard deviations. Fast attempts search
-/// for a line above kSuspect. The second attempt, whose dots are noisier, searches above
-/// kMaybeLine, because the plane absorbs most of a step at a line. Above kShared, the common
-/// residuals increase the covariance; 1 of 20 flat sheets exceeds kShared. One side of a line
-/// counts as even up to kSuspect. A sheet without a line counts as uneven above kUneven; hardly 1
-/// of 1,000 flat sheets exceeds kUneven. Measured by `dotpose_tables slips`.
+/// for a line that divides the sheet if the excess is above kSuspect. The second attempt, whose
+/// dots are noisier than those of fast attempts, already searches above kMaybeLine, because the
+/// plane absorbs most of a step at a line. Above kShared, the common residuals increase the
+/// covariance; 1 of 20 flat sheets exceeds kShared. One side of a line counts as even up to
+/// kSuspect. A sheet without a line counts as uneven above kUneven; at most about 1 of 1,000 flat
+/// sheets exceeds kUneven. Measured by `dotpose_tables slips`.
 inline constexpr float kMaybeLine = 0.9F;
 /// Number of dots up to which kMaybeLine applies. With more dots, the common residuals of any sheet
 /// are more significant.
