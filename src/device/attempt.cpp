@@ -14,20 +14,21 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of dots from which the grid is searched. The time of the search depends on this
-/// number (docs/firmware.md).
+/// Maximum number of dots used to search for the grid. Determines the time of the search
+/// (docs/firmware.md).
 constexpr int kSeeds = 64;
 
 /// Returns the point at which the search for the grid starts. This is the image centre, or the
-/// centroid of the dots if the centroid is far from the centre, as at the edge of a sheet.
+/// centroid of the dots if the centroid is far from the centre, for example because the edge of a
+/// sheet is in view.
 FixedVec start_q8(const Workspace& w) {
     const FixedVec centre_q8 = image_centre_q8(w.threshold);
     FixedVec sum_q4;
     for (const DetectedDot& dot : w.found_dots())
         sum_q4 = sum_q4 + FixedVec{dot.centre_q8.x >> 4, dot.centre_q8.y >> 4};
     const FixedVec mean_q8{sum_q4.x / w.dot_count * 16, sum_q4.y / w.dot_count * 16};
-    // If the pattern fills the view, the centroid is within a few hundredths of half a side of the
-    // image centre.
+    // If the pattern fills the view, the distance of the centroid from the image centre is at most
+    // a few hundredths of half a side.
     constexpr int kFar = 4;
     const bool is_far = magnitude(mean_q8.x - centre_q8.x) * kFar > centre_q8.x ||
                         magnitude(mean_q8.y - centre_q8.y) * kFar > centre_q8.y;

@@ -133,8 +133,9 @@ bool begin_reading(Tracking& tracking) {
 
 void read_ready_dots(Tracking& tracking) {
     const RowDirection direction = row_direction(tracking);
-    // The pixels of a dot may extend one row beyond the square of its intersection, except in the
-    // last row of the image.
+    // The pixels of a dot may extend one row below the square around its intersection, so one more
+    // row must be stored. After the last row of the image, no further row is needed: all pixels of
+    // dots in view are inside the image.
     const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
     const std::int32_t ready_q16 = (tracking.rows_taken - ahead - kHalf_px) * 65536 + 32767;
     TrackedRow* row = &tracking.grid_rows[static_cast<std::size_t>(tracking.first_cell)];

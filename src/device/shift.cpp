@@ -11,11 +11,11 @@
 namespace dotpose::core {
 
 Shifts::Shifts(const Tracking& tracking) {
-    // Only dots within two spacings of the middle column are used. A turn hardly blurs the sums
-    // over these dots.
+    // Only dots within two spacings of the middle column are used. A rotation relative to the
+    // prediction hardly blurs the sums over these dots.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
-    // A turn of 4 degrees (18/256 rad) about the image centre moves the first rows sideways.
+    // A rotation of 4 degrees (18/256 rad) about the image centre moves the first rows sideways.
     const int sideways_px = 18 * ((tracking.height_px - rows_) / 2) >> 8;
     const auto steps = [](int reach_px) {
         return std::min((reach_px + kStep_px - 1) / kStep_px, kMaxSteps);
@@ -54,7 +54,7 @@ void Shifts::add_dots(const Tracking& tracking) {
     const int reach = kStep_px * steps_.y;
     // Maximum distance of the cells visited from the middle cell, along each axis. These cells
     // contain all dots within two spacings of the middle column, and all dots that a shift may move
-    // into the first rows, at any turn of the grid.
+    // into the first rows, at any rotation of the grid.
     constexpr int kAround = 5;
     const FixedVec middle = middle_cell(tracking);
     const auto around = [&](int cell) {

@@ -9,14 +9,15 @@ namespace dotpose::core {
 
 /// Mean darkness of the pixels at the predicted dots near the middle column of the image, for each
 /// possible shift. At the correct shift, all displaced dots are at their predicted places, so this
-/// shift is the darkest. If few dots are in view, shifts by one spacing may be nearly as dark.
+/// shift is the darkest. If few dots are in view, shifts that differ from it by one spacing may be
+/// nearly as dark.
 class Shifts {
   public:
-    /// Searches the rows stored in `tracking`.
+    /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Sets `shift_q8` to the darkest shift that was not returned yet. Returns false if all shifts
-    /// were returned.
+    /// Sets `shift_q8` to the darkest shift that is neither a shift returned before nor its
+    /// neighbour. Returns false if there is none.
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }

@@ -19,8 +19,8 @@ constexpr int kMinFraction_q3 = 6;
 /// Minimum number of measured dots at which the fraction is tested.
 constexpr int kMinMeasured = 8;
 
-/// Least squares of a shift, a turn and a stretch: offset = shift + stretch p + turn J p, where J
-/// rotates by a quarter turn.
+/// Least-squares fit of a shift, a rotation and a stretch: offset = shift + stretch p + turn J p,
+/// where J rotates by a quarter turn.
 class SimilarityFit {
   public:
     /// Adds a dot. p is the predicted place of the dot, in px relative to the middle.
@@ -165,8 +165,8 @@ void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) 
     }
 }
 
-/// Applies a small turn and stretch of the cells to the slopes of the plane. For each coordinate,
-/// the pair (dv, du) is scaled and rotated like a vector.
+/// Applies a small rotation and stretch of the cells to the slopes of the plane. For each
+/// coordinate, the pair (dv, du) is scaled and rotated like a vector.
 void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
     FixedVec& du = tracking.du_q20;
     FixedVec& dv = tracking.dv_q20;
