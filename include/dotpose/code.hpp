@@ -5,8 +5,8 @@
 /// four digits, one from each of four cyclic sequences with coprime lengths. The digits of
 /// consecutive differences determine the position of the column. Rows encode y in the same way.
 ///
-/// Frame: x to the right, y DOWN, as the printed page is read. All functions are pure and
-/// thread-safe, and do not allocate.
+/// Coordinate frame: x to the right, y DOWN, as the printed page is read. All functions are pure
+/// and thread-safe, and do not allocate.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,9 @@ inline constexpr int kSections = 63;
 enum class CodeVariant : std::uint8_t {
     anoto,      ///< a4 as restored in the paper; unambiguous on the whole plane; the default for
                 ///< printing
-    libdots,    ///< a4 as misprinted in the patent, used by libdots and other open tools; smaller
-                ///< windows than 8 x 8 symbols may be ambiguous
+    /// a4 as misprinted in the patent, used by libdots and other open tools; windows smaller than 8
+    /// x 8 symbols may be ambiguous
+    libdots,
     microdots,  ///< another a4, used by py-microdots and its ports
 };
 /// Number of values of CodeVariant.

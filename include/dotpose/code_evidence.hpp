@@ -9,7 +9,7 @@
 ///         evidence = reading.evidence;
 ///     }
 ///
-/// docs/integrity.md derives the numbers.
+/// docs/integrity.md derives the odds.
 #pragma once
 
 #include <array>

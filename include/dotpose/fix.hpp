@@ -29,8 +29,8 @@ enum class Surface : std::uint8_t {
     even,     ///< one plane explains all dots
     divided,  ///< a part of the paper is displaced; the pose is that of the part that contains the
               ///< reference point
-    /// neighbouring dots have similar residuals, as on wrinkled paper; the covariance is widened to
-    /// account for them
+    /// neighbouring dots have correlated residuals, as on wrinkled paper; the covariance is widened
+    /// to account for them
     uneven,
 };
 /// Returns the identifier, such as "divided".

@@ -33,8 +33,8 @@ struct PacerOptions {
     /// The distance is measured from the place where the device came to rest. Default: a tenth of a
     /// spacing. The distance must be well above the noise of a resting device.
     std::int32_t moved_q16 = 6554;
-    /// Minimum turn that counts as movement, as a binary angle: 2^31 is half a turn. Default: one
-    /// degree.
+    /// Minimum rotation that counts as movement, as a binary angle: 2^31 is half a turn. Default:
+    /// one degree.
     std::int32_t turned_bam = 11'930'465;
     /// True if a stationary device that no longer sees the pattern counts as moved, for example
     /// because it was lifted. Default: true. Set this option to false if frames also fail at rest.
@@ -44,7 +44,7 @@ struct PacerOptions {
 /// State of motion of the device, as determined from the frames so far.
 enum class Motion : std::uint8_t { moving, stationary };
 
-/// Determines the times of frames.
+/// Schedules the frames. Takes them less often while the device is stationary.
 class FramePacer {
   public:
     explicit FramePacer(const PacerOptions& options = {}) : options_(options) {}

@@ -149,7 +149,7 @@ class Locator : public RowLocator {
     CodeReading locate_in_code(const ImageView& image);
 
     /// Starts an image that is pushed row by row, with or without a prediction. The locator keeps
-    /// the rows. Errors: bad_argument, image_too_small, image_too_large. The last error means that
+    /// the rows. Errors: bad_argument, image_too_small, image_too_large. image_too_large means that
     /// the image is wider than the memory supports, or has more pixels than the memory can store:
     /// 188 x 188 for a SmallMemory, 1280 x 1024 for a LargeMemory.
     Status begin(int width_px, int height_px);

@@ -30,7 +30,7 @@ struct Prediction {
     /// deviations, but at most 0.6 spacing.
     std::int32_t sigma_q16 = 65536 / 5;
     /// Standard deviation of the angle, as a binary angle: 2^31 is half a turn. Default: 1.4
-    /// degrees. The search does not use this value. It covers turns of up to 4 degrees.
+    /// degrees. The search does not use this value. The search covers rotations of up to 4 degrees.
     std::int32_t sigma_theta_bam = 1 << 24;
 
     /// Returns the prediction for a camera that does not move after the frame of `fix`. The fix
@@ -38,7 +38,7 @@ struct Prediction {
     static Prediction like(const Fix& fix);
 };
 
-/// Returns the prediction for a camera that has moved by `by_q16` and turned by `turn_bam` about
+/// Returns the prediction for a camera that has moved by `by_q16` and rotated by `turn_bam` about
 /// the image point `pivot_q8`. `by_q16` is in the pattern frame, in units of 2^-16 spacings. For
 /// `turn_bam`, 2^31 is half a turn. `pivot_q8` is in units of 2^-8 px.
 Prediction moved(const Prediction& prediction, CodeVariant code, FixedVec by_q16,

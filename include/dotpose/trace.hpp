@@ -62,7 +62,8 @@ struct GridCell {
     /// Quasi-probability of the x bit, from -127 (certainly 0) to 127 (certainly 1).
     std::int8_t x = 0;
     std::int8_t y = 0;
-    std::uint16_t dot = kNoDot;  ///< index of the dot in this cell, or kNoDot
+    /// index of the dot in this cell, kNoDot, or kHidden plus the mask
+    std::uint16_t dot = kNoDot;
 };
 
 /// Quarter turn from the grid to the pattern: pattern_step = turn(grid_step).

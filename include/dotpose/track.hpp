@@ -13,10 +13,10 @@
 /// `predict` returns the expected place of the pattern in the next frame; examples/follow_robot.cpp
 /// has a loop that uses it.
 ///
-/// Frames: all poses are in the plane of the sightings. This plane is the pattern frame, or the
-/// world of a sheet file, in which a robot may drive from sheet to sheet. Positions are integers in
-/// nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary, from +x towards
-/// +y; 2^31 is half a turn. Velocities: mm/s along x and y, rad/s.
+/// Coordinate frames: all poses are in the plane of the sightings. This plane is the pattern frame,
+/// or the world of a sheet file, in which a robot may drive from sheet to sheet. Positions are
+/// integers in nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary, from
+/// +x towards +y; 2^31 is half a turn. Velocities: mm/s along x and y, rad/s.
 ///
 /// No heap, no double, no globals. Different trackers may be used at the same time.
 #pragma once

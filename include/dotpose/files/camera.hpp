@@ -1,8 +1,9 @@
 /// Camera: the optics of one camera, its view of the paper and its place on the robot.
 ///
-/// Frames: *pixel* (the centre of the first pixel is (0, 0), v down); *undistorted* pixel, the
-/// pixel of the same point in a camera without distortion, possibly outside the image; *camera*, mm
-/// on the paper from the point under the distortion centre, x along the image x axis, y DOWN.
+/// Coordinate frames: *pixel* (the centre of the first pixel is (0, 0), v down); *undistorted*
+/// pixel, the pixel of the same point in a camera without distortion, possibly outside the image;
+/// *camera*, mm on the paper from the point under the distortion centre, x along the image x axis,
+/// y DOWN.
 #pragma once
 
 #include <map>
@@ -23,7 +24,7 @@ struct PixelPoint {
 };
 
 /// The map from the undistorted image to the paper, for a camera that is mounted at a fixed height.
-/// With (a, b) in undistorted px from the distortion centre, the camera frame is
+/// A point at (a, b) undistorted px from the distortion centre is in the camera frame at
 ///
 ///     x = mm_per_px_x (a + skew b) / d,   y = mm_per_px_y b / d,   d = 1 + perspective . (a, b).
 struct PaperScale {
@@ -79,8 +80,8 @@ void validate(const Camera& camera);
 
 /// Returns the undistorted pixel of `pixel` (paper eq. 1-2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
-/// Returns the distorted pixel of an undistorted pixel. A point that the camera cannot see is
-/// returned at twice its radius.
+/// Returns the distorted pixel of an undistorted pixel. For a point that the camera cannot see,
+/// returns the pixel at twice the distance from the distortion centre.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
 /// A point in the camera frame.

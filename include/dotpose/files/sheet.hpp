@@ -1,7 +1,7 @@
 /// Sheet: the dimensions of a printed pattern and of its page. The core does not need it.
 ///
-/// Frames (both x right, y DOWN): *pattern*, where intersection (i, j) is at (i, j) * spacing_mm;
-/// *sheet*, in mm from the top left corner of the page.
+/// Coordinate frames (both x right, y DOWN): *pattern*, where intersection (i, j) is at (i, j) *
+/// spacing_mm; *sheet*, in mm from the top left corner of the page.
 #pragma once
 
 #include "dotpose/code.hpp"
@@ -33,8 +33,8 @@ inline double reach_mm(const Pattern& pattern) {
     return pattern.displacement_mm + pattern.dot_mm / 2;
 }
 
-/// Printed length over nominal length, per axis. Printers differ, and they scale the directions of
-/// paper feed and of the scan differently.
+/// Printed length over nominal length, per axis. Printers differ, and they scale the direction of
+/// paper feed and the direction across it differently.
 struct AxisScale {
     double x = 1;
     double y = 1;

@@ -14,8 +14,8 @@
 ///     write_sheet(added[0].sheet, "table.svg");
 ///     reservation.confirm();
 ///
-/// Frames: *sheet*, mm from the top left corner of the page, x right, y DOWN; *world*, metres,
-/// right-handed, z out of the paper, y up, angles counter-clockwise (ROS REP-103).
+/// Coordinate frames: *sheet*, mm from the top left corner of the page, x right, y DOWN; *world*,
+/// metres, right-handed, z out of the paper, y up, angles counter-clockwise (ROS REP-103).
 #pragma once
 
 #include <cstdint>
@@ -80,10 +80,10 @@ struct SheetEntry {
     bool is_reserved = false;
 };
 
-/// Checks one entry. Throws BadArgument unless the name is not empty and is UTF-8 without terminal
-/// control characters, the page is at least 1, the scales are in their range, the world pose is
-/// finite, and `sheet` is valid (as `validate(sheet)`). `print` must have at least 1 page, a
-/// resolution above 0 and a known drawing of dots.
+/// Checks one entry. Throws BadArgument if the name is empty, is not UTF-8, or contains terminal
+/// control characters; if the page number is below 1, a print scale is out of range, or the world
+/// pose is not finite; if `sheet` is invalid (as `validate(sheet)`); or if `print` has fewer than 1
+/// page, a resolution of 0 or less, or an unknown drawing of dots.
 void validate(const SheetEntry& entry);
 
 /// Returns true if two sheets share cells. Different sections never overlap. The code variants

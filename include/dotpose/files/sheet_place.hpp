@@ -6,8 +6,9 @@
 ///         if (const auto world = world_place(*place)) use(world->x_m, world->y_m, world->yaw_rad);
 ///     }
 ///
-/// Frames: *sheet*, mm from the top left corner of the page, x right, y DOWN, angles clockwise;
-/// *world*, metres, right-handed, z out of the paper, y up, angles counter-clockwise (ROS REP-103).
+/// Coordinate frames: *sheet*, mm from the top left corner of the page, x right, y DOWN, angles
+/// clockwise; *world*, metres, right-handed, z out of the paper, y up, angles counter-clockwise
+/// (ROS REP-103).
 #pragma once
 
 #include <array>
@@ -27,7 +28,7 @@ using PoseCovariance = std::array<std::array<float, 3>, 3>;
 
 /// Place of a fix on a page of a sheet file.
 struct SheetPlace {
-    const SheetEntry* entry = nullptr;  ///< entry of the page, in the searched entries
+    const SheetEntry* entry = nullptr;  ///< entry of the page, in the span passed to `find_sheet`
     double x_mm = 0;                    ///< in the sheet frame, with the print scale applied
     double y_mm = 0;
     double theta_rad = 0;  ///< angle of the image x axis, from the sheet's +x towards +y, in (-pi,
@@ -37,9 +38,9 @@ struct SheetPlace {
     PoseCovariance covariance{};
 };
 
-/// Returns the place of `fix`, which was read in the given code variant. It is on the sheet whose
-/// region contains the fix, otherwise on a sheet whose margins contain the fix. None if the fix is
-/// not ok or is on no sheet.
+/// Returns the place of `fix`, which was read in the given code variant. The place is on the sheet
+/// whose region contains the fix, otherwise on a sheet whose margins contain the fix. None if the
+/// fix is not ok or is on no sheet.
 std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, CodeVariant code,
                                      const Fix& fix);
 

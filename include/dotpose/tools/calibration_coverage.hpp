@@ -26,7 +26,8 @@ namespace dotpose {
 inline constexpr double kMinCoverage = 0.85;
 /// Maximum width of dots in focus, in spacings. Dots of twice their printed width begin to touch.
 inline constexpr double kWidestDot = 0.32;
-/// Required number of places on the sheet.
+/// Required number of distinct places on the sheet at which frames were taken; see
+/// `CalibrationCoverage::places`.
 inline constexpr int kWantedPlaces = 4;
 /// Required number of directions of frames, among `CalibrationCoverage::kDirections` sectors.
 /// Different directions distinguish a lens from a printer that stretches one axis of the paper.

@@ -15,8 +15,8 @@
 /// A page may contain several fields: patches of a test page (test_page.hpp), or sheets side by
 /// side. Functions throw Error or BadArgument. They share no state.
 ///
-/// Frames (both x right, y DOWN): *pattern* (mm, as printed), *scan* (pixels; the centre of the
-/// first pixel is (0, 0)).
+/// Coordinate frames (both x right, y DOWN): *pattern* (mm, as printed), *scan* (pixels; the centre
+/// of the first pixel is (0, 0)).
 #pragma once
 
 #include <functional>
@@ -195,7 +195,8 @@ struct PrintCheck {
     double code_p_wrong = 0;  ///< probability that the code variant is wrong, if it was found
     std::optional<Resolution> resolution;  ///< resolution that was used; none for a photo
     bool is_photo = false;                 ///< as in the options
-    std::optional<CameraSigns> camera;     ///< the reason, if the stated resolution was not used
+    /// evidence because of which the stated resolution was not used
+    std::optional<CameraSigns> camera;
     std::vector<RepeatedCells> repeated;
     bool is_test_page = false;
     /// Patches of the default test page (`make_test_page` with default options) that are not among

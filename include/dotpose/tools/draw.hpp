@@ -34,7 +34,7 @@ struct Sweep;
 
 /// Contents of the caption of `draw_frame`, in addition to the fix.
 struct DrawOptions {
-    /// Spacing of the printed grid in mm, for the pose in mm. If it is not a number, the pose is in
+    /// Spacing of the printed grid in mm, for the pose in mm. If it is NaN, the pose is in
     /// spacings.
     double spacing_mm = kDefaultSpacing_mm;
     /// The fix to show: corrected by a camera file, or refused after `locate`. Default: the fix of

@@ -59,11 +59,11 @@ struct Located {
     /// The code variant, and other places that explain the image. After `locate`, its fix does not
     /// include the correction by the camera file.
     CodeReading reading;
-    /// Spacing of the sheet, or the common spacing of all sheets, in mm. Not a number if spacings
-    /// differ and the fix is on no sheet.
+    /// Spacing of the sheet, or the common spacing of all sheets, in mm. NaN if spacings differ and
+    /// the fix is on no sheet.
     double spacing_mm = 0;
-    /// Spacing measured with the camera file, in mm. `contradicts` (mounted_pose.hpp) compares it
-    /// with `spacing_mm`. Not a number if it is not known.
+    /// Spacing computed from the fix and the view of the camera file, in mm; NaN if unknown.
+    /// `contradicts` (mounted_pose.hpp) compares this spacing with `spacing_mm`.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
     bool code_is_given = false;  ///< true if options or sheets gave the code variant
     int reduced_by = 1;          ///< factor by which the image was reduced

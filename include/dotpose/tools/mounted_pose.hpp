@@ -23,17 +23,17 @@ namespace dotpose {
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
                 const AxisScale& print = {});
 
-/// Returns the spacing of the pattern in mm, measured with the view of the camera file and divided
-/// by the print scale of the sheet (nominal mm). Not a number without a fix or a view.
+/// Returns the spacing of the pattern in mm, computed from the fix and the view of the camera file,
+/// divided by the print scale of the sheet (nominal mm). NaN without a fix or a view.
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
 
-/// Maximum relative difference between the nominal and the measured spacing of a sheet. It is
-/// larger than the change of scale within the depth of field of a camera close to the paper, and
-/// smaller than the 3 % of a page that a printer driver scaled to 97 %.
+/// Maximum relative difference between the nominal and the measured spacing of a sheet. The limit
+/// is larger than the change of scale within the depth of field of a camera close to the paper, and
+/// smaller than the 3 % by which a page shrinks that a printer driver scales to 97 %.
 inline constexpr double kMaxSpacingDifference = 0.025;
 
 /// Returns true if a measured spacing contradicts the spacing of the sheet. Returns false if either
-/// is not a number.
+/// spacing is NaN.
 bool contradicts(double measured_mm, double spacing_mm);
 
 }  // namespace dotpose

@@ -10,7 +10,8 @@
 
 namespace dotpose {
 
-/// Deviations above which a fix is wrong. A wrong fix counts as a failure, not as an error.
+/// Deviations above which a fix is wrong. Wrong fixes do not count as located, and are excluded
+/// from the error statistics.
 inline constexpr double kWrongFrom_grid = 0.5;
 inline constexpr double kWrongFrom_deg = 2;
 

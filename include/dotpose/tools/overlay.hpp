@@ -32,7 +32,7 @@ struct OverlaidPage {
 
 /// Options of the dots, and of the pages that contain them.
 struct OverlayOptions {
-    Pattern pattern;  ///< code, section and measures of the dots
+    Pattern pattern;  ///< code, section, and dimensions of the dots
     /// First cell of the first page; the following pages are placed as by `make_sheets`.
     Cell origin;
     double margin_mm = 5;  ///< margin without dots inside the visible page (its crop box)
@@ -43,7 +43,8 @@ struct OverlayOptions {
     int copies = 1;  ///< number of copies of the document, each with its own cells
     /// Paper on which several pages with dots are printed side by side as cards, with cut marks.
     /// The sheet of a card begins at the corner of the card. Cards have no links or form fields,
-    /// and pages without dots are omitted. None: each page remains a page.
+    /// and pages without dots are omitted. None: no cards, so each page of the document remains a
+    /// page.
     std::optional<Paper> card_paper;
     bool under = false;    ///< true for dots below the content of the page instead of above
     std::string password;  ///< password of an encrypted file, which stays encrypted

@@ -46,7 +46,7 @@ Paper landscape(Paper paper);
 
 /// The options of `make_sheet`.
 struct SheetOptions {
-    Pattern pattern;       ///< code, section and measures of the dots
+    Pattern pattern;       ///< code, section, and dimensions of the dots
     Cell origin;           ///< cell of the top left dot; each sheet should have its own cells
     Paper paper;           ///< the page; default A4 portrait
     double margin_mm = 5;  ///< margin without ink on all sides; 0 for printers without margins

@@ -19,8 +19,8 @@ namespace dotpose {
 /// Options of the simulated experiment.
 struct ProtocolOptions {
     int samples = 20;  ///< number of samples at each position and angle
-    /// Light, blur and noise of the device, which are drawn once. The positions of the dots come
-    /// from the page of the experiment.
+    /// Light, blur and noise of the device. Their random values are drawn once for all frames. The
+    /// positions of the dots come from the page of the experiment.
     Setup setup;
     DeviceOptions locate;
     int threads = 0;

@@ -7,13 +7,13 @@
 ///         messenger.messages(update_of(now, follower.is_in_world(), time_us * 1000));
 ///     if (messages.pose) publish(to_cdr(*messages.pose));
 ///
-/// Frames (ROS REP 103: metres, x forward, y left, z up, counter-clockwise; REP 105): `map` is the
-/// world of the sheet file. Without a sheet file, `map` is the pattern frame with y up and the same
-/// origin. `odom` begins at the first pose of the robot. While the robot is followed, the transform
-/// from `map` to `odom` does not change. When the robot is found again after it was lost or moved
-/// by hand, `map` to `odom` jumps, and `odom` to `base_link` continues. `base_link` is the
-/// reference point of the camera file on the paper, with the robot's heading; without a camera file
-/// it is the point under the image centre, with x along the image x axis.
+/// Coordinate frames (ROS REP 103: metres, x forward, y left, z up, counter-clockwise; REP 105):
+/// `map` is the world of the sheet file. Without a sheet file, `map` is the pattern frame with y up
+/// and the same origin. `odom` begins at the first pose of the robot. While the robot is followed,
+/// the transform from `map` to `odom` does not change. When the robot is found again after it was
+/// lost or moved by hand, `map` to `odom` jumps, and `odom` to `base_link` continues. `base_link`
+/// is the reference point of the camera file on the paper, with the robot's heading; without a
+/// camera file it is the point under the image centre, with x along the image x axis.
 #pragma once
 
 #include <array>

@@ -16,7 +16,7 @@
 namespace dotpose {
 
 /// Quantiles by the nearest-rank method: the smallest value that is not exceeded by a given
-/// fraction of all values. Not a number if there are no values.
+/// fraction of all values. NaN if there are no values.
 struct Quantiles {
     double median = std::numeric_limits<double>::quiet_NaN();
     double p95 = std::numeric_limits<double>::quiet_NaN();
@@ -25,7 +25,7 @@ struct Quantiles {
 /// Returns the quantiles of some values, in any order.
 Quantiles quantiles_of(std::vector<double> values);
 
-/// Numbers and errors of many frames.
+/// Counts and error statistics of many frames.
 struct Score {
     /// Number of readable frames; each is located, wrong, or has a status other than ok.
     int frames = 0;

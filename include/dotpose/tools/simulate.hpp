@@ -12,9 +12,9 @@
 /// Every frame depends on (setup, i) alone: the same bytes on every machine, in any order and from
 /// any number of threads. All functions are pure and thread-safe. Bad values throw BadArgument.
 ///
-/// Frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y DOWN as the
-/// page is read, mm). Offsets named `offset_mm` are in the pattern frame, relative to the pose
-/// point, and therefore exact anywhere on the plane of 2.1e8 mm.
+/// Coordinate frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y
+/// DOWN as the page is read, mm). Offsets named `offset_mm` are in the pattern frame, relative to
+/// the pose point, and therefore exact anywhere on the plane of 2.1e8 mm.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@
 
 namespace dotpose {
 
-/// A point or vector. The name of the variable contains unit and frame.
+/// A 2D point or vector. Suffixes of variable names, such as _px or _mm, give the unit.
 struct Vec2 {
     double x = 0;
     double y = 0;
