@@ -44,8 +44,8 @@ void set_bit(core::BitLines& lines, int line, int cell, bool value) {
     if (value) lines.bits[at] |= bit;
 }
 
-/// Returns the block of a rectangle of cells as seen by a camera turned by `quarters`. The
-/// displacement of a dot turns with the paper.
+/// Returns the block of a rectangle of cells as seen by a camera rotated by `quarters` quarter
+/// turns. The displacement of a dot rotates with the paper.
 BitBlock seen_block(CodeVariant code, const Place& zero, int quarters, FixedVec least,
                     FixedVec most, const Damage& damage, Rng& rng) {
     BitBlock block;
@@ -138,8 +138,8 @@ struct Found {
     int exactly = 0;
 };
 
-/// Returns the number of blocks found among `blocks` random blocks. None may be found at another
-/// place.
+/// Returns the number of blocks found among `blocks` random blocks. Expects that no block is found
+/// at a wrong place.
 Found find_blocks(int blocks, int min_side, const Damage& damage, const core::Kernels& kernels) {
     Rng rng(kSeed);
     Found found;

@@ -39,8 +39,8 @@ struct Sampled {
         sample_cells(image.view(), paper, FixedLens{}, plane, owned.grid);
     }
     const Grid& grid() const { return owned.grid; }
-    /// Calls `use` for all cells, with the cell, its place in px, its bits turned to the pattern,
-    /// and the symbol of the code.
+    /// Calls `use` for all cells, with the cell, its place in px, its bits rotated to the upright
+    /// orientation, and the symbol of the code.
     template <typename Use>
     void visit(Use use) const {
         for (int j = grid().j0; j < grid().j0 + grid().rows; ++j) {

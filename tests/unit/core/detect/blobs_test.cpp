@@ -314,8 +314,8 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
     for (int i = 0; i < 60; ++i) {
         GreyImage image =
             blank(64 + static_cast<int>(rng.below(220)), 64 + static_cast<int>(rng.below(220)));
-        // The density is high enough for ink near the tiles in the corners, in one of the four rows
-        // that are measured there.
+        // The density is high enough that the tiles near the corners contain ink in one of their
+        // four measured rows.
         const double density = rng.uniform(0.2, 0.42);
         const int side = density < 0.3 ? 2 : 1;
         for (int v = 0; v + side <= image.height_px; v += side) {

@@ -74,7 +74,7 @@ inline int contradictions(const Block& block, bool is_x, const std::vector<int>&
 }
 
 /// Returns the rolls of the lines of an axis, if one sequence is `further` digits ahead of its
-/// place at the position, and all rolls are larger by `shift`.
+/// place at the position, and all rolls are increased by `shift`.
 inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequence, int further,
                                  int shift) {
     const Place& p = block.place;
@@ -113,7 +113,7 @@ inline double exact_log2(const Block& block) {
     const double odds_per_bit = core::odds_per_bit_q8(both) / 256.0;
     for (const bool is_x : {true, false}) {
         const int own_wrong = errors[is_x ? 0 : 1];
-        // The exact probability of chance, which the verdict must not underestimate.
+        // The exact probability of a match by chance, which the verdict must not underestimate.
         sum += std::exp2(
             static_cast<double>(exact_chance_log2(read)[static_cast<std::size_t>(own_wrong)]));
         const auto texts = code_test::secondary_texts(block.code);

@@ -1,5 +1,5 @@
-// Tests the likelihood ratios of bits of equal certainty against the ratios of bits with the weight
-// 127.
+// Tests that the likelihood ratios of hard bits equal those of scored lines whose bits all have
+// weight 127, and that estimates of their sums are upper bounds.
 #include <algorithm>
 #include <cmath>
 #include <memory>

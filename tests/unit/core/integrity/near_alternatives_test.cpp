@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 52;
 
-/// Returns the places of the first line, in one sequence, that have the digits of the reading from
-/// `run` on.
+/// Returns the places in the sequence `text` at which line 0 can be, so that the `digits` digits
+/// after line `run` equal those of the reading, whose line 0 is at place `own`.
 std::vector<std::uint32_t> places_with_digits(const std::string& text, std::uint32_t own, int run,
                                               int digits) {
     const auto digit = [&](std::uint32_t place, int n) {

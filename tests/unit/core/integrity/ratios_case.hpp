@@ -100,7 +100,7 @@ inline std::vector<int> rolls_from(const RatiosCase& c, const PlacesOfAlternativ
 }
 
 /// Returns the odds of a position with these rolls, relative to the reading, but at least 2^-64,
-/// the value that negligible odds count.
+/// because smaller odds count as 2^-64.
 inline double odds_of_rolls(const RatiosCase& c, const std::vector<int>& rolls) {
     double lost = 0;
     for (std::size_t line = 0; line < rolls.size(); ++line) {

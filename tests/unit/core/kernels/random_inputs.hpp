@@ -23,7 +23,7 @@ using core::MeasuredDots;
 using core::Patch;
 using core::PatchDots;
 
-/// Returns all forms that this processor can run.
+/// Returns all forms of the kernels (portable, wide, AVX2) that this processor can run.
 inline std::vector<const core::Kernels*> forms() {
     std::vector<const core::Kernels*> all{&core::portable_kernels(), &core::wide_kernels()};
     if (core::avx2_kernels() != nullptr) all.push_back(core::avx2_kernels());
@@ -33,7 +33,7 @@ inline std::vector<const core::Kernels*> forms() {
 /// The output of a kernel as bytes.
 class Record {
   public:
-    /// Adds a value without padding.
+    /// Adds the bytes of a value, whose type must have no padding.
     template <typename T>
     void add(const T& value) {
         static_assert(std::is_trivially_copyable_v<T>);

@@ -49,8 +49,8 @@ TEST(SearchPeriodogram, RecoversTheGridWithAThirdOfTheDotsMissing) {
         EXPECT_NEAR(turned_degrees(std::atan2(found.u.y, found.u.x), angle), 0, 0.5);
         EXPECT_NEAR(length(found.v) / spacing, 1, 0.01);
         EXPECT_NEAR(turned_degrees(std::atan2(found.v.y, found.v.x), angle), 0, 0.5);
-        // The origin may be any intersection. 150 displacements of 0.12 spacings cause an error of
-        // 0.01.
+        // The origin may be any intersection. With 150 dots displaced by 0.12 spacings (rms per
+        // axis), the standard error of the origin is 0.01.
         const Vec2 at = mesh.inverse(found.origin);
         EXPECT_NEAR(std::remainder(at.x, 1), 0, 0.06);
         EXPECT_NEAR(std::remainder(at.y, 1), 0, 0.06);
