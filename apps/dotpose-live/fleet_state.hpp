@@ -44,8 +44,9 @@ class FleetState {
         : listener_(std::move(listener)) {}
 
     /// Takes a message. A state that is older than the newest state of its robot is only counted.
-    /// If several older states follow each other in ascending order, the clock of the sender was
-    /// set back, and the states are accepted. Invalid messages are counted as bad. Thread-safe.
+    /// If several older states follow each other in ascending order of time, the clock of the
+    /// sender was set back, and the states are accepted. Invalid messages are counted as bad.
+    /// Thread-safe.
     void take(std::string_view topic, std::string_view payload, std::int64_t now_us);
 
     /// Returns the robots, sorted by name.
@@ -55,7 +56,8 @@ class FleetState {
     /// Returns the sum of the counts of all robots, including removed robots.
     StateCounts counts() const;
     std::int64_t bad() const;
-    /// Returns statistics of the newest messages, at most 131,072.
+    /// Returns the statistics of the newest 131,072 messages, or of all messages if there are
+    /// fewer.
     Latency latency() const;
 
   private:

@@ -36,8 +36,8 @@ constexpr double kSteady_px_s = 30;
 /// Time without a steady frame after which frames of a moving camera are accepted, for example on a
 /// robot that does not stop.
 constexpr std::int64_t kPatience_us = 3'000'000;
-/// Minimum number of uncovered parts of the image for which a frame is taken at a place that is not
-/// new.
+/// Minimum number of uncovered parts of the image that a frame must show to be taken at a place
+/// that is not new.
 constexpr int kNewParts = 3;
 
 /// Measures the speed of the image between two located frames.

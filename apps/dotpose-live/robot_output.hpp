@@ -16,11 +16,11 @@ namespace dotpose::cli {
 
 struct RobotOutputOptions {
     std::string mcap;         ///< MCAP file to record; empty for none
-    bool has_images = false;  ///< true to record the frames as well
+    bool has_images = false;  ///< true to record the images as well
     ImageEncoding image_format = ImageEncoding::png;
     std::optional<dds::PublisherOptions> dds;  ///< none if nothing is published over DDS
     std::string robot;
-    std::string frame_prefix;      ///< prefix of the names of the robot's frames
+    std::string frame_prefix;      ///< prefix of the names of the robot's frames of reference
     std::optional<Camera> camera;  ///< source of the mount and the exposure time
 
     bool is_wanted() const { return !mcap.empty() || dds; }

@@ -11,8 +11,8 @@
 namespace dotpose {
 namespace {
 
-/// Boundaries of the 3 x 3 regions that the advice names a corner, an edge or the middle, in parts
-/// across and down.
+/// Boundaries, in parts of the image across and down, of the 3 x 3 regions that the advice calls a
+/// corner, an edge or the middle.
 constexpr std::array kRegionColumns = {0, 4, 8, ImageCoverage::kColumns};
 constexpr std::array kRegionRows = {0, 3, 5, ImageCoverage::kRows};
 constexpr std::size_t kRegions = 3;

@@ -87,7 +87,8 @@ double gain_of_own_view(const LocatedFrame& frame,
         if (is_outlier[k]) continue;
         const double a = (frame.dots[k].pixel.u - (setting.width_px - 1) / 2.0) / reach_px;
         const double b = (frame.dots[k].pixel.v - (setting.height_px - 1) / 2.0) / reach_px;
-        // To first order, the parameters are place (2), turn, scale, shear (2) and perspective (2).
+        // To first order, the parameters are place (2), rotation, scale, shear (2) and perspective
+        // (2).
         equations.add(std::array{1.0, 0.0, -b, a, a, b, a * a, a * b}, residuals[k][0]);
         equations.add(std::array{0.0, 1.0, a, b, -b, a, a * b, b * b}, residuals[k][1]);
     }

@@ -44,7 +44,7 @@ struct Seen {
         const T stretch = reach_px / (1.0 + lens[0] * (x * x + y * y));  // eq. 2
         return {stretch * x, stretch * y};
     }
-    /// Returns the printed position of the dot in the frame of the pose, in mm.
+    /// Returns the printed position of the dot in the coordinate frame of the pose, in mm.
     template <typename T>
     std::array<T, 2> printed(const T& displacement, const T* pose) const {
         using std::cos;
@@ -153,8 +153,8 @@ Seen seen_of(const LocatedDot& dot, const LocatedFrame& frame, const FitSetting&
             mm / frame.spacing_px};
 }
 
-/// Returns the pose of the best-fitting similarity from undistorted px to mm: place, turn, mm per
-/// px, and two tilts of 0.
+/// Returns the pose of the best-fitting similarity from undistorted px to mm: place, rotation, mm
+/// per px, and two tilts of 0.
 std::array<double, 6> first_pose(const LocatedFrame& frame, const FitSetting& setting,
                                  const SharedModel& camera) {
     using Complex = std::complex<double>;

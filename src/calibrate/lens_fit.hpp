@@ -35,7 +35,8 @@ struct LensFit {
     /// Covariance of `camera.lens` and `camera.paper`. Set only if the camera is mounted.
     Eigen::MatrixXd mounted_covariance;
     /// Pose of each frame: x and y in mm from the intersection where the steps of the frame start,
-    /// and turn in radians. By hand also mm per px and the two tilts in radians.
+    /// and the rotation in radians. If the camera is held by hand, also mm per px, and the two
+    /// tilts in radians.
     std::vector<std::array<double, 6>> poses;
     /// Residual of each dot of each frame.
     std::vector<std::vector<std::array<double, 2>>> residuals_px;

@@ -13,10 +13,11 @@
 
 namespace dotpose::calibrate {
 
-/// View of one sheet by the camera in one frame: the point q of the camera frame is at p = place +
-/// axes (q - middle) on the sheet. p is in nominal mm from the first intersection of the sheet. q
-/// is in mm of the camera frame if the view of the camera is known. Otherwise only the direction of
-/// the x axis and the place of the image centre are known, and `middle` is the image centre.
+/// The pose of the camera relative to one sheet, in one image. Maps a point q of the camera's
+/// coordinate frame to the point p = place + axes (q - middle) of the sheet, in nominal mm from the
+/// first intersection. If the camera file contains the view, q is in mm. Otherwise only the
+/// direction of the x axis and the place of the image centre are known, and `middle` is the image
+/// centre.
 struct SheetView {
     std::size_t sheet = 0;  ///< index of the sheet
     int frame = 0;

@@ -113,8 +113,8 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// Returns the pose of a point of the camera frame, with the direction of the camera's x axis, on
-/// the page of the sheet of a view.
+/// Returns the pose of a point of the camera's coordinate frame, with the direction of its x axis,
+/// on the page of the sheet of a view.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
@@ -187,7 +187,7 @@ bool SheetGraph::has_scale() const {
     return std::ranges::any_of(views_, &SheetView::has_scale);
 }
 
-/// Returns the image centre in the camera frame of a view.
+/// Returns the image centre in the camera's coordinate frame, as used by a view.
 Eigen::Vector2d SheetGraph::centre_in_camera(const SheetView& view) const {
     if (!view.has_scale()) return {0, 0};
     const CameraPoint point =

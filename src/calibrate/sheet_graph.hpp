@@ -1,5 +1,5 @@
-// Sheet graph: a graph of sheets and frames, with an edge for each frame that shows a sheet.
-// Computes the relative poses and the print scales of the sheets.
+// Sheet graph: a graph of sheets and frames (images), with an edge for each frame that shows a
+// sheet. Computes the relative poses and the print scales of the sheets.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct PlanePose {
 class SheetGraph {
   public:
     /// `fixed` is the index of the fixed sheet. The corner and the upper edge of its page define
-    /// the frame of all poses.
+    /// the coordinate frame of all poses.
     SheetGraph(const std::vector<SheetEntry>& sheets, const std::optional<Camera>& camera,
                std::vector<SheetView> views, std::size_t fixed, const ScaleReference& reference);
 
@@ -44,7 +44,7 @@ class SheetGraph {
     double sigma_rad(std::size_t sheet) const;
     AxisScale sigma_scale(std::size_t sheet) const;
     /// Return the position of the image centre according to one view: on the sheet, in nominal mm
-    /// from its first intersection; and as a pose in the frame of the fixed sheet.
+    /// from its first intersection; and as a pose in the coordinate frame of the fixed sheet.
     Eigen::Vector2d centre_on_sheet(const SheetView& view) const;
     PlanePose image_centre(const SheetView& view) const;
 
@@ -77,7 +77,8 @@ class SheetGraph {
 
     std::vector<std::optional<Node>> nodes_;  ///< empty for sheets that are not connected
     std::vector<Node> variances_;
-    std::map<int, FramePose> frames_;  ///< poses of the camera frame, by frame number
+    /// poses of the camera's coordinate frame, by the number of the image
+    std::map<int, FramePose> frames_;
     /// Scale of the camera relative to the fixed sheet: logarithm of the mean scale, aspect, skew.
     std::array<double, 3> camera_scale_{};
 };

@@ -71,7 +71,8 @@ std::string with_minus(std::string text) {
 
 /// The pose in large numbers, with its standard deviations.
 struct Shown {
-    const char* frame;  ///< suffix of the names of the coordinates
+    /// name of the coordinate frame, used as the suffix of the names of the coordinates
+    const char* frame;
     std::string x;
     std::string y;
     double angle_rad;
@@ -118,7 +119,7 @@ Shown on_sheet(const SheetPlace& place) {
                  place.covariance, 1e3);
 }
 
-/// Describes the pose in the frames that are not shown in large numbers.
+/// Describes the pose in the coordinate frames that the large numbers do not use.
 std::string other_frames(const Fix& fix, const DrawOptions& options) {
     const SheetPlace& place = *options.place;
     std::string text = "on sheet " + place.entry->name;

@@ -14,7 +14,8 @@
 
 namespace dotpose::draw {
 
-/// A point or vector. The name of the variable contains the coordinate frame.
+/// A 2D point or vector. Variable names carry a suffix for the unit, such as _px or _mm, where it
+/// matters.
 struct Point {
     double x = 0;
     double y = 0;

@@ -26,9 +26,9 @@ struct CardGrid {
 /// Lays out the maximum number of cards that fit on the paper. Throws BadArgument if no card fits.
 CardGrid card_grid(Paper paper, Paper card);
 
-/// Returns the sheet of a card in the frame of the page. `slot` is the index of the card on the
-/// page, row by row. The position of the card is adjusted by less than a pixel at 300 dpi. Its dots
-/// are then aligned with the pixels of the printer as on a separate page.
+/// Returns the sheet of a card in the coordinate frame of the page. `slot` is the index of the card
+/// on the page, row by row. The position of the card is adjusted by less than a pixel at 300 dpi.
+/// Its dots are then aligned with the pixels of the printer as on a separate page.
 Sheet on_page(const CardGrid& grid, int slot, Sheet card);
 
 /// Returns the cut marks as PDF content, in points from the bottom left corner of the page.

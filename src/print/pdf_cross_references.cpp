@@ -33,8 +33,8 @@ class CrossReferences {
     }
 
     void count() {
-        // Number of bytes searched at the beginning and at the end. Some files contain other data
-        // before and after the document.
+        // Number of bytes at the beginning, and at the end, in which the start and the end of the
+        // document are searched for. Some files contain other data before and after the document.
         constexpr qpdf_offset_t kNear = 1100;
         const std::string begin = text(0, kNear);
         std::smatch header;

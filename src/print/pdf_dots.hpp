@@ -1,6 +1,7 @@
 /// The dots of a sheet as PDF content.
 ///
-/// Frame of the content: points (1/72 inch) from the bottom left corner of the page, x right, y up.
+/// Coordinate frame of the content: points (1/72 inch) from the bottom left corner of the page, x
+/// right, y up.
 #pragma once
 
 #include <cstdint>

@@ -220,9 +220,9 @@ std::string point(const Sheet& sheet, double x_mm, double y_mm) {
                        (sheet.height_mm - y_mm) * kPointsPerMm);
 }
 
-/// Returns the PDF content of a ruler. It has a tick for every millimetre and a number for every
-/// ten, from the edge of the paper, which is zero, to the last intersection. Ticks that would cross
-/// the other ruler or its arrow are omitted.
+/// Returns the PDF content of a ruler. The ruler has a tick for every millimetre and a number for
+/// every ten millimetres, from the edge of the paper, which is zero, to the last intersection.
+/// Ticks that would cross the other ruler or its arrow are omitted.
 std::string ruler_content(const Sheet& sheet, Side side) {
     if (!has_ruler(sheet, side)) return {};
     const bool is_top = side == Side::top;

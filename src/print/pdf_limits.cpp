@@ -75,8 +75,8 @@ double predictor_row_bytes(QPDFObjectHandle parameters) {
     return bytes;
 }
 
-/// Throws Error if a stream has many filters in sequence. Each filter can multiply the size of the
-/// data and needs its own memory.
+/// Throws Error if a stream has more than kMaxFilters filters, because each filter can multiply the
+/// size of the data, or if the rows of a predictor need more than kMaxRowBytes of memory.
 void require_few_filters(QPDFObjectHandle dict) {
     constexpr int kMaxFilters = 8;
     constexpr double kMaxRowBytes = 1 << 24;

@@ -12,8 +12,8 @@
 
 namespace dotpose::print {
 
-/// Maximum nesting depth of objects. Useful documents need less, and the stack is large enough for
-/// recursive functions.
+/// Maximum nesting depth of objects. Useful documents are nested less deeply, and recursive
+/// functions do not overflow the stack at this depth.
 inline constexpr int kMaxPdfLevels = 100;
 
 /// Throws Error, with the message that `what` is nested too deeply, if `level` (from 1) exceeds
@@ -41,7 +41,7 @@ class UnpackedBytes {
     void start_page() { page_ = 0; }
 
     /// Counts the bytes of a stream. Throws Error if a limit is exceeded, or if the stream has too
-    /// many filters.
+    /// many filters or needs too much memory for a row of a predictor.
     void count(QPDFObjectHandle stream);
 
     /// Counts the bytes of the object streams, which contain other objects. The limit of a page

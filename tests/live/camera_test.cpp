@@ -1,5 +1,5 @@
-// `dotpose watch` on cameras: a fake local camera of the kernel (tests/fake_camera), and a network
-// camera. Both are disconnected during the run and reconnected.
+// Tests `dotpose watch` on two cameras: a fake local camera of the kernel (tests/fake_camera), and
+// a network camera. Each camera is disconnected and reconnected during the run.
 #include <algorithm>
 #include <fstream>
 #include <set>

@@ -1,5 +1,5 @@
-// `dotpose fleet` with many robots, with shared subscriptions, with bridged brokers, and at its
-// end.
+// Tests `dotpose fleet` with many robots, with shared subscriptions, with bridged brokers, and when
+// it is ended.
 #include <array>
 #include <csignal>
 #include <filesystem>
@@ -65,7 +65,7 @@ class FleetScale : public Mqtt {
         wait_until([&] { return logged(folders).size() >= count; }, 60s);
     }
 
-    /// Returns all states with these numbers of robots and states, each once.
+    /// Returns the states 0 to `states` - 1 of the robots 0 to `robots` - 1, each once.
     static std::multiset<Logged> states_of(int robots, int states) {
         std::multiset<Logged> all;
         for (int robot = 0; robot < robots; ++robot) {

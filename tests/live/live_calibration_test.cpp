@@ -1,4 +1,5 @@
-// `dotpose calibrate --live` with a fake camera of the kernel (tests/fake_camera), and in a window.
+// Tests `dotpose calibrate --live` with a fake camera of the kernel (tests/fake_camera), and in a
+// window.
 #include <string>
 
 #include <gmock/gmock.h>

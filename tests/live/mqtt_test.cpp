@@ -1,4 +1,4 @@
-// Publishing to a real broker: the messages that arrive and the messages that are dropped, even if
+// Tests publishing to a real broker: which messages arrive and which messages are dropped, also if
 // the broker disconnects.
 #include "publish/mqtt.hpp"
 
@@ -47,7 +47,8 @@ TEST_F(Mqtt, ReadsUrls) {
 
 TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
     Broker broker(directory_);
-    // Opens a persistent session, in which the broker keeps all accepted messages in order.
+    // Creates a persistent session with the broker, which then queues all accepted messages in
+    // order.
     const std::string reader =
         fmt::format("mosquitto_sub -h 127.0.0.1 -p {} -c -i reader -q 1 -t t ", broker.port());
     shell(reader + "-E");

@@ -76,7 +76,8 @@ class Vda5050 : public Mqtt {
 
 TEST_F(Vda5050, MessagesAreValid) {
     const Broker broker(directory_);
-    // Opens a persistent session of the broker.
+    // Creates a persistent session with the broker, which then queues the messages until the next
+    // call.
     const std::string reader = fmt::format(
         "mosquitto_sub -h 127.0.0.1 -p {} -c -i reader -q 1 -v -t 'uagv/v2/#' ", broker.port());
     shell(reader + "-E");

@@ -1,5 +1,5 @@
-// CDR encoding of messages: compared with the bytes of another serialiser (golden.txt), and checked
-// against the message definitions of the types.
+// Tests the CDR encoding of messages against the bytes of another serialiser (golden.txt), and the
+// message types against their definitions in ROS 2.
 #include <fstream>
 #include <map>
 #include <string>

@@ -1,5 +1,5 @@
-// `dotpose watch --dds`, read by another DDS implementation in a separate network namespace, and
-// decoded by an independent reader.
+// Tests the messages of `dotpose watch --dds`. Another DDS implementation receives them in a
+// separate network namespace, and an independent reader decodes them.
 #include <string>
 #include <vector>
 

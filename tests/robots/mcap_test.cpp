@@ -1,4 +1,4 @@
-// MCAP files, read with all checksums by two independent readers.
+// Tests MCAP files with two independent readers, which check all checksums.
 #include <filesystem>
 #include <fstream>
 #include <string>

@@ -1,5 +1,5 @@
-// A simulated drive over two sheets, recorded and replayed. The messages are compared with the
-// lines of the same run.
+// Tests recording and replaying a simulated drive over two sheets. The messages are compared with
+// the lines of the same run.
 #include <cmath>
 #include <filesystem>
 #include <numbers>
