@@ -1,4 +1,4 @@
-// Tests device workspaces for other frame sizes: they locate and track frames of these sizes, and
+// Tests device workspaces for several frame sizes: they locate and track frames of these sizes, and
 // refuse larger frames.
 #include "device/workspace.hpp"
 
@@ -16,7 +16,7 @@
 namespace dotpose::core_test::device_workspace_test {
 namespace {
 
-/// A frame size, and the expected results.
+/// A frame size, and the expected results for frames of this size.
 template <int Width, int Height, int MinDots, int Limit_log2 = -30>
 struct Size {
     static constexpr int kWidth_px = Width;
@@ -135,7 +135,7 @@ TYPED_TEST(DeviceWorkspace, RefusesLargerFrames) {
     constexpr int kWidth_px = TypeParam::kWidth_px;
     EXPECT_EQ(this->locator_.begin(kWidth_px + 1, 120), Status::image_too_large);
     EXPECT_EQ(this->locator_.begin(kWidth_px, 4097), Status::image_too_large);
-    // Frames that are both wide and high have more bands of tiles than the workspace can hold.
+    // Frames that are both wide and tall have more bands of tiles than the workspace can hold.
     const int max_px = kWidth_px == 320 ? 240 : 4096;
     EXPECT_EQ(this->locator_.begin(kWidth_px, max_px), Status::ok);
     EXPECT_EQ(this->locator_.begin(kWidth_px, max_px + 1), Status::image_too_large);

@@ -75,7 +75,8 @@ TEST(LocateRefuses, AFrameWithoutDotsIsNotNamedByTheDotsOfTheFrameBefore) {
     EXPECT_EQ(Locator(*memory, DeviceOptions{}).locate(black.view()).status, Status::no_contrast);
 }
 
-// With these displacements, the grid of a mirror image is outside of the range of the final steps.
+// After an attempt has found the mirrored code, later attempts may fail for other reasons. The
+// status is `mirrored` nevertheless.
 TEST(LocateRefuses, AMirrorImageIsNamedWhateverTheDisplacement) {
     const auto memory = std::make_unique<LargeMemory>();
     for (const double displacement : {0.12, 1.0 / 6, 0.25, 0.30}) {

@@ -69,7 +69,7 @@ inline void expect_same_bits(const Fix& a, const Fix& b) {
     EXPECT_EQ(std::memcmp(a.covariance, b.covariance, sizeof a.covariance), 0);
 }
 
-/// Returns the forms of the kernels that this machine supports.
+/// Returns the forms of the kernels (portable, wide, AVX2) that this machine supports.
 inline std::vector<const core::Kernels*> kernel_forms() {
     std::vector<const core::Kernels*> forms{&core::portable_kernels(), &core::wide_kernels()};
     if (core::avx2_kernels() != nullptr) forms.push_back(core::avx2_kernels());

@@ -8,7 +8,7 @@
 
 namespace dotpose::print_test {
 
-/// An empty directory that is removed at the end.
+/// A temporary directory that is empty at first. The destructor removes it.
 class TemporaryDirectory {
   public:
     TemporaryDirectory();

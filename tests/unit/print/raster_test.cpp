@@ -39,9 +39,9 @@ Sheet small_sheet() {
     return make_sheet(options);
 }
 
-// At 0.508 mm, all lengths are whole numbers. A margin of 2 mm and a reach of 0.127 mm are 25.12
-// pixels of 1/300 inch, so the first intersection is the centre of pixel 25, and an intersection
-// follows every 6 pixels.
+// With a spacing of 0.508 mm, the spacing and the displacement are whole numbers of pixels. A
+// margin of 2 mm and a reach of 0.127 mm are 25.12 pixels of 1/300 inch, so the first intersection
+// is the centre of pixel 25, and an intersection follows every 6 pixels.
 constexpr int kFirst_px = 25;
 constexpr int kSpacing_px = 6;
 

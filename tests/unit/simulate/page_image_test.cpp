@@ -79,7 +79,8 @@ TEST(PageImage, ShowsWhatThePatternShows) {
         int largest = 0;
         for (std::size_t i = 0; i < image.pixels.size(); ++i)
             largest = std::max(largest, std::abs(image.pixels[i] - expected.pixels[i]));
-        // Dots have a depth of about 60 grey levels, and change by about 30 per pixel.
+        // For comparison: dots are about 60 grey levels darker than the paper, and the levels at
+        // their edges change by about 30 per pixel.
         EXPECT_LE(largest, 2);
         EXPECT_LT(*std::ranges::min_element(expected.pixels), 130);
     }

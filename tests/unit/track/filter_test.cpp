@@ -168,8 +168,8 @@ struct Errors {
     double gain() const { return filtered_mm / raw_mm; }
 };
 
-/// Tracks a robot on a figure eight at up to `speed_mm_s` that is never lifted. The sightings have
-/// independent errors and a constant error. The first second is not counted.
+/// Tracks a robot that drives a figure eight at up to `speed_mm_s` and is never lifted. The
+/// sightings have independent errors and a constant error. The first second is not counted.
 Errors track_eight(double speed_mm_s, double sigma_mm, double constant_mm = 0) {
     Drive drive(
         {.put_down = 1e9, .second_put_down = 1e9, .stop = 9, .end = 10, .speed_mm_s = speed_mm_s});

@@ -205,7 +205,8 @@ TEST(Tracker, RefusesOtherWeakSightings) {
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 12, 0, 0.2), -12)), Verdict::too_weak);
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 10, 0, 0.2), -9)), Verdict::too_weak);
     EXPECT_EQ(verdict(165'000, weak(at(165'000, 16.5, 0, 0.33), -12)), Verdict::too_weak);
-    // After 60 ms the gate is 18 mm wide on either side, and may contain alternatives.
+    // After 60 ms, the gate extends about 18 mm to each side of the prediction, so it may contain
+    // alternatives.
     EXPECT_EQ(verdict(155'000, weak(at(155'000, 15.5, 0, 0.31), -12)), Verdict::too_weak);
     EXPECT_EQ(verdict(120'000, weak(at(120'000, 12, 0, 0.24), -12)), Verdict::with_prior);
 }
