@@ -26,8 +26,8 @@ inline constexpr int kSections = 63;
 
 /// The code variant of a sheet, which is its sequence a4.
 enum class CodeVariant : std::uint8_t {
-    anoto,      ///< a4 as restored in the paper; unambiguous on the whole plane; the default for
-                ///< printing
+    anoto,  ///< a4 as restored in the paper; unambiguous on the whole plane; the default for
+            ///< printing
     /// a4 as misprinted in the patent, used by libdots and other open tools; windows smaller than 8
     /// x 8 symbols may be ambiguous
     libdots,

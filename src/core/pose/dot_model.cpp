@@ -16,7 +16,7 @@ constexpr float kChordsOfSmall[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                     0.60876143F, 0.38268343F, 0.13052619F};
 constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F, 0.76040597F,
                              0.64944805F, 0.52249856F, 0.38268343F, 0.23344536F, 0.07845910F};
-// an ellipse is small if both its squared half axes are below this value
+// An ellipse is small if both its squared half axes are below this value.
 constexpr float kSmall_px2 = 4;
 
 /// Returns exp(-x) for x >= 0. Unlike library functions, gives bit-identical results on every

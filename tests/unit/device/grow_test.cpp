@@ -40,8 +40,8 @@ TEST(GrowGrid, ReachesOverTheLargestImage) {
     }
 }
 
-/// For more dots than a fixed number, each fit sums up all dots, instead of only the dots whose
-/// cell has changed.
+/// With more dots than `grow_grid` remembers between fits, each fit sums up all dots, instead of
+/// only the dots whose cell has changed.
 TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
     Rng rng(kSeed);
     for (int i = 0; i < 50; ++i) {
