@@ -43,7 +43,8 @@ bool StateNumbers::is_late(const Sent& sent) {
         doubts_ = 0;
         return false;
     }
-    // After an interruption, queued messages are sent in descending order of time.
+    // After an interruption, queued messages are sent in descending order of time. Older states in
+    // ascending order come from a clock that was set back.
     doubts_ = sent.time_us > doubted_us_ || doubts_ == 0 ? doubts_ + 1 : 1;
     doubted_us_ = sent.time_us;
     if (doubts_ < kDoubts) return true;

@@ -122,7 +122,7 @@ bool Shifts::next(FixedVec& shift_q8) {
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const std::uint16_t* here = row_of(y);
         for (int x = 0; x <= 2 * steps_.x; ++x, ++here) {
-            // A weighted sum with the neighbours has less noise.
+            // A weighted sum with the neighbours has less noise than the value alone.
             const int around = 4 * here[0] + here[-1] + here[1] + here[-kPerRow] + here[kPerRow];
             if (around <= best) continue;
             best = around;

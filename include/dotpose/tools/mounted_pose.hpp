@@ -17,9 +17,9 @@ namespace dotpose {
 
 /// Refines a fix with the camera file, from the trace of its frame. The view of a mounted camera is
 /// constant and is read from the file. Only place, angle and one scale (because print scales
-/// differ) are fitted to the dots. The result is more accurate, especially far from the image
-/// centre. Theta becomes the heading of the robot. `print` is the print scale of the sheet of the
-/// fix, if it is known. The fix remains in nominal units of the pattern.
+/// differ) are fitted to the dots. The result is more accurate than `fix`, especially far from the
+/// image centre. Theta becomes the heading of the robot. `print` is the print scale of the sheet of
+/// the fix, if it is known. The fix remains in nominal units of the pattern.
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
                 const AxisScale& print = {});
 

@@ -88,7 +88,7 @@ struct Imperfections {
     /// Linear change of light from one side to the opposite side, relative to the light at the
     /// centre; 0 to 2.
     double fall = 0;
-    double fall_direction_rad = 0;  ///< image direction of less light, from +u towards +v
+    double fall_direction_rad = 0;  ///< direction in which the light decreases, from +u towards +v
     double blur_sigma_px = 0;
     Vec2 motion_px;  ///< motion of the scene in the image during the exposure; the pose applies to
                      ///< the middle of the exposure

@@ -69,7 +69,7 @@ namespace search {
 inline constexpr int kChoices = 8;
 /// Maximum number of runs of lines, and of readings per run, in the second attempt. Frames located
 /// with half or twice either number: 1,994. The present values leave a margin for frames with more
-/// misread bits.
+/// misread bits than these frames.
 inline constexpr int kRuns = 24;
 inline constexpr int kReadings = 64;
 /// Maximum number of runs, and of readings per run, in the first attempt and on devices. None of

@@ -18,8 +18,8 @@ namespace {
 /// and five digits determine the place in a sequence. In `libdots`, some positions share more
 /// lines. The sum of the near alternatives includes these positions.
 constexpr int kMaxSharedInARow = code::kOrder;
-/// Maximum expected odds for which more alternatives are counted one by one. With larger odds, the
-/// fix cannot become certain.
+/// Maximum expected odds for which double alternatives, and alternatives that share one line less,
+/// are also counted one by one. With larger odds, the fix cannot become certain.
 constexpr float kBeyondHelp = 1e-4F;
 
 /// Returns the expected sum of the odds of the alternatives that differ in at least `min_different`
@@ -56,8 +56,8 @@ int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2) {
     float sum = known + expected;
     const float limit = std::ldexp(1.0F, limit_log2);
     const float far_below_doubt = std::ldexp(1.0F, std::min(limit_log2, -30) - 10);
-    // Counts more alternatives one by one, which reduces the part of the sum that is only an
-    // expectation.
+    // Also counts double alternatives, and near alternatives that share one line less, one by one.
+    // This reduces the part of the sum that is only an expectation.
     if (sum > far_below_doubt && expected > known && expected < kBeyondHelp) {
         sum = known + sum_of_far_alternatives(lines, kMaxSharedInARow - 1, 3);
         // Skips the slowest sums if the other sums already exceed the limit.

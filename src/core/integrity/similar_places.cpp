@@ -71,7 +71,8 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
         std::uint8_t parts = 0;
         for (int lost = lost_at(step); lost >= part; lost -= part)
             ++parts;
-        // A loss of one part excludes too few places to be worth the time.
+        // A step with a loss of only one part of the limit excludes too few places to be worth the
+        // time.
         if (parts == 1) parts = 0;
         losses[static_cast<std::size_t>(step)] = parts;
         const int with_this = max_loss_before + parts;

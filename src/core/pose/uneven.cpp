@@ -106,7 +106,7 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
     if (fit_far_side(kernels, dots, reference_px, split, beyond))
         return add_difference(split.plane, beyond, reference_px, 1, fit);
     // If the plane beyond the line is not known, the part beyond the line may be displaced by up to
-    // half a cell, and rotated by some degrees.
+    // half a cell, and rotated by a few degrees.
     add(1.0F / 12, 0, fit);
     add(1.0F / 12, 1, fit);
     add(0.02F * 0.02F, 2, fit);

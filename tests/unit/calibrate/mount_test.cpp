@@ -106,8 +106,9 @@ TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
                 std::hypot(of_turn_mm, 0.004, 3e-4 * away_mm / std::sqrt(2)), 1e-5);
 }
 
-// At this distance from the image, undistorted pixels of an estimated lens have larger errors.
-// However, the reference and all fixes use the same lens, so the error has no effect on the paper.
+// The reference point is outside the image, where undistorted pixels of an estimated lens have
+// larger errors than inside. However, the reference and all fixes use the same lens, so the error
+// has no effect on the paper.
 TEST(CalibrateSpin, IsExactWithAnEstimatedLens) {
     const CameraModel model = paper_camera();
     for (const std::uint64_t seed : {61, 62, 63}) {

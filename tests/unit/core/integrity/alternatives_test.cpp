@@ -55,7 +55,7 @@ TEST(Alternatives, GetFewerWithEveryColumn) {
         }
         // Positions that share five of 17 lines differ in twelve lines, by at least two of twelve
         // bits each. The odds of each of these 2^29 positions are at most 2^-120. The result is
-        // larger, because negligible odds are counted with a lower limit.
+        // larger than these odds, because negligible odds count as 2^-64.
         EXPECT_LE(before, -40);
         // Higher odds per bit reduce the odds of the alternatives.
         EXPECT_LT(alternatives_of_window(code, place, 8, 2 * kOdds_q8),
