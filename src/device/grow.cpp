@@ -54,8 +54,8 @@ Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
-    // Cells for which no other test is needed. Most dots are within reach, and not farther away
-    // than the dots before them.
+    // Cells within reach that are not farther away than the farthest dot so far. Most dots are in
+    // these cells and need no other test.
     Square common = cells_within(0);
     for (const DetectedDot& dot : dots) {
         const FixedVec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));

@@ -21,8 +21,8 @@ namespace {
 
 /// Number of shifts at which an alternative does not share a given line.
 constexpr float kShifts = kSections - 1;
-/// Odds charged for each pruned single alternative: an upper bound on its odds, as log2 in units of
-/// 2^-8 and as a number.
+/// Odds added for each single alternative that is not counted one by one: an upper bound on its
+/// odds, as log2 in units of 2^-8 and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Total number of places in the four sequences.

@@ -20,8 +20,8 @@ constexpr int kSmallOdds_q8 = -36 * 256;
 /// Default limit, as log2 in units of 2^-8. Bounds are as tight as this limit requires, even if the
 /// caller permits larger odds.
 constexpr int kUsualLimit_q8 = -30 * 256;
-/// Odds charged for each pruned single alternative: an upper bound on its odds, as log2 in units of
-/// 2^-8.
+/// Odds added for each single alternative that is not counted one by one: an upper bound on its
+/// odds, as log2 in units of 2^-8.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 
 /// Odds of an alternative in a line that it does not share, as log2 in units of 2^-8.
@@ -301,8 +301,8 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
 }
 
 /// Returns log2 of an upper bound on the odds of the single alternatives of the given sequences
-/// that share a line, in units of 2^-8. Charges kSkippedOdds_q8 for all alternatives, and adds the
-/// odds of the few alternatives that may lose less than the limit, one by one.
+/// that share a line, in units of 2^-8. Adds kSkippedOdds_q8 for every alternative, and the odds of
+/// the few alternatives that may lose less than the limit, one by one.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();

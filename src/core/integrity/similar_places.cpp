@@ -57,7 +57,7 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
     };
     int needed = loss_limit;
     if (excused == Excused::any_one) {
-        // An alternative must lose the limit even if the step with its largest loss is excused.
+        // An alternative must lose the limit even if the step with its largest loss is ignored.
         for (int step = 0; step < count; ++step)
             needed = std::max(needed, loss_limit + lost_at(step));
     }

@@ -57,8 +57,8 @@ Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& up
 /// Result of the comparison of all bits in view with the code, before alternatives are counted.
 struct Doubt {
     int odds_per_bit_q8 = 0;  ///< 0 if bits carry no information, or too many are wrong
-    /// Upper bound on the probability that random bits agree equally well, as log2 in units of
-    /// 2^-8, for each axis.
+    /// Upper bound on the probability that random bits agree with the code at least as well, as
+    /// log2 in units of 2^-8, for each axis.
     std::array<int, 2> by_chance_q8{};
 };
 

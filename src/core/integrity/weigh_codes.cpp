@@ -14,8 +14,8 @@ namespace {
 
 /// Index of a4, the only sequence in which the codes differ.
 constexpr std::size_t kA4 = 3;
-/// Odds charged for each pruned place: an upper bound on its odds, as log2 in units of 2^-8 and as
-/// a number.
+/// Odds added for each place that is not counted one by one: an upper bound on its odds, as log2 in
+/// units of 2^-8 and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Summed odds below which no tighter bound is computed.
@@ -120,7 +120,8 @@ class OtherPlaces {
 
     /// Adds another place of a4, at all shifts at which it shares a line.
     void add(std::uint32_t place) { add(place, offsets_of(place), kNoShift); }
-    /// Adds the odds charged for `places` pruned places.
+    /// Adds kSkippedOdds for each of `places` places, at each shift at which a place may share a
+    /// line.
     void add_skipped(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kSkippedOdds;
     }

@@ -11,9 +11,8 @@
 
 namespace dotpose::core {
 
-/// Estimates the neighbour bias from the residuals and subtracts it from the centres of facing
-/// dots. `dots` must be listed row by row. Returns false, without a change, if the bias is not
-/// significant.
+/// Estimates this bias from the residuals and subtracts it from the centres of facing dots. `dots`
+/// must be listed row by row. Returns false, without a change, if the bias is not significant.
 bool correct_neighbour_bias(const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 
 }  // namespace dotpose::core

@@ -323,7 +323,7 @@ PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, con
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // A small rotation of the best line increases the gain, but hardly doubles it.
+    // A small rotation of the best line can increase the gain, but rarely doubles it.
     if (best.gain < PaperStep::kPossible / 2) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {

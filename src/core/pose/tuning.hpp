@@ -130,11 +130,11 @@ inline constexpr float kUneven = 5;
 /// Number of outliers that chance explains: a constant plus a fraction of the dots.
 inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
-/// Maximum number of dots for which each side is divided into kFewAlong blocks. With more dots,
-/// each side is divided into nine blocks.
+/// Maximum number of dots for which each side of the image is divided into kFewAlong blocks. With
+/// more dots, each side is divided into nine blocks.
 inline constexpr int kManyDots = 1000;
-/// Number of blocks along each side for at most kManyDots dots. With 170 dots, each block contains
-/// five dots.
+/// Number of blocks along each side of the image for at most kManyDots dots. With 170 dots, each
+/// block contains five dots.
 inline constexpr int kFewAlong = 6;
 /// Variance that uneven blocks add to place and angle, in units of the variance of the mean
 /// residual of a block. For the angle, this variance is divided by the squared side of a block.

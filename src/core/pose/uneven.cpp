@@ -148,8 +148,9 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
 }
 
 /// Returns the excess, in standard deviations, above which a thorough attempt searches for a line.
-/// Common residuals that every sheet has, such as pixel bias, become more significant with the
-/// number of dots, and so do lines.
+/// With more dots, the common residuals that every sheet has, for example due to pixel bias, become
+/// more significant, so the limit is higher. Lines also become more significant, so they still
+/// exceed the limit.
 float patient_excess(const Blocks& blocks) {
     return tuned::kMaybeLine *
            std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));

@@ -14,8 +14,8 @@ void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_p
                 FloatPlane& plane, PoseFit& fit);
 
 /// Overload for a plane that was fitted to observations. Searches for a line at a much lower
-/// correlation than the other overload, which takes longer. `dots` is memory for the observations.
-/// If this memory is too small, the surface counts as even.
+/// correlation than the other overload. The search takes longer. `dots` is memory for the
+/// observations. If this memory is too small, the surface counts as even.
 void fit_uneven(const Kernels& kernels, const Observations& observations, FixedVec reference_q8,
                 MeasuredDots& dots, PlaneFromImage& plane, PoseFit& fit);
 
