@@ -216,7 +216,7 @@ bool LiveCalibration::look(capture::Frame& frame) {
     start_with(frame.image);
     const auto located = reader_.read(frame.image.view());
     const std::string refusal_reason = refusal(frame, located);
-    // Remains valid when the pixels are moved out of the frame.
+    // This view remains valid when the pixels are moved out of `frame`.
     const ImageView image = frame.image.view();
     if (refusal_reason.empty()) {
         coverage_->add(view_of(*located, reader_.trace().fix));
@@ -246,8 +246,8 @@ std::optional<Camera> LiveCalibration::lens() const {
 
 /// Returns true if another calibration would improve on the newest calibration. Each calibration
 /// takes longer than the previous calibration, so the next calibration waits for twice the number
-/// of frames. If only the accuracy of the lens is insufficient, fewer frames may suffice: standard
-/// deviations are inversely proportional to the root of the number of frames.
+/// of frames. If only the accuracy of the lens is insufficient, it may wait for fewer than twice as
+/// many frames: standard deviations are inversely proportional to the root of the number of frames.
 bool LiveCalibration::is_worth_calibrating() const {
     if (taken_.size() < std::size_t{kWantedFrames} || taken_.size() == job_.frames()) return false;
     const std::vector<CalibrationNeed> missing = needs();

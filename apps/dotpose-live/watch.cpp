@@ -139,7 +139,7 @@ void report_problems(const Reading& reading, ImageView image, const Follower& fo
 
 FollowerOptions options_of(const WatchArguments& arguments) {
     FollowerOptions options = arguments.follower.read();
-    options.locate.show_stages = true;  // stages for the window and the recording
+    options.locate.show_stages = true;  // the window and the recording show the stages
     options.track.spacing_mm = static_cast<float>(options.spacing_mm);
     return options;
 }

@@ -298,7 +298,7 @@ PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
     result.dot = median(strengths);
     result.paper = middle_mean(levels);
     if (result.paper <= 0) return result;
-    // Standard deviations per distance between the quartiles of a normal distribution.
+    // Standard deviation of a normal distribution, divided by the distance between its quartiles.
     constexpr double kSigmaPerQuartiles = 1 / (2 * 0.6745);
     const std::size_t quarter = levels.size() / 4;
     result.noise =

@@ -15,8 +15,8 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Whitened residual of a view above which its weight decreases. By chance, one view in 70 exceeds
-/// this residual.
+/// Residual of a view, whitened (scaled to a standard deviation of 1), above which the weight of
+/// the view decreases. By chance, one view in 70 exceeds this residual.
 constexpr double kRobust_sigmas = 4;
 /// Standard deviation of parameters that must not change.
 constexpr double kPinned = 1e-7;
@@ -315,7 +315,7 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     const Camera& camera = *camera_;
     const double x = relative_sigma(camera, "mm_per_px_x", camera.paper->mm_per_px_x);
     const double y = relative_sigma(camera, "mm_per_px_y", camera.paper->mm_per_px_y);
-    // Standard deviation of the mean, and of half the difference.
+    // Standard deviation of the mean of the two scales, and of half their difference.
     const double half = std::hypot(x, y) / 2;
     const double skew = relative_sigma(camera, "skew", 1);
     const bool is_true = reference_.by == ScaleReference::By::camera;

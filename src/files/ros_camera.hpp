@@ -6,7 +6,8 @@
 
 namespace dotpose::files {
 
-/// Returns true if this is a camera_info file of camera_calibration_parsers, or a printed message.
+/// Returns true if `file` is a camera_info file of camera_calibration_parsers, or a printed
+/// camera_info message.
 bool is_camera_info(const YamlMap& file);
 
 /// Returns the camera of a camera_info file. Throws Error, naming the key, if a value is missing or

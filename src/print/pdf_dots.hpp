@@ -24,7 +24,7 @@ inline constexpr const char* kCreator = "dotpose";
 inline constexpr const char* kDotsName = "/Dots";
 
 /// Number of rows written, over all pages, and the first exception of `progress`. qpdf requests the
-/// rows while it writes the file, and would replace the message of the exception by its own.
+/// rows while it writes the file, and would replace the message of the exception with its own.
 struct RowCount {
     Progress progress;
     std::int64_t done = 0;

@@ -119,7 +119,8 @@ TEST_F(Cameras, AtThisComputer) {
     }
 }
 
-/// The camera listens (0A) until a client has connected (01), which may happen immediately.
+/// The socket of the camera is in the state 0A (listening) until a client has connected (01), which
+/// may happen immediately.
 TEST_F(Cameras, InTheNetwork) {
     ASSERT_EQ(
         shell(fmt::format("port={}\n", free_port()) + kWaiting +

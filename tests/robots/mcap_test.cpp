@@ -115,7 +115,7 @@ TEST_F(Mcap, TheIndexStaysSmallerThanTheData) {
     file.finish();
     // Chunks grow with the index, so that rewriting the index with each chunk costs no more than
     // the data.
-    constexpr std::size_t kRecord = 420;  // of a pose: 9 + 22 and 4 + 384 bytes
+    constexpr std::size_t kRecord = 420;  // per pose: headers of 9 + 22 bytes, CDR of 4 + 384 bytes
     EXPECT_LT(std::filesystem::file_size(path_), 20'000 * kRecord * 3 / 2);
 }
 
