@@ -115,7 +115,7 @@ TEST(LocateFirst, RefusesWhatShowsNoPosition) {
             if (!is_seam) {
                 EXPECT_NE(fix.status, Status::ok);
             } else if (fix.status == Status::ok) {
-                // The fix may be on either side.
+                // The fix may be on either side of the seam.
                 EXPECT_NEAR(fix.x_grid(), x_grid(shot.pose), 1);
                 EXPECT_NEAR(fix.y_grid(), y_grid(shot.pose), 1);
             }

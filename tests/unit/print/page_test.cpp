@@ -156,7 +156,7 @@ TEST(TestPage, other_cells_are_no_patches) {
 TEST(TestPage, leaves_out_dots_that_would_touch_and_refuses_nonsense) {
     TestPageOptions options;
     options.spacings = {12, 24};
-    options.dots = {4, 8};  // with a spacing of 12, dots of 8 would touch
+    options.dots = {4, 8};  // with a spacing of 12 units, dots of 8 units would touch
     EXPECT_EQ(make_test_page(options).sheets.size(), 3U);
     options.dots = {0};
     EXPECT_THROW(make_test_page(options), BadArgument);
