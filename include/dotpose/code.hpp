@@ -26,12 +26,13 @@ inline constexpr int kSections = 63;
 
 /// The code variant of a sheet, which is its sequence a4.
 enum class CodeVariant : std::uint8_t {
-    anoto,  ///< a4 as restored in the paper; unambiguous on the whole plane; the default for
-            ///< printing
-    /// a4 as misprinted in the patent, used by libdots and other open tools; windows smaller than 8
-    /// x 8 symbols may be ambiguous
+    /// a4 as restored in the paper. Unambiguous on the whole plane. The default for printing.
+    anoto,
+    /// a4 as misprinted in the patent, used by libdots and other open tools. Windows smaller than
+    /// 8 x 8 symbols may be ambiguous.
     libdots,
-    microdots,  ///< another a4, used by py-microdots and its ports
+    /// Another a4, used by py-microdots and its ports.
+    microdots,
 };
 /// Number of values of CodeVariant.
 inline constexpr int kCodeVariantCount = 3;

@@ -8,8 +8,8 @@
 ///     for (std::uint8_t byte : received) if (reader.push(byte)) use(reader.packet());
 ///
 /// The reader always refuses packets with one to four wrong bits. It accepts about 1 in 65536
-/// packets with more wrong bits. After a damaged packet, reading continues with the next packet. No
-/// heap, no double, no globals. Different objects may be used at the same time.
+/// packets with five or more wrong bits. After a damaged packet, reading continues with the next
+/// packet. No heap, no double, no globals. Different objects may be used at the same time.
 #pragma once
 
 #include <array>

@@ -62,7 +62,7 @@ struct GridCell {
     /// Quasi-probability of the x bit, from -127 (certainly 0) to 127 (certainly 1).
     std::int8_t x = 0;
     std::int8_t y = 0;
-    /// index of the dot in this cell, kNoDot, or kHidden plus the mask
+    /// Index of the dot in this cell, kNoDot, or kHidden plus the mask.
     std::uint16_t dot = kNoDot;
 };
 

@@ -77,7 +77,7 @@ class SheetGraph {
 
     std::vector<std::optional<Node>> nodes_;  ///< empty for sheets that are not connected
     std::vector<Node> variances_;
-    /// poses of the camera's coordinate frame, by the number of the image
+    /// Poses of the camera's coordinate frame, by the number of the image.
     std::map<int, FramePose> frames_;
     /// Scale of the camera relative to the fixed sheet: logarithm of the mean scale, aspect, skew.
     std::array<double, 3> camera_scale_{};

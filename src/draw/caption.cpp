@@ -71,7 +71,7 @@ std::string with_minus(std::string text) {
 
 /// The pose in large numbers, with its standard deviations.
 struct Shown {
-    /// name of the coordinate frame, used as the suffix of the names of the coordinates
+    /// Name of the coordinate frame, used as the suffix of the names of the coordinates.
     const char* frame;
     std::string x;
     std::string y;

@@ -244,8 +244,8 @@ struct Stitching {
 /// defines the world: its corner is the origin, and its upper edge is the x axis.
 ///
 /// `camera` contains the lens and, for mounted cameras, the view of the paper. Without a view, the
-/// view is fitted to each part of a frame. The poses are then less accurate, and correct only if
-/// the fixed sheet has the print scales in the sheet file.
+/// view is fitted to each part of a frame. The poses are then less accurate than with a known view,
+/// and correct only if the fixed sheet has the print scales in the sheet file.
 ///
 /// Throws Error if there are fewer than two sheets, no frame shows two sheets, only sheets that no
 /// frame shows have a world pose, the sheet of the reference is not stitched, or the camera file

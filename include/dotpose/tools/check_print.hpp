@@ -195,7 +195,7 @@ struct PrintCheck {
     double code_p_wrong = 0;  ///< probability that the code variant is wrong, if it was found
     std::optional<Resolution> resolution;  ///< resolution that was used; none for a photo
     bool is_photo = false;                 ///< as in the options
-    /// evidence because of which the stated resolution was not used
+    /// Evidence because of which the stated resolution was not used.
     std::optional<CameraSigns> camera;
     std::vector<RepeatedCells> repeated;
     bool is_test_page = false;

@@ -153,7 +153,7 @@ class Follower {
     std::vector<KnownRegion> known_;  ///< regions of the sheets
     Locator locator_{DeviceOptions{}};
     Tracker tracker_;
-    std::optional<Seen> seen_;  ///< none if it is too old for a prediction
+    std::optional<Seen> seen_;  ///< none if the latest fix is too old for a prediction
 };
 
 }  // namespace dotpose

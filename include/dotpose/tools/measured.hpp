@@ -6,8 +6,8 @@
 ///     const Measurement result = compare(std::move(frames), alignment);
 ///     write_measurement("figures", result);
 ///
-/// Lengths are in mm and angles in radians, in the frame of the true places: the sheet (y down,
-/// clockwise) or the world (y up, counter-clockwise).
+/// Lengths are in mm and angles in radians, in the coordinate frame of the true places: the sheet
+/// (y down, clockwise) or the world (y up, counter-clockwise).
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ struct MeasuredFrame {
     std::string file;
     std::optional<TruePlace> truth;  ///< none if the frame has no readable pattern
     Status status = Status::ok;
-    /// None if there is no fix, or if the fix is outside the frame of the truth.
+    /// None if there is no fix, or if its place in the coordinate frame of the truth is not known.
     std::optional<FoundPlace> found;
     double spacing_mm = kDefaultSpacing_mm;
 };
@@ -51,7 +51,7 @@ struct Similarity {
     double middle_y_mm = 0;
     double shift_x_mm = 0;  ///< translation of the middle
     double shift_y_mm = 0;
-    double turn_rad = 0;  ///< positive in the direction of the frame's angles
+    double turn_rad = 0;  ///< positive in the direction of positive angles
     double scale = 1;
     /// Mean of true minus found angles after the turn. It is the direction of the independently
     /// measured heading in the image.

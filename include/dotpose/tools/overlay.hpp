@@ -21,7 +21,8 @@
 
 namespace dotpose {
 
-/// One page with dots. The frame of its sheet begins at the top left corner of the displayed page.
+/// One page with dots. The coordinate frame of its sheet begins at the top left corner of the
+/// displayed page.
 struct OverlaidPage {
     /// Number of the page among the pages of all copies, from 1. The pages of the second copy
     /// follow the pages of the first copy.

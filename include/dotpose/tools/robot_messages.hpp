@@ -90,8 +90,8 @@ RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 
 /// Messages of one frame. There are no `odometry` and `tf` while the robot is lost.
 struct RobotMessages {
-    std::optional<PoseWithCovarianceStamped> pose;  ///< of the fix, in `map`
-    std::optional<Odometry> odometry;  ///< of the track: pose in `odom`, twist in `base_link`
+    std::optional<PoseWithCovarianceStamped> pose;  ///< pose of the fix, in `map`
+    std::optional<Odometry> odometry;  ///< pose of the track in `odom`, twist in `base_link`
     std::optional<TFMessage> tf;       ///< `map` to `odom` and `odom` to `base_link`
     DiagnosticArray status;
 };

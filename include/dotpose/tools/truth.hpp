@@ -28,7 +28,7 @@ struct Truth {
 /// Returns the true pose of a simulated frame.
 Truth truth_of(const Shot& shot);
 
-/// The true pose of a frame in the frame of a sheet or of the world of a sheet file.
+/// The true pose of an image, in the coordinate frame of a sheet or of the world of a sheet file.
 struct TruePlace {
     /// True for the world: y points up, and angles are counter-clockwise. False for a sheet: y
     /// points down, and angles are clockwise.
