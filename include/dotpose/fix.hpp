@@ -26,14 +26,11 @@ const char* name(Attempt attempt) noexcept;
 
 /// Flatness of the paper in view, as determined from the dots.
 enum class Surface : std::uint8_t {
-    /// One plane explains all dots.
-    even,
-    /// A part of the paper is displaced. The pose is that of the part that contains the reference
-    /// point.
-    divided,
-    /// Neighbouring dots have correlated residuals, as on wrinkled paper. The covariance is widened
-    /// to account for them.
-    uneven,
+    even,     ///< one plane explains all dots
+    divided,  ///< a part of the paper is displaced; the pose is that of the part that contains the
+              ///< reference point
+    uneven,   ///< neighbouring dots have correlated residuals, as on wrinkled paper; the covariance
+              ///< is widened to account for them
 };
 /// Returns the identifier, such as "divided".
 const char* name(Surface surface) noexcept;

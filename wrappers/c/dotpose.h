@@ -187,7 +187,8 @@ enum {
     /* A part of the paper is displaced; the pose is that of the part that contains the reference
      * point. */
     DOTPOSE_SURFACE_DIVIDED = 1,
-    /* Neighbouring dots have similar residuals, as on wrinkled paper; the covariance is larger. */
+    /* Neighbouring dots have correlated residuals, as on wrinkled paper; the covariance is widened
+     * to account for them. */
     DOTPOSE_SURFACE_UNEVEN = 2
 };
 
