@@ -165,31 +165,35 @@ inline void add_camera_faults(std::vector<Limit>& limits) {
                  shot.imperfections.motion_px = {length_px * along.x, length_px * along.y};
              }});
     }
-    for (const int percent : {10, 20, 30}) {
-        Limit limit{"rolling shutter, moved by " + std::to_string(percent) +
-                        " % of the image height while it reads the rows",
-                    [=](Shot& shot) {
-                        const double length_px = percent / 100.0 * shot.camera.height_px;
-                        const Vec2 along = direction_of(shot);
-                        shot.camera.readout_px = {length_px * along.x, length_px * along.y};
-                    }};
-        limit.is_held = percent <= 20;
-        limits.push_back(limit);
-    }
     const CameraModel device;
     const CameraModel larger = camera_of(640, 480, 20);
     for (const CameraModel& camera : {device, larger}) {
-        for (const int degrees : {10, 20, 25, 30}) {
+        const bool is_device = camera.width_px == device.width_px;
+        for (const int percent : {10, 30, 60}) {
             limits.push_back(
-                {"tilt " + std::to_string(degrees) + " degrees" +
-                     (camera.width_px == device.width_px ? "" : ", 640 x 480 at 20 px"),
+                {"rolling shutter, moved by " + std::to_string(percent) +
+                     " % of the image height while it reads the rows" +
+                     (is_device ? "" : ", 640 x 480 at 20 px"),
                  [=](Shot& shot) {
-                     const double tilt_rad = degrees * std::numbers::pi / 180;
-                     const Vec2 about = direction_of(shot);
-                     shot.pose.tilt_x_rad = tilt_rad * about.x;
-                     shot.pose.tilt_y_rad = tilt_rad * about.y;
+                     const double length_px = percent / 100.0 * camera.height_px;
+                     const Vec2 along = direction_of(shot);
+                     shot.camera.readout_px = {length_px * along.x, length_px * along.y};
                  },
                  camera});
+            // If the scene moves in the direction of the readout, the image contains fewer rows of
+            // cells.
+            limits.back().is_held = percent == 10 || !is_device;
+        }
+        for (const int degrees : {10, 20, 25, 30}) {
+            limits.push_back({"tilt " + std::to_string(degrees) + " degrees" +
+                                  (is_device ? "" : ", 640 x 480 at 20 px"),
+                              [=](Shot& shot) {
+                                  const double tilt_rad = degrees * std::numbers::pi / 180;
+                                  const Vec2 about = direction_of(shot);
+                                  shot.pose.tilt_x_rad = tilt_rad * about.x;
+                                  shot.pose.tilt_y_rad = tilt_rad * about.y;
+                              },
+                              camera});
         }
     }
     const double corner_px = std::hypot(device.width_px, device.height_px) / 2;

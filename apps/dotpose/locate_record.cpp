@@ -171,6 +171,25 @@ std::vector<Field> deviation_fields(const Record& record) {
     };
 }
 
+/// Returns the fields of the velocity during the readout of a rolling shutter.
+std::vector<Field> velocity_fields(const Record& record, Units units) {
+    const auto text = [&](bool is_known, double per_s) {
+        const double length = units == Units::ros ? 1e-3 : 1;
+        return is_known ? decimal(per_s * length * record.spacing_mm, units == Units::ros ? 6 : 3)
+                        : std::string();
+    };
+    const bool is_known = record.velocity.has_value();
+    const ReadoutVelocity v = record.velocity.value_or(ReadoutVelocity{});
+    if (units == Units::ros) {
+        return {{"velocity_x_pattern_m_s", text(is_known, v.x_per_s)},
+                {"velocity_y_pattern_m_s", text(is_known, -v.y_per_s)}};
+    }
+    return {{"velocity_x_mm_s", text(is_known, v.x_per_s)},
+            {"velocity_y_mm_s", text(is_known, v.y_per_s)},
+            {"sigma_velocity_x_mm_s", text(is_known, std::sqrt(v.covariance[0][0]))},
+            {"sigma_velocity_y_mm_s", text(is_known, std::sqrt(v.covariance[1][1]))}};
+}
+
 /// Returns the fields of residual, scale and time.
 std::vector<Field> image_fields(const Record& record) {
     const Fix& fix = record.fix;
@@ -254,6 +273,7 @@ Record record_of(const Located& located, const Follower& follower) {
     record.camera_spacing_mm = located.camera_spacing_mm;
     record.has_sheets = !follower.sheets().empty();
     record.place = located.place;
+    record.velocity = located.velocity;
     record.width_px = follower.image().width_px;
     record.height_px = follower.image().height_px;
     record.min_dots = follower.used_options().lattice.min_dots;
@@ -286,6 +306,7 @@ std::vector<Field> fields(const Record& record, Units units) {
     append(all, evidence_fields(record.fix));
     if (units == Units::mm) append(all, deviation_fields(record));
     append(all, covariance_fields(names, units, pose));
+    append(all, velocity_fields(record, units));
     append(all, image_fields(record));
     append(all, code_fields(record, units));
     if (record.has_sheets) append(all, sheet_fields(record, units));

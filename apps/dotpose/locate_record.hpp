@@ -20,6 +20,7 @@ struct Record {
     bool code_is_given = false;  ///< true if the user or the sheets determine the code
     double spacing_mm = 0;       ///< NaN if unknown, in which case there are no fields in mm
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();  ///< as in Located
+    std::optional<ReadoutVelocity> velocity;                              ///< as in Located
     bool has_sheets = false;          ///< true if the record has the fields of a sheet file
     std::optional<SheetPlace> place;  ///< the place on a sheet
     int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }

@@ -3,10 +3,12 @@
 #include "dotpose/tools/mounted_pose.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "calibrate/dot_fit.hpp"
@@ -20,10 +22,17 @@ using namespace dotpose::calibrate;
 
 constexpr std::size_t kMinPoseDots = 12;
 
-/// Equation of a dot: printed + displacement * displaced = place + (c, -s; s, c) (x, y). (x, y) is
-/// in mm from `middle`. All other lengths are in spacings, corrected for the print scale. The
-/// parameters are place, c, s, and the displacement, which ink and blur change.
+/// Equation of a dot: printed + displacement * displaced = place + (c, -s; s, c) (x, y) + t v. (x,
+/// y) is in mm from `middle`. All other lengths are in spacings, corrected for the print scale. The
+/// parameters are place, c, s, the displacement, which ink and blur change, and for a rolling
+/// shutter v, the motion of the camera during the readout. The row of the dot is read at t, as a
+/// fraction of the readout from its middle.
 constexpr int kParameters = 5;
+constexpr int kRollingParameters = 7;
+
+int parameters_of(const Camera& camera) {
+    return camera.readout_ms ? kRollingParameters : kParameters;
+}
 
 struct PoseFit : DotFit {
     CameraPoint middle;
@@ -42,11 +51,14 @@ PoseFit fit_pose(const std::vector<LocatedDot>& dots, const Camera& camera,
     for (std::size_t i = 0; i < dots.size(); ++i) {
         const double x = points[i].x_mm - middle.x_mm;
         const double y = points[i].y_mm - middle.y_mm;
-        equations.push_back(
-            {AxisEquation{{1, 0, x, -y, -print.x * dx(dots[i].symbol)}, print.x * dots[i].step.x},
-             AxisEquation{{0, 1, y, x, -print.y * dy(dots[i].symbol)}, print.y * dots[i].step.y}});
+        const double t =
+            (distorted(camera, dots[i].pixel).v - (camera.height_px - 1) / 2.0) / camera.height_px;
+        equations.push_back({AxisEquation{{1, 0, x, -y, -print.x * dx(dots[i].symbol), t, 0},
+                                          print.x * dots[i].step.x},
+                             AxisEquation{{0, 1, y, x, -print.y * dy(dots[i].symbol), 0, t},
+                                          print.y * dots[i].step.y}});
     }
-    return {fit_dots(equations, kParameters), middle};
+    return {fit_dots(equations, parameters_of(camera)), middle};
 }
 
 std::uint32_t to_bam(double angle_rad) {
@@ -73,10 +85,10 @@ void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& p
     const double c = fit.parameters[2];
     const double s = fit.parameters[3];
     const double size2 = c * c + s * s;
-    Eigen::MatrixXd by_parameter(3, kParameters);
-    by_parameter << 1 / print.x, 0, x / print.x, -y / print.x, 0,  //
-        0, 1 / print.y, y / print.y, x / print.y, 0,               //
-        0, 0, -s / size2, c / size2, 0;
+    Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(3, fit.covariance.cols());
+    by_parameter.leftCols(4) << 1 / print.x, 0, x / print.x, -y / print.x,  //
+        0, 1 / print.y, y / print.y, x / print.y,                           //
+        0, 0, -s / size2, c / size2;
     const Eigen::MatrixXd covariance = propagated(by_parameter, fit.covariance);
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j)
@@ -85,6 +97,27 @@ void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& p
 }
 
 }  // namespace
+
+std::optional<ReadoutVelocity> readout_velocity(const Fix& fix, const Camera& camera,
+                                                const Trace& trace, const AxisScale& print) {
+    if (fix.status != Status::ok || !camera.readout_ms || !camera.paper) return {};
+    const auto dots = dots_read(trace);
+    if (dots.size() < kMinPoseDots) return {};
+    const PoseFit pose = fit_pose(dots, camera, print);
+    constexpr int kFirst = kParameters;
+    // Motions during the readout, in nominal spacings, become velocities.
+    const std::array per_s{1000 / (*camera.readout_ms * print.x),
+                           1000 / (*camera.readout_ms * print.y)};
+    ReadoutVelocity velocity{
+        per_s[0] * pose.parameters[kFirst], per_s[1] * pose.parameters[kFirst + 1], {}};
+    for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) {
+            velocity.covariance[i][j] =
+                per_s[i] * per_s[j] * pose.covariance(kFirst + i, kFirst + j);
+        }
+    }
+    return velocity;
+}
 
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print) {
     if (fix.status != Status::ok || !camera.paper) return std::numeric_limits<double>::quiet_NaN();

@@ -90,6 +90,11 @@ void validate(const Camera& camera) {
     }
     require(std::abs(camera.theta_offset_rad) <= 2 * std::numbers::pi, "theta_offset_rad",
             "must be at most a full turn");
+    if (camera.readout_ms) {
+        constexpr double kMaxReadout_ms = 10'000;
+        require(*camera.readout_ms > 0 && *camera.readout_ms <= kMaxReadout_ms, "readout_ms",
+                fmt::format("must be above 0, and at most {:g}", kMaxReadout_ms));
+    }
     if (camera.exposure_us) {
         require(*camera.exposure_us > 0 && std::isfinite(*camera.exposure_us), "exposure_us",
                 "must be above 0");

@@ -44,7 +44,8 @@ Camera read_native(const YamlMap& file) {
     }
     file.allow_only({"format", "version", "width_px", "height_px", "k_per_px2", "centre_px",
                      "mm_per_px", "skew", "perspective_per_px", "focal_px", "tilt_rad",
-                     "reference_px", "theta_offset_rad", "flip", "exposure_us", "gain", "sigma"});
+                     "reference_px", "theta_offset_rad", "flip", "readout_ms", "exposure_us",
+                     "gain", "sigma"});
     Camera camera;
     camera.width_px = file.integer("width_px");
     camera.height_px = file.integer("height_px");
@@ -59,6 +60,7 @@ Camera read_native(const YamlMap& file) {
     if (file.has("reference_px")) camera.reference_px = point(file, "reference_px");
     camera.theta_offset_rad = optional_number(file, "theta_offset_rad").value_or(0);
     camera.flip = file.has("flip") && file.boolean("flip");
+    camera.readout_ms = optional_number(file, "readout_ms");
     camera.exposure_us = optional_number(file, "exposure_us");
     camera.gain = optional_number(file, "gain");
     if (file.has("sigma")) {
@@ -126,6 +128,10 @@ std::string yaml_of(const Camera& camera) {
         out.line("theta_offset_rad", camera.theta_offset_rad, "heading minus image x axis");
     }
     if (camera.flip) out.line("flip", "true", "frames are mirrored: flip them left to right");
+    if (camera.readout_ms) {
+        out.line("readout_ms", *camera.readout_ms,
+                 "rolling shutter: from the first to the last row");
+    }
     if (camera.exposure_us) out.line("exposure_us", *camera.exposure_us);
     if (camera.gain) out.line("gain", *camera.gain);
     if (!camera.sigma.empty()) out.line("sigma", "", "standard deviations");

@@ -67,10 +67,13 @@ Locator& Follower::locator(const DeviceOptions& options) {
 }
 
 /// Applies the camera file to the fix of the latest image.
-Fix Follower::by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place) const {
-    if (!options_.camera) return seen;
-    return with_camera(seen, *options_.camera, locator_.trace(),
-                       place ? place->entry->print_scale() : AxisScale{});
+Follower::Found Follower::by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place,
+                                         const CodeReading& reading) const {
+    if (!options_.camera) return {seen, seen, place, reading, {}};
+    const AxisScale print = place ? place->entry->print_scale() : AxisScale{};
+    const Trace trace = locator_.trace();
+    return {seen, with_camera(seen, *options_.camera, trace, print), place, reading,
+            readout_velocity(seen, *options_.camera, trace, print)};
 }
 
 double Follower::spacing_mm(const std::optional<SheetPlace>& place) const {
@@ -81,6 +84,7 @@ Located Follower::located(const Found& found, const Fix& fix) const {
     Located result;
     result.fix = fix;
     result.reading = found.reading;
+    result.velocity = found.velocity;
     result.place = find_sheet(options_.sheets, found.reading.code, fix);
     result.spacing_mm = spacing_mm(result.place);
     if (options_.camera) {

@@ -30,7 +30,7 @@ Follower::Found Follower::read() {
         const CodeReading reading = locator(used_).locate_in_any_code(image_, evidence_);
         evidence_ = reading.evidence;
         used_.code = reading.code;
-        return {reading.fix, by_camera_file(reading.fix, {}), {}, reading};
+        return by_camera_file(reading.fix, {}, reading);
     }
     CodeVariant best = codes_.front();
     bool is_found = false;
@@ -53,7 +53,7 @@ Follower::Found Follower::read_in(CodeVariant code) {
     const CodeReading reading = locator(used_).locate_in_code(image_);
     const auto place = find_sheet(options_.sheets, code, reading.fix);
     const Fix seen = place ? without_surroundings(reading.fix, *place) : reading.fix;
-    return {seen, by_camera_file(seen, place), place, reading};
+    return by_camera_file(seen, place, reading);
 }
 
 /// Locates an image on a known sheet again after masking the area beside its dots, because labels

@@ -89,7 +89,7 @@ Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
     // well, which allows a warning.
     if (!expected && options_.sheets.empty()) {
         const CodeReading reading = locator(options).locate_in_code(image);
-        return {reading.fix, by_camera_file(reading.fix, {}), {}, reading};
+        return by_camera_file(reading.fix, {}, reading);
     }
     Fix fix = expected ? locator(options).locate(image, *expected) : locator(options).locate(image);
     auto place = find_sheet(options_.sheets, options.code, fix);
@@ -99,7 +99,7 @@ Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
         fix = locator(options).locate(image);
         place = find_sheet(options_.sheets, options.code, fix);
     }
-    return {fix, by_camera_file(fix, place), place, {fix, options.code, {}}};
+    return by_camera_file(fix, place, {fix, options.code, {}});
 }
 
 Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expected) {
@@ -107,7 +107,7 @@ Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expe
         expected && seen_ ? locator(used_).locate_in_any_code(image_, *expected, evidence_)
                           : locator(used_).locate_in_any_code(image_, evidence_);
     used_.code = reading.code;
-    return {reading.fix, by_camera_file(reading.fix, {}), {}, reading};
+    return by_camera_file(reading.fix, {}, reading);
 }
 
 /// Locates an image that extends beyond the edge of a page again without the part beyond the edge,

@@ -127,22 +127,34 @@ bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane&
            spacing_px(plane) >= tuned::kMinSpacingForPrediction_px;
 }
 
-/// Finds a hypothesis in the patch at the image centre. Returns false if the dots of the patch have
-/// no place in the code.
-bool find_hypothesis(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                     DesktopWorkspace& w, Hypothesis& hypothesis) {
+/// Confirms the hypothesis of the dots of the patch at the image centre.
+Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
+                         const DeviceOptions& options, bool is_skewed, DesktopWorkspace& w) {
     Patch& patch = *w.patch;
-    if (!find_patch_dots(kernels, image, options, w)) return false;
-    const FloatVec middle = middle_of(patch, image);
-    if (options.lens.k_q40 != 0) undistort(options.lens, middle, patch.dots);
     PatchView view = whole_view(patch);
     view.min_dots = min_dots(options, w);
-    if (!read_hypothesis(kernels, options, view, middle, w, hypothesis)) return false;
+    view.is_skewed = is_skewed;
+    const FloatVec middle = middle_of(patch, image);
+    Hypothesis hypothesis;
+    if (!read_hypothesis(kernels, options, view, middle, w, hypothesis))
+        return Confirmation::implausible;
     hypothesis.pattern_from_image =
         recentred(hypothesis.pattern_from_image, {-middle.x, -middle.y});
     hypothesis.from_centre = {};
     hypothesis.is_predicted = predicts_dots(image, patch, hypothesis.pattern_from_image);
-    return true;
+    return confirm(kernels, image, options, hypothesis, w);
+}
+
+/// Searches the patch at the image centre: a square grid first, and then any grid, because a
+/// rolling shutter shears and stretches the image of a scene that moves.
+Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
+                              const DeviceOptions& options, DesktopWorkspace& w) {
+    Patch& patch = *w.patch;
+    if (!find_patch_dots(kernels, image, options, w)) return Confirmation::implausible;
+    if (options.lens.k_q40 != 0) undistort(options.lens, middle_of(patch, image), patch.dots);
+    const Confirmation square = locate_grid(kernels, image, options, false, w);
+    return square == Confirmation::implausible ? locate_grid(kernels, image, options, true, w)
+                                               : square;
 }
 
 /// Finds a hypothesis in a patch around a point of the image, in px. Sets `densest_px`, the origin
@@ -227,12 +239,8 @@ Confirmation locate_outwards(const Kernels& kernels, const ImageView& image,
                              const DeviceOptions& options, DesktopWorkspace& w) {
     for (const int scale : {1, 2, 4}) {
         if (!place_patch(image, {image.width_px / 2, image.height_px / 2}, scale, w)) break;
-        Hypothesis hypothesis;
-        auto confirmation = Confirmation::implausible;
-        if (find_hypothesis(kernels, image, options, w, hypothesis)) {
-            confirmation = confirm(kernels, image, options, hypothesis, w);
-            if (confirmation == Confirmation::ok) return confirmation;
-        }
+        const Confirmation confirmation = locate_in_middle(kernels, image, options, w);
+        if (confirmation == Confirmation::ok) return confirmation;
         find_mirror_image(kernels, options, w);
         if (confirmation == Confirmation::uncertain) break;
     }

@@ -7,6 +7,17 @@ namespace {
 
 constexpr Vec2 kInvisible{1e9, 1e9};
 
+/// Returns the distorted point of an undistorted point; both in px from the centre of distortion.
+/// Eq. 2 of the paper solved for r_d: k |r_u| |r_d|^2 - |r_d| + |r_u| = 0. Of the two roots, this
+/// root tends to r_u as k tends to 0.
+Vec2 distorted(Vec2 undistorted, double k) {
+    const double square = undistorted.x * undistorted.x + undistorted.y * undistorted.y;
+    const double discriminant = 1 - 4 * k * square;
+    if (discriminant < 0) return kInvisible;
+    const double scale = 2 / (1 + std::sqrt(discriminant));
+    return {scale * undistorted.x, scale * undistorted.y};
+}
+
 }  // namespace
 
 Projection::Projection(const CameraModel& camera, const CameraPose& pose)
@@ -47,29 +58,36 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
     if (depth_mm <= 0) return kInvisible;
     const Vec2 undistorted{focal_px_ * camera_mm(0) / depth_mm,
                            focal_px_ * camera_mm(1) / depth_mm};
-    // Eq. 2 of the paper solved for r_d: k |r_u| |r_d|^2 - |r_d| + |r_u| = 0. Of the two roots,
-    // this root tends to r_u as k tends to 0.
-    const double square = undistorted.x * undistorted.x + undistorted.y * undistorted.y;
-    const double discriminant = 1 - 4 * k_ * square;
-    if (discriminant < 0) return kInvisible;
-    const double scale = 2 / (1 + std::sqrt(discriminant));
-    const Vec2 seen{scale * undistorted.x, scale * undistorted.y};
-    // The row seen.y + time * readout.y is read at `time`, measured from the middle of the readout
-    // as a fraction of its duration.
-    const double time = seen.y / (height_px_ - readout_px_.y);
-    return {centre_px_.x + seen.x + time * readout_px_.x,
-            centre_px_.y + seen.y + time * readout_px_.y};
+    // The scene moves while the rows are read, so the row at which a point is seen depends on the
+    // time, and the time on the row. Newton's method solves row = seen_at(row).y. Without motion
+    // and without distortion, the first step is exact.
+    const auto seen_at = [&](double row_px) {
+        const double time = row_px / height_px_;
+        return distorted(
+            {undistorted.x + time * readout_px_.x, undistorted.y + time * readout_px_.y}, k_);
+    };
+    double row_px = 0;
+    Vec2 seen = seen_at(row_px);
+    const bool is_rolling = readout_px_.x != 0 || readout_px_.y != 0;
+    constexpr int kSteps = 12;
+    for (int i = 0; is_rolling && i < kSteps && seen.x < kInvisible.x; ++i) {
+        constexpr double kStep_px = 1e-3;
+        const double slope = (seen_at(row_px + kStep_px).y - seen.y) / kStep_px;
+        row_px += (seen.y - row_px) / (1 - slope);
+        seen = seen_at(row_px);
+    }
+    return seen.x < kInvisible.x ? Vec2{centre_px_.x + seen.x, centre_px_.y + seen.y} : kInvisible;
 }
 
 Vec2 Projection::offset_from_pixel(Vec2 pixel) const {
     const double time = (pixel.y - centre_px_.y) / height_px_;
-    const double dx = pixel.x - centre_px_.x - time * readout_px_.x;
-    const double dy = pixel.y - centre_px_.y - time * readout_px_.y;
+    const double dx = pixel.x - centre_px_.x;
+    const double dy = pixel.y - centre_px_.y;
     const double scale = 1 / (focal_px_ * (1 + k_ * (dx * dx + dy * dy)));  // paper eq. 2
     // The viewing ray is (rx, ry, 1) * depth; on the paper depth = distance + z, so that
     // x_axis.xy * ox + y_axis.xy * oy = (rx, ry) * (distance + x_axis.z * ox + y_axis.z * oy).
-    const double rx = dx * scale;
-    const double ry = dy * scale;
+    const double rx = dx * scale - time * (readout_px_.x / focal_px_);
+    const double ry = dy * scale - time * (readout_px_.y / focal_px_);
     const double a = x_axis_[0] - rx * x_axis_[2];
     const double b = y_axis_[0] - rx * y_axis_[2];
     const double c = x_axis_[1] - ry * x_axis_[2];

@@ -27,9 +27,10 @@ void check_camera(const CameraModel& camera, const CameraPose& pose) {
     require(within(camera.working_distance_mm, 1e-6, 1e9), "the working distance must be above 0");
     const double half_u = camera.width_px / 2.0;
     const double half_v = camera.height_px / 2.0;
-    require(within(camera.readout_px.x, -half_u, half_u) &&
-                within(camera.readout_px.y, -half_v, half_v),
-            "the motion during the readout must be under half the image");
+    constexpr double kMaxReadout = 1.5;  // of half the image
+    require(within(camera.readout_px.x, -kMaxReadout * half_u, kMaxReadout * half_u) &&
+                within(camera.readout_px.y, -kMaxReadout * half_v, kMaxReadout * half_v),
+            "the motion during the readout must be at most 75 % of the image");
     const double corner_square = half_u * half_u + half_v * half_v;
     // At |k| r^2 = 1, eq. 2 folds the image over itself (k above 0) or reaches infinity (k below
     // 0).

@@ -87,11 +87,11 @@ TEST_F(LocateCommand, a_picture_that_is_tilted_out_of_focus_or_shaken_says_so) {
     tilted.camera.width_px = 480;
     tilted.camera.height_px = 360;
     tilted.camera.working_distance_mm = 60;
-    tilted.pose.tilt_x_rad = 65 * std::numbers::pi / 180;
+    tilted.pose.tilt_x_rad = 76 * std::numbers::pi / 180;
     write_pgm(directory_ / "tilted.pgm", render(tilted).view());
     run("tilted.pgm");
     EXPECT_NE(records().at(0)["status"], "ok") << output_;
-    EXPECT_THAT(records().at(0)["message"], HasSubstr("the sheet is tilted too much, by about 6"));
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("the sheet is tilted too much, by about 7"));
     EXPECT_THAT(records().at(0)["message"], HasSubstr("degrees: look straight down on it"));
     Shot blurred = clean_shot(14);
     blurred.camera.width_px = 480;

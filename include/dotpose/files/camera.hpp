@@ -64,6 +64,10 @@ struct Camera {
     /// and all pixels of this struct refer to flipped frames.
     bool flip = false;
 
+    /// Time from the first to the last row of an image, if the sensor has a rolling shutter. The
+    /// pose is then that of the middle row, and the velocity of the camera is fitted as well.
+    std::optional<double> readout_ms;
+
     /// Settings of the sensor, for information; dotpose does not use them.
     std::optional<double> exposure_us;
     std::optional<double> gain;

@@ -21,6 +21,7 @@
 #include "dotpose/files/sheet_place.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/grey_image.hpp"
+#include "dotpose/tools/mounted_pose.hpp"
 #include "dotpose/track.hpp"
 
 #pragma GCC visibility push(default)
@@ -65,6 +66,8 @@ struct Located {
     /// Spacing computed from the fix and the view of the camera file, in mm; NaN if unknown.
     /// `contradicts` (mounted_pose.hpp) compares this spacing with `spacing_mm`.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
+    /// Velocity during the readout, if the camera file has the readout time of a rolling shutter.
+    std::optional<ReadoutVelocity> velocity;
     bool code_is_given = false;  ///< true if options or sheets gave the code variant
     int reduced_by = 1;          ///< factor by which the image was reduced
 };
@@ -108,6 +111,7 @@ class Follower {
         Fix fix;
         std::optional<SheetPlace> place;  ///< place of `seen`
         CodeReading reading;
+        std::optional<ReadoutVelocity> velocity;
     };
     /// The result of the latest image with a fix.
     struct Seen {
@@ -120,7 +124,8 @@ class Follower {
     void use_options_for(int width_px, int height_px);
     ImageView as_located(ImageView image);
     Locator& locator(const DeviceOptions& options);
-    Fix by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place) const;
+    Found by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place,
+                         const CodeReading& reading) const;
     double spacing_mm(const std::optional<SheetPlace>& place) const;
     Located located(const Found& found, const Fix& fix) const;
 

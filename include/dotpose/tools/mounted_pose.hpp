@@ -6,6 +6,9 @@
 ///     const Fix fix = with_camera(seen, camera, locator.trace());
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "dotpose/files/camera.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/fix.hpp"
@@ -17,11 +20,26 @@ namespace dotpose {
 
 /// Refines a fix with the camera file, from the trace of its frame. The view of a mounted camera is
 /// constant and is read from the file. Only place, angle and one scale (because print scales
-/// differ) are fitted to the dots. The result is more accurate than `fix`, especially far from the
+/// differ) are fitted to the dots, and the velocity if the file has the readout time of a rolling
+/// shutter. The result is more accurate than `fix`, especially far from the
 /// image centre. Theta becomes the heading of the robot. `print` is the print scale of the sheet of
 /// the fix, if it is known. The fix remains in nominal units of the pattern.
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
                 const AxisScale& print = {});
+
+/// Velocity of a camera over the paper, from one image of a rolling shutter.
+struct ReadoutVelocity {
+    /// In spacings per second, along x and y of the pattern (y down).
+    double x_per_s = 0;
+    double y_per_s = 0;
+    std::array<std::array<double, 2>, 2> covariance{};
+};
+
+/// Returns the velocity during the readout, fitted to the dots together with the pose. The rotation
+/// during the readout is not fitted. Empty without a fix, or if the camera file has no `readout_ms`
+/// or no view.
+std::optional<ReadoutVelocity> readout_velocity(const Fix& fix, const Camera& camera,
+                                                const Trace& trace, const AxisScale& print = {});
 
 /// Returns the spacing of the pattern in mm, computed from the fix and the view of the camera file,
 /// divided by the print scale of the sheet (nominal mm). NaN without a fix or a view.

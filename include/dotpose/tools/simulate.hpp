@@ -51,8 +51,9 @@ struct CameraModel {
     double k = 0;
     /// Distance of the projection centre from the pose point, relevant only with tilt. Above 0.
     double working_distance_mm = 16;
-    /// Motion of the scene in the image while a rolling shutter reads the rows, at most half the
-    /// image along each axis. The pose applies to the middle row. (0, 0) is a global shutter.
+    /// Motion of the scene in the undistorted image while a rolling shutter reads the rows, at most
+    /// 75 % of the image along each axis. The pose applies to the middle row. (0, 0) is a global
+    /// shutter.
     Vec2 readout_px;
 };
 

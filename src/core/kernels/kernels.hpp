@@ -16,12 +16,12 @@
 
 namespace dotpose::core {
 
-/// Two perpendicular plane waves of the same wavelength: cos(2 pi (kx x + ky y) - phase).
+/// Two plane waves: cos(2 pi (kx x + ky y) - phase). The cross product of their frequencies is
+/// positive.
 struct Waves {
-    /// Frequency of the first wave, in cycles per px. The second wave is perpendicular to the first
-    /// wave.
-    float kx = 0;
-    float ky = 0;
+    /// Frequencies of the first and of the second wave, in cycles per px.
+    std::array<float, 2> kx{};
+    std::array<float, 2> ky{};
     float power = 0;  ///< sum of the powers of both waves; at most 2 n^2 for n dots
     /// Phases of both waves, as sums of the cosine and of the sine over all dots.
     std::array<float, 2> phase_cos{};
@@ -232,6 +232,10 @@ struct Kernels {
     /// Evaluates a pair of perpendicular waves with a frequency of `per_px` cycles per px in 12
     /// directions (steps of 7.5 degrees). Returns the pair with the highest power.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
+    /// Evaluates single waves in all directions, with frequencies from 0.6 to 1.63 `per_px`.
+    /// Returns the strongest wave, and the strongest wave with which it forms cells of about the
+    /// area 1 / per_px^2. The power is 0 if there is none.
+    Waves (*strongest_skewed_waves)(const float* x, const float* y, int count, float per_px);
     /// Assigns the dots to cells, and returns the sums over the dots.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
     /// Sets the bits of the cells that contain dots. The first column and the first row are those

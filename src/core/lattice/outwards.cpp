@@ -35,6 +35,11 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     std::fill_n(x.begin() + count, 8, kNoDot_px);
     std::fill_n(y.begin() + count, 8, 0.0F);
     const float unit = static_cast<float>(count) * static_cast<float>(count);
+    if (view.is_skewed) {
+        const Waves waves = kernels.strongest_skewed_waves(x.data(), y.data(),
+                                                           static_cast<int>(count), 1 / spacing);
+        return waves.power < tuned::kFaintWaves * unit ? std::nullopt : std::optional(waves);
+    }
     Waves best;
     // Missing dots increase the estimated spacing, and false dots reduce it, so other spacings are
     // tried as well.
@@ -63,10 +68,10 @@ FloatPlane plane_from_waves(const Waves& waves) {
     FloatPlane plane;
     plane.at_x = -phase_in_cycles(waves, 0);
     plane.at_y = -phase_in_cycles(waves, 1);
-    plane.du_x = waves.kx;
-    plane.dv_x = waves.ky;
-    plane.du_y = -waves.ky;
-    plane.dv_y = waves.kx;
+    plane.du_x = waves.kx[0];
+    plane.dv_x = waves.ky[0];
+    plane.du_y = waves.kx[1];
+    plane.dv_y = waves.ky[1];
     return plane;
 }
 

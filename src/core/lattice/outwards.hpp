@@ -26,6 +26,9 @@ struct PatchView {
     /// Approximate number of dots near the origin through which waves are fitted, at most 64.
     float central_dots = 30;
     int min_dots = 40;  ///< minimum number of dots in the patch
+    /// True if the cells may be any parallelograms, as in the image of a rolling shutter. Otherwise
+    /// they are about square.
+    bool is_skewed = false;
 };
 
 /// Returns the view of a patch that is covered by dots.

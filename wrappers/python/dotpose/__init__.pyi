@@ -168,6 +168,7 @@ class Camera:
     reference_px: Optional[Pixel]
     theta_offset_rad: float
     flip: bool
+    readout_ms: Optional[float]
     exposure_us: Optional[float]
     gain: Optional[float]
     sigma: dict[str, float]

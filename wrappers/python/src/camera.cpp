@@ -112,6 +112,10 @@ void define_camera(py::module_& module) {
         .def_readwrite("flip", &Camera::flip,
                        "True if frames must be flipped, left to right, before they are located: "
                        "image[:, ::-1].")
+        .def_readwrite(
+            "readout_ms", &Camera::readout_ms,
+            "Time from the first to the last row of a rolling shutter, in ms; None for a "
+            "global shutter.")
         .def_readwrite("exposure_us", &Camera::exposure_us, "Exposure, in us.")
         .def_readwrite("gain", &Camera::gain, "Gain of the sensor.")
         .def_readwrite("sigma", &Camera::sigma,

@@ -101,6 +101,8 @@ TEST_F(KernelsTest, WavesAreTheSame) {
         expect_same([&](const Kernels& kernels, Record& record) {
             record.add(
                 kernels.strongest_waves(dots->x.data(), dots->y.data(), dots->count, per_px));
+            record.add(kernels.strongest_skewed_waves(dots->x.data(), dots->y.data(), dots->count,
+                                                      per_px));
         });
     });
 }
