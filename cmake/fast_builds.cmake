@@ -8,6 +8,10 @@ if(DOTPOSE_CCACHE AND (NOT CMAKE_CXX_COMPILER_LAUNCHER OR CMAKE_CXX_COMPILER_LAU
                  CCACHE_SLOPPINESS=pch_defines,time_macros ${DOTPOSE_CCACHE})
     set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
     set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
+    # Clang refuses precompiled headers from the cache if they contain times of files.
+    if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+        add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-Xclang -fno-pch-timestamp>")
+    endif()
 endif()
 
 # mold links in a fifth of the time.

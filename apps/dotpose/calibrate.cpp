@@ -38,10 +38,13 @@ constexpr const char* kCalibrateExamples =
     "  dotpose calibrate --stitch --sheets sheets.json --camera camera.yaml seams/*.png\n\n"
     "Take 5 to 50 frames of any printed sheet, some centimetres apart and at any angles; for\n"
     "--spin, 12 frames of the robot turning on the spot; for --drive, some frames of it driving\n"
-    "straight ahead. From a video or a camera, up to 50 frames that show new places are taken;\n"
-    "Ctrl-C ends the reading. With --live, a window (or, without a display, the terminal) shows\n"
-    "what is still missing while you move the camera; frames are taken until they suffice, or\n"
-    "until q or Ctrl-C. Exit status 1 if the frames do not determine the requested values.\n";
+    "straight ahead; for --rolling, all images of a fast drive. From a video or a camera, up to "
+    "50\n"
+    "frames that show new places are taken; Ctrl-C ends the reading. With --live, a window (or,\n"
+    "without a display, the terminal) shows what is still missing while you move the camera; "
+    "frames\n"
+    "are taken until they suffice, or until q or Ctrl-C. Exit status 1 if the frames do not\n"
+    "determine the requested values.\n";
 
 struct CalibrateArguments {
     SourceArguments sources;
@@ -49,6 +52,7 @@ struct CalibrateArguments {
     LiveCalibrationOptions live;
     std::vector<std::string> spin;
     std::vector<std::string> drive;
+    std::vector<std::string> rolling;
     bool stitch = false;
     ScaleReference reference;
     std::string sheets;
@@ -65,6 +69,7 @@ struct Series {
     std::optional<Sources> lens;
     std::optional<Sources> spin;
     std::optional<Sources> drive;
+    std::optional<Sources> rolling;
 };
 
 /// Returns the arguments with `names` as the sources and without a list.
@@ -77,8 +82,9 @@ SourceArguments with_names(SourceArguments arguments, const std::vector<std::str
 Series series_of(const CalibrateArguments& arguments) {
     const SourceArguments spin = with_names(arguments.sources, arguments.spin);
     const SourceArguments drive = with_names(arguments.sources, arguments.drive);
+    const SourceArguments rolling = with_names(arguments.sources, arguments.rolling);
     if (arguments.sources.reads_of_standard_input() + spin.reads_of_standard_input() +
-            drive.reads_of_standard_input() >
+            drive.reads_of_standard_input() + rolling.reads_of_standard_input() >
         1) {
         throw BadArgument("standard input is named twice");
     }
@@ -86,6 +92,7 @@ Series series_of(const CalibrateArguments& arguments) {
     if (arguments.sources.is_given()) series.lens.emplace(arguments.sources);
     if (spin.is_given()) series.spin.emplace(spin);
     if (drive.is_given()) series.drive.emplace(drive);
+    if (rolling.is_given()) series.rolling.emplace(rolling);
     return series;
 }
 
@@ -138,13 +145,14 @@ void require_size(const Camera& file, const Camera& frames, const std::string& p
                     path, file.width_px, file.height_px, frames.width_px, frames.height_px));
 }
 
-/// Copies mount, exposure and gain from another calibration of the same camera.
+/// Copies mount, readout time, exposure and gain from another calibration of the same camera.
 void keep_mount(const Camera& from, Camera& to) {
     to.reference_px = reference_in(to, from);
     to.theta_offset_rad = from.theta_offset_rad;
+    to.readout_ms = from.readout_ms;
     to.exposure_us = from.exposure_us;
     to.gain = from.gain;
-    for (const char* key : {"reference_u_px", "reference_v_px", "theta_offset_rad"}) {
+    for (const char* key : {"reference_u_px", "reference_v_px", "theta_offset_rad", "readout_ms"}) {
         const auto sigma = from.sigma.find(key);
         if (sigma != from.sigma.end()) to.sigma[key] = sigma->second;
     }
@@ -185,6 +193,12 @@ std::string calibrate_camera(const CalibrateArguments& arguments, Series& series
         return spin_report(spin);
     });
     go_on(series.drive, "calibrating the heading", calibrate_drive, drive_report);
+    const auto readout = [&](int frames, const FrameAt& frame_at, const std::optional<Camera>& of,
+                             const CalibrateOptions& options) {
+        return calibrate_readout(frames, frame_at, of.value_or(Camera{}),
+                                 1000 / *arguments.sources.options.fps, options);
+    };
+    go_on(series.rolling, "measuring the readout", readout, readout_report);
     if (lens && !arguments.picture.empty()) draw_calibration(arguments.picture, *lens);
     camera->flip = arguments.sources.options.flip;
     write_result(arguments.out, *camera);
@@ -253,7 +267,7 @@ void use_sheets(CalibrateArguments& arguments) {
 
 void require_apart(const CalibrateArguments& arguments, const Series& series) {
     RunFiles files;
-    for (const auto* sources : {&series.lens, &series.spin, &series.drive}) {
+    for (const auto* sources : {&series.lens, &series.spin, &series.drive, &series.rolling}) {
         if (*sources) (*sources)->add_files(files);
     }
     if (arguments.stitch) {
@@ -278,12 +292,15 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
 
 /// Returns the exit status.
 int run(CalibrateArguments& arguments) {
-    const bool has_mount = !arguments.spin.empty() || !arguments.drive.empty();
+    const bool has_mount =
+        !arguments.spin.empty() || !arguments.drive.empty() || !arguments.rolling.empty();
     if (!arguments.sources.is_given() && !has_mount) {
         throw BadArgument("no frames given: name 5 to 50 images, or a video or camera");
     }
     if (arguments.stitch && has_mount)
-        throw BadArgument("--stitch cannot be combined with --spin or --drive");
+        throw BadArgument("--stitch cannot be combined with --spin, --drive or --rolling");
+    if (!arguments.rolling.empty() && !arguments.sources.options.fps.value_or(0))
+        throw BadArgument("--rolling needs --fps, the number of frames per second");
     Series series = series_of(arguments);
     require_apart(arguments, series);
     keep_camera_of(arguments.out, arguments.camera);
@@ -305,7 +322,7 @@ void add_live_options(Command& command, CalibrateArguments& arguments) {
     Option* live = command.add_flag(
         "--live", arguments.is_live,
         "Take frames automatically while you move the camera, and show what is still missing");
-    for (const char* other : {"--spin", "--drive", "--stitch"})
+    for (const char* other : {"--spin", "--drive", "--rolling", "--stitch"})
         live->excludes(command.get_option(other));
     command
         .add_flag("--no-window", arguments.live.has_no_window,
@@ -344,6 +361,11 @@ void add_calibrate(Command& app, int& exit_code) {
         ->add_option("--drive", arguments->drive,
                      "Frames of a straight drive ahead, in order: find the heading (theta_offset)")
         ->type_name("SOURCE");
+    command
+        ->add_option("--rolling", arguments->rolling,
+                     "All images of a drive, in order, at the rate of --fps: find the readout time "
+                     "of a rolling shutter (readout_ms)")
+        ->type_name("IMAGE");
     Option* stitch = command->add_flag("--stitch", arguments->stitch,
                                        "Find the poses of the sheets of a sheet file from frames "
                                        "that show two sheets, and write them into the file");

@@ -138,6 +138,16 @@ std::string drive_report(const DriveCalibration& calibration) {
     return text;
 }
 
+std::string readout_report(const ReadoutCalibration& calibration) {
+    std::string text;
+    add(text,
+        "rolling     {} of {} frames located, moved by {:.2f} spacings during the readout (rms)",
+        calibration.located, calibration.frames, calibration.motion);
+    add(text, "readout     {:.3f}{} ms from the first to the last row",
+        calibration.camera.readout_ms.value_or(0), plus_minus(calibration.sigma_ms, 3));
+    return text;
+}
+
 namespace {
 
 std::string print_scale_text(double scale, double sigma) {

@@ -112,6 +112,39 @@ TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
     EXPECT_NEAR(json::parse(output_)["theta_deg"].get<double>(), 0, 0.2);
 }
 
+TEST_F(CalibrateCommand, FindsTheReadoutTimeAndLocateThenReportsTheVelocity) {
+    // The camera moves by a spacing between frames, along its x axis, and the scene therefore by 5
+    // px to the left during the readout: by 0.453 of the time between frames.
+    constexpr double kReadout_px = -5;
+    constexpr double kSpacing_px = 0.508 / 0.046;
+    std::string drive;
+    for (int i = 0; i < 8; ++i) {
+        const std::string folder = "drive" + std::to_string(i);
+        simulate(folder, 1,
+                 "--angle 0 --at " + std::to_string(5000 + i) +
+                     " 5000 --readout=" + std::to_string(kReadout_px) + ",0");
+        drive += " " + folder + "/frame_000000.pgm";
+    }
+    std::ofstream(directory_ / "camera.yaml")
+        << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, "
+           "k_per_px2: -8.7e-06, centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046], gain: 3}";
+    EXPECT_EQ(run("calibrate --camera camera.yaml -o camera.yaml --rolling" + drive), 2);
+    EXPECT_THAT(errors_, HasSubstr("--rolling needs --fps"));
+    ASSERT_EQ(run("calibrate --camera camera.yaml -o camera.yaml --fps 20 --rolling" + drive), 0)
+        << errors_;
+    const std::string yaml = file("camera.yaml");
+    double readout_ms = 0;
+    ASSERT_EQ(std::sscanf(yaml.c_str() + yaml.find("readout_ms: "), "readout_ms: %lf", &readout_ms),
+              1);
+    EXPECT_NEAR(readout_ms, 50 * -kReadout_px / kSpacing_px, 0.5);
+    EXPECT_THAT(yaml, HasSubstr("gain: 3"));
+    ASSERT_EQ(run("locate --camera camera.yaml drive3/frame_000000.pgm"), 0);
+    const json fix = json::parse(output_);
+    EXPECT_NEAR(fix["velocity_x_mm_s"].get<double>(), 20 * 0.508, 0.3);
+    EXPECT_NEAR(fix["velocity_y_mm_s"].get<double>(), 0, 0.3);
+    EXPECT_LT(fix["sigma_velocity_x_mm_s"].get<double>(), 0.2);
+}
+
 constexpr const char* kMountedCamera =
     "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: -8.7e-06, "
     "centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046], reference_px: [500, 59.5], "

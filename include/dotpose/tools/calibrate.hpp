@@ -6,7 +6,8 @@
 ///     write_camera("camera.yaml", lens.camera);
 ///
 /// `calibrate_lens` finds the lens and the scale, `calibrate_spin` and `calibrate_drive` the mount
-/// of the camera on a robot, `stitch_sheets` the relative poses of adjacent sheets. If the frames
+/// of the camera on a robot, `calibrate_readout` the readout time of its rolling shutter, and
+/// `stitch_sheets` the relative poses of adjacent sheets. If the frames
 /// cannot determine a result, Error is thrown with advice. Standard deviations are computed from
 /// the residuals of the fit.
 ///
@@ -172,6 +173,22 @@ struct DriveCalibration {
 DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
                                  const CalibrateOptions& options);
+
+/// Readout time of a rolling shutter, from the frames of a drive.
+struct ReadoutCalibration {
+    Camera camera;  ///< the given camera with `readout_ms` set
+    int frames = 0;
+    int located = 0;
+    double sigma_ms = 0;  ///< standard deviation of the readout time
+    double motion = 0;    ///< rms motion during the readout, in spacings
+};
+
+/// Finds the readout time from at least 7 consecutive frames, taken every `interval_ms`, of a
+/// camera that moves over a sheet. Compares the motion during the readout of each frame with the
+/// motion between its neighbours. Throws Error if the camera file has no view of the paper, if too
+/// few frames have a fix, or if the motion does not determine the readout time to 10 %.
+ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
+                                     double interval_ms, const CalibrateOptions& options);
 
 /// Reference of the print scales. Frames determine the ratios between the scales of sheets and
 /// axes, but not the length of a millimetre.

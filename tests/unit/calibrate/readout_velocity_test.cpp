@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
 #include "frames.hpp"
 
@@ -72,6 +73,56 @@ TEST(ReadoutVelocity, IsWithinItsStandardDeviation) {
         EXPECT_GE(located, kFrames * 97 / 100) << motion;
         EXPECT_NEAR(squares / (2 * located), 1, 0.25) << motion;
     }
+}
+
+/// Returns a frame of a drive that accelerates along a diagonal of the image, at 30 frames per
+/// second, from a camera that reads a frame in `readout_ms`.
+GreyImage drive_frame(const CameraModel& camera, int index, double readout_ms) {
+    constexpr double kInterval_s = 1 / 30.0;
+    constexpr double kStart_mm_s = 20;
+    constexpr double kAcceleration_mm_s2 = 100;
+    constexpr double kTheta_rad = 0.7;
+    const double t_s = index * kInterval_s;
+    const double speed_mm_s = kStart_mm_s + kAcceleration_mm_s2 * t_s;
+    const double way_mm = kStart_mm_s * t_s + kAcceleration_mm_s2 * t_s * t_s / 2;
+    const Vec2 along{std::sqrt(0.5), -std::sqrt(0.5)};  // of the camera, in the image
+    const double c = std::cos(kTheta_rad);
+    const double s = std::sin(kTheta_rad);
+    Setup setup;
+    setup.camera = camera;
+    setup.seed = 92;
+    Shot shot = moved_to(draw_shot(setup, static_cast<std::uint64_t>(index)),
+                         60'000 + way_mm * (c * along.x - s * along.y),
+                         45'000 + way_mm * (s * along.x + c * along.y), kTheta_rad);
+    const double moved_px = -speed_mm_s * readout_ms / 1000 / camera.mm_per_px;
+    shot.camera.readout_px = {moved_px * along.x, moved_px * along.y};
+    return render(shot);
+}
+
+TEST(CalibrateReadout, FindsTheReadoutTimeFromADrive) {
+    const CameraModel model = paper_camera();
+    for (const double readout_ms : {4.0, 20.0}) {
+        const auto frame_at = [&](int i) { return drive_frame(model, i, readout_ms); };
+        const ReadoutCalibration found =
+            calibrate_readout(20, frame_at, true_camera(model), 1000 / 30.0, {});
+        EXPECT_EQ(found.located, 20);
+        EXPECT_NEAR(found.camera.readout_ms.value(), readout_ms, 4 * found.sigma_ms);
+        EXPECT_LT(found.sigma_ms, 0.03 * readout_ms);
+        EXPECT_EQ(found.camera.sigma.at("readout_ms"), found.sigma_ms);
+    }
+}
+
+TEST(CalibrateReadout, RefusesAGlobalShutterAndTooFewFrames) {
+    const CameraModel model = paper_camera();
+    const auto global = [&](int i) { return drive_frame(model, i, 0); };
+    const auto calibrate = [&](int frames, const Camera& camera) {
+        return calibrate_readout(frames, global, camera, 1000 / 30.0, {});
+    };
+    EXPECT_THROW(calibrate(12, true_camera(model)), Error);
+    EXPECT_THROW(calibrate(5, true_camera(model)), Error);
+    Camera without_view = true_camera(model);
+    without_view.paper.reset();
+    EXPECT_THROW(calibrate(12, without_view), Error);
 }
 
 TEST(ReadoutVelocity, NeedsTheReadoutTimeAndAFix) {

@@ -1,0 +1,127 @@
+// Finds the readout time of a rolling shutter from a drive. The motion during the readout of each
+// frame is proportional to the velocity at that time, which the neighbouring frames show.
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+#include <fmt/core.h>
+
+#include "dotpose/code_evidence.hpp"
+#include "dotpose/locate.hpp"
+#include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/mounted_pose.hpp"
+
+namespace dotpose {
+namespace {
+
+using Eigen::Vector2d;
+
+/// A frame of the drive. Lengths are in spacings.
+struct Moving {
+    Cell cell;
+    Section section;
+    Vector2d fraction;
+    Vector2d motion;  ///< during the readout
+};
+
+/// Returns the frames in their order. Frames without a fix are empty.
+std::vector<std::optional<Moving>> locate_drive(int frames, const FrameAt& frame_at,
+                                                const Camera& camera,
+                                                const CalibrateOptions& options) {
+    std::vector<std::optional<Moving>> drive;
+    Locator locator{DeviceOptions{}};
+    CodeReader reader(given_code(options));
+    for (int i = 0; i < frames; ++i) {
+        const GreyImage image = frame_at(i);
+        DeviceOptions how;
+        use_camera(camera, image.width_px, image.height_px, how);
+        locator.set_options(how);
+        const Fix seen = reader.locate(image.view(), locator);
+        const Fix fix = with_camera(seen, camera, locator.trace());
+        const auto velocity = readout_velocity(seen, camera, locator.trace());
+        if (options.progress && !options.progress(i + 1, frames))
+            throw Error("stopped; nothing was written");
+        drive.emplace_back();
+        if (!velocity) continue;
+        drive.back() = Moving{fix.cell,
+                              fix.section,
+                              {fix.fraction_x_q16 / 65536.0, fix.fraction_y_q16 / 65536.0},
+                              {velocity->x_per_s, velocity->y_per_s}};
+    }
+    return drive;
+}
+
+/// Returns the motion from one frame to another, in spacings, or none if a frame is missing or the
+/// frames are on different pages.
+std::optional<Vector2d> motion_between(const std::optional<Moving>& from,
+                                       const std::optional<Moving>& to) {
+    if (!from || !to || from->section != to->section) return {};
+    const auto step = [](std::uint32_t a, std::uint32_t b) {
+        return double(static_cast<std::int32_t>(b - a));
+    };
+    const Vector2d cells{step(from->cell.x, to->cell.x), step(from->cell.y, to->cell.y)};
+    constexpr double kMaxCells = 1000;
+    if (cells.norm() > kMaxCells) return {};
+    return cells + to->fraction - from->fraction;
+}
+
+}  // namespace
+
+ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
+                                     double interval_ms, const CalibrateOptions& options) {
+    if (!camera.paper) {
+        throw Error(
+            "the camera file has no mm_per_px: calibrate the lens of the mounted camera first");
+    }
+    ReadoutCalibration result;
+    result.frames = frames;
+    result.camera = camera;
+    // With a readout of one second, velocities per second are motions during the readout.
+    result.camera.readout_ms = 1000;
+    result.camera.reference_px.reset();
+    result.camera.theta_offset_rad = 0;
+    const auto drive = locate_drive(frames, frame_at, result.camera, options);
+    double products = 0;
+    double squares = 0;
+    std::vector<std::array<Vector2d, 2>> used;  // motion during the readout, and per interval
+    for (std::size_t i = 0; i < drive.size(); ++i) {
+        result.located += drive[i] ? 1 : 0;
+        if (i == 0 || i + 1 == drive.size() || !drive[i]) continue;
+        const auto moved = motion_between(drive[i - 1], drive[i + 1]);
+        if (!moved) continue;
+        used.push_back({drive[i]->motion, *moved / 2});
+        products += drive[i]->motion.dot(*moved) / 2;
+        squares += moved->squaredNorm() / 4;
+    }
+    constexpr std::size_t kMinFrames = 5;
+    if (used.size() < kMinFrames) {
+        throw Error(
+            fmt::format("only {} frames have located neighbours; at least {} are needed: "
+                        "name more frames of the drive, in order",
+                        used.size(), kMinFrames));
+    }
+    const double ratio = products / squares;
+    double residual = 0;
+    for (const auto& [motion, step] : used)
+        residual += (motion - ratio * step).squaredNorm();
+    const double sigma = std::sqrt(residual / (2.0 * double(used.size()) - 1) / squares);
+    constexpr double kMaxSigma = 0.1;
+    if (!(ratio > 0) || !(sigma < kMaxSigma * ratio)) {
+        throw Error(
+            "the motion during the readout is too small or does not agree with the motion from "
+            "frame to frame: drive faster, name all frames in order, and check --fps; the camera "
+            "may also have a global shutter");
+    }
+    result.camera = camera;
+    result.camera.readout_ms = ratio * interval_ms;
+    result.sigma_ms = sigma * interval_ms;
+    result.camera.sigma["readout_ms"] = result.sigma_ms;
+    result.motion = ratio * std::sqrt(squares / double(used.size()));
+    return result;
+}
+
+}  // namespace dotpose
