@@ -10,15 +10,15 @@ const Fix& finish_device_attempt(const DeviceOptions&, Workspace& w) {
     return w.fix;
 }
 
-Status begin_device_tracked(int, int, const DeviceOptions&, const Prediction&, Workspace&) {
+Status begin_device_tracked(int, int, const DeviceOptions&, const Prediction&, DeviceWorkspace&) {
     return Status::not_tracked;
 }
 
-Status push_tracked_row(const std::uint8_t*, Workspace&) {
+Status push_tracked_row(const std::uint8_t*, DeviceWorkspace&) {
     return Status::not_tracked;
 }
 
-const Fix& finish_device_tracked(const DeviceOptions& options, Workspace& w) {
+const Fix& finish_device_tracked(const DeviceOptions& options, DeviceWorkspace& w) {
     return finish_device_attempt(options, w);
 }
 
