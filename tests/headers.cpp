@@ -1,1 +1,2 @@
-// The headers shared by all tests are precompiled for this source.
+// Empty source of the targets that own the precompiled headers of the tests. See
+// tests/CMakeLists.txt.

@@ -209,7 +209,8 @@ std::string LiveCalibration::refusal(const capture::Frame& frame,
     return "";
 }
 
-/// Takes a frame if it adds something new, and shows it. Returns false if the user stops.
+/// Adds a frame to the calibration unless `refusal` gives a reason not to, and displays the frame
+/// in either case. Returns false if the user stopped the calibration.
 bool LiveCalibration::look(capture::Frame& frame) {
     // An unplugged camera delivers empty frames.
     if (frame.image.pixels.empty()) return display_.is_wanted();

@@ -277,6 +277,7 @@ Record record_of(const Located& located, const Follower& follower) {
     record.width_px = follower.image().width_px;
     record.height_px = follower.image().height_px;
     record.min_dots = follower.used_options().lattice.min_dots;
+    if (record.has_sheets) record.min_dots = std::min(record.min_dots, kMinKnownDots);
     record.max_p_wrong_log2 = follower.used_options().integrity.max_p_wrong_log2;
     return record;
 }

@@ -25,8 +25,8 @@
 namespace dotpose {
 
 /// The odds of each code variant of one sheet, given all frames so far. All frames at one place
-/// contain the defects of the same dots, so they count as one frame. The factor by which this frame
-/// reduces the odds of a code variant is the mean of the factors of all frames at the place.
+/// show the same dots with the same defects, so together they count as a single frame: they reduce
+/// the odds of a code variant by the mean of their individual factors.
 class CodeEvidence {
   public:
     /// log2 of the likelihood or the odds of each code variant, in units of 2^-8.

@@ -24,6 +24,10 @@ struct KnownRegion {
     std::uint32_t rows = 0;
 };
 
+/// Minimum number of dots of a view of known sheets, if the minimum in the options is larger. The
+/// smallest views that can be certain have about 25 dots.
+inline constexpr int kMinKnownDots = 16;
+
 /// Whether sheets other than the known ones may be in view.
 enum class OtherSheets : std::uint8_t {
     possible,    ///< other sheets are also located, but need more dots in view

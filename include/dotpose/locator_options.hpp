@@ -14,8 +14,8 @@
 
 namespace dotpose {
 
-/// Options of a Locator. All options affect every attempt, also on images that are pushed row by
-/// row.
+/// Options of a Locator. All options apply to every attempt, including attempts on images that are
+/// pushed row by row.
 struct LocatorOptions {
     /// Code variant of the sheet. Default: detected from all frames so far. If two code variants
     /// explain a frame about equally well, the status is ambiguous_code.

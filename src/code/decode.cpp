@@ -22,8 +22,8 @@ struct Places {
     int count = 0;
 };
 
-/// Returns true if the digits of the sequence, starting at `place`, match the digits of all
-/// differences.
+/// Returns true if the digits of sequence `a` from `place` on (cyclically) equal digit number
+/// `digit` of each of `deltas`.
 bool matches_at(const code::Secondary& a, std::size_t digit, std::span<const std::uint8_t> deltas,
                 std::uint32_t place) {
     for (const std::uint8_t d : deltas) {

@@ -40,9 +40,9 @@ TrackedView view_of(const Tracking& tracking) {
             extent_q16(tracking.height_px)};
 }
 
-/// Finds the first cell in view of each row of cells, beginning at row `j`, in steps of `j_step`,
-/// up to the first row without a cell in view. The cells in view of a row are adjacent, and near
-/// the cells in view of the previous row.
+/// Finds the first visible cell of each row of cells, from row `j` in steps of `j_step`, until a
+/// row has no visible cell. The visible cells of a row are contiguous and close to those of the
+/// previous row, so each search starts at the result of the previous search.
 void lay_rows(Tracking& tracking, int j, int j_step) {
     const TrackedView view = tracking.view;
     const RowDirection direction = row_direction(tracking);

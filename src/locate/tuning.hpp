@@ -141,9 +141,6 @@ inline constexpr float kRough = 0.027F;
 
 /// Constants of views of known sheets (locate/hypothesis, locate/workspace).
 namespace known {
-/// Minimum number of dots of a grid, and of dots that are read. The smallest views that can be
-/// certain have about 25 dots.
-inline constexpr int kMinDots = 16;
 /// Shorter side of an image, in spacings, below which dots are read up to kMargin_px from the
 /// border. Of 300 views of 36 x 36 px at 6 px per spacing, 88 % are located with the usual margin
 /// of 1.7 px, 97 % with 1.0 px; the errors are equal (`dotpose_tables known`).

@@ -77,7 +77,7 @@ struct DesktopWorkspace : DeviceWorkspace {
 
 /// Returns the minimum number of dots of a grid. On known sheets, fewer dots determine a place.
 inline int min_dots(const DeviceOptions& options, const DesktopWorkspace& w) {
-    return w.known.any() ? std::min(options.lattice.min_dots, tuning::known::kMinDots)
+    return w.known.any() ? std::min(options.lattice.min_dots, kMinKnownDots)
                          : options.lattice.min_dots;
 }
 

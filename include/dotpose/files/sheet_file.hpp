@@ -82,8 +82,8 @@ struct SheetEntry {
 
 /// Checks one entry. Throws BadArgument if the name is empty, is not UTF-8, or contains terminal
 /// control characters; if the page number is below 1, a print scale is out of range, or the world
-/// pose is not finite; if `sheet` is invalid (as `validate(sheet)`); or if `print` has fewer than 1
-/// page, a resolution of 0 or less, or an unknown drawing of dots.
+/// pose is not finite; if `sheet` is invalid (see `validate(const Sheet&)`); or if `print` has no
+/// pages, a resolution of 0 or less, or an unknown method of drawing dots.
 void validate(const SheetEntry& entry);
 
 /// Returns true if two sheets share cells. Different sections never overlap. The code variants

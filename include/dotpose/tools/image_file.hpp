@@ -45,12 +45,12 @@ struct ImageTooLarge : Error {
     int height_px;
 };
 
-/// Reads one image. Reading needs up to 15 bytes of memory per pixel in addition to the file, which
-/// is read up to the size of an image of `max_pixels`. `page` is the number of a page of a TIFF
-/// file, from 1. Throws Error with the name of the file and the reason: no such page, no such file,
-/// a directory, no permission, empty, unknown image format, truncated, damaged, too large, not
-/// enough memory. Throws ImageTooLarge for more than `max_pixels`, at most kMaxImagePixels.
-/// Thread-safe.
+/// Reads one image. Reading needs up to 15 bytes of memory per pixel in addition to the file. Files
+/// that are too large for an image of `max_pixels` are refused. `page` is the number of a page of a
+/// TIFF file, from 1. Throws Error with the name of the file and the reason: no such page, no such
+/// file, a directory, no permission, empty, unknown image format, truncated, damaged, too large,
+/// not enough memory. Throws ImageTooLarge if the image has more than `max_pixels` or
+/// kMaxImagePixels. Thread-safe.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
 

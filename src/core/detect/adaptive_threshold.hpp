@@ -1,6 +1,6 @@
 // Adaptive threshold: measures the paper level and the contrast of tiles, and sets the thresholds
 // of each column. First half of the thresholding of paper section II-B.1. differs: the paper uses
-// one global threshold; LEDs next to a wide lens never light the paper evenly.
+// one global threshold, but LEDs next to a wide-angle lens never light the sheet evenly.
 #pragma once
 
 #include <algorithm>

@@ -311,7 +311,8 @@ struct Kernels {
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 unsigned sequences, std::span<const LineLoss> lines, int loss_limit,
                                 SimilarPlaceList& list);
-    /// Sets `sums` to the sums of the smallest of 8 to 16 losses. Negative losses count as 0.
+    /// Sets `sums[n]` to the sum of the n smallest losses, for n = 0 to 8. `losses` must have 8 to
+    /// 16 elements. Negative losses count as 0.
     void (*sum_smallest_losses)(std::span<const std::int16_t> losses, SmallestSums& sums);
 };
 

@@ -105,7 +105,8 @@ TEST(WeighOtherCodes, SumsUpPlacesAlongBothAxes) {
     EXPECT_GT(close, 20);
 }
 
-/// Returns lines of 12 certain bits from a position on.
+/// Returns `lines` consecutive lines of a code, starting at `position`, each with 12 correct bits
+/// of full weight.
 RatiosCase clear_lines(CodeVariant code, std::uint32_t position, int lines) {
     Rng rng(kSeed);
     RatiosCase c;
