@@ -4,7 +4,7 @@
 //
 // Writes tables.md, sweep-*.{csv,svg,png}, table-3.md and figure-*.{svg,png} to FOLDER
 // (accuracy-out). --update also replaces the generated parts of the document and its pictures.
-// --quick locates a tenth of the frames, to test the program; its numbers are inaccurate.
+// --quick locates a tenth of the frames, to test the program. The numbers are then inaccurate.
 #include <array>
 #include <cmath>
 #include <filesystem>

@@ -20,7 +20,7 @@ class CalibrationFrames {
   public:
     /// Reads videos and raw frames to their end, and a camera until 50 places were seen. Ctrl-C
     /// ends the reading of a source earlier. Throws Error if a source fails, if no frame of a
-    /// source is located, or after another signal.
+    /// source is located, or after a signal other than Ctrl-C.
     CalibrationFrames(const SourceArguments& arguments, Sources& sources,
                       const CalibrateOptions& options);
 

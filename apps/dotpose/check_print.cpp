@@ -62,8 +62,8 @@ void require_svg(const std::string& path) {
     throw BadArgument(fmt::format("'{}': the name of the map must end in .svg", path));
 }
 
-/// Returns true if a printer driver can produce this print scale. If not, the resolution of the
-/// scan is probably wrong.
+/// Returns true if the scale differs from 1 by an amount that a printer driver can cause. If not,
+/// the resolution of the scan is probably wrong.
 bool is_plausible(const PrintScale& scale) {
     constexpr double kMaxDeviation = 0.25;
     return std::abs(scale.scale_x - 1) <= kMaxDeviation &&

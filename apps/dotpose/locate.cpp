@@ -69,8 +69,9 @@ class ImageLocator {
 
     bool has_sheets() const { return !follower_.sheets().empty(); }
 
-    /// Locates an image. The image must exist until it has been drawn. `bits_per_px` describes the
-    /// source of the image. Throws Error if the size of the image differs from the camera file.
+    /// Locates an image. The image must exist until it has been drawn. `bits_per_px` is the number
+    /// of bits per pixel of the compressed video that contains the image, or 0 if unknown. Throws
+    /// Error if the size of the image differs from the camera file.
     Record operator()(const std::string& name, GreyImage& image, double bits_per_px) {
         if (arguments_.follower.is_inverted) invert(image);
         const auto start = steady_clock::now();
@@ -152,8 +153,7 @@ RunFiles files_of(const LocateArguments& arguments, const Sources& sources) {
     return files;
 }
 
-/// Locates all frames of a run. After a failed frame or source, the run continues with the next
-/// one.
+/// Locates all frames of a run. After a failure, the run continues with the next frame or source.
 class LocateRun {
   public:
     LocateRun(const LocateArguments& arguments, Sources& sources)

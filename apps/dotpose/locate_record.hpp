@@ -19,8 +19,10 @@ struct Record {
     CodeReading reading;         ///< code and alternative places; `fix` is at the image centre
     bool code_is_given = false;  ///< true if the user or the sheets determine the code
     double spacing_mm = 0;       ///< NaN if unknown, in which case there are no fields in mm
-    double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();  ///< as in Located
-    std::optional<ReadoutVelocity> velocity;                              ///< as in Located
+    /// Spacing computed from the fix and the camera file; see Located.
+    double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
+    /// Velocity of the camera during the readout of a rolling shutter; see Located.
+    std::optional<ReadoutVelocity> velocity;
     bool has_sheets = false;          ///< true if the record has the fields of a sheet file
     std::optional<SheetPlace> place;  ///< the place on a sheet
     int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }
@@ -38,8 +40,8 @@ Record record_of(const Located& located, const Follower& follower);
 /// Number of kinds of warnings.
 inline constexpr std::size_t kWarnings = 3;
 /// Returns the warnings of a frame; an empty text means no warning. In order: the user gave a code,
-/// but another code explains the frame; the place is on no sheet of the sheet file; the camera file
-/// implies another spacing.
+/// but another code explains the frame; the place is on no sheet of the sheet file; the spacing
+/// that the camera file implies differs from the spacing of the sheet.
 std::array<std::string, kWarnings> warnings(const Record& record);
 
 /// Explains why there is no fix, with the relevant numbers. Empty if there is a fix.

@@ -15,8 +15,9 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// Column names of a pose and its covariance. `units` are the factors from the columns to metres
-/// and radians; they are negative for y and the angle if y points down.
+/// Column names of a pose and its covariance. `units` contains the conversion factors from the
+/// units of the columns to metres and radians. The factors of y and of the angle are negative if y
+/// points down.
 struct PoseColumns {
     const char* x;
     const char* y;

@@ -18,7 +18,7 @@ class NewPlaces {
 
     std::size_t count() const { return places_.size(); }
 
-    /// Removes every second place and doubles the minimum differences from now on.
+    /// Removes every second place, and doubles the minimum differences for all later frames.
     void thin_out();
 
   private:

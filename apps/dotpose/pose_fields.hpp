@@ -12,7 +12,7 @@ namespace dotpose::cli {
 
 /// Units and frames of poses in the output. World poses are always in metres and radians.
 enum class Units {
-    mm,   ///< mm and degrees, y down and angles clockwise as on the paper
+    mm,   ///< mm and degrees, y down and angles clockwise, as seen on the paper
     ros,  ///< metres and radians, y up, z out of the paper, counter-clockwise (ROS REP 103)
 };
 

@@ -21,7 +21,7 @@ inline constexpr const char* kSourcesHelp =
 
 struct SourceArguments {
     std::vector<std::string> names;
-    std::string list;  ///< file with further names; "-" for standard input; empty for none
+    std::string list;  ///< file with additional names; "-" for standard input; empty for none
     capture::SourceOptions options;
 
     bool is_given() const { return !names.empty() || !list.empty(); }
@@ -54,7 +54,7 @@ class Sources {
     /// if the list, a folder or a glob cannot be read.
     explicit Sources(const SourceArguments& arguments);
 
-    /// Returns true if a pipe may deliver further names.
+    /// Returns true if a pipe may still deliver names.
     bool has_pipe() const { return names_.has_pipe(); }
 
     /// Registers the list file and all files that are known before reading.

@@ -19,7 +19,7 @@ class SourceNames {
 
     const std::vector<std::string>& known() const { return known_; }
 
-    /// Returns true if a pipe may deliver further names.
+    /// Returns true if a pipe may still deliver names.
     bool has_pipe() const { return is_pipe_; }
 
     /// Returns the next name, or none after the last one. Throws Error like the constructor; there

@@ -14,9 +14,9 @@ inline constexpr const char* kHelpCommand = "help";
 /// first. Otherwise a misspelt `--out` would be reported as "--out is required".
 std::string usage_error(const Command& app, const UsageError& error);
 
-/// Throws UsageError if an option that has a short form is written with one hyphen, as in `-out
-/// sheet.pdf`. Otherwise the parser would accept `-out` as `-o` with the file name "ut". `argc` and
-/// `argv` are the arguments of `main`.
+/// Throws UsageError if an option that has a short form is written with one hyphen, for example
+/// `-out sheet.pdf`. Otherwise the parser would accept `-out` as `-o` with the file name "ut".
+/// `argc` and `argv` are the arguments of `main`.
 void require_two_hyphens(const Command& command, int argc, const char* const* argv);
 
 /// Returns "dotpose COMMAND --help" for the parsed command, or "dotpose --help".

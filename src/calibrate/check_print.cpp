@@ -97,7 +97,7 @@ void identify(const Field& field, const CheckPrintOptions& options, PrintField& 
         result.sheet = sheet_at(options, field.code.section, cell);
         if (patch) result.pattern = *patch;
         if (result.sheet) result.pattern = options.sheets[*result.sheet].pattern;
-        // The centre of a tile may be on the margin of the page, so further tiles are tried.
+        // The centre of a tile may be on the margin of the page, so all tiles are tried in turn.
         if (patch || result.sheet) break;
     }
     result.pattern.code = options.pattern.code;

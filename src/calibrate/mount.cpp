@@ -71,7 +71,8 @@ Camera without_distortion(const GreyImage& image) {
     return camera;
 }
 
-/// Throws Error if the spacing measured with the camera file contradicts the spacing of the sheet.
+/// Throws Error if the mean of the spacings computed from the fixes and the camera file contradicts
+/// the spacing of the sheet.
 void require_spacing(const std::vector<double>& measured_mm, double spacing_mm) {
     double mean_mm = 0;
     for (const double mm : measured_mm)

@@ -22,11 +22,12 @@ using namespace dotpose::calibrate;
 
 constexpr std::size_t kMinPoseDots = 12;
 
-/// Equation of a dot: printed + displacement * displaced = place + (c, -s; s, c) (x, y) + t v. (x,
-/// y) is in mm from `middle`. All other lengths are in spacings, corrected for the print scale. The
-/// parameters are place, c, s, the displacement, which ink and blur change, and for a rolling
-/// shutter v, the motion of the camera during the readout. The row of the dot is read at t, as a
-/// fraction of the readout from its middle.
+/// Numbers of parameters of the equation of a dot: printed + displacement * displaced = place + (c,
+/// -s; s, c) (x, y) + t v. (x, y) is in mm from `middle`. All other lengths are in spacings,
+/// corrected for the print scale. The parameters are place, c, s, the displacement, which ink and
+/// blur change, and, only for a rolling shutter, v, the motion of the camera during the readout. t,
+/// from -1/2 to 1/2, is the time at which the row of the dot is read, relative to the middle of the
+/// readout, as a fraction of the readout time.
 constexpr int kParameters = 5;
 constexpr int kRollingParameters = 7;
 
@@ -105,7 +106,8 @@ std::optional<ReadoutVelocity> readout_velocity(const Fix& fix, const Camera& ca
     if (dots.size() < kMinPoseDots) return {};
     const PoseFit pose = fit_pose(dots, camera, print);
     constexpr int kFirst = kParameters;
-    // Motions during the readout, in nominal spacings, become velocities.
+    // Factors that convert the motion during the readout, along x and y, to a velocity in nominal
+    // spacings per second.
     const std::array per_s{1000 / (*camera.readout_ms * print.x),
                            1000 / (*camera.readout_ms * print.y)};
     ReadoutVelocity velocity{

@@ -61,9 +61,9 @@ struct TiltResidual {
 /// Place (x, y in mm) and direction (radians) of the image centre.
 using CentrePose = std::array<double, 3>;
 
-/// Returns the pose of the image centre of `camera` relative to the view of `other`. As in
-/// `with_camera`, place, angle and scale align the view of `camera` with that of `other` in the
-/// same pixels.
+/// Returns the pose of the image centre of `camera` relative to the view of `other`. Like
+/// `with_camera`, aligns the view of `camera` with the view of `other` in the same pixels by place,
+/// angle and scale.
 CentrePose centre_pose(const Camera& camera, const Camera& other) {
     using Point = std::complex<double>;
     const auto seen = [](const Camera& by, PixelPoint straight) {

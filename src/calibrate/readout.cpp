@@ -1,5 +1,6 @@
 // Finds the readout time of a rolling shutter from a drive. The motion during the readout of each
-// frame is proportional to the velocity at that time, which the neighbouring frames show.
+// frame is the velocity at that time, multiplied by the readout time. The velocity is computed from
+// the previous and the next frame.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -25,10 +26,11 @@ struct Moving {
     Cell cell;
     Section section;
     Vector2d fraction;
-    Vector2d motion;  ///< during the readout
+    Vector2d motion;  ///< motion of the camera during the readout
 };
 
-/// Returns the frames in their order. Frames without a fix are empty.
+/// Locates the frames of the drive. Returns one element for each frame, in their order. The element
+/// of a frame without a fix is empty.
 std::vector<std::optional<Moving>> locate_drive(int frames, const FrameAt& frame_at,
                                                 const Camera& camera,
                                                 const CalibrateOptions& options) {
@@ -55,8 +57,8 @@ std::vector<std::optional<Moving>> locate_drive(int frames, const FrameAt& frame
     return drive;
 }
 
-/// Returns the motion from one frame to another, in spacings, or none if a frame is missing or the
-/// frames are on different pages.
+/// Returns the motion from one frame to another, in spacings, or none if either frame has no fix,
+/// or if the frames are in different sections or more than kMaxCells apart.
 std::optional<Vector2d> motion_between(const std::optional<Moving>& from,
                                        const std::optional<Moving>& to) {
     if (!from || !to || from->section != to->section) return {};
@@ -80,14 +82,16 @@ ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const 
     ReadoutCalibration result;
     result.frames = frames;
     result.camera = camera;
-    // With a readout of one second, velocities per second are motions during the readout.
+    // With a readout time of one second, the velocity per second equals the motion during the
+    // readout.
     result.camera.readout_ms = 1000;
     result.camera.reference_px.reset();
     result.camera.theta_offset_rad = 0;
     const auto drive = locate_drive(frames, frame_at, result.camera, options);
     double products = 0;
     double squares = 0;
-    std::vector<std::array<Vector2d, 2>> used;  // motion during the readout, and per interval
+    // For each frame used: the motion during the readout, and the mean motion per frame interval.
+    std::vector<std::array<Vector2d, 2>> used;
     for (std::size_t i = 0; i < drive.size(); ++i) {
         result.located += drive[i] ? 1 : 0;
         if (i == 0 || i + 1 == drive.size() || !drive[i]) continue;

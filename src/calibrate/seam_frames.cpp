@@ -18,8 +18,9 @@ constexpr double kBeyondPage_mm = 400;
 /// Minimum number of dots of a view. With fewer dots, its scales along the axes are not reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// Number of fields with dots of located sheets, out of 64, from which no further parts of a frame
-/// are located. The number of dots in a fix is not suitable, because a fix includes only one sheet.
+/// Minimum number of fields, out of 64, in which dots of located sheets must be found. Once this
+/// number is reached, no more parts of the frame are located. The number of dots in a fix is not
+/// suitable, because a fix includes only one sheet.
 constexpr int kNearlyAllFields = 58;
 
 /// Part of the image along one axis: begin and length, as fractions of the side.

@@ -15,8 +15,8 @@ constexpr int kMinWindow = code::kMainOrder;
 using Rolls = std::array<std::uint8_t, kMaxWindow>;
 using Deltas = std::array<std::uint8_t, kMaxWindow - 1>;
 
-/// The places in one secondary sequence at which its digits match the digits of all differences of
-/// a window: the first of these places, and their number.
+/// The places in one secondary sequence at which its digits match the corresponding digits of all
+/// differences of a window. Contains only the first of these places and their number.
 struct Places {
     std::uint32_t first = 0;
     int count = 0;
@@ -54,8 +54,8 @@ Places find(const code::Secondary& a, std::size_t digit, std::span<const std::ui
     return places;
 }
 
-/// Returns the place in the main sequence that matches all bits of a column or row, or kAbsent if
-/// the main sequence does not contain these bits.
+/// Returns the place in the main sequence that matches all bits of column or row `line` of the
+/// window, or kAbsent if the main sequence does not contain these bits.
 std::uint8_t place_in_main(const SymbolWindow& window, bool columns, int line) {
     const int length = columns ? window.rows : window.columns;
     const auto bit = [&](int i) -> unsigned {

@@ -142,7 +142,8 @@ MeasuredError error_of(const MeasuredFrame& frame, const std::optional<Similarit
     return error;
 }
 
-/// Marks frames as wrong if their error is far above the median.
+/// Marks frames as wrong if their error is above kWrongFrom_medians times the median of all frames,
+/// and above kWrongFrom_grid spacings or kWrongFrom_deg degrees.
 void mark_wrong(const std::vector<MeasuredFrame>& frames,
                 std::vector<std::optional<MeasuredError>>& errors) {
     constexpr double kWrongFrom_medians = 10;

@@ -18,8 +18,10 @@ inline constexpr double kFont = 15;
 inline constexpr double kTitleFont = 22;
 inline constexpr const char* kAll = draw::colour::kWindow;
 inline constexpr const char* kWindow = "#ffa726";
-inline constexpr const char* kAbove = "#c62828";  ///< positive errors; red as in the paper
-inline constexpr const char* kBelow = "#1565c0";  ///< negative errors; blue as in the paper
+inline constexpr const char* kAbove =
+    "#c62828";  ///< colour of positive errors: red, as in the paper
+inline constexpr const char* kBelow =
+    "#1565c0";  ///< colour of negative errors: blue, as in the paper
 }  // namespace style
 
 /// Returns the largest step of the form 1, 2, 2.5 or 5 times a power of ten that divides `range`

@@ -127,7 +127,8 @@ bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane&
            spacing_px(plane) >= tuned::kMinSpacingForPrediction_px;
 }
 
-/// Confirms the hypothesis of the dots of the patch at the image centre.
+/// Finds the grid of the dots of the patch at the image centre, and confirms its hypothesis. The
+/// cells may be any parallelograms if `is_skewed` is true, and must be about square otherwise.
 Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
                          const DeviceOptions& options, bool is_skewed, DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -145,8 +146,9 @@ Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
     return confirm(kernels, image, options, hypothesis, w);
 }
 
-/// Searches the patch at the image centre: a square grid first, and then any grid, because a
-/// rolling shutter shears and stretches the image of a scene that moves.
+/// Searches the patch at the image centre for a square grid. If there is none, searches it for a
+/// grid of any parallelograms, because a rolling shutter shears and stretches the image of a moving
+/// scene.
 Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
                               const DeviceOptions& options, DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -191,8 +193,8 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
 
 /// Searches a patch around a point of the image. If the patch gives no hypothesis, and its dots are
 /// densest far from its middle, also searches a patch around the densest point. `tries_left` is the
-/// number of further hypotheses that may remain uncertain. Each uncertain hypothesis increases the
-/// probability of a wrong fix.
+/// number of hypotheses that may still turn out to be uncertain before the search ends. Each
+/// uncertain hypothesis increases the probability of a wrong fix.
 Confirmation locate_around(const Kernels& kernels, const ImageView& image,
                            const DeviceOptions& options, FixedVec around_px, int scale,
                            int& tries_left, DesktopWorkspace& w) {

@@ -248,8 +248,8 @@ CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
     return reading;
 }
 
-/// Copies the place of `any`, a reading in another code, to the other place of `reading`. Ignores a
-/// place that more bits contradict than are usually misread.
+/// Copies the place of `any`, a reading in another code, to the other place of `reading`. Ignores
+/// the place if more bits contradict it than are usually misread.
 void note_other_reading(const CodeReading& any, CodeReading& reading) {
     const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
     if (!is_read || tuned::kBitsPerError * any.fix.bit_errors > any.fix.dots_seen) return;

@@ -163,7 +163,7 @@ inline constexpr int kHigh_10ths = 9;
 /// 1.5`).
 inline constexpr int kPaleParts = 3;
 /// Maximum turns of the periodogram search relative to the first estimate, in degrees, tried in
-/// order. Words can turn the first estimate by 26 degrees.
+/// order. Printed text can turn the first estimate by 26 degrees.
 inline constexpr int kMaxTurns_deg[] = {12, 45};
 }  // namespace second
 

@@ -165,7 +165,7 @@ void MqttClient::start() {
     // One more than the number of messages that `publish` uses, because presence messages must not
     // wait.
     mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMaxUnderWay + 1));
-    // Messages are published by other threads than the thread of `run`.
+    // Messages are published by threads other than the thread of `run`.
     mosquitto_threaded_set(mosquitto_, true);
     constexpr int kKeepAlive_s = 10;
     const int code =

@@ -59,8 +59,8 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
     const Vec2 undistorted{focal_px_ * camera_mm(0) / depth_mm,
                            focal_px_ * camera_mm(1) / depth_mm};
     // The scene moves while the rows are read, so the row at which a point is seen depends on the
-    // time, and the time on the row. Newton's method solves row = seen_at(row).y. Without motion
-    // and without distortion, the first step is exact.
+    // time, and the time depends on the row. Newton's method solves row = seen_at(row).y. Without
+    // motion and without distortion, the first step is exact.
     const auto seen_at = [&](double row_px) {
         const double time = row_px / height_px_;
         return distorted(

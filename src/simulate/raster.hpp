@@ -29,8 +29,8 @@ class Raster {
     /// The sub-pixels of one pixel in one sub-row.
     struct Spot {
         std::size_t pixel = 0;  ///< numbered from the left of the border
-        /// Fraction of the light that the ink absorbs in each sub-pixel. Zero from index
-        /// Layout::per_pixel on.
+        /// Fraction of the light that the ink absorbs in each sub-pixel. Elements with an index of
+        /// Layout::per_pixel or more are 0.
         std::array<float, Kernel::kMaxPerPixel> darkness{};
     };
 

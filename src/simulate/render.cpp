@@ -27,7 +27,8 @@ void check_camera(const CameraModel& camera, const CameraPose& pose) {
     require(within(camera.working_distance_mm, 1e-6, 1e9), "the working distance must be above 0");
     const double half_u = camera.width_px / 2.0;
     const double half_v = camera.height_px / 2.0;
-    constexpr double kMaxReadout = 1.5;  // of half the image
+    // Maximum motion during the readout, as a fraction of half the side of the image.
+    constexpr double kMaxReadout = 1.5;
     require(within(camera.readout_px.x, -kMaxReadout * half_u, kMaxReadout * half_u) &&
                 within(camera.readout_px.y, -kMaxReadout * half_v, kMaxReadout * half_v),
             "the motion during the readout must be at most 75 % of the image");

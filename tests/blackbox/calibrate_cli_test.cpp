@@ -113,8 +113,9 @@ TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
 }
 
 TEST_F(CalibrateCommand, FindsTheReadoutTimeAndLocateThenReportsTheVelocity) {
-    // The camera moves by a spacing between frames, along its x axis, and the scene therefore by 5
-    // px to the left during the readout: by 0.453 of the time between frames.
+    // Between frames, the camera moves by one spacing, which is 11.04 px, along its x axis. The
+    // scene moves by 5 px to the left during the readout, so the readout takes 0.453 of the time
+    // between frames.
     constexpr double kReadout_px = -5;
     constexpr double kSpacing_px = 0.508 / 0.046;
     std::string drive;

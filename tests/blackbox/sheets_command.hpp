@@ -43,7 +43,7 @@ class SheetsCommand : public LocateCommand {
     int print(const std::string& arguments) { return ToolCommand::run("print " + arguments); }
     json sheets() const { return json::parse(read_file(directory_ / "sheets.json"))["sheets"]; }
 
-    /// Edits the sheet file, as a user does with an editor.
+    /// Edits the sheet file, as a user would in an editor.
     template <typename Edit>
     void edit_sheet(std::size_t index, const Edit& edit) const {
         json document = json::parse(read_file(directory_ / "sheets.json"));

@@ -408,7 +408,7 @@ typedef struct dotpose_region {
 
 /* Whether sheets other than the known ones may be in view. */
 enum {
-    /* Other sheets are located, too, where enough of them is seen. */
+    /* Other sheets are also located if enough of their dots are in view. */
     DOTPOSE_OTHERS_POSSIBLE = 0,
     /* Only places on known sheets are possible. */
     DOTPOSE_OTHERS_IMPOSSIBLE = 1

@@ -46,7 +46,8 @@ struct Tilt {
 struct Camera {
     int width_px = 0;
     int height_px = 0;
-    /// Radial distortion, paper eq. 1-2 (a division model), about `centre_px`: below 0 for barrel.
+    /// Radial distortion, paper eq. 1-2 (a division model), about `centre_px`. Below 0 for barrel
+    /// distortion.
     double k_per_px2 = 0;
     PixelPoint centre_px;
     std::optional<PaperScale> paper;  ///< none if the camera is hand-held, or its view is not known
@@ -65,7 +66,8 @@ struct Camera {
     bool flip = false;
 
     /// Time from the first to the last row of an image, if the sensor has a rolling shutter. The
-    /// pose is then that of the middle row, and the velocity of the camera is fitted as well.
+    /// pose then applies to the time of the middle row, and the velocity of the camera is fitted as
+    /// well.
     std::optional<double> readout_ms;
 
     /// Settings of the sensor, for information; dotpose does not use them.
@@ -79,7 +81,7 @@ struct Camera {
 /// Checks all values. Throws BadArgument for a size that `locate` does not accept, a lens that
 /// folds the image (1 + k r^2 must be in [0.5, 2]), a centre more than 1000 px from the image
 /// centre, values that are not finite, lengths of 0 or less, and a reference point more than 10,000
-/// px away.
+/// px from the image centre.
 void validate(const Camera& camera);
 
 /// Returns the undistorted pixel of `pixel` (paper eq. 1-2).
@@ -110,18 +112,18 @@ CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 
 /// Returns the reference point of `camera` as an undistorted pixel of `other`, another calibration
-/// of the same camera. If one of the views is not known, returns the same pixel.
+/// of the same camera. If the view of either camera is not known, returns the same pixel.
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
 
-/// Returns the camera of a part of its images. The part is the rectangle of `width_px` x
-/// `height_px` whose top left pixel is (`left_px`, `top_px`). Reference point and heading refer to
-/// the same point and direction as before, even if `camera` uses the defaults. Throws BadArgument
-/// as `validate`, and if the part exceeds the image.
+/// Returns the camera whose images are a part of the images of `camera`. The part is the rectangle
+/// of `width_px` x `height_px` whose top left pixel is (`left_px`, `top_px`). Reference point and
+/// heading refer to the same point and direction as before, even if `camera` uses the defaults.
+/// Throws BadArgument as `validate` does, and if the part exceeds the image.
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
 /// Sets lens and reference point for images of this size. If the view of the camera is known, the
-/// trace keeps the dots for `with_camera`. Throws BadArgument if the images of the camera have
-/// another size.
+/// trace keeps the dots for `with_camera`. Throws BadArgument if the size differs from the size of
+/// the images of the camera.
 void use_camera(const Camera& camera, int width_px, int height_px, DeviceOptions& options);
 
 }  // namespace dotpose

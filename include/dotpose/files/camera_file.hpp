@@ -33,7 +33,7 @@ Camera parse_camera(const std::string& text, const std::string& name);
 bool is_camera_info(const std::filesystem::path& path);
 
 /// Writes the file completely or not at all. Throws Error if the file cannot be written, and
-/// BadArgument as `validate`.
+/// BadArgument as `validate` does.
 void write_camera(const std::filesystem::path& path, const Camera& camera);
 
 }  // namespace dotpose

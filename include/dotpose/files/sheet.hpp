@@ -55,7 +55,7 @@ struct Sheet {
 /// Checks a sheet from any source. Throws BadArgument for the first invalid value: lengths must be
 /// positive and finite, dots must not touch, the section must be below kSections, the sheet must
 /// have at least kMinSheetCells columns and rows, the region must be inside the code plane, and all
-/// ink on the page.
+/// ink must be on the page.
 void validate(const Sheet& sheet);
 
 }  // namespace dotpose

@@ -54,7 +54,7 @@ struct SheetPrint {
     std::string title;          ///< title of the page and its document
     int pages = 1;              ///< number of pages of the document with dots
     double dpi = 600;           ///< resolution of the printer
-    std::string dots = "auto";  ///< drawing of dots in a PDF: "auto", "glyphs" or "strokes"
+    std::string dots = "auto";  ///< method of drawing dots in a PDF: "auto", "glyphs" or "strokes"
     bool has_labels = true;     ///< true if a PDF has text and rulers in the margins
     std::string command;        ///< command that prints the same page again
     std::string document;       ///< PDF under the dots; empty if there is none
@@ -80,10 +80,10 @@ struct SheetEntry {
     bool is_reserved = false;
 };
 
-/// Checks one entry. Throws BadArgument if the name is empty, is not UTF-8, or contains terminal
-/// control characters; if the page number is below 1, a print scale is out of range, or the world
-/// pose is not finite; if `sheet` is invalid (see `validate(const Sheet&)`); or if `print` has no
-/// pages, a resolution of 0 or less, or an unknown method of drawing dots.
+/// Checks one entry. Throws BadArgument if any of these conditions holds: the name is empty, is not
+/// UTF-8, or contains terminal control characters; the page number is below 1; a print scale is out
+/// of range; the world pose is not finite; `sheet` is invalid (see `validate(const Sheet&)`); or
+/// `print` has no pages, a resolution of 0 or less, or an unknown method of drawing dots.
 void validate(const SheetEntry& entry);
 
 /// Returns true if two sheets share cells. Different sections never overlap. The code variants
@@ -110,8 +110,8 @@ struct SheetFileWait {
 class SheetFile {
   public:
     /// Waits for exclusive access, then reads the file. A missing file is read as a file without
-    /// sheets. Throws Error as `read_sheets`, or if the file cannot be locked, for example because
-    /// another program holds the lock for longer than `wait` allows.
+    /// sheets. Throws Error as `read_sheets` does, or if the file cannot be locked, for example
+    /// because another program holds the lock for longer than `wait` allows.
     explicit SheetFile(const std::filesystem::path& path, const SheetFileWait& wait = {});
     ~SheetFile();
     SheetFile(const SheetFile&) = delete;
@@ -123,24 +123,26 @@ class SheetFile {
     /// is ignored. A single page gets the given name. Several pages get the names "name-1",
     /// "name-2" and so on.
     ///
-    /// The next free region is the topmost, then leftmost region with a distance of kSheetGap_cells
-    /// from the ends of the plane and from the regions of all other sheets, whatever their code
-    /// variant and section. Allocated sheets can therefore be distinguished by their cells alone.
+    /// The next free region is the topmost, then leftmost region with a distance of at least
+    /// kSheetGap_cells from the ends of the plane and from the regions of all other sheets,
+    /// whatever their code variant and section. Allocated sheets can therefore be distinguished by
+    /// their cells alone.
     ///
-    /// Returns the added entries. Throws BadArgument as `validate`, if the name is taken, the plane
-    /// is full, or the count is below 1.
+    /// Returns the added entries. Throws BadArgument as `validate` does, and if the name is taken,
+    /// the plane is full, or the count is below 1.
     std::vector<SheetEntry> allocate(const std::string& name, const Sheet& sheet, int count = 1);
 
-    /// Adds one page, with its own name and number, in the next free region as above.
+    /// Adds one page, with its own name and number, in the next free region (see the overload
+    /// above).
     SheetEntry allocate(SheetEntry entry);
 
     /// Adds a sheet with a given region. The region may touch other regions but must not overlap
-    /// them. Throws BadArgument as `validate`, and if the name or the region is taken, with the
-    /// name of the other sheet.
+    /// them. Throws BadArgument as `validate` does, and if the name or the region is taken. The
+    /// message names the other sheet.
     void add(const SheetEntry& entry);
 
-    /// Replaces the sheet with the name of `entry`. Throws BadArgument as `add`, or if there is no
-    /// such sheet.
+    /// Replaces the sheet with the name of `entry`. Throws BadArgument as `add` does, or if there
+    /// is no such sheet.
     void replace(const SheetEntry& entry);
 
     /// Renames the sheet `name` and keeps its unknown keys. Throws BadArgument if the sheet does
@@ -183,7 +185,7 @@ class SheetFile {
 /// programs may change the file in the meantime.
 class SheetReservation {
   public:
-    /// Calls `enter` to add the sheets. Throws Error as SheetFile; in this case nothing is
+    /// Calls `enter` to add the sheets. Throws Error as SheetFile does. In this case, nothing is
     /// reserved.
     SheetReservation(const std::filesystem::path& path,
                      const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});

@@ -7,9 +7,8 @@
 ///
 /// `calibrate_lens` finds the lens and the scale, `calibrate_spin` and `calibrate_drive` the mount
 /// of the camera on a robot, `calibrate_readout` the readout time of its rolling shutter, and
-/// `stitch_sheets` the relative poses of adjacent sheets. If the frames
-/// cannot determine a result, Error is thrown with advice. Standard deviations are computed from
-/// the residuals of the fit.
+/// `stitch_sheets` the relative poses of adjacent sheets. If the frames cannot determine a result,
+/// Error is thrown with advice. Standard deviations are computed from the residuals of the fit.
 ///
 /// Frames are requested by index, several times, and not stored. Functions share no state.
 #pragma once
@@ -146,9 +145,9 @@ struct SpinCalibration {
 /// Finds the position of the camera on the robot from at least 3 frames over more than 30 degrees.
 /// A full turn in 12 frames is recommended. `camera` contains the lens and the view of the paper.
 /// Without `camera`, the lens is assumed to have no distortion. Throws Error if too few frames have
-/// a fix, the turn is too small, a frame has another size than the camera file or the first frame,
-/// the spacing contradicts the view of the camera, the reference point is beyond the range of a
-/// camera file, or the centre of rotation varies by more than one spacing (rms per axis) or is
+/// a fix, the turn is too small, a frame differs in size from the camera file or from the first
+/// frame, the spacing contradicts the view of the camera, the reference point is beyond the range
+/// of a camera file, or the centre of rotation varies by more than one spacing (rms per axis) or is
 /// uncertain by more than half a spacing.
 SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
@@ -166,10 +165,10 @@ struct DriveCalibration {
 };
 
 /// Finds the direction of the camera from at least 2 frames over more than 5 mm. Throws Error if
-/// too few frames have a fix, a frame has another size than the camera file or the first frame, the
-/// spacing contradicts the view of the camera, the drive is too short, or the robot turned by more
-/// than 5 degrees from its mean direction, left the straight line by more than this angle, or went
-/// back.
+/// too few frames have a fix, a frame differs in size from the camera file or from the first frame,
+/// the spacing contradicts the view of the camera, the drive is too short, or the robot turned by
+/// more than 5 degrees from its mean direction, left the straight line by more than this angle, or
+/// drove backwards.
 DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
                                  const CalibrateOptions& options);
@@ -185,8 +184,9 @@ struct ReadoutCalibration {
 
 /// Finds the readout time from at least 7 consecutive frames, taken every `interval_ms`, of a
 /// camera that moves over a sheet. Compares the motion during the readout of each frame with the
-/// motion between its neighbours. Throws Error if the camera file has no view of the paper, if too
-/// few frames have a fix, or if the motion does not determine the readout time to 10 %.
+/// motion from the previous to the next frame. Throws Error if the camera file has no view of the
+/// paper, if too few frames have a fix, or if the motion does not determine the readout time to 10
+/// %.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
 

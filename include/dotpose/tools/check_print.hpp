@@ -194,7 +194,7 @@ struct PrintCheck {
     CodeVariant code = CodeVariant::anoto;  ///< code variant that was given or found
     double code_p_wrong = 0;  ///< probability that the code variant is wrong, if it was found
     std::optional<Resolution> resolution;  ///< resolution that was used; none for a photo
-    bool is_photo = false;                 ///< as in the options
+    bool is_photo = false;                 ///< CheckPrintOptions::is_photo
     /// Evidence because of which the stated resolution was not used.
     std::optional<CameraSigns> camera;
     std::vector<RepeatedCells> repeated;
@@ -211,8 +211,8 @@ struct PrintCheck {
 };
 
 /// Checks a scan or photo of at least 64 x 64 px. Needs about 100 bytes of memory per dot in
-/// addition to the image. Throws BadArgument if `pattern` is invalid (as `validate`) or an option
-/// is out of range.
+/// addition to the image. Throws BadArgument if `pattern` is invalid (see `validate` in sheet.hpp)
+/// or an option is out of range.
 PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& options);
 
 }  // namespace dotpose

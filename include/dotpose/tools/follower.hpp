@@ -43,7 +43,7 @@ struct FollowerOptions {
     double spacing_mm = kDefaultSpacing_mm;
     /// Lens, view and mount of the camera. Images must have the size in the camera file.
     std::optional<Camera> camera;
-    /// True if images are flipped left to right before they are located, as with `flip` in a camera
+    /// True if images are flipped left to right before they are located, like `flip` in a camera
     /// file. All pixels then refer to the flipped images.
     bool flip = false;
     /// The reference pixel of the pose, instead of the image centre or the reference point of the
@@ -66,7 +66,8 @@ struct Located {
     /// Spacing computed from the fix and the view of the camera file, in mm; NaN if unknown.
     /// `contradicts` (mounted_pose.hpp) compares this spacing with `spacing_mm`.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
-    /// Velocity during the readout, if the camera file has the readout time of a rolling shutter.
+    /// Velocity of the camera during the readout. None without a fix, or if the camera file does
+    /// not contain the readout time of a rolling shutter.
     std::optional<ReadoutVelocity> velocity;
     bool code_is_given = false;  ///< true if options or sheets gave the code variant
     int reduced_by = 1;          ///< factor by which the image was reduced

@@ -46,10 +46,10 @@ struct ImageTooLarge : Error {
 };
 
 /// Reads one image. Reading needs up to 15 bytes of memory per pixel in addition to the file. Files
-/// that are too large for an image of `max_pixels` are refused. `page` is the number of a page of a
-/// TIFF file, from 1. Throws Error with the name of the file and the reason: no such page, no such
-/// file, a directory, no permission, empty, unknown image format, truncated, damaged, too large,
-/// not enough memory. Throws ImageTooLarge if the image has more than `max_pixels` or
+/// larger than 8 bytes per pixel of `max_pixels`, plus 1 MiB, are refused. `page` is the number of
+/// a page of a TIFF file, from 1. Throws Error with the name of the file and the reason: no such
+/// page, no such file, a directory, no permission, empty, unknown image format, truncated, damaged,
+/// too large, not enough memory. Throws ImageTooLarge if the image has more than `max_pixels` or
 /// kMaxImagePixels. Thread-safe.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
@@ -60,7 +60,7 @@ GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::str
                      int page = 1);
 
 /// Returns the number of pages in a file, which is 1 except for TIFF. A file that is not regular,
-/// such as a pipe, is not read and counts as one page. Throws Error as `read_image`.
+/// such as a pipe, is not read and counts as one page. Throws Error as `read_image` does.
 int count_pages(const std::filesystem::path& path);
 
 /// Pixels per inch along both axes.
@@ -79,7 +79,7 @@ struct ImageOrigin {
     std::optional<Resolution> resolution;
 };
 
-/// Returns the origin of an image, without decoding its pixels. Throws Error as `read_image`.
+/// Returns the origin of an image, without decoding its pixels. Throws Error as `read_image` does.
 ImageOrigin read_origin(const std::filesystem::path& path, int page = 1);
 
 /// Formats in which grey images are encoded.
@@ -97,7 +97,7 @@ std::vector<std::uint8_t> encode_image(ImageEncoding encoding, ImageView image);
 void write_pgm(const std::filesystem::path& path, ImageView image);
 
 /// Writes 8-bit grey PNG, replacing the file. Equal images give equal files. Throws Error as
-/// `write_pgm`.
+/// `write_pgm` does.
 void write_png(const std::filesystem::path& path, ImageView image);
 
 }  // namespace dotpose

@@ -20,8 +20,8 @@ namespace dotpose {
 
 /// Refines a fix with the camera file, from the trace of its frame. The view of a mounted camera is
 /// constant and is read from the file. Only place, angle and one scale (because print scales
-/// differ) are fitted to the dots, and the velocity if the file has the readout time of a rolling
-/// shutter. The result is more accurate than `fix`, especially far from the
+/// differ) are fitted to the dots. If the file contains the readout time of a rolling shutter, the
+/// velocity is fitted as well. The result is more accurate than `fix`, especially far from the
 /// image centre. Theta becomes the heading of the robot. `print` is the print scale of the sheet of
 /// the fix, if it is known. The fix remains in nominal units of the pattern.
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
@@ -35,9 +35,9 @@ struct ReadoutVelocity {
     std::array<std::array<double, 2>, 2> covariance{};
 };
 
-/// Returns the velocity during the readout, fitted to the dots together with the pose. The rotation
-/// during the readout is not fitted. Empty without a fix, or if the camera file has no `readout_ms`
-/// or no view.
+/// Returns the velocity of the camera during the readout, fitted to the dots together with the
+/// pose. The rotation during the readout is not fitted. Empty without a fix, or if the camera file
+/// has no `readout_ms` or no view.
 std::optional<ReadoutVelocity> readout_velocity(const Fix& fix, const Camera& camera,
                                                 const Trace& trace, const AxisScale& print = {});
 

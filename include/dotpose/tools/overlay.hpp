@@ -37,7 +37,7 @@ struct OverlayOptions {
     /// First cell of the first page; the following pages are placed as by `make_sheets`.
     Cell origin;
     double margin_mm = 5;  ///< margin without dots inside the visible page (its crop box)
-    double dpi = 600;      ///< as in PrintOptions
+    double dpi = 600;      ///< resolution of the printer; see PrintOptions
     DotDrawing drawing = DotDrawing::automatic;
     /// Pages that get dots, from 1, for example "1-3,7"; "z" is the last page. Empty: all.
     std::string pages;

@@ -58,15 +58,15 @@ struct SheetOptions {
 /// are odd multiples of half a 300 dpi printer pixel. With the default pattern, every dot then
 /// covers whole printer pixels at 300, 600 and 1200 dpi (paper section III-A.1, Fig. 11).
 ///
-/// Throws BadArgument as `validate`, if the margins leave less space than kMinSheetCells columns
-/// and rows, and if the region would extend past the end of the code plane.
+/// Throws BadArgument as `validate` does, if the margins leave less space than kMinSheetCells
+/// columns and rows, and if the region would extend past the end of the code plane.
 Sheet make_sheet(const SheetOptions& options);
 
 /// Lays out `pages` sheets with adjacent regions that share no cell. Each region begins to the
 /// right of the previous one. At the end of the plane, a new line of regions begins below, at
 /// `options.origin.x`.
 ///
-/// Throws BadArgument as `make_sheet`, and if `pages` is not 1 to kMaxPages.
+/// Throws BadArgument as `make_sheet` does, and if `pages` is not 1 to kMaxPages.
 std::vector<Sheet> make_sheets(const SheetOptions& options, int pages);
 
 /// Checks that a printer of this resolution can print the pattern. The displacement must be at
@@ -129,15 +129,15 @@ struct PrintOptions {
 /// directory and renamed at the end. After an error, and if `progress` returned false, an existing
 /// file is unchanged and no temporary file remains.
 ///
-/// Throws BadArgument as `print_format`, `validate` and `validate_resolution`, and for
+/// Throws BadArgument as `print_format`, `validate` and `validate_resolution` do, and for
 /// DotDrawing::glyphs if lengths are not whole pixels. Throws Error if the file cannot be created
 /// or written (with the system's reason), or if `progress` returned false.
 void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
                  const PrintOptions& options = {});
 
 /// Writes a document of several pages as `write_sheet` does. More than one page requires a PDF.
-/// Throws as `write_sheet`, and BadArgument if there is no sheet or the format supports only one
-/// page.
+/// Throws as `write_sheet` does, and BadArgument if there is no sheet or the format supports only
+/// one page.
 void write_sheets(std::span<const Sheet> sheets, const std::filesystem::path& path,
                   const PrintOptions& options = {});
 

@@ -8,8 +8,9 @@
 namespace dotpose {
 
 /// A model (not a measurement) of a printer's errors over a page: a smooth shift of low frequency.
-/// The amplitudes are chosen for the maximum errors of the paper (Table III) on the measured area.
-/// The errors are larger along y, the direction of paper feed, than along x.
+/// The amplitudes are chosen such that the maximum errors on the measured area are those of Table
+/// III in the publication. The errors are larger along y, the direction of paper feed, than along
+/// x.
 class PrintModel {
   public:
     /// Side of the square area to which the maximum errors apply.

@@ -64,11 +64,11 @@ struct RobotUpdate {
     std::int64_t time_ns = 0;            ///< middle of the exposure
     std::optional<PlanarFix> fix;        ///< none without a fix, or if its place is not known
     std::optional<PlanarMotion> motion;  ///< none while the robot is lost
-    std::uint32_t plane = 0;             ///< poses in different planes are unrelated
+    std::uint32_t plane = 0;             ///< plane number; poses in different planes are unrelated
     bool is_found_again = false;  ///< true if the motion does not continue the previous motion
     std::string state;            ///< "lost", "moving" or "stationary"
     std::string problem;          ///< reason why there is no fix; empty if there is one
-    std::vector<KeyValue> facts;  ///< further values of the frame
+    std::vector<KeyValue> facts;  ///< additional values of the frame, for the diagnostics
 };
 
 /// Returns the results of a frame. `is_in_world` is Follower::is_in_world.

@@ -47,13 +47,13 @@ struct CameraModel {
     /// Size of a pixel at the image centre on the reference plane. Above 0.
     double mm_per_px = 0.046;
     /// Radial distortion of eq. 1-2, p_u = m + r_d / (1 + k |r_d|^2), in 1 / px^2; m is the image
-    /// centre. Below 0: barrel. 1 + k |r|^2 must stay in (0, 2) over the whole image.
+    /// centre. Below 0 for barrel distortion. 1 + k |r|^2 must stay in (0, 2) over the whole image.
     double k = 0;
     /// Distance of the projection centre from the pose point, relevant only with tilt. Above 0.
     double working_distance_mm = 16;
     /// Motion of the scene in the undistorted image while a rolling shutter reads the rows, at most
-    /// 75 % of the image along each axis. The pose applies to the middle row. (0, 0) is a global
-    /// shutter.
+    /// 75 % of the side of the image along each axis. The pose applies to the time of the middle
+    /// row. (0, 0) for a global shutter.
     Vec2 readout_px;
 };
 
@@ -82,8 +82,8 @@ struct Imperfections {
     double ink_reflectance = 0.15;  ///< reflectance relative to paper
     double ink_variation = 0;  ///< standard deviation of a dot's reflectance, relative to paper
     /// Contrast of the palest ink relative to the darkest. Each direction of displacement may have
-    /// its own ink: the darkest ink has `ink_reflectance`, and the remaining two inks are evenly in
-    /// between.
+    /// its own ink: the darkest ink has `ink_reflectance`, and the contrasts of the remaining two
+    /// inks are evenly spaced between those of the palest and the darkest.
     double palest_ink = 1;
     double vignetting = 0;  ///< loss of light in the image corners, growing with r^2
     /// Linear change of light from one side to the opposite side, relative to the light at the

@@ -42,7 +42,8 @@ struct TestPageOptions {
 };
 
 /// Lays out the patches, with a label "spacing/dot" in mm above each patch. Combinations with
-/// touching dots are omitted. Throws BadArgument as `make_sheet`, and for settings outside 1 to 80.
+/// touching dots are omitted. Throws BadArgument as `make_sheet` does, and for settings outside 1
+/// to 80.
 PrintPage make_test_page(const TestPageOptions& options);
 
 /// Returns the settings of the patch with this cell; none for cells outside test pages.

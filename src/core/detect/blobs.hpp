@@ -36,7 +36,7 @@ struct OpenBlobs {
     std::span<Run> runs;
     int run_count = 0;
     bool newest_in_second_half = false;
-    int max_runs = INT32_MAX;  ///< maximum number of runs per image; further runs are ignored
+    int max_runs = INT32_MAX;  ///< maximum number of runs per image; all later runs are ignored
     int runs_left = 0;
     std::span<OpenBlob> blobs;
     std::size_t blobs_begun = 0;  ///< number of elements of `blobs` that this image has used so far

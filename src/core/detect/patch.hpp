@@ -1,5 +1,5 @@
-// Patch: places a patch, in which the grid is searched, and finds its thresholds and dots. Paper
-// section II-B.1.
+// Patch: places the patch that is searched for the grid, sets its thresholds, and removes minima
+// that are not dots. Paper section II-B.1.
 #pragma once
 
 #include "core/patch_memory.hpp"
@@ -19,8 +19,8 @@ bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int w
 bool measure_contrast(Patch& patch);
 
 /// Removes minima that are not dots: minima on plateaus, minima in tiles without contrast, and
-/// minima with dark surroundings in more than two of eight directions, as on a dark table beyond
-/// the edge of a sheet.
+/// minima with dark surroundings in more than two of eight directions, for example on a dark table
+/// beyond the edge of a sheet.
 void keep_isolated(Patch& patch);
 
 /// Return the coordinates of the middle of the patch, in px of the image.

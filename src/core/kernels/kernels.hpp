@@ -232,11 +232,12 @@ struct Kernels {
     /// Evaluates a pair of perpendicular waves with a frequency of `per_px` cycles per px in 12
     /// directions (steps of 7.5 degrees). Returns the pair with the highest power.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
-    /// Evaluates single waves in all directions, with frequencies from 0.6 to 1.63 `per_px`.
+    /// Evaluates single waves in all directions, with frequencies from 0.6 to 1.63 times `per_px`.
     /// Returns the strongest wave, and the strongest wave with which it forms cells of about the
-    /// area 1 / per_px^2. The power is 0 if there is none.
+    /// area 1 / per_px^2. If there is no such pair, the power is 0.
     Waves (*strongest_skewed_waves)(const float* x, const float* y, int count, float per_px);
-    /// Assigns the dots to cells, and returns the sums over the dots.
+    /// Assigns the dots to cells. Returns the sums over the dots that are near a place of their
+    /// cell.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
     /// Sets the bits of the cells that contain dots. The first column and the first row are those
     /// of cell (-32, -32).
@@ -295,7 +296,7 @@ struct Kernels {
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
     /// Returns the places of a sequence, other than the place `own` of the reading, at which an
-    /// alternative may lose less than the limit according to `steps`.
+    /// alternative may lose less than the loss limit, according to `steps`.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
     /// Returns the expected odds of the far alternatives. `best` contains, for each line, the odds

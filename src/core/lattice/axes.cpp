@@ -182,8 +182,8 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
                          shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
     const Clusters clusters({along, FixedVec{-along.y, along.x}});
     const auto [u, v] = medians(edges, clusters, memory);
-    // Symmetric edges are 4 % too short on average, because a dot is more often the nearest
-    // neighbour of another dot if it is displaced towards that dot.
+    // Symmetric edges are on average 4 % shorter than the spacing, because a dot is more often the
+    // nearest neighbour of another dot if it is displaced towards that dot.
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
     // differs: the paper keeps both medians as axes. The deviation of the medians from a square is

@@ -18,8 +18,8 @@ Status estimate_axes(std::span<const SeedEdge> edges, std::span<std::int32_t> me
 /// at most 3:2, and the angle from u to v, in the direction from +x to +y, has a sine of at least
 /// 0.9.
 bool is_nearly_square(FixedVec u, FixedVec v);
-/// Returns true if the axes of the grid at the centre of a plane pass the test above, and the
-/// spacing is at least 4 px.
+/// Returns true if the axes of the grid at the centre of a plane are nearly square (see the
+/// overload for two vectors), and the spacing along u is at least 4 px.
 bool is_nearly_square(const PlaneFromImage& plane);
 
 }  // namespace dotpose::core

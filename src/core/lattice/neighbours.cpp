@@ -88,8 +88,8 @@ std::uint32_t wrapped_square(std::int32_t a) {
 /// The four nearest seeds of one seed among the seeds tested so far, nearest first.
 class Nearest {
   public:
-    /// Keeps only seeds whose squared distance is below `within_q16`. `may_be_far` is true if seeds
-    /// that are 128 px or more away may be tested.
+    /// Keeps only seeds whose squared distance from `self` is below `within_q16`. `may_be_far` is
+    /// true if `search` may test seeds that are 128 px or more away from `self`.
     Nearest(const BucketedSeed& self, std::uint32_t within_q16, bool may_be_far)
         : self_(self), may_be_far_(may_be_far) {
         for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -117,8 +117,8 @@ class Nearest {
     }
 
   private:
-    /// Keeps the point `p` if it is another seed and near enough. Returns the squared distance
-    /// below which a further seed is kept.
+    /// Keeps the seed `p` if it is not `self` and less than 128 px away along each axis. Returns
+    /// the squared distance below which the next seed is kept.
     DOTPOSE_NOINLINE std::uint32_t consider(const BucketedSeed* p, std::uint32_t squared_q16) {
         const bool is_far = may_be_far_ && larger_component(p->at_q8 - self_.at_q8) >= kFarthest_q8;
         if (p != &self_ && !is_far) insert<3>(p, squared_q16);
@@ -197,8 +197,8 @@ void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uin
             const bool is_last = reach >= max_reach || sure_q8 >= kFarthest_q8;
             const auto within_q16 =
                 is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8);
-            // The buckets searched contain all seeds within sure_q8, and no seed that is more than
-            // 2 * sure_q8 away along either axis.
+            // The buckets searched contain all seeds within sure_q8 of p, and no seed that is more
+            // than 2 * sure_q8 away from p along either axis.
             Nearest nearest(p, within_q16, 2 * sure_q8 > kFarthest_q8);
             const int left = std::max(column - reach, 0);
             const int right = std::min(column + reach, buckets.columns() - 1);

@@ -23,9 +23,9 @@ struct BucketedSeed {
     std::uint16_t begin = 0;  ///< index of the first seed of the bucket in the array of seeds
 };
 
-/// Chooses at most `seeds.size()` dots in a square around `centre_q8`. The square is as large as
-/// possible, in steps of a histogram bin. Writes the indices of the dots to `seeds` and returns
-/// their number.
+/// Chooses at most `seeds.size()` dots in a square around `centre_q8`. The square is the largest
+/// one, in steps of a histogram bin, that does not contain more dots. Writes the indices of the
+/// dots to `seeds` and returns their number.
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds);
 

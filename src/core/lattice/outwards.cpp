@@ -14,7 +14,7 @@ namespace {
 namespace tuned = tuning::outwards;
 
 /// Returns the strongest waves through the central dots. Returns nullopt if the waves are too weak,
-/// or if the spacing or the number of dots is out of range.
+/// if the spacing is out of range, or if there are too few central dots.
 std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, const PatchView& view) {
     const float spacing = view.spacing_px;
     const PatchDots& dots = patch.dots;
@@ -150,8 +150,8 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
     return true;
 }
 
-/// Returns true if the spacing of the fitted plane is near the first spacing, and the perspective
-/// does not fold the plane within the reach.
+/// Returns true if the spacing of the fitted plane is near `first_spacing`, and the perspective
+/// changes the scale by less than kMaxFold within the reach.
 bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
     const float spacing = spacing_px(plane);
     const float fold = (std::abs(plane.tilt_x) + std::abs(plane.tilt_y)) * reach;
@@ -197,8 +197,8 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     PatchDots& dots = patch.dots;
     const int count = dots.count;
     if (count < tuned::kMinDots) return false;
-    // Tests a sample of the dots as the origin. If there are many dots, as in noise, the sample is
-    // smaller.
+    // Tests a sample of the dots as the origin. If there are many dots, for example due to noise,
+    // the sample is smaller.
     constexpr int kMaxCandidates = 64;
     constexpr int kMinCandidates = 16;
     constexpr int kMaxDistances = 32768;
@@ -248,7 +248,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     grid.displacement =
         std::clamp(std::sqrt(mean_square), tuned::kMinDisplacement, tuned::kMaxDisplacement);
     // The following rounds assign each dot to the nearest of the four places of its cell, which
-    // reduces the noise to a fifth.
+    // reduces the noise to a fifth of the noise in the first rounds.
     pass.displacement = grid.displacement;
     pass.max_off = std::min(tuned::kMaxOffsetPart * grid.displacement, tuned::kMaxOffset);
     for (int round = 0; round < tuned::kMaxRounds; ++round) {
@@ -264,7 +264,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
             break;
         pass.reach_px = std::min(std::max(pass.reach_px * growth(fraction), 4 * spacing), full);
     }
-    // Graphics may stop the growth of the reach. Bits can still be read within the final reach.
+    // Graphics may stop the growth of the reach before it includes the whole patch. Bits can still
+    // be read if the final reach is at least 5 spacings.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     return true;

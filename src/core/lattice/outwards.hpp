@@ -1,6 +1,6 @@
 // Outwards: finds the plane of the grid from the dots of a patch. Two plane waves through the dots
-// near the middle give a first plane. Further planes are fitted to more and more dots, with
-// perspective as soon as the reach exceeds four spacings. Paper sections II-B.2 and II-B.3.
+// near the middle give a first plane. The plane is then fitted to more and more dots, with
+// perspective once the reach exceeds four spacings. Paper sections II-B.2 and II-B.3.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -23,11 +23,11 @@ struct PatchView {
     float spacing_px = 0;  ///< approximate spacing, in px of the image
     /// Maximum distance of a dot from the origin along either axis, in px of the image.
     float full_reach_px = 0;
-    /// Approximate number of dots near the origin through which waves are fitted, at most 64.
+    /// Approximate number of dots near the origin from which the waves are computed, at most 64.
     float central_dots = 30;
     int min_dots = 40;  ///< minimum number of dots in the patch
-    /// True if the cells may be any parallelograms, as in the image of a rolling shutter. Otherwise
-    /// they are about square.
+    /// True if the cells may be any parallelograms, because a rolling shutter may shear and stretch
+    /// the image. If false, the cells must be about square.
     bool is_skewed = false;
 };
 

@@ -32,7 +32,7 @@ struct Wave {
 
 constexpr std::int32_t kQuarter_bam = 1 << 30;
 
-/// Periodogram of the seeds within reach of the centre.
+/// Periodogram of the seeds within `reach_q8` of the centre along both axes.
 class Periodogram {
   public:
     Periodogram(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
@@ -43,7 +43,7 @@ class Periodogram {
         }
     }
 
-    /// Returns the sum of the wave over the seeds, as cosine and sine.
+    /// Returns the sums, over the seeds, of the cosine and of the sine of the phase of the wave.
     FixedVec sum(const Wave& wave) const {
         const FixedVec wave_q30 = wave.vector_q30();
         FixedVec total;
@@ -96,8 +96,8 @@ Wave best_around(const Wave& around, const Raster& raster, Power power) {
     return best;
 }
 
-/// Returns the wave with the local maximum of the power near `wave`. Searches rasters of decreasing
-/// step sizes.
+/// Returns the wave near `wave` at which the power has a local maximum. Searches rasters of
+/// decreasing step sizes.
 template <typename Power>
 Wave ascend(Wave wave, Power power) {
     const std::int32_t spacing_q16 = wave.spacing_q16;

@@ -118,7 +118,7 @@ void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOption
 }
 
 /// Fits the plane to the places of displaced dots. Each dot is assigned to the nearest of the four
-/// places of its cell. Dots that are far from this place are ignored.
+/// places of its cell. Dots farther than kFar_q16 from this place are ignored.
 void fit_places(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     constexpr std::int32_t kFar_q16 = tuned::kFar_q16;
     fit_to_targets(dots, plane, [](const GridPoint& g) {

@@ -63,13 +63,14 @@ namespace outwards {
 /// Minimum number of dots in a patch. A position needs at least six lines of six cells, which
 /// contain 36 dots.
 inline constexpr int kMinDots = 40;
-/// Minimum and maximum number of dots near the middle through which waves are fitted. Fewer dots
-/// can have equally strong waves by chance. More dots take longer, in each of 12 directions, and
-/// hardly improve the waves.
+/// Minimum and maximum number of dots near the middle from which the waves are computed. Fewer dots
+/// at random places can have waves as strong as those of a grid. More dots take longer, because
+/// each dot is evaluated in 12 directions, and hardly improve the waves.
 inline constexpr int kMinCentralDots = 14;
 inline constexpr int kMaxCentralDots = 64;
-/// Power of both waves, divided by the squared number of dots. The power is 2 for a grid without
-/// displacements. Waves above kClearWaves end the search. Waves below kFaintWaves are not used.
+/// Limits of the power of both waves, divided by the squared number of dots. This ratio is 2 for a
+/// grid without displacements. Waves above kClearWaves end the search. Waves below kFaintWaves are
+/// not used.
 inline constexpr float kClearWaves = 0.2F;
 inline constexpr float kFaintWaves = 0.12F;
 /// Range of spacings in the smoothed patch, in px of the patch. In finer grids, neighbouring dots

@@ -1,5 +1,5 @@
-// Poses and velocities from single frames of a camera with a rolling shutter, given its camera
-// file.
+// Tests poses and velocities from single frames of a camera with a rolling shutter, and the
+// calibration of its readout time.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -16,14 +16,14 @@ namespace {
 
 constexpr double kReadout_ms = 20;
 
-/// A frame, and the motion of its scene in the image during the readout.
+/// A frame, whose scene moves during the readout, and the velocity of the camera.
 struct RollingFrame {
     Shot shot;
-    Vec2 velocity_mm_s;  ///< of the camera, along the axes of the pattern
+    Vec2 velocity_mm_s;  ///< velocity of the camera, along the axes of the pattern
 };
 
-/// Draws a frame whose scene moves by a fraction of the image height, in a direction that depends
-/// on the index, not towards the later rows.
+/// Draws a frame whose scene moves during the readout by `motion` times the height of the image.
+/// The direction depends on the index, and is never downwards in the image.
 RollingFrame draw_rolling(const CameraModel& camera, double motion, int index) {
     Setup setup;
     setup.camera = camera;
@@ -75,8 +75,8 @@ TEST(ReadoutVelocity, IsWithinItsStandardDeviation) {
     }
 }
 
-/// Returns a frame of a drive that accelerates along a diagonal of the image, at 30 frames per
-/// second, from a camera that reads a frame in `readout_ms`.
+/// Returns frame `index` of a drive along a diagonal of the image, with constant acceleration. The
+/// camera takes 30 frames per second and reads each frame in `readout_ms`.
 GreyImage drive_frame(const CameraModel& camera, int index, double readout_ms) {
     constexpr double kInterval_s = 1 / 30.0;
     constexpr double kStart_mm_s = 20;
@@ -85,7 +85,7 @@ GreyImage drive_frame(const CameraModel& camera, int index, double readout_ms) {
     const double t_s = index * kInterval_s;
     const double speed_mm_s = kStart_mm_s + kAcceleration_mm_s2 * t_s;
     const double way_mm = kStart_mm_s * t_s + kAcceleration_mm_s2 * t_s * t_s / 2;
-    const Vec2 along{std::sqrt(0.5), -std::sqrt(0.5)};  // of the camera, in the image
+    const Vec2 along{std::sqrt(0.5), -std::sqrt(0.5)};  // direction of the camera, in the image
     const double c = std::cos(kTheta_rad);
     const double s = std::sin(kTheta_rad);
     Setup setup;

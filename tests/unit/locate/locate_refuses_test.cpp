@@ -39,7 +39,7 @@ TEST(LocateRefuses, SizesOutOfRangeAreRefused) {
 }
 
 TEST(LocateRefuses, AFrameWithoutAPositionTellsWhy) {
-    // The content of the picture determines which stages may refuse it.
+    // The content of the picture determines which stages may reject it.
     const std::map<Scene, std::set<Status>> allowed{
         {Scene::black, {Status::no_contrast, Status::too_few_dots}},
         {Scene::white, {Status::no_contrast, Status::too_few_dots}},

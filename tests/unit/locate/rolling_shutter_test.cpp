@@ -1,4 +1,5 @@
-// Frames of a rolling shutter, whose scene moves while the rows are read.
+// Tests the first attempt on frames of a rolling shutter, in which the scene moves while the rows
+// are read.
 #include <cmath>
 #include <numbers>
 
@@ -11,10 +12,11 @@ namespace {
 
 constexpr std::uint64_t kSeed = 77;
 constexpr int kDirections = 12;
-/// 24 rows of cells. At least 9 of them are in the image at every motion.
+/// The image contains 24 rows of cells without motion, and at least 9 rows at every motion.
 constexpr ShotSize kSize{.spacing_px = 20, .width_px = 640, .height_px = 480};
 
-/// Returns a frame whose scene moves by a part of the image height, in one of the directions.
+/// Returns a frame whose scene moves during the readout by `motion` times the height of the image,
+/// in one of kDirections directions.
 Shot moved_shot(double motion, int direction) {
     Shot shot = shot_of(kSize, kSeed, static_cast<std::uint64_t>(direction));
     const double angle_rad = 2 * std::numbers::pi * (direction + 0.5) / kDirections;
