@@ -164,7 +164,7 @@ void print_protocol(const AccuracyOptions& accuracy, TableRun& run) {
 bool accuracy_table(TableRun& run) {
     AccuracyOptions options;
     std::string folder = "accuracy-out";
-    run.seed = 404;  // not used by any test or for tuning
+    run.seed = 404;  // this seed is not used by any test or for tuning
     run.command.add_option("FOLDER", folder, "Folder of tables and figures")->capture_default_str();
     run.command.add_flag("--quick", options.is_quick, "A tenth of the frames: not exact");
     run.add_update();

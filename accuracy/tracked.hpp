@@ -117,7 +117,7 @@ struct TrackedTallies {
 struct TrackedTable {
     std::string text;
     std::uint64_t wrong = 0;
-    bool is_complete = true;  ///< false if interrupted
+    bool is_complete = true;  ///< false if the measurement was interrupted
 };
 
 /// Returns the table of drives at several speeds and frame rates.

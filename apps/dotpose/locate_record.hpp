@@ -24,7 +24,7 @@ struct Record {
     /// Velocity of the camera during the readout of a rolling shutter; see Located.
     std::optional<ReadoutVelocity> velocity;
     bool has_sheets = false;          ///< true if the record has the fields of a sheet file
-    std::optional<SheetPlace> place;  ///< the place on a sheet
+    std::optional<SheetPlace> place;  ///< place of the fix; none if it is on no sheet
     int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }
     double elapsed_us = 0;  ///< time that `dotpose::locate` took
     std::string advice;     ///< advice if there is no fix; may be empty

@@ -256,7 +256,7 @@ std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeM
     return {};
 }
 
-/// Advises on the distance of the camera.
+/// Advises on the distance of the camera from the sheet.
 std::string advice_on_distance(ImageView image, const DeviceOptions& options,
                                LargeMemory& scratch) {
     if (const auto spacing_px = too_small_spacing_px(image, options, scratch)) {

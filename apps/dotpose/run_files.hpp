@@ -47,7 +47,7 @@ class RunFiles {
     void reads(const std::string& option, const std::string& path);
     void reads(const std::string& option, const std::vector<std::string>& paths);
 
-    /// Registers an output. Rejects a file extension of an image or video of another kind than
+    /// Registers an output. Rejects a file extension of an image or video whose kind differs from
     /// `content`: in `-o frames/*.png`, where the name of the output is missing, the first frame
     /// would be overwritten. "-" is standard output for `-o` and is rejected for other options.
     void writes(const std::string& option, const std::string& path, Content content);

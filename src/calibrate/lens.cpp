@@ -104,7 +104,7 @@ bool is_held_by_hand(const std::vector<LocatedFrame>& located, const FitSetting&
                                  setting, mounted.residual_px);
     }
     const double by_chance = 5 * static_cast<double>(located.size());
-    constexpr double kBeyondDoubt = 6;  // standard deviations
+    constexpr double kBeyondDoubt = 6;  // minimum excess over chance, in standard deviations
     return gain > by_chance + kBeyondDoubt * std::sqrt(2 * by_chance);
 }
 

@@ -82,7 +82,7 @@ std::optional<LocatedFrame> FrameReader::read(const ImageView& image) {
     for (const double stretch : kCornerStretches) {
         const FixedLens lens = FixedLens::from_k(stretch / (reach_px * reach_px));
         if (!locate_with(image, lens)) continue;
-        lens_ = lens;  // tried first for the next frame
+        lens_ = lens;  // this lens is tried first for the next frame
         return read_trace(image);
     }
     return std::nullopt;

@@ -82,7 +82,7 @@ void advise_on_scale(const Optics& o, OpticsReport& r) {
     const auto say = [&r](bool is_fault, std::string text) {
         r.advice.push_back({is_fault, std::move(text)});
     };
-    // Returns the distance at which the spacing is `px` pixels.
+    // Returns the distance from the lens to the paper at which the spacing is `px` pixels.
     const auto distance_mm = [&](double px) {
         return o.focal_mm * (1 + o.spacing_mm / px / (o.pixel_um / 1000));
     };

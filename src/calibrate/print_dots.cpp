@@ -229,7 +229,8 @@ class Meter {
     const TileMap& map_;
     double displacement_;
     double reach_px_;
-    double inner_px2_;  ///< between these squared distances, pixels have partial weight
+    /// Pixels between these squared distances from the point have partial weight.
+    double inner_px2_;
     double outer_px2_;
     double sample_px_;
     double paper_;

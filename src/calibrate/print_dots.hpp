@@ -13,7 +13,7 @@ namespace dotpose::calibrate {
 struct Code {
     CodeVariant code = CodeVariant::anoto;
     Section section;
-    double displacement = 1.0 / 6;  ///< in spacings
+    double displacement = 1.0 / 6;  ///< displacement of the dots, in spacings
 
     Symbol symbol(std::int64_t x, std::int64_t y) const;
     /// Returns the nominal place of a dot, in cells.
@@ -30,7 +30,7 @@ struct SeenCell {
     /// Symbol that was read; this and all members below except `strength` are valid if `has_dot`.
     Symbol read = Symbol::up;
     bool has_dot = false;
-    float u_px = 0;  ///< centre of the dot
+    float u_px = 0;  ///< centre of the dot in the scan
     float v_px = 0;
     /// Mean darkness of the dot relative to the expected darkness; always valid.
     float strength = 0;

@@ -29,7 +29,9 @@ float half_side_px(const ImageView& image) {
     return std::max(static_cast<float>(image.width_px), static_cast<float>(image.height_px)) / 2;
 }
 
-/// Returns true if enough dots were read and few of their bits contradict the code.
+/// Returns true if at least `min_dots` dots and at least half of the dots seen were read, if dots
+/// were seen in at least a quarter of the listed cells (except in a partial view), and if few bits
+/// contradict the code.
 bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOptions& options,
                   int min_dots, bool is_partial_view) {
     const bool is_full = 4 * bits.seen >= dots.count || is_partial_view;
@@ -40,7 +42,9 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOp
            !exceeds_error_rate(bits.wrong_x) && !exceeds_error_rate(bits.wrong_y);
 }
 
-/// Returns true if nearly all dots are clear and hardly any bit is wrong.
+/// Returns true if the bits need no second reading: at least kClear_percent of the dots seen are
+/// clear, and at most kMaxWrong bits or one bit per kDotsPerWrong dots, whichever is more, are
+/// wrong.
 bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
            bits.wrong_x + bits.wrong_y <=
@@ -52,7 +56,7 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
             Confidence::of_hard_bits(bits.read, bits.wrong_y)};
 }
 
-/// Judges the place by the bits of all dots near the centre. Returns ok or uncertain.
+/// Judges the place of the hypothesis by the bits in `block`. Returns ok or uncertain.
 Confirmation confirm_place(const Kernels& kernels, const DeviceOptions& options,
                            const Hypothesis& hypothesis, const CellsInView& view,
                            const BitBlock& block, const BitsRead& bits, DesktopWorkspace& w) {
@@ -196,8 +200,9 @@ void write_fix(const ImageView& image, const DeviceOptions& options, const Hypot
     w.fix.status = Status::ok;
 }
 
-/// Returns true if the fitted plane is far from the plane before the fit, at a corner of the part
-/// within `reach_px` of the centre. The small centroid windows then missed a part of the offsets.
+/// Returns true if the fitted plane differs from the plane before the fit by more than kFar
+/// spacings, at a corner of the part of the image within `reach_px` of the image centre. The small
+/// centroid windows then missed a part of the offsets.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
@@ -217,8 +222,8 @@ FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
 }
 
-/// Distance from the centre, in px, within which dots are read. The distance grows from round to
-/// round.
+/// Distance from `Hypothesis::from_centre`, in px, within which dots are read. The distance grows
+/// from round to round.
 struct Reach {
     float full;  ///< distance that includes the whole image
     /// Distance within which the bits must make the position certain. Bits at larger distances are

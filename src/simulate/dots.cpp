@@ -9,9 +9,9 @@ namespace {
 // Random printing errors of one dot. They depend only on the page and the cell, so a dot has the
 // same errors in every frame.
 struct DotErrors {
-    double presence;  // uniform in [0, 1)
-    Vec2 jitter;      // normal, standard deviation 1
-    double ink;       // normal, standard deviation 1
+    double presence;  // uniform random number in [0, 1)
+    Vec2 jitter;      // normal random numbers with standard deviation 1
+    double ink;       // normal random number with standard deviation 1
 };
 
 DotErrors errors_of(const Page& page, Cell cell) {

@@ -58,7 +58,7 @@ class Raster {
 
     Layout layout_;
     std::vector<Ellipse> ellipses_;  // sorted by y
-    double max_half_height_ = 0;     // of all ellipses
+    double max_half_height_ = 0;     // maximum half height of all ellipses
     std::vector<Polygon> polygons_;
     int band_top_ = 0;
     // A range of sub-pixels with ink. Most sub-pixels have no ink, and only the ranges are read.

@@ -29,7 +29,7 @@ struct PathMark {
 /// A gauge: progress towards one goal.
 struct Gauge {
     std::string label;
-    std::string text;  ///< current value
+    std::string text;  ///< current value as text
     double share = 0;  ///< fraction of the goal, at most 1
     bool is_reached = false;
 };

@@ -626,7 +626,7 @@ typedef struct dotpose_packet {
     int32_t theta_bam16;     /* 32: 2^15 is half a turn */
     uint32_t section_u;      /* 36 */
     uint32_t section_v;      /* 40 */
-    uint32_t certainty;      /* 44: p_wrong is at most 2^-certainty; 255 also for less */
+    uint32_t certainty;      /* 44: p_wrong is at most 2^-certainty; at most 255 */
     uint32_t deviation_q12;  /* 48: maximum of x and y, spacings; 255: more or unknown */
 } dotpose_packet;
 

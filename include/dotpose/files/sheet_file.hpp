@@ -62,8 +62,8 @@ struct SheetPrint {
 
 /// One page of a sheet file.
 struct SheetEntry {
-    std::string name;  ///< unique in the file
-    int page = 1;      ///< number of the page among those printed together, from 1
+    std::string name;  ///< name of the page, unique in the file
+    int page = 1;      ///< number of the page among the pages printed together, from 1
     Sheet sheet;
     /// Printed length over nominal length, 0.5 to 2. The first intersection is the centre of
     /// scaling: it is at (sheet.origin_x_mm, sheet.origin_y_mm) for any scale.

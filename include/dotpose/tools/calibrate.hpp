@@ -67,7 +67,7 @@ const char* name(CalibrationVerdict verdict);
 
 /// One dot of one frame, with its residuals in px of the undistorted image.
 struct CalibrationDot {
-    int frame = 0;      ///< index of the frame
+    int frame = 0;      ///< index of the frame in the series
     PixelPoint pixel;   ///< measured pixel of the dot
     PixelPoint before;  ///< residual for a camera without distortion, skew and tilt
     PixelPoint after;   ///< residual for the calibrated camera
@@ -88,7 +88,7 @@ struct LensCalibration {
     int dots = 0;        ///< number of dots used
     int outliers = 0;    ///< number of dots not used
     double residual_before_px = 0;  ///< rms per axis for a camera without distortion, skew and tilt
-    double residual_px = 0;         ///< rms per axis
+    double residual_px = 0;         ///< rms per axis for the calibrated camera
     double px_per_spacing = 0;      ///< mean over the frames, at the image centre
     double dot_width = 0;           ///< width at half darkness, in spacings; 1/6 for a sharp dot
     double coverage = 0;            ///< fraction of the 12 x 8 parts of the image that show dots

@@ -106,7 +106,7 @@ struct PrintField {
     /// Rms deviation of single dots from their neighbours, per axis, on the paper.
     double scatter_mm = 0;
     std::vector<DistortionBin> distortion;
-    double largest_distortion_mm = 0;  ///< maximum of `distortion`
+    double largest_distortion_mm = 0;  ///< maximum length of a deviation in `distortion`
 
     /// Number of cells under other print, such as text; not counted in `cells`.
     int covered = 0;

@@ -59,8 +59,8 @@ struct OpticsReport {
     double field_width_mm = 0;
     double field_height_mm = 0;
     double field_diagonal_mm = 0;
-    double field_angle_rad = 0;  ///< along the diagonal
-    double dots_in_view = 0;     ///< mean number
+    double field_angle_rad = 0;  ///< angle of view along the diagonal of the field
+    double dots_in_view = 0;     ///< mean number of dots in the field
 
     /// Diagonal of 8 x 8 dots in the worst case: sqrt(2) spacing (7 + 3/6) for dots with a diameter
     /// of a sixth of the spacing and a displacement of a sixth in each direction.

@@ -28,7 +28,7 @@ Deviation deviation_of(const Fix& fix, const Truth& truth);
 struct Outcome {
     Fix fix;
     Truth truth;
-    double elapsed_us = 0;  ///< time of `locate` alone
+    double elapsed_us = 0;  ///< time of `locate`, without reading the frame
     std::string problem;    ///< error of the file; if not empty, all other members are not valid
 
     /// Returns true if the frame was read and located, correctly or not.

@@ -34,7 +34,7 @@ struct OverlaidPage {
 /// Options of the dots, and of the pages that contain them.
 struct OverlayOptions {
     Pattern pattern;  ///< code, section, and dimensions of the dots
-    /// First cell of the first page; the following pages are placed as by `make_sheets`.
+    /// First cell of the first page; the following pages are placed like those of `make_sheets`.
     Cell origin;
     double margin_mm = 5;  ///< margin without dots inside the visible page (its crop box)
     double dpi = 600;      ///< resolution of the printer; see PrintOptions

@@ -49,7 +49,7 @@ struct Station {
 struct ProtocolResult {
     /// 11 x 11 positions on 200 x 200 mm, in a spiral from the middle.
     std::vector<Station> positions;
-    std::vector<Station> angles;  ///< 36 angles in the middle
+    std::vector<Station> angles;  ///< 36 angles at the middle position
 };
 
 /// The experiment on a perfect page and on a printed page.

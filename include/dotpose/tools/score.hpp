@@ -35,14 +35,14 @@ struct Score {
     std::array<int, kStatusCount> by_status = {};  ///< `ok` counts correct and wrong fixes
 
     // The following statistics are computed over the correct fixes.
-    Quantiles position_um;  ///< distance in the plane
+    Quantiles position_um;  ///< distance between the found and the true position
     Quantiles angle_deg;
     /// Mean of error^2 / variance, for x, y and theta: 1 if the covariance is correct, above 1 if
     /// the errors are larger than the covariance predicts.
     std::array<double, 3> normalised = {};
 
-    double largest_p_wrong = 0;  ///< maximum of all fixes
-    Quantiles elapsed_us;        ///< time for each readable frame
+    double largest_p_wrong = 0;  ///< maximum p_wrong of all fixes
+    Quantiles elapsed_us;        ///< time of `locate` for each readable frame
 
     double located_share() const { return frames > 0 ? 1.0 * located / frames : 0; }
 };

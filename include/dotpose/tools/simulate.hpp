@@ -93,7 +93,7 @@ struct Imperfections {
     double blur_sigma_px = 0;
     Vec2 motion_px;  ///< motion of the scene in the image during the exposure; the pose applies to
                      ///< the middle of the exposure
-    double noise_sigma = 0;      ///< standard deviation in grey levels
+    double noise_sigma = 0;      ///< standard deviation of the noise, in grey levels
     double salt_and_pepper = 0;  ///< fraction of the pixels that are black or white
     double jitter_mm = 0;        ///< standard deviation of a printed dot's place, per axis
     double missing = 0;          ///< fraction of the dots that are not printed
@@ -101,7 +101,7 @@ struct Imperfections {
     int graphics = 0;            ///< number of thick strokes or words in the frame
     double texture = 0;          ///< standard deviation of the paper's reflectance
     static constexpr double kGrain_px = 3;  ///< size of the texture's grains
-    double tilt_x_rad = 0;  ///< added to the pose by `draw_shot`; `render` ignores it
+    double tilt_x_rad = 0;  ///< tilt that `draw_shot` adds to the pose; `render` ignores it
     double tilt_y_rad = 0;
     /// Number of sub-pixels per pixel along each axis, at most 8. 0 selects a number with which no
     /// dot has an error above 0.003 px. Larger numbers take longer.
@@ -165,8 +165,8 @@ class Projection {
   public:
     Projection(const CameraModel& camera, const CameraPose& pose);
 
-    /// Returns the pixel of an offset. For a point that the camera cannot see, returns a pixel at a
-    /// distance of 1e9.
+    /// Returns the pixel of an offset. For a point that the camera cannot see, returns (1e9, 1e9),
+    /// a pixel far outside the image.
     Vec2 pixel_from_offset(Vec2 offset_mm) const;
     /// Returns the offset of a pixel, in mm.
     Vec2 offset_from_pixel(Vec2 pixel) const;

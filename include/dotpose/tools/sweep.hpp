@@ -34,7 +34,7 @@ const char* name(SweepKind kind);
 
 /// Options of a sweep, for all values of the condition.
 struct SweepOptions {
-    Setup setup;  ///< all other conditions
+    Setup setup;  ///< setup of all frames, with all other conditions
     /// Number of frames per value. Frame i is the same at every value, except for the condition
     /// that is varied.
     int frames_per_value = 200;

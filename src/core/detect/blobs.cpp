@@ -23,8 +23,8 @@ int all_within_px(const AdaptiveThreshold& threshold) {
     return std::max(threshold.width_px, threshold.height_px);
 }
 
-/// Predicate: true if a dot is within the distance from the image centre within which dots are
-/// kept.
+/// Predicate: true if the distance of a dot from the image centre, along both axes, is at most
+/// `DotList::kept_within_px`.
 struct IsKept {
     FixedVec image_centre_q8;
     std::int32_t within_q8;
@@ -50,9 +50,9 @@ void keep_dots(DotList list, Predicate is_to_keep) {
     list.count = static_cast<int>(kept - list.dots.data());
 }
 
-/// Reduces the distance within which dots are kept, and removes the dots beyond the new distance to
-/// make room for inner dots. Returns false if the distance is 0. Not inlined, because small devices
-/// need their registers for the frequent path of the caller.
+/// Reduces `kept_within_px`, and removes the dots beyond the new distance from the image centre, to
+/// make room for inner dots. Returns false if `kept_within_px` is already 0. Not inlined, because
+/// small devices need their registers for the frequent path of the caller.
 [[gnu::noinline]] bool make_room(const AdaptiveThreshold& threshold, DotList list) {
     if (list.kept_within_px == 0) return false;
     list.kept_within_px -= list.kept_within_px / 8 + 1;

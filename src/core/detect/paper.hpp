@@ -16,7 +16,7 @@ struct PaperMap {
     int block_px = 0;
     int columns = 0;
     int rows = 0;
-    std::span<std::uint8_t> levels;  ///< row by row
+    std::span<std::uint8_t> levels;  ///< paper levels of the blocks, row by row
     /// For each block, the brightest level of the block and of the eight blocks around it.
     std::span<std::uint8_t> brightest;
 };

@@ -30,7 +30,7 @@ struct Waves {
 
 /// Options of `sum_cells`: one pass that assigns dots to cells.
 struct CellPass {
-    float reach_px = 0;  ///< maximum distance of a dot from the centre along each axis
+    float reach_px = 0;  ///< maximum distance of a dot from the origin along each axis
     /// Maximum distance of a used dot from the nearest place of its cell, in spacings.
     float max_off = 0;
     /// Distance of the four places of a cell from its centre, in spacings, or 0 for one place at
@@ -70,8 +70,9 @@ struct CellsInView {
     float centre_y = 0;
     float width_px = 0;
     float height_px = 0;
-    float margin_px = 0;     ///< minimum distance of a dot from the border of the image
-    float reach_px = 0;      ///< maximum distance of a dot from the centre along each axis
+    float margin_px = 0;  ///< minimum distance of a dot from the border of the image
+    /// Maximum distance of a dot from (centre_x, centre_y) along each axis.
+    float reach_px = 0;
     float displacement = 0;  ///< distance of dots from their intersections, in spacings
     Windows windows = Windows::on_intersections;
     int step = 1;  ///< row subsampling step: every `step`-th cell of a row is listed

@@ -178,7 +178,8 @@ TEST(CheckPrint, maps_distortion) {
 }
 
 TEST(CheckPrint, bits_of_another_place_are_wrong) {
-    // The lower 12 rows are printed from another cell, as by a driver that tiles pages.
+    // The lower 12 rows are printed from another cell, like the output of a driver that tiles
+    // pages.
     Sheet upper = small_sheet();
     Sheet lower = upper;
     upper.rows -= 12;

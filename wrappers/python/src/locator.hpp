@@ -45,7 +45,7 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
     /// The inputs of the newest frame, to compute its stages again.
     struct Request {
         std::uint64_t number = 0;
-        CodeEvidence evidence;  ///< before the frame
+        CodeEvidence evidence;  ///< evidence before the frame was located
         CodeVariant code = CodeVariant::anoto;
         std::optional<SeenPrediction> expected;
         Fix fix;  ///< fix before the camera file is applied

@@ -1,4 +1,4 @@
-// Printing: lays out and writes sheets, also over the pages of a PDF.
+// Printing: lays out and writes sheets, and adds dots to the pages of an existing PDF.
 #include "dotpose/tools/print.hpp"
 
 #include <span>
