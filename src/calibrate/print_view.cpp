@@ -64,7 +64,8 @@ std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side
         }
     }
     if (least > most || most - least > 2 * kMaxUncertainty) return std::nullopt;
-    // Uncertainty due to the lens. Real lenses have more distortion terms than the fitted one.
+    // Uncertainty due to the lens. Real lenses have more distortion terms than the single term that
+    // is fitted.
     constexpr double kLensUncertainty = 0.0005;
     return ScaleRatio{0.5 * (least + most), 0.5 * (most - least) + kLensUncertainty};
 }

@@ -22,8 +22,8 @@ constexpr double kRobust_sigmas = 4;
 constexpr double kPinned = 1e-7;
 /// Prior relative standard deviation of the scale of a camera relative to the sheets.
 constexpr double kCameraPrior = 0.03;
-/// Prior standard deviation of aspect and skew of a camera whose file does not contain them. Pixels
-/// are square.
+/// Prior standard deviation of the aspect and the skew of a camera whose file does not contain
+/// them. It is small, because the pixels of sensors are square.
 constexpr double kSquarePrior = 0.002;
 
 /// Vector in the plane. T is double or an automatic differentiation type.

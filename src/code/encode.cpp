@@ -53,7 +53,8 @@ struct AxisPlace {
     std::uint8_t cross;
 };
 
-// Not inlined, because there are two calls, and most of the code is rarely executed.
+/// Returns the place moved by `distance` positions. Not inlined, because there are two calls, and
+/// most of the code is rarely executed.
 [[gnu::noinline]] AxisPlace moved(CodeVariant code, AxisPlace place, std::int32_t distance) {
     const std::int64_t target = std::int64_t{place.position} + distance;
     const bool is_before = target < 0;

@@ -163,7 +163,8 @@ class Cascade {
     }
 
     /// Returns the certain fix, unless a better fix is found: a fix in another code that explains
-    /// the same place better, or a fix by the second attempt.
+    /// the same place better or, if the residuals of a fix by the first attempt are large, a fix by
+    /// the second attempt.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempt(other_step, other)) return false;

@@ -143,7 +143,8 @@ Status read_filtered(const ImageView& image, const DeviceOptions& options, Deskt
     return status;
 }
 
-/// Measures the pose at the position found, and computes the odds of the other codes.
+/// Measures the pose at the position found, computes the odds of the other codes, and corrects the
+/// pixel bias if it matters.
 Status measure_and_weigh(const ImageView& image, const DeviceOptions& options,
                          DesktopWorkspace& w) {
     const Status status = measure_pose(options, image, w);  // II-B.8

@@ -84,7 +84,7 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Devic
     // The image must contain the centroid windows at any shift that the search may find.
     if (by_centroids) view.margin_px = kPredictedCentroidRadius_px + static_cast<float>(max_px + 1);
     kernels.list_cells(view, dots);
-    // The search tries thirteen shifts along each axis.
+    // The search tests at most thirteen shifts along each axis.
     const int step_px = std::max((max_px + 3) / 6, 1);
     FixedVec shift;
     if (!kernels.find_shift(image, dots, max_px, step_px, shift, hypothesis.depth_q8)) return false;

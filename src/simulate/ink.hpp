@@ -97,7 +97,7 @@ void check(const Page& page, const CameraModel& camera, const CameraPose& pose,
 /// ink, blur, motion and the area of the pixels.
 std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
                           const Imperfections& imperfections);
-/// Computes the grey levels of a frame of a page image.
+/// Computes the grey levels of a frame of a page image before noise and rounding, row by row.
 std::vector<float> expose(const PageImage& page, const View& view,
                           const Imperfections& imperfections);
 

@@ -148,7 +148,7 @@ void unite(OpenBlob& blob, OpenBlob& other) {
 }
 
 /// Returns the blob that contains `blob` after all merges: `blob` itself if it was not merged, or
-/// null if it is null.
+/// null if `blob` is null.
 OpenBlob* whole(OpenBlob* blob) {
     while (blob != nullptr && blob->part_of != nullptr)
         blob = blob->part_of;
@@ -162,7 +162,7 @@ void end_row(Run& after_last) {
 
 /// Adds each run of row `v` to the blob of the runs above that touch it. Runs that meet only at a
 /// corner also touch. Merges the blobs of runs above that touch the same run. Opens a new blob for
-/// a run that touches no run above.
+/// a run that touches no run above, or only runs without a blob.
 void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
     bool some_united = false;
     for (Run& run : below) {
@@ -194,7 +194,8 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
         run.blob = whole(run.blob);
 }
 
-/// Closes the blobs of the row above that do not continue in row `v`.
+/// Closes the blobs of the row above that do not continue in row `v`, and adds them to the list if
+/// they may be dots.
 void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& threshold,
                  OpenBlobs& open, DotList list) {
     for (const Run& run : above) {

@@ -9,8 +9,8 @@ namespace dotpose::core {
 
 /// Places a patch of the given size, in px of the image, around a point of the image. Clips the
 /// patch to the image and to the memory of the patch. Each pixel of the patch covers `scale` x
-/// `scale` pixels of the image; `scale` is 1, 2 or 4. Returns false if the clipped patch is too
-/// small to contain a grid.
+/// `scale` pixels of the image; `scale` is 1, 2 or 4. Returns false if a side of the clipped patch
+/// is shorter than `Patch::min_side_px` pixels of the patch.
 bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int width_px,
                  int height_px, int scale, Patch& patch);
 

@@ -89,7 +89,8 @@ struct CellsInView {
 /// Options of `measure_windows`.
 struct WindowOptions {
     float spacing_px = 11;  ///< spacing at the image centre
-    float reach = 0.36F;    ///< half the side of a window, in spacings; at most kMaxHalfWindow_px
+    /// Half the side of a window, in spacings. In px, it is limited to kMaxHalfWindow_px.
+    float reach = 0.36F;
     /// Minimum contrast of a pixel of a dot, in 1/256 of the paper level.
     int cut_q8 = 128;
     /// Mass of a typical dot relative to the paper level, or 0 to determine this mass from the
@@ -207,7 +208,7 @@ struct FarAlternatives {
     std::array<float, 8> number{};
 };
 
-/// Sum of the n smallest losses, indexed by n.
+/// Sums of the n smallest losses, indexed by n, from 0 to 8.
 using SmallestSums = std::array<std::int32_t, 9>;
 
 /// Bits of 64 lines of 64 cells, one word per line. In `valid`, the bit of a cell is 1 if the cell
@@ -255,9 +256,10 @@ struct Kernels {
     /// Lists the cells in view, with the centres of their windows and the symbols of the code. Sets
     /// `x` and `y` to the expected image points of the dots, including lens distortion.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
-    /// Finds the common shift of all dots, up to `max_px` in steps of `step_px`, at which the sum
-    /// of their images is darkest. Sets `cut_q8` to the contrast at this shift relative to the
-    /// paper level, in 1/256. Returns false if too few dots are in view.
+    /// Finds the common shift of all dots at which the sum of their images is darkest. Tests the
+    /// shifts along each axis up to `max_px`, in steps of `step_px`, but at most 6 steps in each
+    /// direction. Sets `cut_q8` to the contrast at this shift relative to the paper level, in
+    /// 1/256. Returns false if too few dots are in view.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
     /// Sets `x` and `y` to the centroids of the dark pixels in the windows of the dots. Drops dots

@@ -31,9 +31,9 @@ std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     return static_cast<std::int32_t>(square_root(half_square * 2));
 }
 
-/// Returns the direction of the grid, modulo a quarter turn, as a binary angle. If edges are
-/// represented as complex numbers, the fourth powers of edges in all four directions of a grid have
-/// the same argument.
+/// Returns the direction of the grid, modulo a quarter turn, as a binary angle. `length_q8` is the
+/// median length of the edges. If edges are represented as complex numbers, the fourth powers of
+/// edges in all four directions of a grid have the same argument.
 std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t length_q8) {
     const std::int32_t inverse_q16 = 1024 * 65536 / length_q8;
     std::int32_t sum_re = 0;
