@@ -56,7 +56,7 @@ inline constexpr float kWeight_px = 0.84F;
 /// Shift at the image border, due to scale and turn of a correction, above which the dots are
 /// measured again.
 inline constexpr float kTurned_px = 2;
-/// Maximum number of measurements of the dots.
+/// Maximum number of measurements of the dots in one correction of the prediction.
 inline constexpr int kMaxLooks = 3;
 /// Points around which dots are searched, relative to the image centre, in fractions of the sides
 /// of the image. The pattern may be covered at one point and visible at another point.
@@ -92,8 +92,8 @@ inline constexpr float kOutlier = 8.3F;
 /// measured part. Above this distance, small centroid windows miss a part of the offsets, so the
 /// dots are measured again.
 inline constexpr float kFar = 0.055F;
-/// Maximum number of measurements of the dots. docs/accuracy.md, "Dots with the same sub-pixel
-/// phase", lists the remaining errors.
+/// Maximum number of measurements of the dots after which an exact hypothesis counts as
+/// implausible. docs/accuracy.md, "Dots with the same sub-pixel phase", lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
 /// Fraction of the paper level below which windows are dropped. Such windows are on the table
 /// beyond the sheet, where noise is as dark as dots.
@@ -169,16 +169,17 @@ inline constexpr int kMaxTurns_deg[] = {12, 45};
 
 /// Constants of the choice of attempts and codes (locate/locate, locate/other_place).
 namespace cascade {
-/// Minimum odds of another code at which a frame is read again in that code.
+/// Minimum odds of another code, relative to the code of the fix, at which a frame is read again in
+/// that code.
 inline constexpr float kBetterOdds = 2;
 /// Minimum number of dots per contradicting bit at which a reading in another code is reported.
 /// Less than one bit in a hundred then contradicts the reading, which misread bits explain.
 inline constexpr int kBitsPerError = 50;
-/// Minimum odds of a different place in another code at which the place is reported next to a
-/// certain fix.
+/// Minimum odds of a different place in another code, relative to the fix, at which the place is
+/// reported next to a certain fix.
 inline constexpr float kNamedElsewhere = 0.99F;
-/// Minimum odds of the same place in another code at which the place is reported next to a certain
-/// fix.
+/// Minimum odds of the same place in another code, relative to the fix, at which the place is
+/// reported next to a certain fix.
 inline constexpr float kNamedHere = 1024;
 }  // namespace cascade
 

@@ -132,7 +132,7 @@ std::vector<CameraSize> sizes_of(const Device& device) {
     return sizes;
 }
 
-/// Returns the name of the device in the kernel, if the device cannot be opened.
+/// Returns the name of the camera according to the kernel. Used if the device cannot be opened.
 std::string name_in_sysfs(int number) {
     std::ifstream file(fmt::format("/sys/class/video4linux/video{}/name", number));
     std::string name;

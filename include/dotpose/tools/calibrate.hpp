@@ -133,8 +133,8 @@ struct SpinCalibration {
     int frames = 0;
     int located = 0;
     double sigma_mm = 0;     ///< standard deviation of the centre of rotation, per axis
-    double residual_mm = 0;  ///< rms of the frames about the centre of rotation, per axis
-    double turn_rad = 0;     ///< smallest arc that contains all angles
+    double residual_mm = 0;  ///< rms residual of the frames about the centre of rotation, per axis
+    double turn_rad = 0;  ///< angle of the smallest arc that contains the directions of all frames
     /// Error of the centre of rotation, per axis, due to a drift of the robot while it turned. 0 if
     /// noise explains the drift. Included in `sigma_mm`.
     double drift_mm = 0;
@@ -248,7 +248,7 @@ struct Stitching {
     std::vector<SheetEntry> sheets;
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
-    std::vector<SeamSighting> sightings;  ///< sightings of connected sheets
+    std::vector<SeamSighting> sightings;  ///< sightings of pairs of connected sheets
     /// Names of sheets without a connection to the fixed sheet.
     std::vector<std::string> unconnected;
     int frames = 0;

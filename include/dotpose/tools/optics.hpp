@@ -24,14 +24,14 @@ struct Optics {
     int height_px = 120;
     double pixel_um = 24;     ///< pixel pitch on the sensor; binned pixels count as one
     double focal_mm = 5.5;    ///< focal length of the lens
-    double distance_mm = 16;  ///< from the lens to the paper; more than the focal length
+    double distance_mm = 16;  ///< distance from the lens to the paper; more than the focal length
     double spacing_mm = kDefaultSpacing_mm;
     double dot_mm = kDefaultSpacing_mm / 6;
-    double f_number = 2.8;  ///< focal length over aperture
+    double f_number = 2.8;  ///< focal length divided by the diameter of the aperture
     double exposure_s = 1.0 / 7684;
     double speed_mm_s = 100;     ///< maximum speed of straight motion along the image x or y axis
     double turn_rpm = 60;        ///< maximum turn rate about the image centre
-    double largest_blur_px = 1;  ///< maximum motion during the exposure
+    double largest_blur_px = 1;  ///< maximum permitted motion in the image during the exposure
 
     /// Measured values, which replace the values of the thin lens: size of a pixel on the paper,
     /// and field of view after correction of distortion.

@@ -238,7 +238,7 @@ struct PartialView {
     int islands = 0;
     static constexpr int kMinIslandDots = 60;
     /// Range of the fraction of the image that the single area covers. The area has at least
-    /// `min_dots`.
+    /// `min_dots` dots.
     double min_share = 0.15;
     double max_share = 0.45;
     int min_dots = 150;

@@ -20,8 +20,8 @@ Section section_of_pair(const Whole& pair);
 Pattern pattern_of(const std::string& code, double spacing_mm, const std::optional<double>& dot_mm,
                    const std::optional<double>& displacement_mm, const Whole& section);
 
-/// Returns the drawing mode of dots: "auto", "glyphs" or "strokes". Throws BadArgument for any
-/// other text.
+/// Returns the method of drawing dots with the name "auto", "glyphs" or "strokes". Throws
+/// BadArgument for any other text.
 DotDrawing drawing_named(const std::string& name);
 
 /// A place on a sheet with a copy of its entry.
