@@ -190,7 +190,7 @@ std::vector<Field> velocity_fields(const Record& record, Units units) {
             {"sigma_velocity_y_mm_s", text(is_known, std::sqrt(v.covariance[1][1]))}};
 }
 
-/// Returns the fields of residual, scale and time.
+/// Returns the fields of the spacing in the image and of the time.
 std::vector<Field> image_fields(const Record& record) {
     const Fix& fix = record.fix;
     const bool ok = fix.status == Status::ok;

@@ -100,7 +100,8 @@ class Findings {
         }
     }
 
-    /// Reports cells that are repeated on the page, and pages that are not in the sheet file.
+    /// Reports cells that are repeated on the page, and fields that are on none of the given
+    /// sheets.
     void judge_place(const PrintField& field) {
         const auto is_part = [this](const RepeatedCells& cells) {
             return cells.first == *field_ || cells.second == *field_;

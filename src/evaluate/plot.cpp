@@ -57,7 +57,7 @@ std::vector<double> Scale::ticks(int min_count) const {
             result.push_back(i * step + 0.0);  // adding 0 turns -0 into 0
         return result;
     }
-    // On an axis over several decades, only powers of ten have labels.
+    // On an axis over more than about two decades, only powers of ten have labels.
     const bool is_long = last / first > 150;
     for (double power = std::pow(10, std::floor(std::log10(first))); power <= last; power *= 10) {
         for (const double factor : {1.0, 2.0, 5.0}) {

@@ -262,7 +262,8 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane) {
 
 namespace {
 
-/// Corrects biases, tests for uneven paper, and writes the fix.
+/// Corrects biases, tests for uneven paper, and writes the fix. Returns implausible if the fitted
+/// plane is not plausible, and uncertain if the fit explains the frame badly.
 Confirmation finish(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                     const DotReader& reader, const CellsInView& view, const BitsRead& bits,
                     Hypothesis& hypothesis, PoseFit& fit, DesktopWorkspace& w) {

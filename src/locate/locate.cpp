@@ -1,5 +1,5 @@
-// Selects the attempts for a frame on a desktop, and the codes in which they are made, and decides
-// when a fix is accepted.
+// Selects the attempts for a frame on a desktop and the codes in which the attempts are made, and
+// decides when a fix is accepted.
 //
 //   tracked    measures the dots where a prediction expects them    locate/tracked.hpp
 //   first      finds the grid in a part of the image                locate/first.hpp

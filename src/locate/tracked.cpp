@@ -39,7 +39,8 @@ bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reac
     return true;
 }
 
-/// Returns the maximum error of the prediction that the search covers, in px.
+/// Returns the maximum error of the prediction for which the search is made, in px: three standard
+/// deviations of the prediction plus a tenth of a spacing, at most kMaxOff spacings.
 int max_shift_px(const Prediction& prediction, float spacing_px) {
     const float off = std::clamp(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, 0.1F,
                                  tuned::kMaxOff);
@@ -84,7 +85,8 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Devic
     // The image must contain the centroid windows at any shift that the search may find.
     if (by_centroids) view.margin_px = kPredictedCentroidRadius_px + static_cast<float>(max_px + 1);
     kernels.list_cells(view, dots);
-    // The search tests at most thirteen shifts along each axis.
+    // The search tests at most thirteen shifts along each axis, in steps of about a sixth of
+    // `max_px`.
     const int step_px = std::max((max_px + 3) / 6, 1);
     FixedVec shift;
     if (!kernels.find_shift(image, dots, max_px, step_px, shift, hypothesis.depth_q8)) return false;

@@ -17,7 +17,8 @@ double PageArea::distance(double x, double y) const {
 namespace simulate {
 namespace {
 
-// Rounds down. std::floor is a function call on the baseline processor and is therefore slower.
+// Rounds down. std::floor is a function call on the baseline processor, and is therefore slower
+// than this conversion.
 std::int64_t floor_of(double x) {
     // Points near the horizon of an extreme tilt exceed the range of a 64-bit integer.
     if (!(std::abs(x) < 4e18)) return 0;

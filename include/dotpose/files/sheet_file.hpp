@@ -206,7 +206,7 @@ class SheetReservation {
     std::filesystem::path path_;
     SheetFileWait wait_;
     std::vector<SheetEntry> entries_;  ///< reserved and unconfirmed entries
-    /// The file before the reservation; none if it did not exist.
+    /// Text of the file before the reservation; none if the file did not exist.
     std::optional<std::string> text_before_;
     std::optional<std::string> text_reserved_;
 };

@@ -48,7 +48,7 @@ Paper landscape(Paper paper);
 struct SheetOptions {
     Pattern pattern;       ///< code, section, and dimensions of the dots
     Cell origin;           ///< cell of the top left dot; each sheet should have its own cells
-    Paper paper;           ///< the page; default A4 portrait
+    Paper paper;           ///< size of the page; default A4 portrait
     double margin_mm = 5;  ///< margin without ink on all sides; 0 for printers without margins
 };
 
@@ -105,7 +105,7 @@ struct PrintOptions {
     /// printer. A PDF has no pixels, but its dots are drawn for this resolution. Not used for text
     /// and SVG.
     double dpi = 600;
-    DotDrawing drawing = DotDrawing::automatic;  ///< PDF only
+    DotDrawing drawing = DotDrawing::automatic;  ///< PDF only: method of drawing dots
     /// PDF only: true to add labels (name, page, region and spacing) and rulers in the margins
     /// where they fit.
     bool labels = true;

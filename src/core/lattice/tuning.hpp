@@ -65,7 +65,7 @@ namespace outwards {
 inline constexpr int kMinDots = 40;
 /// Minimum and maximum number of dots near the middle from which the waves are computed. Fewer dots
 /// at random places can have waves as strong as those of a grid. More dots take longer, because
-/// each dot is evaluated in 12 directions, and hardly improve the waves.
+/// each dot is evaluated in at least 12 directions, and hardly improve the waves.
 inline constexpr int kMinCentralDots = 14;
 inline constexpr int kMaxCentralDots = 64;
 /// Limits of the power of both waves, divided by the squared number of dots. This ratio is 2 for a
