@@ -280,8 +280,8 @@ Confirmation finish(const Kernels& kernels, const ImageView& image, const Device
 }
 
 /// Measures the dots of the hypothesis, compares their bits with the code, and fits the pose. An
-/// exact hypothesis is implausible if its bits are not clean, or if its plane is still far from the
-/// dots after kMaxLooks rounds.
+/// exact hypothesis is implausible if its bits are not clean, or if its plane still changes (see
+/// `is_far_from`) after kMaxLooks rounds.
 Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
                                  const DeviceOptions& options, Hypothesis hypothesis,
                                  DesktopWorkspace& w) {

@@ -338,9 +338,9 @@ typedef struct dotpose_options {
     double lens_centre_dy_px; /* 40 */
     double reference_dx_px;   /* 48: reference point of the pose, from the image centre */
     double reference_dy_px;   /* 56 */
-    double max_p_wrong;       /* 64: limit of p_wrong for positions; default 1e-9 */
-    double max_bit_errors;    /* 72: limit of the ratio of bit errors; default 0.18 */
-    int32_t min_contrast;     /* 80: grey levels; minimum contrast; default 0 */
+    double max_p_wrong;       /* 64: maximum p_wrong of a position; default 1e-9 */
+    double max_bit_errors;    /* 72: maximum fraction of wrong bits; default 0.18 */
+    int32_t min_contrast;     /* 80: minimum contrast, in grey levels; default 0 */
     int32_t min_dots;         /* 84: minimum number of dots; default 40 */
     int32_t show_stages;      /* 88: 1 keeps all dots for dotpose_dots (slower); default 0 */
     int32_t reserved;         /* 92: zero */
@@ -534,8 +534,8 @@ typedef struct dotpose_track_options {
 
 /* Position and angle of the robot measured in one frame, in any plane: 80 bytes. */
 typedef struct dotpose_sighting {
-    int64_t time_us;      /*  0: middle of the exposure, within 2^62 */
-    int64_t x_nm;         /*  8: within 2^60 */
+    int64_t time_us;      /*  0: middle of the exposure; at most 2^62 in magnitude */
+    int64_t x_nm;         /*  8: at most 2^60 in magnitude, like y_nm */
     int64_t y_nm;         /* 16 */
     int32_t theta_bam;    /* 24 */
     uint32_t plane;       /* 28: sightings in different planes are unrelated */
@@ -627,7 +627,7 @@ typedef struct dotpose_packet {
     uint32_t section_u;      /* 36 */
     uint32_t section_v;      /* 40 */
     uint32_t certainty;      /* 44: p_wrong is at most 2^-certainty; at most 255 */
-    uint32_t deviation_q12;  /* 48: maximum of x and y, spacings; 255: more or unknown */
+    uint32_t deviation_q12;  /* 48: larger sigma of x and y, spacings; 255: more or unknown */
 } dotpose_packet;
 
 /* Returns the packet of a fix with any status. */

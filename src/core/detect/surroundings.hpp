@@ -28,7 +28,8 @@ inline LevelRange range_around(const ImageView& image, int u, int v) {
 }
 
 /// Returns the level of a pixel, or the mean level of its neighbours if the pixel is defective: if
-/// its level is far outside the range of its neighbours. The pixel must not be on the border.
+/// its level is outside the range of its eight neighbours by more than a quarter of their maximum.
+/// The pixel must not be on the border.
 inline int without_defect(const ImageView& image, int u, int v) {
     const auto [low, high] = range_around(image, u, v);
     const int level = image.row(v)[u];

@@ -259,12 +259,12 @@ struct Kernels {
     /// Finds the common shift of all dots at which the sum of their images is darkest. Tests the
     /// shifts along each axis up to `max_px`, in steps of `step_px`, but at most 6 steps in each
     /// direction. Sets `cut_q8` to the contrast at this shift relative to the paper level, in
-    /// 1/256. Returns false if too few dots are in view.
+    /// 1/256. Returns false if the surroundings of too few dots are completely in the image.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
     /// Sets `x` and `y` to the centroids of the dark pixels in the windows of the dots. Drops dots
-    /// whose mass is much larger or smaller than the mass of a typical dot. Returns the mass of a
-    /// typical dot relative to the paper level.
+    /// whose mass is less than a quarter or more than 3.5 times the mass of a typical dot. Returns
+    /// the mass of a typical dot relative to the paper level.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowOptions& options, MeasuredDots& dots);
     /// Replaces the centres with weighted centroids in centroid windows. These centroids need no

@@ -38,7 +38,7 @@ PatchView whole_view(const Patch& patch);
 /// that is only partly covered by the pattern. The new origin is the dot with the smallest distance
 /// to its 20th nearest neighbour, in a sample of the dots, rounded down to whole px. Sets `view`,
 /// and sets `from_middle_px` to the new origin relative to the middle of the patch. Returns false
-/// if there are too few dots.
+/// if there are fewer than kMinDots dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
 /// Finds the grid. Returns false if the dots are not on a grid, or are not displaced from the

@@ -26,7 +26,8 @@ struct Regularity {
     /// reach.
     int farthest_cell = 0;
 
-    /// Returns true if enough dots are near an intersection to extend the reach.
+    /// Returns true if the fraction kSettled_20th / 20 of the dots is near an intersection, which
+    /// permits extending the reach.
     bool is_settled() const {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
     }
