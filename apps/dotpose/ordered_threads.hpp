@@ -21,8 +21,8 @@ namespace dotpose::cli {
 template <typename Result>
 class OrderedThreads {
   public:
-    /// Passes on a result. Blocks while too many results of the thread are waiting. Returns false
-    /// if no more results are wanted, in which case the thread must end.
+    /// Passes on a result. Blocks while kMaxResults results of the thread are waiting. Returns
+    /// false if no more results are wanted, in which case the thread must end.
     using Emit = std::function<bool(Result)>;
     using Work = std::function<void(std::size_t thread, const Emit& emit)>;
 

@@ -60,7 +60,7 @@ enum class CalibrationVerdict {
     too_few_frames,  ///< fewer than kWantedFrames frames
     same_place,      ///< all frames show the same dots, so printing errors look like lens errors
     out_of_focus,    ///< the dots are blurred to about a third of the spacing or more
-    corners_unseen,  ///< too few dots near the image corners
+    corners_unseen,  ///< dots cover less than the fraction kMinCoverage of the image
 };
 /// Returns the identifier, such as "out_of_focus".
 const char* name(CalibrationVerdict verdict);
@@ -185,8 +185,8 @@ struct ReadoutCalibration {
 /// Finds the readout time from at least 7 consecutive frames, taken every `interval_ms`, of a
 /// camera that moves over a sheet. Compares the motion during the readout of each frame with the
 /// motion from the previous to the next frame. Throws Error if the camera file has no view of the
-/// paper, if too few frames have a fix, or if the motion does not determine the readout time to 10
-/// %.
+/// paper, if fewer than 5 frames have a fix and neighbours with a fix, or if the motion does not
+/// determine the readout time to 10 %.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
 
