@@ -49,7 +49,8 @@ inline constexpr float kMaxDisplacement = 0.4F;
 /// Maximum distance of a dot from its place in the first and in the second fit, in spacings.
 inline constexpr float kFirstOff = 0.30F;
 inline constexpr float kSecondOff = 0.15F;
-/// Maximum offset of a dot that is measured in a centroid window.
+/// Maximum offset of a dot from its predicted place at which the dot is measured in a centroid
+/// window.
 inline constexpr float kMaxOffset_px = 1.5F;
 /// Offset that corresponds to a moment-to-weight ratio of 1 for a typical dot, within 20 %.
 inline constexpr float kWeight_px = 0.84F;

@@ -151,8 +151,8 @@ struct Page {
     /// paper.
     std::optional<PageArea> paper;
     double table_reflectance = 0.2;
-    /// Returns the displacement of a dot from its intended place (in grid units), due to printing
-    /// errors or bent paper. Empty for no displacement. Called from several threads.
+    /// Returns the shift of the dot at an intended place (in grid units) from this place, due to
+    /// printing errors or bent paper. Empty for no shift. Called from several threads.
     std::function<Vec2(Vec2 place_grid)> shift_mm;
 };
 
