@@ -1,11 +1,12 @@
 # With ccache, a second checkout, or the same checkout after `make clean`, does not compile unchanged sources
 # again: paths and precompiled headers are hashed relative to the checkout. A plain ccache launcher
 # (CMAKE_CXX_COMPILER_LAUNCHER in the environment) is replaced, because without these settings ccache does not
-# cache sources that use precompiled headers.
+# cache sources that use precompiled headers. Comments count: a precompiled header from the cache must have been
+# made from the same files, or GCC includes the files again in spite of `#pragma once`.
 find_program(DOTPOSE_CCACHE ccache)
 if(DOTPOSE_CCACHE AND (NOT CMAKE_CXX_COMPILER_LAUNCHER OR CMAKE_CXX_COMPILER_LAUNCHER MATCHES "(^|/)ccache$"))
     set(launcher ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
-                 CCACHE_SLOPPINESS=pch_defines,time_macros ${DOTPOSE_CCACHE})
+                 CCACHE_COMMENTS=1 CCACHE_SLOPPINESS=pch_defines,time_macros ${DOTPOSE_CCACHE})
     set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
     set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
     # Clang refuses precompiled headers from the cache if they contain times of files.
