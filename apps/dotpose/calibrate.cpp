@@ -38,13 +38,11 @@ constexpr const char* kCalibrateExamples =
     "  dotpose calibrate --stitch --sheets sheets.json --camera camera.yaml seams/*.png\n\n"
     "Take 5 to 50 frames of any printed sheet, some centimetres apart and at any angles; for\n"
     "--spin, 12 frames of the robot turning on the spot; for --drive, some frames of it driving\n"
-    "straight ahead; for --rolling, all images of a fast drive. From a video or a camera, up to "
-    "50\n"
-    "frames that show new places are taken; Ctrl-C ends the reading. With --live, a window (or,\n"
-    "without a display, the terminal) shows what is still missing while you move the camera; "
-    "frames\n"
-    "are taken until they suffice, or until q or Ctrl-C. Exit status 1 if the frames do not\n"
-    "determine the requested values.\n";
+    "straight ahead; for --rolling, all images of a fast drive. From a video or a camera, up to\n"
+    "50 frames that show new places are taken; Ctrl-C ends the reading. With --live, a window\n"
+    "(or, without a display, the terminal) shows what is still missing while you move the\n"
+    "camera; frames are taken until they suffice, or until q or Ctrl-C. Exit status 1 if the\n"
+    "frames do not determine the requested values.\n";
 
 struct CalibrateArguments {
     SourceArguments sources;

@@ -1,15 +1,24 @@
 // Located frames: the dots of each frame as pixels, with their places in the code.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "dotpose/code.hpp"
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/locate.hpp"
 
 namespace dotpose::calibrate {
+
+/// Returns the number of steps from one cell to another along an axis, in the shorter direction
+/// around the plane.
+inline double steps(std::uint32_t from, std::uint32_t to) {
+    return std::remainder(double(to) - double(from), double(kPositionsPerAxis));
+}
 
 /// A measured dot and its intersection.
 struct LocatedDot {

@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "calibrate/least_squares.hpp"
+#include "calibrate/located_frame.hpp"
 #include "calibrate/sheet_spacing.hpp"
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/locate.hpp"
@@ -47,11 +48,6 @@ struct Stations {
     double spacing_mm = 0;
     double mm_per_px = 0;  ///< mean over the frames
 };
-
-/// Returns the number of steps from one cell to another, in the shorter direction around the plane.
-double steps(std::uint32_t from, std::uint32_t to) {
-    return std::remainder(double(to) - double(from), double(kPositionsPerAxis));
-}
 
 Vector2d turned(double angle_rad, const Vector2d& v) {
     const double c = std::cos(angle_rad);
@@ -117,8 +113,8 @@ Stations locate_stations(int frames, const FrameAt& frame_at, const std::optiona
     for (const Fix& fix : fixes) {
         result.stations.push_back(
             {result.spacing_mm *
-                 Vector2d(steps(first.x, fix.cell.x) + fix.fraction_x_q16 / 65536.0,
-                          steps(first.y, fix.cell.y) + fix.fraction_y_q16 / 65536.0),
+                 Vector2d(calibrate::steps(first.x, fix.cell.x) + fix.fraction_x_q16 / 65536.0,
+                          calibrate::steps(first.y, fix.cell.y) + fix.fraction_y_q16 / 65536.0),
              fix.theta_rad()});
         result.mm_per_px +=
             result.spacing_mm / fix.spacing_px() / static_cast<double>(fixes.size());

@@ -97,19 +97,12 @@ void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& p
     }
 }
 
-}  // namespace
-
-std::optional<ReadoutVelocity> readout_velocity(const Fix& fix, const Camera& camera,
-                                                const Trace& trace, const AxisScale& print) {
-    if (fix.status != Status::ok || !camera.readout_ms || !camera.paper) return {};
-    const auto dots = dots_read(trace);
-    if (dots.size() < kMinPoseDots) return {};
-    const PoseFit pose = fit_pose(dots, camera, print);
+/// Returns the velocity during the readout of a rolling shutter, from the last two parameters.
+ReadoutVelocity velocity_of(const PoseFit& pose, double readout_ms, const AxisScale& print) {
     constexpr int kFirst = kParameters;
     // Factors that convert the motion during the readout, along x and y, to a velocity in nominal
     // spacings per second.
-    const std::array per_s{1000 / (*camera.readout_ms * print.x),
-                           1000 / (*camera.readout_ms * print.y)};
+    const std::array per_s{1000 / (readout_ms * print.x), 1000 / (readout_ms * print.y)};
     ReadoutVelocity velocity{
         per_s[0] * pose.parameters[kFirst], per_s[1] * pose.parameters[kFirst + 1], {}};
     for (int i = 0; i < 2; ++i) {
@@ -120,6 +113,8 @@ std::optional<ReadoutVelocity> readout_velocity(const Fix& fix, const Camera& ca
     }
     return velocity;
 }
+
+}  // namespace
 
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print) {
     if (fix.status != Status::ok || !camera.paper) return std::numeric_limits<double>::quiet_NaN();
@@ -142,8 +137,14 @@ bool contradicts(double measured_mm, double spacing_mm) {
 }
 
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const AxisScale& print) {
-    if (fix.status != Status::ok) return fix;
+    return with_camera_and_velocity(fix, camera, trace, print).fix;
+}
+
+MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const Trace& trace,
+                                   const AxisScale& print) {
+    if (fix.status != Status::ok) return {fix, {}};
     Fix result = fix;
+    std::optional<ReadoutVelocity> velocity;
     // Angle on the paper. The nominal angle differs slightly if the print scales of the axes
     // differ.
     double theta_rad =
@@ -151,6 +152,7 @@ Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const 
     const auto dots = dots_read(trace);
     if (camera.paper && dots.size() >= kMinPoseDots) {
         const PoseFit pose = fit_pose(dots, camera, print);
+        if (camera.readout_ms) velocity = velocity_of(pose, *camera.readout_ms, print);
         const PixelPoint reference{
             (camera.width_px - 1) / 2.0 + trace.options.reference_dx_q8 / 256.0,
             (camera.height_px - 1) / 2.0 + trace.options.reference_dy_q8 / 256.0};
@@ -173,7 +175,7 @@ Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const 
     theta_rad += camera.theta_offset_rad;
     result.theta_bam = static_cast<std::int32_t>(
         to_bam(std::atan2(std::sin(theta_rad) / print.y, std::cos(theta_rad) / print.x)));
-    return result;
+    return {result, velocity};
 }
 
 }  // namespace dotpose

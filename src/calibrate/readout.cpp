@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 #include <fmt/core.h>
 
+#include "calibrate/located_frame.hpp"
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/calibrate.hpp"
@@ -43,8 +43,7 @@ std::vector<std::optional<Moving>> locate_drive(int frames, const FrameAt& frame
         use_camera(camera, image.width_px, image.height_px, how);
         locator.set_options(how);
         const Fix seen = reader.locate(image.view(), locator);
-        const Fix fix = with_camera(seen, camera, locator.trace());
-        const auto velocity = readout_velocity(seen, camera, locator.trace());
+        const auto [fix, velocity] = with_camera_and_velocity(seen, camera, locator.trace());
         if (options.progress && !options.progress(i + 1, frames))
             throw Error("stopped; nothing was written");
         drive.emplace_back();
@@ -62,10 +61,8 @@ std::vector<std::optional<Moving>> locate_drive(int frames, const FrameAt& frame
 std::optional<Vector2d> motion_between(const std::optional<Moving>& from,
                                        const std::optional<Moving>& to) {
     if (!from || !to || from->section != to->section) return {};
-    const auto step = [](std::uint32_t a, std::uint32_t b) {
-        return double(static_cast<std::int32_t>(b - a));
-    };
-    const Vector2d cells{step(from->cell.x, to->cell.x), step(from->cell.y, to->cell.y)};
+    const Vector2d cells{calibrate::steps(from->cell.x, to->cell.x),
+                         calibrate::steps(from->cell.y, to->cell.y)};
     constexpr double kMaxCells = 1000;
     if (cells.norm() > kMaxCells) return {};
     return cells + to->fraction - from->fraction;

@@ -71,9 +71,9 @@ Follower::Found Follower::by_camera_file(const Fix& seen, const std::optional<Sh
                                          const CodeReading& reading) const {
     if (!options_.camera) return {seen, seen, place, reading, {}};
     const AxisScale print = place ? place->entry->print_scale() : AxisScale{};
-    const Trace trace = locator_.trace();
-    return {seen, with_camera(seen, *options_.camera, trace, print), place, reading,
-            readout_velocity(seen, *options_.camera, trace, print)};
+    const auto [fix, velocity] =
+        with_camera_and_velocity(seen, *options_.camera, locator_.trace(), print);
+    return {seen, fix, place, reading, velocity};
 }
 
 double Follower::spacing_mm(const std::optional<SheetPlace>& place) const {

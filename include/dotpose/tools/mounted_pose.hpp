@@ -35,11 +35,15 @@ struct ReadoutVelocity {
     std::array<std::array<double, 2>, 2> covariance{};
 };
 
-/// Returns the velocity of the camera during the readout, fitted to the dots together with the
-/// pose. The rotation during the readout is not fitted. Empty without a fix, or if the camera file
-/// has no `readout_ms` or no view.
-std::optional<ReadoutVelocity> readout_velocity(const Fix& fix, const Camera& camera,
-                                                const Trace& trace, const AxisScale& print = {});
+/// A fix refined by `with_camera`, and the velocity during the readout, which is fitted to the dots
+/// together with the pose. The rotation during the readout is not fitted. The velocity is empty
+/// without a fix, or if the camera file has no `readout_ms` or no view.
+struct MovingFix {
+    Fix fix;
+    std::optional<ReadoutVelocity> velocity;
+};
+MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const Trace& trace,
+                                   const AxisScale& print = {});
 
 /// Returns the spacing of the pattern in mm, computed from the fix and the view of the camera file,
 /// divided by the print scale of the sheet (nominal mm). NaN without a fix or a view.

@@ -84,8 +84,7 @@ void close_blob(const OpenBlob& blob, const AdaptiveThreshold& threshold, DotLis
          blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
         static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
         static_cast<std::uint16_t>(blob.area_px)};
-    // As long as the list was never full, `kept_within_px` includes all dots, so no distance is
-    // compared.
+    // Until the list is full for the first time, all dots are kept, without comparing distances.
     while (list.kept_within_px == all_within_px(threshold) || IsKept(threshold, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
             list.dots[static_cast<std::size_t>(list.count++)] = dot;

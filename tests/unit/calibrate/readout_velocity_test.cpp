@@ -58,10 +58,9 @@ TEST(ReadoutVelocity, IsWithinItsStandardDeviation) {
             const Fix seen = locator.locate(image.view());
             if (seen.status != Status::ok) continue;
             ++located;
-            const Fix fix = with_camera(seen, camera, locator.trace());
+            const auto [fix, velocity] = with_camera_and_velocity(seen, camera, locator.trace());
             EXPECT_NEAR(fix.x_grid(), x_grid(frame.shot.pose), 0.012) << i;
             EXPECT_NEAR(fix.y_grid(), y_grid(frame.shot.pose), 0.012) << i;
-            const auto velocity = readout_velocity(seen, camera, locator.trace());
             ASSERT_TRUE(velocity);
             const double off_x = velocity->x_per_s - frame.velocity_mm_s.x / kDefaultSpacing_mm;
             const double off_y = velocity->y_per_s - frame.velocity_mm_s.y / kDefaultSpacing_mm;
@@ -129,10 +128,10 @@ TEST(ReadoutVelocity, NeedsTheReadoutTimeAndAFix) {
     Camera camera = true_camera(paper_camera());
     Fix fix;
     fix.status = Status::ok;
-    EXPECT_FALSE(readout_velocity(fix, camera, {}));
+    EXPECT_FALSE(with_camera_and_velocity(fix, camera, {}).velocity);
     camera.readout_ms = kReadout_ms;
-    EXPECT_FALSE(readout_velocity(fix, camera, {}));
-    EXPECT_FALSE(readout_velocity({}, camera, {}));
+    EXPECT_FALSE(with_camera_and_velocity(fix, camera, {}).velocity);
+    EXPECT_FALSE(with_camera_and_velocity({}, camera, {}).velocity);
 }
 
 }  // namespace
