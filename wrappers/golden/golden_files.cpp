@@ -1,8 +1,8 @@
 // Writes frames and the bits of their fixes. Tests compare the wrappers with these files.
 //
-//   dotpose_golden_files DIRECTORY
+//   dotpose_golden_files DIRECTORY [TIMES]
 //
-// For each set, `nominal` (200 frames), `hard` (150) and `vga` (40), it writes
+// For each set, `nominal` (200 frames), `hard` (150) and `vga` (40), or TIMES as many frames, it writes
 //
 //   SET.frames  a sequence of binary PGM images: each frame, and its next frame
 //   SET.csv     a line for each frame and way of locating; wrappers/golden/README.md describes
@@ -162,7 +162,7 @@ Shot moved(Shot shot) {
     return shot;
 }
 
-void write(const Set& set, const std::string& directory) {
+void write(const Set& set, std::uint64_t times, const std::string& directory) {
     const File frames = create(directory + "/" + set.name + ".frames");
     const File csv = create(directory + "/" + set.name + ".csv");
     Setup setup;
@@ -170,7 +170,7 @@ void write(const Set& set, const std::string& directory) {
     setup.seed = kSeed;
     setup.camera.width_px = set.width_px;
     setup.camera.height_px = set.height_px;
-    for (std::uint64_t index = 0; index < set.frames; ++index) {
+    for (std::uint64_t index = 0; index < set.frames * times; ++index) {
         const Shot shot = draw_shot(setup, index);
         const GreyImage image = render(shot);
         const GreyImage next = render(moved(shot));
@@ -183,11 +183,12 @@ void write(const Set& set, const std::string& directory) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::fputs("usage: dotpose_golden_files DIRECTORY\n", stderr);
+    const std::uint64_t times = argc == 3 ? std::strtoull(argv[2], nullptr, 10) : 1;
+    if (argc < 2 || argc > 3 || times == 0) {
+        std::fputs("usage: dotpose_golden_files DIRECTORY [TIMES]\n", stderr);
         return 2;
     }
     std::filesystem::create_directories(argv[1]);
     for (const Set& set : kSets)
-        write(set, argv[1]);
+        write(set, times, argv[1]);
 }
