@@ -118,9 +118,9 @@ struct Place {
 Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noexcept;
 
 /// Decodes an upright window without wrong symbols. Sets `place` only if the code contains exactly
-/// this window at `place` and nowhere else. Errors: bad_window (not 6 to 32 columns and rows),
-/// not_in_code, ambiguous (only for `libdots`, where windows below 8 x 8 may occur at several
-/// places).
+/// this window at `place` and nowhere else. Errors: bad_window (not 6 to 32 columns and rows, or
+/// fewer than columns * rows symbols), not_in_code, ambiguous (only for `libdots`, where windows
+/// below 8 x 8 may occur at several places).
 Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexcept;
 
 /// Finds the position of the first column (or row) from the rolls of 6 to 32 consecutive columns
@@ -128,8 +128,8 @@ Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexce
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 
-/// Returns the section, in [0, 63), in which column (row) `position`, read from row (column)
-/// `cross_position` on, has the roll `roll_seen`.
+/// Returns the section, in [0, 63), in which column (row) `position` has the roll `roll_seen` if
+/// its first bit is in row (column) `cross_position`.
 int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept;
 

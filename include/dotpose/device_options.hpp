@@ -89,8 +89,10 @@ enum class Effort : std::uint8_t {
 
 /// Dots from which the position is read.
 enum class Decoder : std::uint8_t {
-    window,  ///< the clearest window of 8 x 8 symbols, as in the paper; for comparison
-    all,     ///< all dots in view
+    /// The clearest window of 8 x 8 symbols, as in the paper; for comparison. `locate` then omits
+    /// the first attempt, and makes the second attempt with every Effort except `device`.
+    window,
+    all,  ///< all dots in view
 };
 
 /// All options of a DeviceLocator or Locator, in fixed point.

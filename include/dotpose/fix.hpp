@@ -77,7 +77,7 @@ struct Fix {
     /// The map from the image to the pattern, in spacings relative to `place`. The pose is the
     /// value and the direction of this map at the reference point. `Prediction` uses this map.
     PlaneFromImage pattern_from_image;
-    Place place;
+    Place place;                        ///< origin of `pattern_from_image`
     std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
                                         ///< 2^-16 spacing
 

@@ -1,6 +1,6 @@
-// Bit lines: the bits of 64 x 64 cells, stored as one word for each column or row. A few
-// instructions rotate a line, compare it, or count its bits. Paper sections II-B.4 to II-B.7, with
-// hard bits (0, 1 or not read) instead of probabilities.
+// Bit lines: the bits of 64 x 64 cells, stored as one word for each column and one word for each
+// row. A few instructions rotate a line, compare it, or count its bits. Paper sections II-B.4 to
+// II-B.7, with hard bits (0, 1 or not read) instead of probabilities.
 #pragma once
 
 #include "core/decode/lines.hpp"
