@@ -44,8 +44,8 @@ enum class Prior : std::uint8_t {
 /// Returns the identifier, such as "plane".
 const char* name(Prior prior) noexcept;
 
-/// Result of Locator::locate. Unless `status` is ok, only `status`, `dots_seen` and the counts of
-/// the stages that the frame reached are valid.
+/// Result of Locator::locate or DeviceLocator::locate. Unless `status` is ok, only `status`,
+/// `dots_seen` and the counts of the stages that the frame reached are valid.
 ///
 /// The pose: the pattern point under the reference point (by default the image centre) is `cell +
 /// fraction` in units of the spacing; `theta` is the angle of the image x axis in the pattern
