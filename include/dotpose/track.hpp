@@ -85,7 +85,8 @@ struct TrackOptions {
     /// Time without an accepted sighting after which the robot is lost.
     std::int64_t lost_after_us = 70'000;
 
-    /// A robot that stays within these limits for `stationary_after_us` is stationary.
+    /// A robot whose pose changes by at most these limits, along each axis, for
+    /// `stationary_after_us` is stationary.
     float still_mm = 0.1F;
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
@@ -186,11 +187,11 @@ struct MotionEstimate {
     TrackedPose pose;
     Vector3 acceleration{};    ///< mm/s^2, rad/s^2
     Covariance9 covariance{};  ///< covariance of (x, y, theta), their velocities and accelerations
-    /// Variance of the acceleration along each axis, divided by the variance from TrackOptions.
+    /// Variance of new acceleration along each axis, divided by the variance from TrackOptions.
     Vector3 agility{1, 1, 1};
     Vector3 innovation{};  ///< difference between the newest sighting and its prediction
-    Matrix3 noise{};       ///< covariance of `innovation`
-    /// Mean square of the innovations, in units of their covariances.
+    Matrix3 noise{};       ///< covariance of the newest sighting, including printing errors
+    /// Running mean of the squared innovations, relative to their covariances.
     float scatter = 1;
 };
 
@@ -234,9 +235,9 @@ class Tracker {
 
     TrackOptions options_;
     Track track_;
-    bool was_seen_ = false;
-    bool has_frame_ = false;
-    std::int64_t newest_us_ = 0;
+    bool was_seen_ = false;       ///< true if a sighting was accepted
+    bool has_frame_ = false;      ///< true if there was a frame
+    std::int64_t newest_us_ = 0;  ///< time of the newest frame
     track::MotionEstimate last_;  ///< state at the last accepted sighting
     /// Estimate from the newest sightings that contradict the track. These sightings are filtered
     /// like accepted sightings, because the robot may have been put down elsewhere.

@@ -27,8 +27,9 @@ struct BlockRanges {
     LineRange rows;
 };
 
-/// Returns the range of columns and the range of rows that have bits. Each range is limited to the
-/// `max_count` lines nearest to the middle of the block.
+/// Returns the range from the first to the last column that has bits, and the range from the first
+/// to the last row that has bits. Each range is limited to the `max_count` lines nearest to the
+/// middle of the block.
 BlockRanges ranges_with_bits(const BitBlock& block, int max_count);
 
 /// The scored lines of a block, and the indices in the block of the first scored column and row.

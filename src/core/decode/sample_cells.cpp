@@ -32,10 +32,10 @@ struct PlaceView {
 
 /// Measurements of one cell.
 struct CellView {
-    FixedVec centre_q8;
-    FixedVec u_q8;  ///< one spacing along the rows of the grid, in 2^-8 px of the image
-    FixedVec v_q8;
-    int half_px = 0;                  ///< half the side of the square for `shade_q8`, in px
+    FixedVec centre_q8;  ///< image point of the intersection, in 2^-8 px
+    FixedVec u_q8;       ///< one spacing along the rows of the grid, in 2^-8 px of the image
+    FixedVec v_q8;       ///< one spacing along the columns of the grid, in 2^-8 px of the image
+    int half_px = 0;     ///< half the side of the square for `shade_q8`, in px
     std::array<PlaceView, 4> places;  ///< indexed by Symbol
 
     CellView(const ImageView& image, FixedVec centre, FixedVec right, FixedVec below)
@@ -303,8 +303,8 @@ class Ink {
 
   private:
     const CellSampler& sampler_;
-    int contrast_q8_ = 1;
-    int graphics_q8_ = 0;
+    int contrast_q8_ = 1;  ///< darkness of a typical dot relative to the paper level, in 1/256
+    int graphics_q8_ = 0;  ///< shade above which a place counts as graphics, in 1/256
 };
 
 /// Clears the grid, and sets its extent to the bounding box of the cells at 5 x 5 points. The

@@ -23,8 +23,9 @@ namespace dotpose::core {
 Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
-/// Variant of `verify` that uses only integers and takes bounded time. Refuses a position if the
-/// probability computed from the bound of quick_alternatives.hpp exceeds the limit.
+/// Variant of `verify` that uses only integers and takes bounded time. Takes the odds of the
+/// alternatives only from quick_alternatives.hpp, so it refuses more positions. Errors as in
+/// `verify`.
 Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
