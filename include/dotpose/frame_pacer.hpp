@@ -66,7 +66,7 @@ class FramePacer {
     /// Fix of the newest frame that counted as movement, as the first frame does. Later movement is
     /// measured from this fix. Its status is not ok if that frame had no fix.
     Fix rest_;
-    std::int64_t rest_since_us_ = 0;  ///< time of that frame
+    std::int64_t rest_since_us_ = 0;  ///< time of the frame of `rest_`
 };
 
 }  // namespace dotpose
