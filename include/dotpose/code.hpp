@@ -1,9 +1,10 @@
 /// Position code: the symbol at each grid intersection, and the position of a window of symbols.
 ///
 /// Paper section II-A. Every column of the pattern is the cyclic *main* sequence, read downwards
-/// from an offset, its *roll*. The rolls of adjacent columns differ by 5 to 58. Each difference has
-/// four digits, one from each of four cyclic sequences with coprime lengths. The digits of
-/// consecutive differences determine the position of the column. Rows encode y in the same way.
+/// from an offset, its *roll*. The rolls of adjacent columns differ by 5 to 58, modulo 63. Each
+/// difference has four digits, one from each of four cyclic sequences with coprime lengths. The
+/// digits of consecutive differences determine the position of the column. Rows encode y in the
+/// same way.
 ///
 /// Coordinate frame: x to the right, y DOWN, as the printed page is read. All functions are pure
 /// and thread-safe, and do not allocate.
@@ -82,8 +83,8 @@ constexpr char letter(Symbol symbol) {
     return "ulrd"[static_cast<int>(symbol) & 3];
 }
 
-/// Returns the roll of column p + 1 minus the roll of column p, in [5, 58]. p must be in [0,
-/// kPositionsPerAxis).
+/// Returns the roll of column (or row) p + 1 minus the roll of column (or row) p, modulo 63, in [5,
+/// 58]. p must be in [0, kPositionsPerAxis).
 int delta(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns, in O(1), the roll of column (or row) p in section 0: the offset, in [0, 63), at which
@@ -105,7 +106,7 @@ struct SymbolWindow {
     int rows = 0;
 };
 
-/// The place in the code of the top left symbol of a window.
+/// A place in the code: a cell in a section. The place of a window is that of its top left symbol.
 struct Place {
     Cell cell;
     Section section;
@@ -118,9 +119,9 @@ struct Place {
 Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noexcept;
 
 /// Decodes an upright window without wrong symbols. Sets `place` only if the code contains exactly
-/// this window at `place` and nowhere else. Errors: bad_window (not 6 to 32 columns and rows),
-/// not_in_code, ambiguous (only for `libdots`, where windows below 8 x 8 may occur at several
-/// places).
+/// this window at `place` and nowhere else. Errors: bad_window (not 6 to 32 columns and rows, or
+/// fewer than columns * rows symbols), not_in_code, ambiguous (only for `libdots`, where windows
+/// below 8 x 8 may occur at several places).
 Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexcept;
 
 /// Finds the position of the first column (or row) from the rolls of 6 to 32 consecutive columns
@@ -128,8 +129,8 @@ Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexce
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 
-/// Returns the section, in [0, 63), in which column (row) `position`, read from row (column)
-/// `cross_position` on, has the roll `roll_seen`.
+/// Returns the section, in [0, 63), in which column (row) `position` has the roll `roll_seen` if
+/// its first bit is in row (column) `cross_position`.
 int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept;
 

@@ -24,9 +24,10 @@
 
 namespace dotpose {
 
-/// The odds of each code variant of one sheet, given all frames so far. All frames at one place
-/// show the same dots with the same defects, so together they count as a single frame: they reduce
-/// the odds of a code variant by the mean of their individual factors.
+/// The odds of each code variant of one sheet, given all frames so far. Consecutive frames at one
+/// place show the same dots with the same defects, so together they count as a single frame: they
+/// reduce the odds of a code variant by the mean of their individual factors. Frames are at one
+/// place if, along both axes, they are less than 64 cells from the first frame at this place.
 class CodeEvidence {
   public:
     /// log2 of the likelihood or the odds of each code variant, in units of 2^-8.
@@ -36,8 +37,9 @@ class CodeEvidence {
     /// one frame and for all frames together. Because of this limit, later frames can still show
     /// that the sheet was replaced.
     static constexpr std::int32_t kMax_log2 = 40;
-    /// Maximum factor, as log2, by which all frames at one place together reduce the odds of a code
-    /// variant. These frames show the same dots with the same defects, so they are not independent.
+    /// Maximum factor, as log2, by which consecutive frames at one place together reduce the odds
+    /// of a code variant. These frames show the same dots with the same defects, so they are not
+    /// independent.
     static constexpr std::int32_t kMaxOfPlace_log2 = 32;
 
     /// Starts with all code variants equally likely.

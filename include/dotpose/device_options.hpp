@@ -30,7 +30,7 @@ struct FixedLens {
 };
 
 /// Options of the thresholds between paper and dots (paper section II-B.1). Used by devices and by
-/// the second attempt.
+/// the second attempt, which reduces them because it filters the image first.
 struct ThresholdOptions {
     /// Low threshold: minimum contrast of every pixel of a blob to the paper, as a fraction of the
     /// local contrast, in 1/256. Smaller values merge neighbouring dots. Larger values lose blurred
@@ -39,8 +39,10 @@ struct ThresholdOptions {
     /// High threshold: minimum contrast of the darkest pixel of a blob to the paper, as a fraction
     /// of the local contrast, in 1/256. Larger values reject more noise. [1 to 256]
     int high_q8 = 155;
-    /// Contrast, in grey levels, below which an area counts as blank. If
-    /// `DeviceOptions::min_contrast` is larger, that value is used instead. [1 to 255]
+    /// Contrast, in grey levels, below which an area counts as blank. If a sixth of the largest
+    /// contrast in the frame so far is larger, that value is used, but at most twice this option.
+    /// On devices, `DeviceOptions::min_contrast` replaces a smaller value of this option. [1 to
+    /// 255]
     int min_contrast = 8;
 };
 
@@ -89,8 +91,10 @@ enum class Effort : std::uint8_t {
 
 /// Dots from which the position is read.
 enum class Decoder : std::uint8_t {
-    window,  ///< the clearest window of 8 x 8 symbols, as in the paper; for comparison
-    all,     ///< all dots in view
+    /// The clearest window of 8 x 8 symbols, as in the paper; for comparison. `locate` then omits
+    /// the first attempt, and makes the second attempt with every Effort except `device`.
+    window,
+    all,  ///< all dots in view
 };
 
 /// All options of a DeviceLocator or Locator, in fixed point.

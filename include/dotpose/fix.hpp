@@ -44,8 +44,8 @@ enum class Prior : std::uint8_t {
 /// Returns the identifier, such as "plane".
 const char* name(Prior prior) noexcept;
 
-/// Result of Locator::locate. Unless `status` is ok, only `status`, `dots_seen` and the counts of
-/// the stages that the frame reached are valid.
+/// Result of Locator::locate or DeviceLocator::locate. Unless `status` is ok, only `status`,
+/// `dots_seen` and the counts of the stages that the frame reached are valid.
 ///
 /// The pose: the pattern point under the reference point (by default the image centre) is `cell +
 /// fraction` in units of the spacing; `theta` is the angle of the image x axis in the pattern
@@ -77,7 +77,7 @@ struct Fix {
     /// The map from the image to the pattern, in spacings relative to `place`. The pose is the
     /// value and the direction of this map at the reference point. `Prediction` uses this map.
     PlaneFromImage pattern_from_image;
-    Place place;
+    Place place;                        ///< origin of `pattern_from_image`
     std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
                                         ///< 2^-16 spacing
 

@@ -22,19 +22,20 @@ namespace dotpose {
 /// Criteria for movement, and the periods of frames.
 struct PacerOptions {
     /// Time without movement after which the device counts as stationary. A longer time costs
-    /// energy. A shorter time delays the start after each short stop.
+    /// energy. With a shorter time, short stops also count as stationary, and the next movement is
+    /// detected later.
     std::int64_t stationary_after_us = 5'000'000;
     /// Period of frames while stationary. A longer period saves energy and delays the detection of
     /// movement.
     std::int64_t stationary_period_us = 1'000'000;
     /// Period of frames while moving. Default 0: as fast as possible.
     std::int64_t moving_period_us = 0;
-    /// Minimum distance, along either axis, that counts as movement, in units of 2^-16 spacings.
-    /// The distance is measured from the place where the device came to rest. Default: a tenth of a
-    /// spacing. The distance must be well above the noise of a resting device.
+    /// Distance along either axis, in units of 2^-16 spacings, beyond which the device counts as
+    /// moved. The distance is measured from the place where the device came to rest. Default: a
+    /// tenth of a spacing. The value must be well above the noise of a resting device.
     std::int32_t moved_q16 = 6554;
-    /// Minimum rotation that counts as movement, as a binary angle: 2^31 is half a turn. Default:
-    /// one degree.
+    /// Rotation beyond which the device counts as moved, as a binary angle: 2^31 is half a turn.
+    /// Default: one degree.
     std::int32_t turned_bam = 11'930'465;
     /// True if a stationary device that no longer sees the pattern counts as moved, for example
     /// because it was lifted. Default: true. Set this option to false if frames also fail at rest.
@@ -62,10 +63,10 @@ class FramePacer {
     PacerOptions options_;
     Motion motion_ = Motion::moving;
     bool has_begun_ = false;
-    /// Fix of the newest frame that showed movement. Later movement is measured from this fix. Its
-    /// status is not ok if that frame had no fix.
+    /// Fix of the newest frame that counted as movement, as the first frame does. Later movement is
+    /// measured from this fix. Its status is not ok if that frame had no fix.
     Fix rest_;
-    std::int64_t rest_since_us_ = 0;
+    std::int64_t rest_since_us_ = 0;  ///< time of the frame of `rest_`
 };
 
 }  // namespace dotpose

@@ -24,8 +24,8 @@ struct KnownRegion {
     std::uint32_t rows = 0;
 };
 
-/// Minimum number of dots of a view of known sheets, if the minimum in the options is larger. The
-/// smallest views that can be certain have about 25 dots.
+/// With known regions, the minimum number of dots is the smaller of `min_dots` in the options and
+/// this value. The smallest views that can be certain have about 25 dots.
 inline constexpr int kMinKnownDots = 16;
 
 /// Whether sheets other than the known ones may be in view.

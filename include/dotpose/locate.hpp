@@ -62,7 +62,7 @@ class RowLocator {
     /// Counts a row. Returns false if all rows of the frame were already pushed.
     bool takes_row();
     /// Returns true if a frame was begun. Otherwise sets the status of the fix to the status of
-    /// `begin`.
+    /// `begin`, or to bad_argument if `begin` was not called.
     bool has_rows();
     /// Ends the frame. Sets the spacing of the printed grid in the fix of the frame, and returns
     /// this fix.
@@ -72,8 +72,9 @@ class RowLocator {
     DeviceOptions options_;
 
   private:
-    Status begun_ = Status::bad_argument;  ///< status that `begin` returned
-    int rows_left_ = 0;
+    /// Status that `begin` returned, or bad_argument if no frame was begun.
+    Status begun_ = Status::bad_argument;
+    int rows_left_ = 0;  ///< number of rows that may still be pushed
 };
 
 /// Finds the pose of an image relative to the pattern.
@@ -134,7 +135,7 @@ class Locator : public RowLocator {
     /// Locates an image whose code variant is not known. Places in all code variants are
     /// alternatives, weighted with the odds in `evidence`. If places of two code variants explain
     /// the frame about equally well, the status is ambiguous_code. Afterwards `options().code` is
-    /// the code variant that was read.
+    /// the code variant of the result, `CodeReading::code`.
     CodeReading locate_in_any_code(const ImageView& image, const CodeEvidence& evidence);
 
     /// Locates an image whose code variant is not known, and tries the predicted place first. The
@@ -154,10 +155,12 @@ class Locator : public RowLocator {
     /// 188 x 188 for a SmallMemory, 1280 x 1024 for a LargeMemory.
     Status begin(int width_px, int height_px);
     Status begin(int width_px, int height_px, const Prediction& prediction);
-    /// Takes the next row of `width_px` pixels. Ignores rows beyond the height of the image.
+    /// Takes the next row of `width_px` pixels. Ignores rows beyond the height of the image, and
+    /// all rows if no image was begun.
     void push_row(const std::uint8_t* pixels);
     /// Locates the image whose rows were pushed, as `locate` does. Missing rows count as white
-    /// paper. Error: bad_argument if no image was begun.
+    /// paper. Errors: the status of `begin` if `begin` failed; bad_argument if `begin` was not
+    /// called.
     Fix finish();
 
   private:
@@ -190,6 +193,8 @@ class DeviceLocator : public RowLocator {
 
     /// Returns the pose of an image, in the code of the options.
     Fix locate(const ImageView& image);
+    /// Measures the dots of an image at their predicted places. A frame that does not confirm the
+    /// prediction is located without the prediction.
     Fix locate(const ImageView& image, const Prediction& prediction);
 
     /// Starts a frame that is pushed row by row. The dots of each row are detected as the row
@@ -203,10 +208,11 @@ class DeviceLocator : public RowLocator {
     Status begin(int width_px, int height_px, const Prediction& prediction);
 
     /// Takes the next row of `width_px` pixels. The pixels need not remain valid afterwards.
-    /// Ignores rows beyond the height of the frame.
+    /// Ignores rows beyond the height of the frame, and all rows if no frame was begun.
     void push_row(const std::uint8_t* pixels);
 
-    /// Locates the frame whose rows were pushed. Error: bad_argument if no frame was begun.
+    /// Locates the frame whose rows were pushed. Errors: the status of `begin` if `begin` failed;
+    /// bad_argument if `begin` was not called.
     Fix finish();
 
   private:

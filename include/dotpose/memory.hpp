@@ -1,6 +1,6 @@
-/// Memory of a Locator or DeviceLocator. The memory has a fixed size and belongs to the caller. It
-/// serves any number of frames, one at a time. The memory may be static, on the heap or, if small
-/// enough, on the stack. Its content is private to the core.
+/// Memory of a Locator or DeviceLocator. The memory has a fixed size. It belongs to the caller,
+/// unless a Locator allocates it. It serves any number of frames, one at a time. The memory may be
+/// static, on the heap or, if small enough, on the stack. Its content is private to the core.
 #pragma once
 
 #include <array>
@@ -85,9 +85,9 @@ class LargeMemory {
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-extern template class DeviceMemoryFor<160, 120>;  ///< 10 KB
-extern template class DeviceMemoryFor<188, 120>;  ///< 12 KB
-extern template class DeviceMemoryFor<320, 240>;  ///< 23 KB
+extern template class DeviceMemoryFor<160, 120>;  ///< 10 KB with 32-bit pointers
+extern template class DeviceMemoryFor<188, 120>;  ///< 12 KB with 32-bit pointers
+extern template class DeviceMemoryFor<320, 240>;  ///< 23 KB with 32-bit pointers
 /// Memory for frames of the paper's sensor, 188 x 120 px.
 using DeviceMemory = DeviceMemoryFor<188, 120>;
 

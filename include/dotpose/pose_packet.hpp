@@ -28,7 +28,7 @@ namespace dotpose {
 inline constexpr int kPacketVersion = 1;
 
 /// The part of a frame's result that a packet contains. Unless `status` is ok, only the members
-/// above `cell` are valid, and the other members are sent as zero.
+/// above `cell` are valid. `make_packet` then leaves the other members at their defaults, 0.
 struct PosePacket {
     std::uint16_t sequence = 0;  ///< number of the frame; a gap in the numbers means lost packets
     std::uint32_t time_us = 0;   ///< time of the frame on the sender's clock; wraps every 71.6
@@ -45,7 +45,7 @@ struct PosePacket {
     /// more.
     std::uint8_t certainty = 0;
     /// The larger of the standard deviations of x and y, in units of 2^-12 spacings, rounded up.
-    /// 255 means 255 or more.
+    /// 255 means 255 or more, or not known.
     std::uint8_t deviation_q12 = 0;
 
     // Double precision is used only in these functions, which are not part of the embedded object
@@ -71,7 +71,7 @@ PacketBytes encode(const PosePacket& packet);
 /// Finds packets in any stream of bytes.
 class PacketReader {
   public:
-    /// Takes the next byte. Returns true if the byte completes a packet.
+    /// Takes the next byte. Returns true if the byte completes a valid packet.
     bool push(std::uint8_t byte);
 
     /// Returns the newest packet. Not valid before the first packet.

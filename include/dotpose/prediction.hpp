@@ -27,7 +27,7 @@ struct Prediction {
     /// spacings.
     std::int32_t displacement_q16 = 65536 / 6;
     /// Standard deviation of x and y, in units of 2^-16 spacings. The search covers three standard
-    /// deviations, but at most 0.6 spacing.
+    /// deviations (a Locator adds a tenth of a spacing), but at most 0.6 spacing.
     std::int32_t sigma_q16 = 65536 / 5;
     /// Standard deviation of the angle, as a binary angle: 2^31 is half a turn. Default: 1.4
     /// degrees. The search does not use this value. The search covers rotations of up to 4 degrees.

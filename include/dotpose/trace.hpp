@@ -39,7 +39,9 @@ struct DetectedDot {
 struct SeedEdge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;
-    FixedVec step_q8;  ///< vector from `from` to `to`, in 2^-8 px; points down or right
+    /// Vector from `from` to `to`, in 2^-8 px. The vector points down or, if it is horizontal,
+    /// right.
+    FixedVec step_q8;
 };
 
 /// First estimate of the grid: intersection (i, j) is at origin + i u + j v in the image. All

@@ -10,8 +10,8 @@
 ///         const Track& track = tracker.update(time_us, ok ? &sighting : nullptr);
 ///     }
 ///
-/// `predict` returns the expected place of the pattern in the next frame; examples/follow_robot.cpp
-/// has a loop that uses it.
+/// `predict` returns the expected place of the pattern in the next frame. The loop of
+/// examples/follow_robot.cpp uses it.
 ///
 /// Coordinate frames: all poses are in the plane of the sightings. This plane is the pattern frame,
 /// or the world of a sheet file, in which a robot may drive from sheet to sheet. Positions are
@@ -85,7 +85,8 @@ struct TrackOptions {
     /// Time without an accepted sighting after which the robot is lost.
     std::int64_t lost_after_us = 70'000;
 
-    /// A robot that stays within these limits for `stationary_after_us` is stationary.
+    /// A robot whose pose changes by at most these limits, along each axis, for
+    /// `stationary_after_us` is stationary.
     float still_mm = 0.1F;
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
@@ -96,9 +97,11 @@ struct TrackOptions {
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 
-    /// Maximum probability, as log2, that an accepted sighting is wrong, given the prior.
+    /// Maximum of the upper bound on the probability, as log2, that an accepted sighting is wrong.
+    /// The bound for a weak sighting takes the prior into account.
     int max_p_wrong_log2 = -30;
-    /// Maximum `p_wrong_log2` of an accepted weak sighting, regardless of the prior. At most -1.
+    /// Maximum `p_wrong_log2` of an accepted weak sighting, regardless of the prior. The value must
+    /// be at most -1.
     int max_weak_p_wrong_log2 = -10;
     /// Spacing of the pattern. Determines the number of places within the gate.
     float spacing_mm = 0.508F;
@@ -126,13 +129,19 @@ struct TrackedPose {
 
 /// The tracker's verdict on the sighting of a frame.
 enum class Verdict : std::uint8_t {
-    none,      ///< there was no sighting
-    accepted,  ///< sufficiently certain without the prior, and inside the gate or confirmed by
-               ///< consistent sightings
+    none,  ///< there was no sighting
+    /// Sufficiently certain without the prior, and either at a possible place or confirmed by
+    /// consistent sightings. A place is possible if it is inside the gate or, if the robot is lost,
+    /// if the robot can have reached it. The first sighting is always at a possible place.
+    accepted,
     /// Weak, but accepted because it is sufficiently certain together with the prior.
     with_prior,
-    gated,     ///< outside the gate, and not confirmed yet by consistent sightings
-    too_weak,  ///< weak, and not sufficiently certain even with the prior
+    /// Sufficiently certain without the prior, but not at a possible place, and not confirmed yet
+    /// by consistent sightings.
+    gated,
+    /// Weak, and not accepted: the robot is lost, the sighting is outside the gate, or it is not
+    /// sufficiently certain even with the prior.
+    too_weak,
 };
 /// Number of values of Verdict.
 inline constexpr int kVerdictCount = 5;
@@ -141,9 +150,11 @@ const char* name(Verdict verdict) noexcept;
 
 /// The events of a frame. Several events may occur together.
 struct TrackEvents {
-    bool fix = false;   ///< the robot was lost and is found again
-    bool lost = false;  ///< there was no accepted sighting for too long
-    /// Confirmed sightings are at a place that the robot cannot have reached by driving.
+    bool fix = false;  ///< the robot was lost, as it is at the start, and has been found
+    /// The robot is now lost: no sighting was accepted for TrackOptions::lost_after_us.
+    bool lost = false;
+    /// Confirmed sightings are at a place that the robot cannot have reached by driving from its
+    /// last accepted sighting.
     bool kidnapped = false;
     bool stationary = false;  ///< the robot came to rest
     bool moving = false;      ///< the robot was stationary and moves again
@@ -154,8 +165,8 @@ struct Track {
     bool is_lost = true;
     bool is_stationary = false;
     Verdict verdict = Verdict::none;
-    /// Upper bound, as log2, of the probability that the pose is wrong, given the prior. 0 without
-    /// an accepted sighting.
+    /// log2 of an upper bound on the probability that the pose is wrong. For a weak sighting, the
+    /// bound takes the prior into account. 0 if the frame has no accepted sighting.
     int p_wrong_log2 = 0;
     TrackEvents events;
     /// Pose at the time of the latest frame. If the frame had no accepted sighting, the pose is
@@ -176,11 +187,11 @@ struct MotionEstimate {
     TrackedPose pose;
     Vector3 acceleration{};    ///< mm/s^2, rad/s^2
     Covariance9 covariance{};  ///< covariance of (x, y, theta), their velocities and accelerations
-    /// Variance of the acceleration along each axis, divided by the variance from TrackOptions.
+    /// Variance of new acceleration along each axis, divided by the variance from TrackOptions.
     Vector3 agility{1, 1, 1};
     Vector3 innovation{};  ///< difference between the newest sighting and its prediction
-    Matrix3 noise{};       ///< covariance of `innovation`
-    /// Mean square of the innovations, in units of their covariances.
+    Matrix3 noise{};       ///< covariance of the newest sighting, including printing errors
+    /// Running mean of the squared innovations, relative to their covariances.
     float scatter = 1;
 };
 
@@ -193,7 +204,8 @@ class Tracker {
     explicit Tracker(const TrackOptions& options = {}) : options_(options) {}
 
     /// Updates the state with a frame, given by its time and its sighting. The sighting is null if
-    /// there is no fix. Ignores frames that are not newer than the previous frame.
+    /// there is no fix. A frame that is not newer than the previous frame is ignored; it only
+    /// clears the events.
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
     /// Returns the state after the newest frame.
@@ -202,9 +214,10 @@ class Tracker {
     /// Predicts the place of the pattern in the frame at `time_us`: moves the map of `newest`, an
     /// ok fix with the sighting `seen`, to the pose that the filter expects, and adds the
     /// uncertainty of this pose. A prediction from a sighting that is not accepted yet uses the
-    /// sightings that agree with it. Returns Prediction::like(newest) if there is no expected pose,
-    /// because the filter has not followed `seen` or will be lost at that time. `options` are the
-    /// options of the Locator.
+    /// sightings that agree with it. Returns Prediction::like(newest) if there is no usable pose:
+    /// if the filter has not followed `seen`, if the robot will be lost at `time_us`, if `time_us`
+    /// is not after `seen`, if the spacing is not known, or if the predicted motion is 2048
+    /// spacings or more along x or y. `options` are the options of the Locator.
     Prediction predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
                        const DeviceOptions& options) const;
 
@@ -222,9 +235,9 @@ class Tracker {
 
     TrackOptions options_;
     Track track_;
-    bool was_seen_ = false;
-    bool has_frame_ = false;
-    std::int64_t newest_us_ = 0;
+    bool was_seen_ = false;       ///< true if a sighting was accepted
+    bool has_frame_ = false;      ///< true if there was a frame
+    std::int64_t newest_us_ = 0;  ///< time of the newest frame
     track::MotionEstimate last_;  ///< state at the last accepted sighting
     /// Estimate from the newest sightings that contradict the track. These sightings are filtered
     /// like accepted sightings, because the robot may have been put down elsewhere.

@@ -6,6 +6,5 @@
 
 /// The version as text.
 #define DOTPOSE_VERSION "0.2.0"
-/// The version as one number that increases: 10000 for each major version, 100 for each minor
-/// version.
+/// The version as one number: 10000 * major + 100 * minor + patch.
 #define DOTPOSE_VERSION_NUMBER 200

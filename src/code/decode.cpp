@@ -1,5 +1,5 @@
-// Decoding: finds the place in the code of a window of symbols without errors (paper sections II-A
-// and II-B.7).
+// Decoding: finds the place of a window of symbols in the code. The window must contain no wrong
+// symbols. Paper sections II-A and II-B.7.
 #include <array>
 #include <cstddef>
 

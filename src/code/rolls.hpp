@@ -14,7 +14,7 @@ namespace dotpose::code {
 int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross);
 
 /// Returns the roll of a position in the code variant `other` minus its roll in the variant `read`,
-/// in [0, 63). `place` is the place of the position in a4, the only sequence that differs between
+/// modulo 63. `place` is the place of the position in a4, the only sequence that differs between
 /// the variants.
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place);
 

@@ -14,7 +14,8 @@ namespace dotpose::code {
 /// Marks a string of digits that does not occur in the sequence.
 inline constexpr std::uint8_t kAbsent = 255;
 /// Number of consecutive differences that determine a place in a secondary sequence. Each
-/// difference contributes one digit of the sequence.
+/// difference contributes one digit of the sequence. In the a4 of `libdots`, some strings of this
+/// length occur twice (`Secondary::has_twins`).
 inline constexpr int kOrder = 5;
 
 /// Numbers of entries by which the tables of a sequence extend beyond its end. kLinesAhead entries
@@ -113,8 +114,8 @@ consteval std::uint8_t period_roll(std::size_t length, unsigned roll_of_period) 
     return static_cast<std::uint8_t>(roll_of_period * inverse % kSections);
 }
 
-/// Returns the first place of each string of `Order` digits in base `Base`, indexed by the key of
-/// the string.
+/// Returns the first place of each string of `Order` digits in base `Base`, or kAbsent if the
+/// string does not occur. Indexed by the key of the string.
 template <unsigned Base, int Order, std::size_t Length>
 constexpr auto first_places(const Digits<Length>& sequence) {
     constexpr std::size_t kKeys = [] {

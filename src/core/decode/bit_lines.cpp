@@ -58,9 +58,9 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
 }
 
 /// Returns the score of a line read backwards minus its score read forwards. If all bits of the
-/// line agree with the main sequence in only one direction, the score counts only the bits beyond
-/// the first six. By chance, six bits almost always also agree exactly in the wrong direction. Each
-/// further bit halves the probability of such an agreement.
+/// line agree with the main sequence in exactly one direction, the result is 127 (backwards) or
+/// -127 (forwards) for each bit beyond the first six. By chance, six bits almost always also agree
+/// exactly in the wrong direction. Each further bit halves the probability of such an agreement.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);

@@ -1,6 +1,6 @@
-// Bit lines: the bits of 64 x 64 cells, stored as one word for each column or row. A few
-// instructions rotate a line, compare it, or count its bits. Paper sections II-B.4 to II-B.7, with
-// hard bits (0, 1 or not read) instead of probabilities.
+// Bit lines: the bits of 64 x 64 cells, stored as one word for each column and one word for each
+// row. A few instructions rotate a line, compare it, or count its bits. Paper sections II-B.4 to
+// II-B.7, with hard bits (0, 1 or not read) instead of probabilities.
 #pragma once
 
 #include "core/decode/lines.hpp"
@@ -27,8 +27,9 @@ struct BlockRanges {
     LineRange rows;
 };
 
-/// Returns the range of columns and the range of rows that have bits. Each range is limited to the
-/// `max_count` lines nearest to the middle of the block.
+/// Returns the range from the first to the last column that has bits, and the range from the first
+/// to the last row that has bits. Each range is limited to the `max_count` lines nearest to the
+/// middle of the block.
 BlockRanges ranges_with_bits(const BitBlock& block, int max_count);
 
 /// The scored lines of a block, and the indices in the block of the first scored column and row.

@@ -39,8 +39,8 @@ std::int32_t sum_at(const Sums& sums, std::uint8_t bytes) {
 
 using Line = std::span<const std::int8_t>;
 
-/// Packs the kAtOnce weights of both lines that start at `first`. Weights beyond the end of a line
-/// are 0.
+/// Packs kAtOnce weights of each line, beginning with the weight at index `first`. Weights beyond
+/// the end of a line are 0.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
     const auto rest = [&](Line line) {
         line = line.subspan(std::min(first, line.size()));
@@ -72,7 +72,9 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
     append_sums(sums, weights[4], std::make_index_sequence<16>{});
 }
 
-/// Adds the sums of all groups to the score of each roll, or overwrites the scores with these sums.
+/// Adds the sums of the first `Groups` groups to the score of each roll or, if `Adds` is false,
+/// overwrites the scores with these sums. `phase` is the index, modulo 63, of the first of the
+/// weights in its line.
 template <std::size_t Groups, bool Adds>
 void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineScores& scores_a,
                LineScores& scores_b) {

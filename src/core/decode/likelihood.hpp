@@ -15,9 +15,10 @@ std::int8_t quasi_probability(std::int32_t projection_q16);
 /// `grid.side` cells, the extent is limited to the cells nearest to cell (0, 0).
 void lay_out(FixedVec min, FixedVec max, Grid& grid);
 
-/// Fills the matrices P of Fig. 8 from all dots. A grid with more than `grid.side` cells along an
-/// axis is cropped to the `grid.side` cells nearest to cell (0, 0). Error: grid_too_small, if the
-/// dots extend over fewer than kWindowSide columns or rows.
+/// Fills the matrices P of Fig. 8 from all dots. If a cell contains several dots, the dot with the
+/// highest quality counts. A grid with more than `grid.side` cells along an axis is cropped to the
+/// `grid.side` cells nearest to cell (0, 0). Error: grid_too_small, if the dots extend over fewer
+/// than kWindowSide columns or rows.
 Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid);
 

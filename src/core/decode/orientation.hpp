@@ -21,8 +21,8 @@ struct Orientation {
 Orientation rank_turns(const Grid& grid, const GridRegion& region);
 
 /// Returns true if the region agrees much better with a mirrored pattern than with the pattern. In
-/// a mirrored pattern, columns contain y bits and rows contain x bits. `agreement` is the result of
-/// `rank_turns`.
+/// a mirrored pattern, columns contain y bits and rows contain x bits. `agreement` is
+/// `Orientation::agreement` of this region.
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t agreement);
 
 }  // namespace dotpose::core

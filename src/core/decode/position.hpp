@@ -11,7 +11,8 @@ namespace dotpose::core {
 
 /// Decodes by the method of the paper, as a baseline: finds the turn by vote, correlates each line
 /// of the clearest 8 x 8 cells with the main sequence, and uses the best roll of each line. Errors:
-/// grid_too_small, not_in_code, ambiguous.
+/// grid_too_small (also if the mean quality of the cells is less than a third of the maximum),
+/// not_in_code, ambiguous.
 Status decode_window(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                      Decoding& decoding);
 

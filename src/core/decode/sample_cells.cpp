@@ -25,15 +25,17 @@ FixedVec place_60th(Symbol symbol) {
 struct PlaceView {
     bool is_seen = false;
     int darkness_q8 = 0;  ///< relative to the paper level, in 1/256
-    int shade_q8 = 0;     ///< mean darkness of a square with a side of 2/5 spacing around the place
+    /// Mean darkness of a square around the place, relative to the paper level, in 1/256. The side
+    /// of the square is 2/5 of the spacing.
+    int shade_q8 = 0;
 };
 
 /// Measurements of one cell.
 struct CellView {
-    FixedVec centre_q8;
-    FixedVec u_q8;  ///< one spacing along the rows of the grid, in 2^-8 px of the image
-    FixedVec v_q8;
-    int half_px = 0;                  ///< half the side of the square for `shade_q8`, in px
+    FixedVec centre_q8;  ///< image point of the intersection, in 2^-8 px
+    FixedVec u_q8;       ///< one spacing along the rows of the grid, in 2^-8 px of the image
+    FixedVec v_q8;       ///< one spacing along the columns of the grid, in 2^-8 px of the image
+    int half_px = 0;     ///< half the side of the square for `shade_q8`, in px
     std::array<PlaceView, 4> places;  ///< indexed by Symbol
 
     CellView(const ImageView& image, FixedVec centre, FixedVec right, FixedVec below)
@@ -64,13 +66,13 @@ class CellSampler {
     /// `view` contains no samples yet.
     template <typename Use>
     void visit(const Grid& grid, Use use) const;
-    /// Sets the darkness and shade of each place that is in the image.
+    /// Sets `half_px`, and the darkness and shade of each place that is in the image.
     void sample(CellView& view) const;
     /// Returns the paper level at the centre of the cell divided by the paper level at the centre
     /// of the image, in 1/256.
     int light_q8(const CellView& view) const;
-    /// Returns, for each place in the image, the shade of the darkest of eight squares at a
-    /// distance of about 2/15 spacing from the place.
+    /// For each place in the image, returns the shade of the darkest of eight squares around the
+    /// place, at about 2/15 of the spacing from it. Elements of places outside the image are 0.
     std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
@@ -78,9 +80,11 @@ class CellSampler {
     FixedVec image_of(int i, int j) const {
         return distorted_point_q8(lens_, plane_, {i * 65536, j * 65536});
     }
-    /// Returns the mean darkness of a square, from a sample of its pixels.
+    /// Returns the mean darkness of a square relative to the paper level, in 1/256, from a sample
+    /// of its pixels.
     int shade_q8(FixedVec centre_q8, int half_px) const;
-    /// Returns the mean darkness of a square from the sum of the grey levels of its pixels.
+    /// Returns the mean darkness of a square relative to the paper level, in 1/256, from the sum of
+    /// the grey levels of `pixels` pixels. Returns 0 if `pixels` is 0.
     int darkness_q8(FixedVec centre_q8, int sum, int pixels) const;
     template <typename Shade>
     static std::array<int, 4> darkest_around_q8(const CellView& view, Shade shade_q8);
@@ -91,8 +95,8 @@ class CellSampler {
     const PlaneFromImage& plane_;
 };
 
-/// Returns the distance between sampled pixels of a square, in px. In large squares, the distance
-/// is more than 1 px, which limits the time.
+/// Returns the distance between the sampled pixels of a square, in px. Large squares are subsampled
+/// to limit the time.
 int step_px(int half_px) {
     return std::max(half_px / 3, 1);
 }
@@ -172,7 +176,8 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade sh
 }
 
 std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
-    // The centres of all squares are within a third of the spacing from the centre of the cell.
+    // Along each image axis, the centre of each square is at most a third of the largest component
+    // of `u_q8` and `v_q8` away from the centre of the cell.
     const int reach_px =
         std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
         view.half_px;
@@ -193,8 +198,8 @@ int CellSampler::light_q8(const CellView& view) const {
     return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
-/// Returns the medians of the darkness and of the shade at the darkest place of a cell. The medians
-/// are over a sample of the cells that are entirely in the image.
+/// Returns the medians of the darkness and of the shade at the darkest place of a cell, at least 1.
+/// The medians are over a sample of the cells that have all four places in the image.
 PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
     std::array<std::int32_t, tuned::kMedianSample> darkness;
     std::array<std::int32_t, tuned::kMedianSample> shade;
@@ -229,7 +234,7 @@ class Ink {
     }
 
     /// Darkness at the places of a cell, the reliability of its bits in 1/16, and the light at the
-    /// cell relative to the centre of the image.
+    /// cell relative to the centre of the image, in 1/256.
     struct Sample {
         std::array<int, 4> darkness_q8;  ///< indexed by Symbol
         int reliability_q4 = 16;
@@ -298,12 +303,12 @@ class Ink {
 
   private:
     const CellSampler& sampler_;
-    int contrast_q8_ = 1;
-    int graphics_q8_ = 0;
+    int contrast_q8_ = 1;  ///< darkness of a typical dot relative to the paper level, in 1/256
+    int graphics_q8_ = 0;  ///< shade above which a place counts as graphics, in 1/256
 };
 
-/// Clears the grid, and sets its extent to the range of the cells at 5 x 5 points that cover the
-/// image.
+/// Clears the grid, and sets its extent to the bounding box of the cells at 5 x 5 points. The
+/// points are evenly spaced over the whole image, including its borders.
 void cover_image(const ImageView& image, const FixedLens& lens, const PlaneFromImage& plane,
                  Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};

@@ -13,8 +13,8 @@ namespace dotpose::core {
 /// Extends the grid over the whole image, up to `grid.side` cells along each axis, and sets the
 /// weights of the bits of all its cells. Places outside the image and under graphics favour neither
 /// value of a bit. Cells with places under graphics are marked as hidden. Cells at the border, near
-/// graphics, or with dirt have smaller weights. Returns false if more than 3/8 of the cells appear
-/// to contain two dots, which means that the image contains two patterns.
+/// graphics, or with dirt have smaller weights. Returns false if more than 3/8 of the completely
+/// visible cells appear to contain two dots, which means that the image contains two patterns.
 bool sample_cells(const ImageView& image, const PaperMap& paper, const FixedLens& lens,
                   const PlaneFromImage& grid_from_image, Grid& grid);
 

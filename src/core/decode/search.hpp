@@ -23,8 +23,8 @@ AxisReading reading_of_first(CodeVariant code, std::uint32_t position, int roll,
 /// not_in_code if no reading occurs in the code.
 Status find_axis(CodeVariant code, const Lines& lines, AxisReading& best);
 
-/// Variant of `find_axis` for first attempts. Reads only a few runs with a few readings each,
-/// because a position that takes longer to find is rarely certain.
+/// Variant of `find_axis` for first attempts. Reads only a few runs with a few readings each, and
+/// does not call `search_by_steps`, because a position that takes longer to find is rarely certain.
 Status find_axis_briefly(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

@@ -24,7 +24,8 @@ inline constexpr int kShadePart = 5;
 inline constexpr int kBeside_60th = 8;
 inline constexpr int kBesideDiagonally_60th = 5;
 /// Darkness of solid ink relative to the paper level, in 1/256. A shade above the geometric mean of
-/// solid ink and a dot counts as graphics. Frames located with half or twice the value: 1,992.
+/// this value and the shade of a typical dot counts as graphics. Frames located with half or twice
+/// the value: 1,992.
 inline constexpr int kSolidInk_q8 = 230;
 /// Reliability of the bits of a cell, in 1/16, indexed by the number of its places in the image.
 /// Measured on hard frames.

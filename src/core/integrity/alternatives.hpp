@@ -6,11 +6,12 @@
 
 namespace dotpose::core {
 
-/// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up, at
-/// most 0. For the alternatives that differ from the position read in several sequences and share
-/// few adjacent lines (far alternatives), the sum contains expected odds, except for the
-/// alternatives that are counted one by one. All other odds are upper bounds. The sum is only as
-/// precise as necessary for a comparison with 2^limit_log2. Returns 0 if there are at most 5 lines.
+/// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up to an
+/// integer and clamped to at most 0. Far alternatives differ from the position read in several
+/// sequences and share few adjacent lines. The sum contains the expected odds of the far
+/// alternatives that are not counted one by one. All other odds, including those of the
+/// alternatives counted one by one, are exact or upper bounds. The sum is only as precise as a
+/// comparison with 2^limit_log2 requires. Returns 0 if there are at most 5 lines.
 int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

@@ -53,8 +53,8 @@ constexpr FarAlternatives kFarAlternatives = [] {
     return sets;
 }();
 
-/// Returns the expected sum of the odds of the far alternatives. The sum is the same as in
-/// quick_alternatives.cpp, but it is computed in floating point, for all sets of sequences in
+/// Returns an upper bound on the expected sum of the odds of the far alternatives: the rough bound
+/// of quick_alternatives.cpp, but computed in floating point, for all sets of sequences in
 /// parallel.
 float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
     std::array<float, kMaxLines> odds;
@@ -110,7 +110,8 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
 }
 
 /// Returns the loss of the single alternative with the place `place` in `sequence`, at the shift at
-/// which it shares the line `shared`. Stops adding when the loss exceeds the limit.
+/// which it shares the line `shared`. Stops at the loss at which the odds are at most kSkippedOdds,
+/// regardless of gains in other lines. The result is then a partial sum.
 int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place, int shared) {
     const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
@@ -128,7 +129,8 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
 
 /// Returns an upper bound on the summed odds of the single alternatives that share a line. Tables
 /// bound the odds for most sequences. For the other sequences, alternatives that may matter are
-/// counted one by one. Returns 1 if there are too many such alternatives.
+/// counted one by one. Returns 1 if these alternatives cannot be listed (see
+/// `Kernels::list_similar_places`).
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
@@ -175,7 +177,7 @@ bool is_code_in_question(const Query& query) {
 }
 
 /// Returns an upper bound on the probability that random bits agree with the code at least as well
-/// as the bits that were read.
+/// as the bits that were read on one axis.
 float chance_of(const Confidence& bits, const Query& query) {
     if (!is_code_in_question(query))
         return power_of_two_exactly(chance_log2(bits, query.odds_per_bit_q8));
@@ -183,17 +185,17 @@ float chance_of(const Confidence& bits, const Query& query) {
         chance_log2_q8(bits, query.odds_per_bit_q8, query.others->log2_in_question_q8));
 }
 
-/// Returns the number of possible codes, each weighted by its odds relative to the code read. All
-/// codes have the same number of alternatives, so the odds of alternatives are multiplied by this
-/// number.
+/// Returns the number of possible codes, each weighted by its odds relative to the code read, or 1
+/// if the code is given. All codes have the same number of alternatives, so the odds of
+/// alternatives are multiplied by this number.
 float codes_in_question(const Query& query) {
     return !is_code_in_question(query) ? 1
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
 /// Returns an upper bound on the probability that one axis is wrong, or 1 if chance and
-/// alternatives exceed the limit. The bound from hard bits is never smaller than the bound from
-/// scores.
+/// alternatives exceed the limit. For hard bits, computes only the first, largest bound on the
+/// alternatives.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
                  const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();
@@ -214,8 +216,9 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     return sum + seam_alternatives(kernels, unshared);
 }
 
-/// Returns true if the sum of the bounds of both axes is within the limit. If so, sets the odds of
-/// the other codes, unless `Query::others` is null.
+/// Returns true if the upper bounds on the probability of error of both axes add up to at most the
+/// limit. Sets `fix.p_wrong_log2`, unless `axis_wrong` returns 1 or more for the x axis. On
+/// success, also sets the odds of the other codes, unless `Query::others` is null.
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                  const LikelihoodRatios& x, const LikelihoodRatios& y, const Query& query,
                  Fix& fix) {
@@ -231,8 +234,8 @@ bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
 }
 
 /// Returns the odds of a bit, as log2 in units of 2^-8, estimated from both axes. Both axes are
-/// read from the same dots and therefore have the same error rate. Returns 0 if there are no bits
-/// or too many bits are wrong. Sets `bit_errors`.
+/// read from the same dots and therefore have the same error rate. Returns 0 if the bits carry no
+/// information, or if too many bits of either axis are wrong. Sets `fix.bit_errors`.
 int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOptions& options,
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();

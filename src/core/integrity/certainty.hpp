@@ -28,8 +28,9 @@ struct AxisBits {
 /// Returns true if the hard bits alone, without the scores of lines, make the position certain.
 /// This takes a tenth of the work of `is_certain` and suffices for clean frames. Returns false if
 /// in doubt. Only the bits near the middle of the view are compared with alternatives. Ignoring the
-/// other bits can only increase the bound. Sets `bit_errors` of the fix. If the result is true,
-/// also sets `p_wrong_log2` of the fix and, unless `others` is null, the odds of the other codes.
+/// other bits can only increase the bound. Sets `bit_errors` of the fix. `p_wrong_log2` of the fix
+/// is valid only if the result is true. If the result is true, also sets the odds of the other
+/// codes, unless `others` is null.
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
                           CodeVariant code, const IntegrityOptions& options, Fix& fix,
                           OtherCodes* others = nullptr);
@@ -48,16 +49,18 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
                      std::span<ScoredLine> storage);
 
 /// Returns true if the position is certain: the bound is within the limit, and not too many bits
-/// contradict the position. Sets `bit_errors` of the fix. If the result is true, also sets
-/// `p_wrong_log2` of the fix and, unless `others` is null, the odds of the other codes.
+/// contradict the position. Returns false if there are at most kMaxShared columns or rows. Sets
+/// `bit_errors` of the fix. `p_wrong_log2` of the fix is valid only if the result is true. If the
+/// result is true, also sets the odds of the other codes, unless `others` is null.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr);
 
-/// Sets `p_wrong_log2` of the fix to log2 of the probability `wrong`, rounded up, at most 0.
-/// Returns true if `p_wrong_log2` is at most `limit_log2`.
+/// Sets `p_wrong_log2` of the fix to the smallest integer above log2 of the probability `wrong`, or
+/// to 0 if that integer is positive. Returns true if `p_wrong_log2` is at most `limit_log2`.
 bool is_within_limit(float wrong, int limit_log2, Fix& fix);
 
-/// Sets the odds of the other codes, without judging the position.
+/// Sets the odds of the other codes, without judging the position. Does nothing if the bits carry
+/// no information.
 void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                        OtherCodes& others);
 

@@ -31,13 +31,14 @@ std::uint32_t longest_run(std::uint32_t bits) {
 
 }  // namespace
 
-/// Compares `count` lines of one axis, from the line `first_line` on, with the code. Skips lines
-/// outside the middle kMaxComparedLines lines. `rolls` contains the rolls of the `count` lines at
-/// the cell `first_cell`.
+/// Compares `count` lines of one axis, beginning with the line `first_line`, with the code. Skips
+/// lines outside the middle kMaxComparedLines lines. `rolls` contains the rolls of the `count`
+/// lines at the cell `first_cell`.
 CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rolls, int first_line,
                                   int count, int first_cell) {
     Half half;
-    // Cells before `first_cell` have no bits, so their rolls do not matter.
+    // The main sequence is cyclic, so `ahead` is also correct if the first compared cell is before
+    // `first_cell`.
     const int ahead = ((kFirst - first_cell) % kSections + kSections) % kSections;
     const int begin = std::max(first_line, kFirst);
     const int end = std::min(first_line + count, kFirst + kMaxComparedLines);

@@ -10,8 +10,8 @@ namespace {
 constexpr float kMaxOddsHere = 1e-12F;
 constexpr float kMaxOddsElsewhere = 1e-10F;
 
-/// Returns true if two codes have different rolls in any of BitBlock::kSide lines from `position`
-/// on.
+/// Returns true if the rolls of two codes differ in any of the BitBlock::kSide lines that begin at
+/// `position`.
 bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     std::array<std::uint8_t, BitBlock::kSide> own;
     std::array<std::uint8_t, BitBlock::kSide> theirs;
@@ -20,8 +20,9 @@ bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     return own != theirs;
 }
 
-/// Returns true if more lines may change the odds: either another code that is not ruled out has
-/// different rolls in view, or the odds of other places in another code are not negligible yet.
+/// Returns true if more bits may change the odds: if the odds of other places in another code are
+/// not negligible yet, or if there are more lines and a code that is not ruled out has different
+/// rolls in the block.
 bool may_change_odds(CodeVariant read, const Place& place, bool has_more_lines,
                      const OtherCodes& others) {
     const auto have_other_rolls = [&](CodeVariant other) {

@@ -24,7 +24,7 @@ class Confidence {
         return confidence;
     }
 
-    /// Adds `bits` bits of the same weight, in [-127, 127].
+    /// Adds `bits` bits of the same weight, in [-127, 127]. The sign of the weight does not matter.
     void add(int weight, bool is_wrong, int bits = 1) {
         const int level = (weight < 0 ? -weight : weight) >> 3;
         counts_[static_cast<std::size_t>(2 * level + (is_wrong ? 1 : 0))] += bits;

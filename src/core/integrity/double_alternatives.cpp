@@ -12,7 +12,8 @@ namespace dotpose::core {
 namespace {
 
 /// Lower bound on the result: the odds kNegligible for each of the 190,027 pairs of places at each
-/// shift. No fix may rely on a smaller expectation.
+/// shift. (This number includes 2,217 pairs that contain a place of the reading.) No fix may rely
+/// on a smaller expectation.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
 /// Safety factor on expected odds, which are means over all positions. The odds at a given position
@@ -116,8 +117,8 @@ class Marks {
     std::array<std::uint64_t, 2> halves_;
 };
 
-/// A place in a sequence, and the offsets that the place in the other sequence of a pair must have
-/// at the shared anchors.
+/// A place in a sequence, with the value of `opposite` for this place. A place in the other
+/// sequence of a pair shares the anchors at which its `since` equals `offsets`.
 struct Opposite {
     AnchorBytes offsets;
     const RankedLines::Offsets* place;
@@ -206,8 +207,8 @@ class Finder {
         return sum;
     }
 
-    /// Returns the odds of a pair of places at the shift at which it shares a certain line.
-    /// `shared` is the sum of the two offsets in this line.
+    /// Returns the odds of a pair of places at the shift at which the pair shares a given line.
+    /// `shared` is the sum of the offsets of both places in that line.
     float odds(const RankedLines::Offsets& a, const RankedLines::Offsets& b, int shared) const {
         // Adding 126, a multiple of 63, does not change the shift and keeps the index of the loss
         // positive.
@@ -234,9 +235,9 @@ float sum_of_double_alternatives(const RankedLines& lines, float negligible, flo
     const auto expected_odds = [&](int shared) {
         return kMargin * expected[static_cast<std::size_t>(shared)];
     };
-    // The fewer anchors must be shared, the more pairs of anchors are visited: 6 of the 66 pairs
-    // for seven shared anchors, 18 for four, and all 66 for two. Requiring fewer than four shared
-    // anchors is worth the time only if the fix would be refused otherwise.
+    // With fewer required anchors, `Finder` visits more pairs of anchors: 6 of the 66 pairs for
+    // seven anchors, 18 for four, and all 66 for two. Fewer than four anchors are worth the time
+    // only if the fix would otherwise be refused.
     constexpr int kMinForDetail = 4;
     int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&

@@ -6,7 +6,7 @@
 
 namespace dotpose::core {
 
-/// Returns the summed odds of all double alternatives: 190,027 pairs of places, at all shifts. The
+/// Returns the summed odds of all double alternatives: 187,810 pairs of places, at all shifts. The
 /// result is at least 2^-41. The anchors are the lines with the most information, at most 12. Pairs
 /// that share at least k anchors are counted one by one. All other pairs contribute the rest: their
 /// expected odds, times a safety factor. k is the largest value in [5, 7], and at most the number

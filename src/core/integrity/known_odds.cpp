@@ -41,14 +41,15 @@ class OddsOfBits {
     int per_bit_;  ///< log2 of the odds of a bit, in units of 2^-23
 };
 
-/// Position of the first line, and the roll that is added to the rolls in section 0.
+/// Position of the first line, and the offset of the rolls of all lines from their rolls in section
+/// 0.
 struct PositionAndRoll {
     std::uint32_t position;
     std::size_t roll;
 };
 
-/// Summed odds of the positions in each class modulo 63, for each roll that is added to the rolls
-/// in section 0. The sums do not include the position `left_out` at its roll.
+/// Summed odds of the positions in each class modulo 63, for each `PositionAndRoll::roll`. The sums
+/// omit `left_out`.
 class OddsByClass {
   public:
     OddsByClass(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,
@@ -87,10 +88,10 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// Returns an upper bound on the probability that a view that is on none of the sheets agrees at
-/// least as well with any place on the sheets. `bits` is the number of bits of each axis, `wrong`
-/// the number of wrong bits of each axis, and `lines` the number of columns or rows, whichever is
-/// larger.
+/// Returns an upper bound on the probability that a view that shows none of the known sheets, such
+/// as a view of an unknown sheet, agrees at least as well with some place on the known sheets.
+/// `bits` is the number of bits of each axis, `wrong` the number of wrong bits of each axis, and
+/// `lines` the number of columns or rows, whichever is larger.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;
@@ -146,9 +147,9 @@ float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const Odd
     const OddsByClass columns(turn.columns, region.code, turn.columns_of(region), x_odds,
                               best.column());
     const OddsByClass rows(turn.rows, region.code, turn.rows_of(region), y_odds, best.row());
-    // `columns` and `rows` do not include the best column and the best row. The last two terms add
-    // the best row with the other columns of the class of the best column, and the best column with
-    // the other rows of the class of the best row.
+    // `columns` and `rows` omit the best column and the best row. The last two terms add the places
+    // where the best row crosses another column of the best column's class, and the places where
+    // the best column crosses another row of the best row's class.
     return sum_of_odds(region, columns, rows) + columns(class_of(x), column_roll) +
            rows(class_of(y), row_roll);
 }

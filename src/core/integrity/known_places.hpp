@@ -31,13 +31,14 @@ bool shows_sheet(const KnownSheets& sheets, CodeVariant code, const Place& place
                  const BitBlock& block);
 
 /// Returns the place on the sheets, in any code and any orientation of the block, that agrees best
-/// with the bits of the block. Returns nullopt if the block has no bits.
+/// with the bits of the block. Returns nullopt if the block has no bits. `sheets` must contain at
+/// least one region.
 std::optional<KnownPlace> find_known_place(const Kernels& kernels, const BitBlock& block,
                                            const KnownSheets& sheets);
 
 /// Returns an upper bound on the probability that `place`, the place of cell (0, 0) of an upright
 /// block, is wrong: the cell is at another place on the sheets, or the view is on none of the
-/// sheets. Returns 1 if `place` is not on the sheets.
+/// sheets. Returns 1 if `place` is not on the sheets, or if the bits carry no information.
 float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
                         CodeVariant code, const Place& place);
 

@@ -60,8 +60,9 @@ static_assert([] {
     return true;
 }());
 
-/// Upper bounds on log2 of the number of substrings at the minimum distance from any substring,
-/// indexed by length, in units of 2^-8.
+/// Upper bound on log2 of the number of substrings nearest to a substring
+/// (`NearestSubstrings::count`), over all substrings of the main sequence. Indexed by length, in
+/// units of 2^-8.
 constexpr auto kLog2OfNearest = [] {
     std::array<std::uint16_t, kMaxComparedLines + 1> log2{};
     for (std::size_t length = 0; length < log2.size(); ++length) {

@@ -158,8 +158,9 @@ class LikelihoodRatios {
 /// reading, modulo 63. The offsets are determined only up to a shift that is common to all lines.
 using RollOffsets = std::array<std::uint8_t, kMaxLines>;
 
-/// Returns the roll offset of a line, from 0 to 62. `own` is the roll of the reading. The
-/// computation in bytes allows compilers to vectorise loops over lines.
+/// Returns the roll offset of a line, from 0 to 62. `own` is the roll of the reading, and
+/// `alternative` is the roll of the alternative. The computation in bytes allows compilers to
+/// vectorise loops over lines.
 constexpr std::uint8_t roll_offset(std::uint8_t own, std::uint8_t alternative) {
     return static_cast<std::uint8_t>(alternative - own + (alternative < own ? kSections : 0));
 }
@@ -176,9 +177,10 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
         offsets[static_cast<std::size_t>(line)] = roll_offset(own[line], alternative[line]);
 }
 
-/// Returns the loss of an alternative at the shift at which it shares the line `shared`. Stops
-/// adding as soon as the alternative is hopeless. Returns nullopt if an earlier line is shared at
-/// the same shift, because the alternative was counted at that line.
+/// Returns the loss of an alternative at the shift at which it shares the line `shared`. Adds the
+/// losses of the later lines first, and then those of the earlier lines. Stops as soon as the
+/// alternative is hopeless, and returns the loss so far. Returns nullopt at the first earlier line
+/// that is shared at the same shift, because the alternative was counted at that line.
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
                                    int shared);
 

@@ -46,8 +46,8 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
         const auto half_bits = static_cast<std::size_t>(-ratios.log2_odds_q8(best - score) >> 7);
         return kPowers[std::min(half_bits, kPowers.size() - 1)];
     };
-    // Most rolls lose at least 12 bits more than the best roll. These rolls count with the last
-    // element of kPowers.
+    // The odds of most rolls are at least 2^12 times smaller than the odds of the best roll. These
+    // rolls count with the last element of kPowers.
     const int min_power_score = best - ratios.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
     for (int roll = 0; roll < kSections; ++roll)
@@ -96,8 +96,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
 /// Returns log2 of an upper bound on the odds of the alternatives of all sets that share at most
 /// seven lines, in units of 2^-8. Such an alternative loses at least the sum of the minimum losses
 /// of all lines, without the seven largest. The odds of this loss are multiplied by the number of
-/// alternatives, the number of rolls in the first line, and the number of subsets of shared lines,
-/// which is at most 2^lines.
+/// alternatives, the number of rolls in the first line, the safety factor `kUnevenness` for each
+/// line, and the number of subsets of shared lines, which is at most 2^lines.
 int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
     constexpr std::size_t kFew = 7;
     std::array<int, kFew> largest{};  // the largest losses, in decreasing order
@@ -118,7 +118,8 @@ int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
 
 /// Returns log2 of an upper bound on the odds of the far alternatives of all sets, in units of
 /// 2^-8. If `roughly` is true, the number of rolls times the best odds replaces the sum over the
-/// rolls of a line. Stops adding sets as soon as the sum exceeds `max_log2_q8`.
+/// rolls of a line. For hard bits, `LikelihoodRatios::log2_of_nearest_q8` bounds the sum in either
+/// case. Stops adding sets as soon as the sum exceeds `max_log2_q8`.
 int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     AllLineOdds odds;
     odds[0] = {};

@@ -19,9 +19,8 @@ constexpr int kSeam_q8 = -32 * 256;
 /// Minimum odds, without the prior, of an alternative that is counted, as log2 in units of 2^-8.
 constexpr int kMin_q8 = -8 * 256;
 
-/// Minimum losses of an alternative on both sides of each border, over all shifts. Ignores a shift
-/// if an alternative at this shift on one side of the border loses at least the limit, regardless
-/// of its shift on the other side.
+/// Minimum losses, over all shifts, of an alternative before and after each border. Ignores shifts
+/// at which the loss on one side alone reaches the limit.
 class LossesByBorder {
   public:
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
@@ -87,7 +86,8 @@ class SeamAlternatives {
     SeamAlternatives(const LikelihoodRatios& ratios, int loss_limit)
         : ratios_(ratios), loss_limit_(loss_limit) {}
 
-    /// Adds the alternatives with the place `place` in `sequence`, with a seam at each border.
+    /// For each border between two lines, adds the alternative that has `place` in `sequence` and a
+    /// seam at this border, if its odds without the prior are above kMin_q8.
     void add(std::size_t sequence, std::uint32_t place) {
         RollOffsets offsets;
         set_roll_offsets(ratios_, sequence, place, offsets);
@@ -110,8 +110,8 @@ int loss_limit_of(const LikelihoodRatios& ratios) {
     return ratios.loss_for(kMin_q8) + ratios.max_gain();
 }
 
-/// Returns the loss in each step, in parts. An alternative that loses `StepLosses::kLimitParts`
-/// parts loses at least the limit, even if one step is ignored: the step across the border.
+/// Returns the loss in each step. The step across the border may lose nothing, so the unit is
+/// larger than usual: kLimitParts units minus the largest loss of a step are at least the limit.
 StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {
     StepLosses steps;
     steps.count = ratios.count() - 1;

@@ -8,10 +8,11 @@
 
 namespace dotpose::core {
 
-/// Returns log2 of the summed odds of all seam alternatives, in units of 2^-8. A seam alternative
-/// differs from the position read in the place in one sequence. Its rolls have one shift before a
-/// border between two lines, and another shift beyond the border. Only seam alternatives that
-/// explain the lines about as well as the position read are counted.
+/// Returns log2 of the summed odds, including the prior probability of a seam, of the seam
+/// alternatives that explain the lines about as well as the position read. The result is in units
+/// of 2^-8, and kNever_q8 if there are no such alternatives. A seam alternative differs from the
+/// position read in the place in one sequence. Its rolls have one shift before a border between two
+/// lines, and another shift beyond the border.
 int seam_alternatives_log2_q8(const LikelihoodRatios& ratios);
 
 /// Returns the same sum, but uses kernels to search for the alternatives.

@@ -26,7 +26,7 @@ struct Steps {
     int count;       ///< number of steps, in the middle of the view
     int first_line;  ///< line at which the first step begins
     /// Lower bound on the loss in each step, in units of 1/kLimitParts of the loss that excludes a
-    /// place, rounded down.
+    /// place, rounded down. Losses of one unit count as 0.
     std::array<std::uint8_t, kMaxSteps> losses;
     /// True if the losses in nonadjacent steps can add up to the loss that excludes a place.
     bool can_exclude = false;

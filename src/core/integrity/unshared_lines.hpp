@@ -47,8 +47,9 @@ class UnsharedLines {
     /// Returns the minimum loss of the single alternatives of a sequence, or 0 if there is no table
     /// for the sequence.
     int min_loss(std::size_t sequence, Sharing sharing) const;
-    /// Returns the minimum loss of all places in the a4 of another code. `unshared_in_other` is the
-    /// element of `code::kUnsharedInOther` for the code read and the other code.
+    /// Returns the minimum loss of all places in the a4 of another code, or 0 if there are too few
+    /// lines for any table. `unshared_in_other` is the element of `code::kUnsharedInOther` for the
+    /// code read and the other code.
     int min_loss(const std::array<std::string_view, 3>& unshared_in_other) const;
 
   private:

@@ -62,7 +62,8 @@ struct Doubt {
     std::array<int, 2> by_chance_q8{};
 };
 
-/// Sets `bits` of the decoding and `bit_errors` of the fix.
+/// Returns the odds per bit and the bounds on chance, from the agreement of the bits of both axes
+/// with the code. Sets `bits` of the decoding and `bit_errors` of the fix.
 Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptions& options,
                Decoding& decoding, Fix& fix) {
     decoding.bits = agreements[0].bits() + agreements[1].bits();
@@ -91,7 +92,9 @@ Doubt compare_with_chance(const Grid& grid, CodeVariant code, const IntegrityOpt
     return doubt_of(agreements, options, decoding, fix);
 }
 
-/// Returns an upper bound on the probability that one axis is wrong, as log2 in units of 2^-8.
+/// Returns an upper bound on the probability that one axis is wrong: the sum of the bounds on
+/// chance and alternatives and, unless these two already exceed the limit, on seam alternatives.
+/// All probabilities are log2 in units of 2^-8.
 int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limit_q8,
                       int alternatives_q8) {
     int sum_q8 = add_log2(by_chance_q8, alternatives_q8);

@@ -15,16 +15,17 @@
 namespace dotpose::core {
 
 /// Sets `bit_errors` and `p_wrong_log2` of the fix, and `bits` and `p_wrong_log2_q8` of the
-/// decoding. The probability includes chance, alternatives and seams. The probability is computed
-/// from the bound of quick_alternatives.hpp and, if this bound exceeds the limit or 2^-30, from
-/// alternatives.hpp. `others` contains the number of possible codes, and is null if the code is
-/// given. Errors: not_certain, if the probability exceeds the limit or too many bits contradict the
-/// position.
+/// decoding. The probability includes chance, alternatives and seams. The odds of the alternatives
+/// come from quick_alternatives.hpp. If the probability then exceeds the limit or 2^-30, they come
+/// from alternatives.hpp for the axes in doubt. `others` contains the number of possible codes. It
+/// may be null if the code is given. Errors: not_certain, if the probability exceeds the limit or
+/// too many bits contradict the position.
 Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
-/// Variant of `verify` that uses only integers and takes bounded time. Refuses a position if the
-/// probability computed from the bound of quick_alternatives.hpp exceeds the limit.
+/// Variant of `verify` that uses only integers and takes bounded time. Takes the odds of the
+/// alternatives only from quick_alternatives.hpp, so it refuses more positions. Errors as in
+/// `verify`.
 Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
@@ -35,7 +36,7 @@ Status verify_tracked(CodeVariant code, std::span<const ComparedLine> lines, con
                       const IntegrityOptions& options, Decoding& decoding, Fix& fix);
 
 /// Sets the odds of all codes other than `code`, the code in which the grid was read. Does nothing
-/// if `others` is null.
+/// if `others` is null or if the bits carry no information.
 void weigh_other_codes(const Kernels& kernels, const Grid& grid, CodeVariant code,
                        const Decoding& decoding, std::span<ScoredLine> storage, OtherCodes* others);
 

@@ -125,7 +125,8 @@ class OtherPlaces {
     void add_skipped(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kSkippedOdds;
     }
-    /// Returns the sums, and the position of the likeliest other place.
+    /// Returns the sums, and the position of the likeliest other place if its odds are large enough
+    /// to be reported.
     const OtherAxis& result() {
         // A place with smaller odds is never reported.
         constexpr float kMinReportedOdds = 1e-6F;
