@@ -16,8 +16,8 @@ class Shifts {
     /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Sets `shift_q8` to the darkest shift that is neither a shift returned before nor its
-    /// neighbour. Returns false if there is none.
+    /// Sets `shift_q8` to the darkest shift that is more than two steps away from all shifts
+    /// returned before. Returns false if there is none.
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }
@@ -49,7 +49,7 @@ class Shifts {
     int paper_ = 0;
     int cut_ = 0;
     int depth_ = 0;
-    std::array<std::uint8_t, kMaxPerSide> dots_{};  ///< number of dots summed in each row
+    std::array<std::uint8_t, kMaxPerSide> dots_{};  ///< number of dots summed in each row of steps
     /// Sums of darkness; means after `divide_by_dots`.
     std::array<std::uint16_t, kPerRow * kPerRow> sums_{};
 };

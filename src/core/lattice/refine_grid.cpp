@@ -63,7 +63,8 @@ struct Target {
     FixedVec place_q16;
 };
 
-/// Returns the largest distance of a dot from `centre_q8` along either axis, in px, rounded up.
+/// Returns an upper bound on the distance of the dots from `centre_q8` along either axis: the
+/// largest distance in px, rounded down, plus 1.
 int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
     std::int32_t reach = 1;
     for (const DetectedDot& dot : dots)

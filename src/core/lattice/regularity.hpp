@@ -23,11 +23,11 @@ struct Regularity {
     int dots = 0;
     int near_intersections = 0;
     /// Maximum distance of the cell of any dot from the origin, in cells. Includes dots beyond the
-    /// reach.
+    /// reach, up to kFarthest_cells.
     int farthest_cell = 0;
 
-    /// Returns true if the fraction kSettled_20th / 20 of the dots is near an intersection, which
-    /// permits extending the reach.
+    /// Returns true if at least the fraction kSettled_20th / 20 of the dots is near an
+    /// intersection, which permits extending the reach.
     bool is_settled() const {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
     }
