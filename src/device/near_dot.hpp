@@ -103,8 +103,8 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
 
 /// The measurement of one dot.
 struct NearDot {
-    FixedVec offset_q8;  ///< offset of the centroid from the point around which the dot was
-                         ///< measured, in 2^-8 px
+    /// Offset of the centroid from the point around which the dot was measured, in 2^-8 px.
+    FixedVec offset_q8;
     std::int32_t mass = 0;
 };
 

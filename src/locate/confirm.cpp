@@ -150,8 +150,9 @@ bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRea
                      hypothesis.displacement, hypothesis.pattern_from_image, fit);
 }
 
-/// Fits the plane and the displacement again after correcting pixel bias and neighbour bias.
-/// Returns the remaining variance of the pixel bias along u and v, in px^2.
+/// Corrects pixel bias and neighbour bias where they matter, and then fits the plane again. Returns
+/// the remaining variance of the pixel bias along u and v, in px^2, or 0 if nothing was corrected
+/// or the new fit failed.
 FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const CellsInView& view,
                           const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
     FloatVec remaining_px2;

@@ -70,7 +70,8 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
 }
 
 /// Returns half the side, along one axis, of the window whose mean is the local light level. Near
-/// the border the window shrinks but stays centred on the pixel, to cancel a gradient of the light.
+/// the border, the window shrinks to stay centred on the pixel, which cancels a gradient of the
+/// light. The result is at least kMinHalf_px.
 int half_side(int at, int length, int max_half) {
     return std::max(std::min({max_half, at, length - 1 - at}), tuned::kMinHalf_px);
 }

@@ -23,8 +23,8 @@ struct PaperStep {
     float gain = 0;  ///< log likelihood ratio (natural) relative to a single plane
 };
 
-/// Returns the line with the largest gain among the lines that are tried. `fit` contains the
-/// scatter of the dots about the plane.
+/// Returns the line with the largest gain among the lines that are tried. If no line has a positive
+/// gain, the gain of the result is 0. `fit` contains the scatter of the dots about the plane.
 PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit& fit,
                           FloatVec reference_px);
 

@@ -94,7 +94,8 @@ CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, fl
     return error;
 }
 
-/// Bias of windows that are centred on their dots, along one axis: amplitude * sin(2 pi phase).
+/// Centroid bias, along one axis, of windows that are centred on their dots: amplitude * sin(2 pi
+/// phase).
 class AxisBias {
   public:
     AxisBias(const DotShape& shape, Along axis, float radius_px) {
