@@ -8,11 +8,13 @@
 
 namespace dotpose::core {
 
-/// Dots in a patch, in image px relative to the middle of the patch.
+/// Dots in a patch, in image px relative to the middle of the patch, or to the origin that
+/// `move_origin_to_densest` chooses.
 struct PatchDots {
     static constexpr int kMax = 2048;
     int count = 0;
-    // Capacities are rounded up to whole vectors. Unused elements are far outside the patch.
+    // Capacities are rounded up to whole vectors. The unused elements of the last vector are far
+    // outside the patch.
     alignas(64) std::array<float, kMax + 16> x;
     alignas(64) std::array<float, kMax + 16> y;
 };

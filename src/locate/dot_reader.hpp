@@ -14,8 +14,8 @@ namespace dotpose::core {
 bool can_sample_directly(const Hypothesis& hypothesis);
 
 /// Returns true if the pixel bias matters. This is the case if all dots of a row or of a column
-/// have the same sub-pixel phase, so the bias does not average out, and if the other errors of the
-/// dots are small. `variance_px2` is the variance of the mean of all centres along one axis,
+/// have nearly the same sub-pixel phase, so the bias does not average out, and if the other errors
+/// of the dots are small. `variance_px2` is the variance of the mean of all centres along one axis,
 /// `side_px` the longer side of the image.
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px);
 

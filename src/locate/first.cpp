@@ -102,8 +102,9 @@ bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const
     return true;
 }
 
-/// Searches for the mirrored code in the dots of a patch around the image centre. The code counts
-/// as mirrored only if adjacent lines have no wrong bits. Leaves the dots of the patch mirrored.
+/// Sets `is_mirrored` of the workspace if the dots of a patch around the image centre show the
+/// mirrored code. The code counts as mirrored only if adjacent lines have no wrong bits. Leaves the
+/// dots of the patch mirrored.
 void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, DesktopWorkspace& w) {
     if (w.is_mirrored) return;
     Patch& patch = *w.patch;
@@ -146,9 +147,9 @@ Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
     return confirm(kernels, image, options, hypothesis, w);
 }
 
-/// Searches the patch at the image centre for a square grid. If there is none, searches it for a
-/// grid of any parallelograms, because a rolling shutter shears and stretches the image of a moving
-/// scene.
+/// Searches the patch at the image centre for a square grid. If this search gives no plausible
+/// hypothesis, searches the patch for a grid of any parallelograms, because a rolling shutter
+/// shears and stretches the image of a moving scene.
 Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
                               const DeviceOptions& options, DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -161,7 +162,8 @@ Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
 
 /// Finds a hypothesis in a patch around a point of the image, in px. Sets `densest_px`, the origin
 /// of the hypothesis, to the point where the dots are densest. Returns false if the patch gives no
-/// hypothesis. Leaves `densest_px` unchanged if this point is not found either.
+/// hypothesis. Leaves `densest_px` unchanged if the patch is too small, or has no contrast or too
+/// few dots.
 bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
                             const DeviceOptions& options, FixedVec around_px, int scale,
                             DesktopWorkspace& w, FixedVec& densest_px, Hypothesis& hypothesis) {

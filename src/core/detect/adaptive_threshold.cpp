@@ -67,8 +67,8 @@ ThreeBands three_bands(const AdaptiveThreshold& threshold, int band) {
             band + 1 < band_count(threshold) ? tiles_of(threshold, band + 1).data() : here};
 }
 
-/// Computes the maximum mean and the maximum darkness of each tile and the tiles above and below
-/// the tile.
+/// For each tile, computes the maximum mean and the maximum darkness of the tile and the tiles
+/// above and below this tile.
 void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
                 std::uint8_t* darknesses) {
     for (std::size_t t = 0; t < count; ++t) {

@@ -195,7 +195,7 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
 }
 
 /// Closes the blobs of the row above that do not continue in row `v`, and adds them to the list if
-/// they may be dots.
+/// they may be dots. Also frees the blobs that were merged into other blobs.
 void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& threshold,
                  OpenBlobs& open, DotList list) {
     for (const Run& run : above) {

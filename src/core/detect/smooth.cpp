@@ -20,7 +20,8 @@ std::uint16_t* line(const Smoothing& smoothing, int v, int width_px) {
     return smoothing.lines.data() + static_cast<std::ptrdiff_t>(v % kRows) * width_px;
 }
 
-/// Clamps each pixel to the range of its neighbours, which removes single impulses.
+/// Clamps each pixel to the range of its eight neighbours, which removes single impulses. Pixels at
+/// the border of the image keep their levels.
 void clip_impulses(const ImageView& image, int v, std::uint8_t* out) {
     const std::uint8_t* above = image.row(std::max(v - 1, 0));
     const std::uint8_t* here = image.row(v);
@@ -132,7 +133,8 @@ constexpr std::uint32_t normalising_factor_q24(std::uint32_t mean) {
     return mean == 0 ? 0 : ((std::uint32_t{kNormalLevel} << 24) - 1) / mean + 1;
 }
 
-/// Multiplies each pixel of row `v` by kNormalLevel divided by the mean of its surroundings.
+/// Multiplies each pixel of row `v` by kNormalLevel divided by the mean of its surroundings, and
+/// clamps the result to kMinLevel to 255.
 void normalise_light(const ImageView& image, int v, Smoothing& smoothing) {
     const int max_half = smoothing.paper.block_px;
     const int half_height = half_side(v, image.height_px, max_half);

@@ -71,7 +71,8 @@ struct CellsInView {
     float width_px = 0;
     float height_px = 0;
     float margin_px = 0;  ///< minimum distance of a dot from the border of the image
-    /// Maximum distance of a dot from (centre_x, centre_y) along each axis.
+    /// Maximum distance of a dot, without lens distortion, from (centre_x, centre_y) along each
+    /// axis.
     float reach_px = 0;
     float displacement = 0;  ///< distance of dots from their intersections, in spacings
     Windows windows = Windows::on_intersections;
@@ -88,7 +89,7 @@ struct CellsInView {
 
 /// Options of `measure_windows`.
 struct WindowOptions {
-    float spacing_px = 11;  ///< spacing at the image centre
+    float spacing_px = 11;  ///< spacing at the centre of the view
     /// Half the side of a window, in spacings. The half side in px is clamped to 2 to
     /// kMaxHalfWindow_px.
     float reach = 0.36F;
@@ -280,7 +281,8 @@ struct Kernels {
     /// Reads the bits of cells whose dots are predicted to a fraction of their displacement: the
     /// dot is at the darkest of the four places of its cell. `depth_q8` is the contrast of a
     /// typical dot relative to the paper level, in 1/256. Bits are compared and added to lines as
-    /// in `read_bits`. Drops dots that are not read or have a wrong bit.
+    /// in `read_bits`. Drops dots that are not read or have a wrong bit. Does not compute
+    /// `projected` and `squares`.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures the centres of predicted dots as `refine_centres` does, in windows with a radius of

@@ -75,7 +75,7 @@ FloatPlane plane_from_waves(const Waves& waves) {
     return plane;
 }
 
-/// Inverse of the 3 x 3 matrix of the sums, over all dots, of the products of x, y and 1.
+/// Inverse of the 3 x 3 matrix of the sums, over the used dots, of the products of x, y and 1.
 struct Inverse {
     std::array<std::array<float, 3>, 3> m;
     bool is_regular = false;

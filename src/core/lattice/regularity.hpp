@@ -48,7 +48,7 @@ struct Regularity {
 };
 
 /// Extends a fit from kFirstReach_cells to the farthest dot. `fit(reach_cells)` fits the grid to
-/// the dots within the reach, sets `found`, and returns false if it fails. Calls `fit` at most
+/// the dots within the reach, sets `found`, and returns false if the fit fails. Calls `fit` at most
 /// `max_rounds` times for each reach, until enough dots are near an intersection, because a better
 /// fit assigns more dots to the correct cells. Returns false if a fit fails.
 template <typename Fit>

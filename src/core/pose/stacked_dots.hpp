@@ -27,7 +27,8 @@ class StackedDots {
         DotPixels darkness;
     };
 
-    /// Uses the pixels within `reach_px` of the central pixel.
+    /// Uses the pixels within `reach_px` of the central pixel, but at most kHalf_px along each
+    /// axis.
     explicit StackedDots(float reach_px);
 
     /// Adds a dot if all its pixels are in the image.

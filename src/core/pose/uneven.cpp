@@ -13,7 +13,7 @@ namespace {
 
 namespace tuned = tuning::uneven;
 
-/// Mean residuals of the dots in each block of the image.
+/// Scatter of the residuals between and within the blocks of the image.
 class Blocks {
   public:
     Blocks(const Kernels& kernels, const MeasuredDots& dots, const FloatPlane& plane,
