@@ -16,8 +16,8 @@ class Shifts {
     /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Sets `shift_q8` to the darkest shift that is more than two steps away from all shifts
-    /// returned before. Returns false if there is none.
+    /// Sets `shift_q8` to the darkest shift that is more than two steps away, along at least one
+    /// axis, from each shift returned before. Returns false if there is none.
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }

@@ -67,8 +67,9 @@ inline constexpr FloatVec kPoints[] = {
 
 /// Constants of the measurement of dots at known places (locate/confirm, locate/dot_reader).
 namespace confirm {
-/// Reach of the first round, in spacings, in an image that is not measured in one round. All dots
-/// within this reach are measured, and their bits must make the position certain.
+/// Reach of the first round, in spacings, if the pattern fills an image that is too large to be
+/// measured in one round. All dots within this reach are measured, and their bits must make the
+/// position certain.
 inline constexpr float kDense = 10;
 /// Maximum half side of an image, in spacings, that is measured completely in one round.
 inline constexpr float kDenseAtMost = 17;

@@ -23,7 +23,7 @@ struct Regularity {
     int dots = 0;
     int near_intersections = 0;
     /// Maximum distance of the cell of any dot from the origin, in cells. Includes dots beyond the
-    /// reach, up to kFarthest_cells.
+    /// reach, but not dots beyond kFarthest_cells, which the callers ignore.
     int farthest_cell = 0;
 
     /// Returns true if at least the fraction kSettled_20th / 20 of the dots is near an

@@ -16,7 +16,7 @@ struct PaperStep {
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 
-    FloatVec direction{1, 0};  ///< unit vector perpendicular to the line, to the part beyond it
+    FloatVec direction{1, 0};  ///< unit vector perpendicular to the line, pointing beyond the line
     /// Distance from the reference point to the line, in spacings; negative if the reference point
     /// is beyond the line.
     float distance = 0;
