@@ -56,7 +56,7 @@ class ReadSymbol {
     /// to the dot.
     constexpr ReadSymbol(int symbol, std::int32_t level) : bits_(level * 4 + symbol) {}
 
-    /// Returns true if one of the four places was clearly the darkest.
+    /// Returns true if one of the four places was clearly the darkest, and dark enough for a dot.
     bool is_clear() const { return bits_ >= 0; }
     int symbol() const { return bits_ & 3; }
     std::int32_t level() const { return bits_ >> 2; }

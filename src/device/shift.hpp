@@ -9,8 +9,8 @@ namespace dotpose::core {
 
 /// Mean darkness of the pixels at the predicted dots near the middle column of the image, for each
 /// possible shift. At the correct shift, all displaced dots are at their predicted places, so this
-/// shift is the darkest. If few dots are in view, shifts that differ from it by one spacing may be
-/// nearly as dark.
+/// shift is the darkest. If few dots are in view, shifts that differ from the correct shift by one
+/// spacing may be nearly as dark.
 class Shifts {
   public:
     /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.

@@ -205,8 +205,8 @@ void write_fix(const ImageView& image, const DeviceOptions& options, const Hypot
 }
 
 /// Returns true if the fitted plane differs from the plane before the fit by more than kFar
-/// spacings, at a corner of the part of the image within `reach_px` of the image centre. The small
-/// centroid windows then missed a part of the offsets.
+/// spacings along either axis, at a corner of the part of the image within `reach_px` of the image
+/// centre. The small centroid windows then missed a part of the offsets.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
@@ -226,8 +226,8 @@ FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
 }
 
-/// Distance from `Hypothesis::from_centre`, in px, within which dots are read. The distance grows
-/// from round to round.
+/// Distance from `Hypothesis::from_centre`, in px along each axis, within which dots are read. The
+/// distance grows from round to round.
 struct Reach {
     float full;  ///< distance that includes the whole image
     /// Distance within which the bits must make the position certain. Bits at larger distances are

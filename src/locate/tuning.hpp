@@ -31,9 +31,9 @@ inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
 
 /// Constants of the tracked attempt (locate/tracked).
 namespace tracked {
-/// Radius, in spacings, around the point at which a prediction is corrected. The dots within this
-/// radius determine the error of the prediction there. The radius is small enough that an angular
-/// error of the prediction does not match a dot to the wrong intersection.
+/// Reach along each axis, in spacings, around the point at which a prediction is corrected. The
+/// dots within this reach determine the error of the prediction there. The reach is small enough
+/// that an angular error of the prediction does not match a dot to the wrong intersection.
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots that determine a correction of the prediction.
 inline constexpr int kMinNear = 10;

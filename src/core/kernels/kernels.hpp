@@ -165,13 +165,14 @@ struct BitsRead {
     int wrong_x = 0;  ///< number of `read` cells whose x bit contradicts the code
     int wrong_y = 0;
     int right = 0;  ///< number of `read` cells without a wrong bit
-    /// Sum of the distances of `right` dots from their intersections, in spacings.
+    /// Sum, over the `right` dots, of the larger component of their offset from the intersection,
+    /// in spacings.
     float projected = 0;
     /// Sum of the squared distances of `right` dots from their places, in spacings^2.
     float squares = 0;
 };
 
-/// Minimum loss of an alternative, in bits, in a line that it does not share.
+/// Minimum loss, in bits, of an alternative that does not share the line.
 struct LineLoss {
     std::uint8_t line = 0;
     std::uint8_t loss = 0;
@@ -227,7 +228,8 @@ struct Kernels {
     /// adds a white margin.
     void (*fill_patch)(const ImageView& image, Patch& patch);
     /// Smooths the patch by 1-2-1 along both axes, and finds the brightest and the darkest smoothed
-    /// pixel of each tile.
+    /// pixel of each tile. The outermost pixels of the patch do not count as brightest, because the
+    /// margin brightens them.
     void (*smooth_patch)(Patch& patch);
     /// Lists the dots: minima of the smoothed patch that are at most as bright as the threshold of
     /// their tile. The place of a dot is the vertex of the parabolas through the minimum and its
@@ -238,8 +240,8 @@ struct Kernels {
     /// directions (steps of 7.5 degrees). Returns the pair with the highest power.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
     /// Evaluates single waves in all directions, with frequencies from 0.6 to 1.63 times `per_px`.
-    /// Returns the strongest wave, and the strongest wave with which it forms cells of about the
-    /// area 1 / per_px^2. If there is no such pair, the power is 0.
+    /// Returns the strongest wave, paired with the strongest wave that forms cells of about the
+    /// area 1 / per_px^2 with the first wave. If there is no such pair, the power is 0.
     Waves (*strongest_skewed_waves)(const float* x, const float* y, int count, float per_px);
     /// Assigns the dots to cells. Returns the sums over the dots that are near a place of their
     /// cell.
