@@ -1,4 +1,4 @@
-// Reports the name of the option that is out of range.
+// Reports the first option that is out of range, with its value and range.
 #include "core/option_ranges.hpp"
 
 #include "dotpose/option_fault.hpp"

@@ -27,7 +27,8 @@ struct OtherCode {
 
     /// Returns the likelihood ratio of the place of the reading, over both axes.
     float here() const { return x.here * y.here; }
-    /// Returns the sum of the likelihood ratios of all other places, over both axes.
+    /// Returns an upper bound on the sum of the likelihood ratios of all other places, over both
+    /// axes.
     float elsewhere() const { return x.here * y.elsewhere + x.elsewhere * (y.here + y.elsewhere); }
 };
 
@@ -36,7 +37,8 @@ struct OtherCodes {
     bool are_wanted = false;
     /// Value of `log2_in_question_q8` if the code variant is given.
     static constexpr int kNoneInQuestion = -1;
-    /// log2 of the number of possible code variants, each weighted by its odds, in units of 2^-8.
+    /// Upper bound on log2 of the number of possible code variants, each weighted by its odds
+    /// relative to the variant read, in units of 2^-8.
     int log2_in_question_q8 = 0;
     /// First compared column and row, as positions in the code variant that was read.
     Cell first;

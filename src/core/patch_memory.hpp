@@ -8,11 +8,13 @@
 
 namespace dotpose::core {
 
-/// Dots in a patch, in image px relative to the middle of the patch.
+/// Dots in a patch, in image px relative to the middle of the patch, or to the origin that
+/// `move_origin_to_densest` chooses.
 struct PatchDots {
     static constexpr int kMax = 2048;
     int count = 0;
-    // Capacities are rounded up to whole vectors. Unused elements are far outside the patch.
+    // Capacities are rounded up to whole vectors. The unused elements of the last vector are far
+    // outside the patch.
     alignas(64) std::array<float, kMax + 16> x;
     alignas(64) std::array<float, kMax + 16> y;
 };
@@ -55,19 +57,22 @@ struct Patch {
     }
 };
 
-/// Measured dots with their cells of the pattern, in whole vectors. Unused elements are far outside
-/// the image.
+/// Measured dots with their cells of the pattern, in whole vectors. After a measurement, `x` is
+/// kNoDot_px in the unused elements of the last vector.
 struct MeasuredDots {
     int count = 0;
     std::span<float> column;  ///< column of the cell, in the coordinates of the current plane
     std::span<float> row;
-    std::span<std::int32_t>
-        bits;  ///< bits of the code in the cell: the x bit plus 2 times the y bit
-    std::span<std::int32_t> window_u;  ///< middle of the centroid window, in px
+    /// Bits of the code in the cell: the x bit plus 2 times the y bit.
+    std::span<std::int32_t> bits;
+    /// Middle of the window, in px relative to the first pixel of the image.
+    std::span<std::int32_t> window_u;
     std::span<std::int32_t> window_v;
-    std::span<std::int32_t> mass;   ///< sum of darkness over the window
-    std::span<std::int32_t> sum_u;  ///< sum of darkness times px from the left of the window
-    std::span<std::int32_t> sum_v;  ///< sum of darkness times px from the top of the window
+    /// Sum of the darkness in the window, or contrast of a dot that is sampled directly.
+    std::span<std::int32_t> mass;
+    /// Sum of the darkness times the distance along u, in px, from the middle of the window.
+    std::span<std::int32_t> sum_u;
+    std::span<std::int32_t> sum_v;  ///< the same sum with the distance along v
     std::span<std::int32_t> paper;  ///< grey level of the paper around the dot
     /// Measured centre, undistorted, in px relative to the centre of the plane. `x` is kNoDot_px if
     /// there is no dot. Before the measurement, `x` and `y` contain the predicted image point.

@@ -52,7 +52,7 @@ void detect_image(const ImageView& image, const DeviceOptions& options, Workspac
 Status find_dots(const DeviceOptions& options, Workspace& w);
 
 /// Finds the directions and spacings of the grid from connections between the dots nearest to a
-/// point.
+/// point. Error: no_grid.
 Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w);
 
 /// Chooses the region of the grid that is decoded. The size of the region is limited by the memory

@@ -49,7 +49,7 @@ class AffineFitInt32 {
     int count() const { return changes_ - unused_; }
     /// Sets `at_centre`, du and dv of the plane, but no other members. Targets are in units of
     /// 2^-bits cells. Returns false if there are fewer than three points, or if the points are
-    /// collinear.
+    /// nearly collinear.
     bool solve(int bits, PlaneFromImage& plane);
 
   private:

@@ -60,7 +60,7 @@ Status read_position(const DeviceOptions& options, Workspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Checks that the bits of all dots in view agree with the position.
+/// Verifies the position with the bits of all dots in view.
 Status verify_position(const DeviceOptions& options, Workspace& w) {
     const Status status =
         verify_quickly(w.grid, options.code, w.decoding, options.integrity, w.line_scores, w.fix);

@@ -43,7 +43,7 @@ bool is_near(FixedVec rounding_q16, const Square& offsets) {
                          static_cast<std::uint32_t>(rounding_q16.y) << 16);
 }
 
-/// Maximum distance, along each axis, of a cell whose dot may belong to the grid.
+/// Maximum distance from cell (0, 0), along each axis, of a cell whose dot may belong to the grid.
 constexpr int kFarthest_cells = 500;
 
 /// Calls `use(dot, c, is_within_reach)` for each dot. c is `rounding_plane_point_q16` of the dot,
@@ -108,8 +108,8 @@ class Fits {
         if (remembers()) std::fill_n(before_.begin(), dots.size(), Used::no);
     }
 
-    /// Fits the plane to the dots within reach and sets `found`. Returns false if the dots do not
-    /// determine the plane, or if its cells are not nearly square.
+    /// Fits the plane to the dots that are within reach and near an intersection, and sets `found`.
+    /// Returns false if the dots do not determine the plane, or if its cells are not nearly square.
     bool operator()(int reach_cells, Regularity& found, PlaneFromImage& plane) {
         const Cells cells(plane);
         found = remembers() ? sum_up_changes(reach_cells, cells) : sum_up(reach_cells, cells);
@@ -169,7 +169,7 @@ class Fits {
     std::span<const DetectedDot> dots_;
     Square near_;
     AffineFitInt32 sums_;
-    /// Cell of each dot in the previous fit. Not used if there are too many dots.
+    /// Cell of each dot in the previous fit. Not used if there are more dots than elements.
     std::array<Used, 384> before_;
 };
 

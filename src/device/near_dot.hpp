@@ -56,7 +56,7 @@ class ReadSymbol {
     /// to the dot.
     constexpr ReadSymbol(int symbol, std::int32_t level) : bits_(level * 4 + symbol) {}
 
-    /// Returns true if one of the four places was clearly the darkest.
+    /// Returns true if one of the four places was clearly the darkest, and dark enough for a dot.
     bool is_clear() const { return bits_ >= 0; }
     int symbol() const { return bits_ & 3; }
     std::int32_t level() const { return bits_ >> 2; }
@@ -103,7 +103,8 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
 
 /// The measurement of one dot.
 struct NearDot {
-    FixedVec offset_q8;  ///< offset of the centroid from the predicted place, in 2^-8 px
+    /// Offset of the centroid from the point around which the dot was measured, in 2^-8 px.
+    FixedVec offset_q8;
     std::int32_t mass = 0;
 };
 

@@ -17,7 +17,7 @@ void keep_row(const std::uint8_t* pixels, Tracking& tracking);
 /// `rows` more rows.
 void make_room(int rows, Tracking& tracking);
 
-/// Returns a stored row. The rows after it are adjacent in memory.
+/// Returns a stored row. The next rows follow this row in memory, at intervals of the stride.
 inline const std::uint8_t* kept_row(const Tracking& tracking, int v) {
     return tracking.rows.data() + (v - tracking.first_kept) * tracking.stride_px;
 }

@@ -8,7 +8,7 @@
 
 namespace dotpose::core {
 
-/// Sets the origin of the lattice near the point `near_q8`, from the dots within a few cells of
+/// Sets the origin of the lattice near the point `near_q8`, from the seeds within a few cells of
 /// this point.
 void find_origin(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                  FixedVec near_q8, Lattice& lattice);

@@ -84,7 +84,8 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
     }
 }
 
-/// Sets the members that depend on the spacing. Returns false if the memory is too small.
+/// Sets the members that depend on the spacing. Returns false if the memory, or the part of the
+/// image whose cells fit in the memory, is too small.
 bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     const int cells = leave_out_edges(spacing_q8, tracking);
     const int width_px = tracking.width_px - 2 * tracking.left_out_px;
@@ -101,7 +102,7 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
 }
 
 /// Returns the maximum error of the prediction that the search covers, in the middle of the image,
-/// in px.
+/// in px: three standard deviations, at most 3/5 of the spacing.
 int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
     const auto shift_q16 =

@@ -72,7 +72,8 @@ void lay_rows(Tracking& tracking, int j, int j_step) {
     }
 }
 
-/// Stores the symbol that was read in a cell. Returns true if the symbol agrees with the code.
+/// Marks the bits of a cell as read in its column and row, and marks the bits of `symbol` that
+/// contradict the code as wrong. Returns true if both bits agree with the code.
 DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     ComparedLine& column = column_of(tracking, i);
     ComparedLine& row = row_of(tracking, j);

@@ -30,7 +30,8 @@ Shifts::Shifts(const Tracking& tracking) {
     divide_by_dots();
 }
 
-/// Sets the paper level to the mean of the pixels that are lighter than the overall mean.
+/// Sets the paper level to the mean of the sampled pixels that are not darker than the mean of all
+/// sampled pixels.
 void Shifts::measure_paper(const Tracking& tracking) {
     int threshold = 0;
     for (int round = 0; round < 2; ++round) {

@@ -9,15 +9,15 @@ namespace dotpose::core {
 
 /// Mean darkness of the pixels at the predicted dots near the middle column of the image, for each
 /// possible shift. At the correct shift, all displaced dots are at their predicted places, so this
-/// shift is the darkest. If few dots are in view, shifts that differ from it by one spacing may be
-/// nearly as dark.
+/// shift is the darkest. If few dots are in view, shifts that differ from the correct shift by one
+/// spacing may be nearly as dark.
 class Shifts {
   public:
     /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Sets `shift_q8` to the darkest shift that is neither a shift returned before nor its
-    /// neighbour. Returns false if there is none.
+    /// Sets `shift_q8` to the darkest shift that is more than two steps away, along at least one
+    /// axis, from each shift returned before. Returns false if there is none.
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }
@@ -49,7 +49,7 @@ class Shifts {
     int paper_ = 0;
     int cut_ = 0;
     int depth_ = 0;
-    std::array<std::uint8_t, kMaxPerSide> dots_{};  ///< number of dots summed in each row
+    std::array<std::uint8_t, kMaxPerSide> dots_{};  ///< number of dots summed in each row of steps
     /// Sums of darkness; means after `divide_by_dots`.
     std::array<std::uint16_t, kPerRow * kPerRow> sums_{};
 };

@@ -102,7 +102,7 @@ Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w) {
     const bool is_tracked =
         static_cast<unsigned>(t.rows_taken) < static_cast<unsigned>(t.height_px);
     if (t.status != Status::ok || !is_tracked) {
-        // The row is above or below the tracked part.
+        // The row is above or below the tracked part, or tracking has failed.
         if (t.rows_taken < 0) ++t.rows_taken;
         return t.status;
     }

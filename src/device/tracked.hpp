@@ -16,8 +16,8 @@ Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& op
 /// Takes the next row. Error: not_tracked. After an error, further rows are ignored.
 Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w);
 
-/// Ends the frame. Sets and returns the fix of the workspace. The status is not_tracked if any row
-/// returned not_tracked.
+/// Ends the frame. Sets and returns the fix of the workspace. The status is not_tracked if the dots
+/// do not confirm the prediction, or if any row returned not_tracked.
 const Fix& finish_device_tracked(const DeviceOptions& options, DeviceWorkspace& w);
 
 }  // namespace dotpose::core

@@ -8,7 +8,8 @@
 namespace dotpose {
 namespace {
 
-/// Distance along an axis, in cells, below which two frames may contain some of the same dots.
+/// Two frames may contain some of the same dots if their positions are less than this distance
+/// apart along both axes.
 constexpr std::uint32_t kSamePlace_cells = 64;
 /// Maximum number of frames counted at one place. A float represents all integers up to this
 /// number.
@@ -33,8 +34,8 @@ CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int3
 CodeEvidence::LogOdds CodeEvidence::sum() const {
     LogOdds sum = before_log2_q8_;
     if (frames_here_ == 0) return sum;
-    // Markov's inequality: for the true code, the mean of the factors of these frames is m or more
-    // with a probability of at most 1/m, even if the frames are not independent.
+    // Markov's inequality: for the true code, the mean of the factors of the frames at one place is
+    // m or more with a probability of at most 1/m, even if the frames are not independent.
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const float mean = factors_here_[i] / static_cast<float>(frames_here_);
         sum[i] +=

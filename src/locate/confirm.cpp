@@ -29,9 +29,10 @@ float half_side_px(const ImageView& image) {
     return std::max(static_cast<float>(image.width_px), static_cast<float>(image.height_px)) / 2;
 }
 
-/// Returns true if at least `min_dots` dots and at least half of the dots seen were read, if dots
-/// were seen in at least a quarter of the listed cells (except in a partial view), and if few bits
-/// contradict the code.
+/// Returns true if all of these conditions hold: at least `min_dots` dots and at least half of the
+/// dots seen were read; dots were seen in at least a quarter of the listed cells (not required in a
+/// partial view); along each axis, the fraction of the bits that contradict the code is at most
+/// `max_bit_error_q8`.
 bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOptions& options,
                   int min_dots, bool is_partial_view) {
     const bool is_full = 4 * bits.seen >= dots.count || is_partial_view;
@@ -43,7 +44,7 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOp
 }
 
 /// Returns true if the bits need no second reading: at least kClear_percent of the dots seen are
-/// clear, and at most kMaxWrong bits or one bit per kDotsPerWrong dots, whichever is more, are
+/// clear, and at most kMaxWrong bits or one bit per kDotsPerWrong dots read, whichever is more, are
 /// wrong.
 bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
@@ -56,7 +57,8 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
             Confidence::of_hard_bits(bits.read, bits.wrong_y)};
 }
 
-/// Judges the place of the hypothesis by the bits in `block`. Returns ok or uncertain.
+/// Returns ok if the bits in `block` make the place of the hypothesis certain, and uncertain
+/// otherwise.
 Confirmation confirm_place(const Kernels& kernels, const DeviceOptions& options,
                            const Hypothesis& hypothesis, const CellsInView& view,
                            const BitBlock& block, const BitsRead& bits, DesktopWorkspace& w) {
@@ -136,7 +138,8 @@ void show(const Hypothesis& hypothesis, DesktopWorkspace& w) {
     w.grid_from_image = w.pattern_from_image;
 }
 
-/// Fits the plane and the displacement to the measured dots.
+/// Fits the plane and the displacement to the measured dots. Returns false if the dots do not
+/// determine the plane.
 bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRead& bits,
                  const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
     if (bits.right == 0) return false;
@@ -147,8 +150,9 @@ bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRea
                      hypothesis.displacement, hypothesis.pattern_from_image, fit);
 }
 
-/// Fits the plane and the displacement again after correcting pixel bias and neighbour bias.
-/// Returns the remaining variance of the pixel bias along u and v, in px^2.
+/// Corrects pixel bias and neighbour bias where they matter, and then fits the plane again. Returns
+/// the remaining variance of the pixel bias along u and v, in px^2, or 0 if nothing was corrected
+/// or the new fit failed.
 FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const CellsInView& view,
                           const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
     FloatVec remaining_px2;
@@ -201,8 +205,8 @@ void write_fix(const ImageView& image, const DeviceOptions& options, const Hypot
 }
 
 /// Returns true if the fitted plane differs from the plane before the fit by more than kFar
-/// spacings, at a corner of the part of the image within `reach_px` of the image centre. The small
-/// centroid windows then missed a part of the offsets.
+/// spacings along either axis, at a corner of the part of the image within `reach_px` of the image
+/// centre. The small centroid windows then missed a part of the offsets.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
@@ -222,12 +226,12 @@ FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
 }
 
-/// Distance from `Hypothesis::from_centre`, in px, within which dots are read. The distance grows
-/// from round to round.
+/// Distance from `Hypothesis::from_centre`, in px along each axis, within which dots are read. The
+/// distance grows from round to round.
 struct Reach {
     float full;  ///< distance that includes the whole image
     /// Distance within which the bits must make the position certain. Bits at larger distances are
-    /// not counted as evidence.
+    /// not counted as evidence for the position.
     float deciding;
     float now;  ///< distance of the current round
 
@@ -238,9 +242,9 @@ struct Reach {
           deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
           now(deciding) {
         if (!hypothesis.is_partial_view) return;
-        // In a partial view, the pattern may end anywhere, so the first round has a smaller
-        // distance than usual. The dots within this distance may not suffice to make the position
-        // certain, so the deciding distance is larger.
+        // In a partial view, the pattern may end anywhere, so the first round reads dots within a
+        // smaller distance. These dots may not suffice to make the position certain, so the
+        // deciding distance is larger.
         deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
         now = std::min(full, tuned::kDenseOfPart * spacing_px);
     }
@@ -309,8 +313,8 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
             return Confirmation::implausible;
         if (!is_clean(bits)) {
             if (hypothesis.is_exact) return Confirmation::implausible;
-            // Reads the bits again through a plane that is fitted to all dots, which reduces the
-            // number of misread bits.
+            // In the deciding round, reads the bits again through a plane that is fitted to all
+            // dots, which reduces the number of misread bits.
             if (decides && !fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
                 return Confirmation::implausible;
             if (decides) bits = reader.read_again(hypothesis, block);

@@ -11,20 +11,20 @@
 
 namespace dotpose::core {
 
-/// Returns true if the plane is plausible for a grid in the image. All stages that use a plane
-/// require a plausible plane.
+/// Returns true if the plane passes `is_within_reason` over the whole image. All stages that use a
+/// plane require this.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
 /// Result of `confirm`.
 enum class Confirmation : std::uint8_t {
     ok,
-    implausible,  ///< the dots are not at their expected places
-    uncertain,    ///< the dots are at their expected places, but the position is not certain
+    implausible,  ///< the plane, the dots or their bits do not fit the hypothesis
+    uncertain,    ///< the hypothesis is plausible, but its position is not certain
 };
 
 /// Measures the dots of the hypothesis, compares their bits with the code, and fits the pose. If
-/// the hypothesis is predicted and its spacing is suitable, first tries to sample the dots
-/// directly. Sets the fix of the workspace and, if requested, its trace.
+/// the hypothesis is predicted and its dots can be sampled directly, first tries direct sampling.
+/// If the result is ok, sets the fix of the workspace and, if requested, its trace.
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      Hypothesis hypothesis, DesktopWorkspace& w);
 

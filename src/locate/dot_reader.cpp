@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::confirm;
 
-/// Prefetches the pixels in view. A new camera image is not in the cache, and the order in which
-/// dots are read defeats hardware prefetching.
+/// Prefetches the pixels in view if they have kMinFetched_bytes to kMaxFetched_bytes. A new camera
+/// image is not in the cache, and the order in which dots are read defeats hardware prefetching.
 void fetch_pixels(const ImageView& image, const CellsInView& view) {
     constexpr std::ptrdiff_t kLine_bytes = 64;
     const auto range = [&](float centre, int size_px) {
@@ -35,8 +35,8 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
 }
 
 /// Drops windows that are much darker than paper. Such windows are on the table beyond the sheet,
-/// where noise is as dark as dots. `paper` is the mean level around dots, which the first call
-/// sets.
+/// where noise is as dark as dots. `paper` is the mean level around dots. The first call, with
+/// `paper` = 0, sets this level and drops no windows.
 void drop_table(MeasuredDots& dots, float& paper) {
     float sum = 0;
     float count = 0;
@@ -66,8 +66,8 @@ float window_radius_px(const Hypothesis& hypothesis) {
                       is_fine ? kSmallCentroidRadius_px : kMaxCentroidRadius_px);
 }
 
-/// Returns true if all dots of a row, or all dots of a column, have the same sub-pixel phase. This
-/// is the case if the step from dot to dot differs from whole pixels by less than `max_off_px`,
+/// Returns true if all dots of a row, or all dots of a column, have nearly the same sub-pixel
+/// phase: the step from dot to dot differs from a whole number of pixels by less than `max_off_px`,
 /// both along u and along v.
 bool has_common_phase(const FloatPlane& p, float max_off_px) {
     const float by = 1 / (p.du_x * p.dv_y - p.dv_x * p.du_y);

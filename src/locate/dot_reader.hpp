@@ -14,8 +14,8 @@ namespace dotpose::core {
 bool can_sample_directly(const Hypothesis& hypothesis);
 
 /// Returns true if the pixel bias matters. This is the case if all dots of a row or of a column
-/// have the same sub-pixel phase, so the bias does not average out, and if the other errors of the
-/// dots are small. `variance_px2` is the variance of the mean of all centres along one axis,
+/// have nearly the same sub-pixel phase, so the bias does not average out, and if the other errors
+/// of the dots are small. `variance_px2` is the variance of the mean of all centres along one axis,
 /// `side_px` the longer side of the image.
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px);
 
@@ -27,13 +27,15 @@ class DotReader {
         : kernels_(kernels), image_(image), spacing_px_(spacing_px), dots_(dots) {}
 
     /// Reads the bits of the listed dots. If `block` is not null, stores the bits in this block,
-    /// which must be empty.
+    /// which must be empty. Sets `typical_mass` of the hypothesis, unless the hypothesis is exact.
     BitsRead read(const CellsInView& view, Hypothesis& hypothesis, BitBlock* block);
     /// Reads the bits of the measured dots again, through the new plane of the hypothesis.
     /// Overwrites the block.
     BitsRead read_again(const Hypothesis& hypothesis, BitBlock& block) const;
-    /// Improves the centres of the dots. Moves an exact hypothesis to the centres, and updates the
-    /// displacement and the residuals in `bits`.
+    /// Measures the centres of the dots in centroid windows. If the hypothesis is exact, moves its
+    /// plane to the centres and updates the displacement and the residuals in `bits`. `bits.right`
+    /// is then the number of dots found, or 0 if fewer than kMinFound dots are found. If the
+    /// hypothesis is not exact, measures the centres only if `is_last` is true.
     void find_centres(const CellsInView& view, Hypothesis& hypothesis, bool is_last,
                       BitsRead& bits) const;
     /// If the pixel bias matters (see `may_be_biased`), measures the centres again and subtracts

@@ -48,8 +48,8 @@ bool place_patch(const ImageView& image, FixedVec around_px, int scale, DesktopW
                        kPatchHeight_px * scale, scale, *w.patch);
 }
 
-/// Finds the dots of the patch. Returns false if the patch has no contrast. Sets the status that
-/// remains if no patch contains a grid.
+/// Finds the dots of the patch, and sets the status that remains if no patch contains a grid.
+/// Returns false, without setting the status, if the patch has no contrast.
 bool find_patch_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -84,7 +84,7 @@ bool find_turn_and_place(const Kernels& kernels, const DeviceOptions& options,
 }
 
 /// Finds a place in the code from the dots of a patch. The dots and the hypothesis are relative to
-/// `from_centre`. Returns false if no place is found.
+/// `from_centre`. Returns false if no grid or no place is found.
 bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const PatchView& view,
                      FloatVec from_centre, DesktopWorkspace& w, Hypothesis& hypothesis) {
     Patch& patch = *w.patch;
@@ -102,8 +102,9 @@ bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const
     return true;
 }
 
-/// Searches for the mirrored code in the dots of a patch around the image centre. The code counts
-/// as mirrored only if adjacent lines have no wrong bits. Leaves the dots of the patch mirrored.
+/// Sets `is_mirrored` of the workspace if the dots of a patch around the image centre show the
+/// mirrored code. The code counts as mirrored only if adjacent lines have no wrong bits. Leaves the
+/// dots of the patch mirrored.
 void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, DesktopWorkspace& w) {
     if (w.is_mirrored) return;
     Patch& patch = *w.patch;
@@ -121,7 +122,7 @@ void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, Des
 
 /// Returns true if the grid of the patch predicts all dots of the image to a fraction of a pixel.
 /// This is the case if the patch is the whole image, because the grid was then fitted to all dots,
-/// and if the spacing is not too small.
+/// and if the spacing is at least kMinSpacingForPrediction_px.
 bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px &&
            spacing_px(plane) >= tuned::kMinSpacingForPrediction_px;
@@ -146,9 +147,9 @@ Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
     return confirm(kernels, image, options, hypothesis, w);
 }
 
-/// Searches the patch at the image centre for a square grid. If there is none, searches it for a
-/// grid of any parallelograms, because a rolling shutter shears and stretches the image of a moving
-/// scene.
+/// Searches the patch at the image centre for a square grid. If this search gives no plausible
+/// hypothesis, searches the patch for a grid of any parallelograms, because a rolling shutter
+/// shears and stretches the image of a moving scene.
 Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
                               const DeviceOptions& options, DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -160,8 +161,9 @@ Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
 }
 
 /// Finds a hypothesis in a patch around a point of the image, in px. Sets `densest_px`, the origin
-/// of the hypothesis, to the point where the dots are densest. Returns false if the dots of the
-/// patch have no place in the code.
+/// of the hypothesis, to the point where the dots are densest. Returns false if the patch gives no
+/// hypothesis. Leaves `densest_px` unchanged if the patch is too small, or has no contrast or too
+/// few dots.
 bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
                             const DeviceOptions& options, FixedVec around_px, int scale,
                             DesktopWorkspace& w, FixedVec& densest_px, Hypothesis& hypothesis) {

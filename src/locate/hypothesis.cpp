@@ -14,8 +14,8 @@ struct Extent {
     int count = 0;
 };
 
-/// Returns the integers from `min` to `max`, with a margin of one integer on each side. If there
-/// are more than `room` integers, returns `room` integers around 0.
+/// Returns the range of the integers from `min` to `max`, rounded outwards, with a margin of one
+/// integer on each side. The range is cropped to the `room` integers around 0.
 Extent extent(float min, float max, int room) {
     const int half = room / 2;
     const int first = std::max(static_cast<int>(std::floor(std::max(min, -4096.0F))) - 1, -half);
@@ -111,7 +111,8 @@ void count_from_centre(CodeVariant code, Hypothesis& hypothesis) {
 }
 
 Similarity similarity_of(const DotOffsets& found) {
-    // Closed-form least-squares solution of offset = shift + turn * place, in complex numbers.
+    // Closed-form least-squares solution of offset = shift + (scale + i turn) * place, in complex
+    // numbers.
     const float fraction = 1 / static_cast<float>(found.points);
     const float u = found.u * fraction;  // mean place
     const float v = found.v * fraction;

@@ -23,7 +23,8 @@ struct Hypothesis {
     bool is_exact = false;
     /// True if the pattern may cover only a part of the image, around `from_centre`.
     bool is_partial_view = false;
-    /// Contrast of a typical dot in the smoothed patch, in 1/256 of the paper level.
+    /// Contrast of a typical dot in the image smoothed by 1-2-1 along both axes, in 1/256 of the
+    /// paper level.
     int depth_q8 = 0;
     /// Mass of a typical dot: the darkness beyond the threshold, relative to the paper level,
     /// summed over the pixels of the dot. 0 if the mass is not known yet.

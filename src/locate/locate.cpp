@@ -34,8 +34,8 @@ namespace {
 
 namespace tuned = tuning::cascade;
 
-/// The steps of the cascade. `resampled` is the second attempt, which also samples the bits again
-/// if the position is doubtful. This step takes three times as long as `second`.
+/// The steps of the cascade. `resampled` is a second attempt that samples the bits again if the
+/// position is doubtful. This step takes three times as long as `second`.
 enum class Step : std::uint8_t { tracked, first, second, resampled, device };
 
 /// Returns true if the dots are on a grid, but could not be read in this code. The grid may be
@@ -72,7 +72,8 @@ class Cascade {
     }
 
   private:
-    /// The second attempt needs images of a minimum size.
+    /// Returns true if the options allow a second attempt and the image has the minimum size for a
+    /// second attempt.
     bool may_try_twice() const {
         return options_.effort == Effort::twice &&
                std::min(image_.width_px, image_.height_px) >= kMinFrameSide_px;
@@ -86,9 +87,11 @@ class Cascade {
         return make({Step::first, Step::second, Step::resampled});
     }
 
-    /// Runs the steps in order, each in all codes worth trying, until a fix is certain. If no fix
-    /// is certain, returns the first doubtful fix. If there is no doubtful fix either, returns the
-    /// failure in the likeliest code.
+    /// Runs the steps in order, each in all codes worth trying, until a fix is certain. Ends a step
+    /// other than `first` early if the failure does not depend on the code. Skips the remaining
+    /// steps if the code of the first doubtful fix is ambiguous. If no fix is certain, returns the
+    /// first doubtful fix. If there is no doubtful fix either, returns the last failure in the
+    /// likeliest code.
     CodeReading make(std::initializer_list<Step> steps) {
         std::optional<CodeReading> doubtful;
         std::optional<Fix> failure;
@@ -111,7 +114,9 @@ class Cascade {
         return *doubtful;
     }
 
-    /// Returns the codes in which a step is tried.
+    /// Returns the codes in which a step is tried, the likeliest code first. If several codes are
+    /// possible, `resampled` is tried only in the code in which the result of `second` was not
+    /// certain and had the fewest bit errors, if any.
     std::span<const CodeVariant> worth_trying(Step step) const {
         if (step == Step::resampled && !codes_.is_known())
             return {&worth_resampling_, min_errors_ == kMaxErrors ? 0U : 1U};
@@ -249,8 +254,9 @@ CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
     return reading;
 }
 
-/// Copies the place of `any`, a reading in another code, to the other place of `reading`. Ignores
-/// the place if more bits contradict it than are usually misread.
+/// Sets the other place of `reading` to the place of `any`, a reading of the same frame in any
+/// code. If both readings are in the same code, copies the other place of `any`. Does nothing if
+/// `any` has no place, or if more than one bit per kBitsPerError dots contradicts this place.
 void note_other_reading(const CodeReading& any, CodeReading& reading) {
     const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
     if (!is_read || tuned::kBitsPerError * any.fix.bit_errors > any.fix.dots_seen) return;

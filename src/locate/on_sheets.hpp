@@ -14,8 +14,8 @@ namespace dotpose::core {
 /// sheet, or other sheets may be in view.
 bool is_possible(CodeVariant code, const DesktopWorkspace& w);
 
-/// Returns the place of a block on the known sheets. Returns nullopt if no place in the code of the
-/// options explains the bits.
+/// Returns the place of a block on the known sheets. Returns nullopt if the best place is not in
+/// the code of the options, or does not explain the bits.
 std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
                                                const BitBlock& block, const KnownSheets& known);
 
@@ -25,8 +25,8 @@ bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, 
                           const BitBlock& block, const KnownSheets& known, Fix& fix);
 
 /// Finds the position of the grid on the known sheets. Returns true if the position is certain
-/// there. Sets the place and the turn of the decoding, and `bit_errors`, `p_wrong_log2` and `prior`
-/// of the fix.
+/// there, and then sets the decoding and `prior` of the fix. If any position is found, sets
+/// `bit_errors` and `p_wrong_log2` of the fix.
 bool read_on_sheets(const DeviceOptions& options, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

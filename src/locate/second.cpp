@@ -123,8 +123,8 @@ Status read_filtered_with(const DeviceOptions& filtered, const ImageView& image,
     return shows_one_pattern(image, filtered, w) ? Status::ok : Status::not_certain;
 }
 
-/// Finds dots and grid, and reads the bits. If too few dots are found because they may be pale,
-/// repeats the detection with a lower threshold.
+/// Finds dots and grid, and reads the bits. If there is no contrast or there are too few dots, and
+/// the largest contrast is that of pale dots, repeats the detection with a lower threshold.
 Status read_filtered(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     DeviceOptions filtered = for_filtered(options);
     filtered.lattice.min_dots = min_dots(options, w);

@@ -9,7 +9,8 @@
 namespace dotpose::core {
 
 /// Runs second attempts on one image in several codes. The filtered image, its dots and its grid do
-/// not depend on the code and are computed once.
+/// not depend on the code. They are computed once, and again only after an attempt has overwritten
+/// them.
 class SecondAttempt {
   public:
     enum class Resampling : std::uint8_t { never, if_doubtful };
@@ -17,9 +18,8 @@ class SecondAttempt {
     SecondAttempt(const ImageView& image, DesktopWorkspace& w) : image_(image), w_(w) {}
 
     /// Locates the image in the code of the options. Returns true if there is a fix. The workspace
-    /// then contains the fix, and otherwise the status. With `Resampling::if_doubtful`, reads a
-    /// position that is not certain again, through a grid that is fitted to the dots of this
-    /// position.
+    /// then contains the fix, and otherwise the status. With `Resampling::if_doubtful`, if the
+    /// position is not certain, reads it again through a grid that is fitted to its dots.
     bool read(const DeviceOptions& options, Resampling resampling);
 
   private:

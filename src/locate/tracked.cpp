@@ -17,7 +17,7 @@ namespace {
 namespace tuned = tuning::tracked;
 
 /// Fits position, scale and turn by least squares. Keeps the predicted perspective and shear.
-/// Returns false if the dots do not determine position, scale and turn.
+/// Returns false if fewer than kMinNear dots are within `max_off` spacings of their places.
 bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reach_px,
                     float displacement, float max_off, FloatPlane& plane) {
     const ScaledPlane scaled(plane, reach_px);
@@ -39,16 +39,16 @@ bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reac
     return true;
 }
 
-/// Returns the maximum error of the prediction for which the search is made, in px: three standard
-/// deviations of the prediction plus a tenth of a spacing, at most kMaxOff spacings.
+/// Returns the search radius in px, rounded up: three standard deviations of the prediction plus a
+/// tenth of a spacing, at most kMaxOff spacings.
 int max_shift_px(const Prediction& prediction, float spacing_px) {
     const float off = std::clamp(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, 0.1F,
                                  tuned::kMaxOff);
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
-/// Corrects the plane by the centroids of the listed dots. Returns false unless at least three
-/// quarters of the dots have offsets of at most kMaxOffset_px.
+/// Corrects the plane by the centroids of the listed dots. Returns false unless at least kMinNear
+/// dots, and at least three quarters of the listed dots, have offsets of at most kMaxOffset_px.
 bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsInView view,
                           FloatPlane& plane, MeasuredDots& dots) {
     const float far_px = std::max(view.width_px, view.height_px) / 2;
@@ -62,8 +62,7 @@ bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsI
         if (found.points < tuned::kMinNear || 4 * found.points < 3 * dots.count) return false;
         const Similarity motion = similarity_of(found);
         plane = moved(plane, motion);
-        // Centroid windows measure only a part of a large offset, for example of an offset caused
-        // by a turn.
+        // Centroid windows underestimate large offsets, such as those due to a rotation.
         const float moved_far_px =
             far_px * std::max(std::abs(motion.scale), std::abs(motion.turn_rad));
         if (moved_far_px < tuned::kTurned_px) break;
@@ -156,8 +155,8 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Im
     return hypothesis;
 }
 
-/// Corrects the hypothesis by the dots near several points of the image in turn, until the bits
-/// confirm a corrected hypothesis.
+/// For several points of the image in turn, corrects the hypothesis by the dots near the point,
+/// until the bits confirm a corrected hypothesis. Returns false if none is confirmed.
 bool confirm_corrected(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                        const Hypothesis& hypothesis, int max_px, DesktopWorkspace& w) {
     for (const FloatVec fraction : tuned::kPoints) {

@@ -9,12 +9,12 @@ namespace dotpose::core::tuning {
 
 /// Constants of the first attempt (locate/first).
 namespace first {
-/// Size of the patch that is searched first, and of the patches away from the image centre: 20 x 14
-/// dots at 11 px per spacing.
+/// Size of the smallest patches: 20 x 14 dots at 11 px per spacing. If these patches contain no
+/// readable grid, the search continues with patches of two and four times this width and height.
 inline constexpr int kPatchWidth_px = 224;
 inline constexpr int kPatchHeight_px = 160;
 /// Minimum spacing at which a patch predicts dots precisely enough for direct sampling. Dots of
-/// finer grids are measured more accurately in centroid windows.
+/// finer grids are measured more accurately without direct sampling.
 inline constexpr float kMinSpacingForPrediction_px = 9.5F;
 /// Maximum number of uncertain hypotheses away from the image centre. Each uncertain hypothesis
 /// increases the probability of a wrong fix.
@@ -31,9 +31,9 @@ inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
 
 /// Constants of the tracked attempt (locate/tracked).
 namespace tracked {
-/// Radius, in spacings, around the point at which a prediction is corrected. The dots within this
-/// radius determine the error of the prediction there. The radius is small enough that an angular
-/// error of the prediction does not match a dot to the wrong intersection.
+/// Reach along each axis, in spacings, around the point at which a prediction is corrected. The
+/// dots within this reach determine the error of the prediction there. The reach is small enough
+/// that an angular error of the prediction does not match a dot to the wrong intersection.
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots that determine a correction of the prediction.
 inline constexpr int kMinNear = 10;
@@ -67,8 +67,9 @@ inline constexpr FloatVec kPoints[] = {
 
 /// Constants of the measurement of dots at known places (locate/confirm, locate/dot_reader).
 namespace confirm {
-/// Radius around the image centre, in spacings, within which all dots are measured. The bits of the
-/// dots in this radius must make the position certain.
+/// Reach of the first round, in spacings, if the pattern fills an image that is too large to be
+/// measured in one round. All dots within this reach are measured, and their bits must make the
+/// position certain.
 inline constexpr float kDense = 10;
 /// Maximum half side of an image, in spacings, that is measured completely in one round.
 inline constexpr float kDenseAtMost = 17;
@@ -93,8 +94,9 @@ inline constexpr float kOutlier = 8.3F;
 /// measured part. Above this distance, small centroid windows miss a part of the offsets, so the
 /// dots are measured again.
 inline constexpr float kFar = 0.055F;
-/// Maximum number of measurements of the dots after which an exact hypothesis counts as
-/// implausible. docs/accuracy.md, "Dots with the same sub-pixel phase", lists the remaining errors.
+/// Number of measurements of the dots after which an exact hypothesis counts as implausible if its
+/// plane still changes by more than kFar. docs/accuracy.md, "Dots with the same sub-pixel phase",
+/// lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
 /// Fraction of the paper level below which windows are dropped. Such windows are on the table
 /// beyond the sheet, where noise is as dark as dots.
@@ -119,7 +121,7 @@ inline constexpr float kDrift_px = 0.05F;
 /// Maximum drift of the sub-pixel phase across the view, in px, at which the pixel bias is
 /// corrected. The correction takes several times as long as the rest of the frame.
 inline constexpr float kDriftInView_px = 0.35F;
-/// Maximum variance of the mean of all centres, along one axis, at which biases matter.
+/// Maximum variance of the mean of all centres, along one axis, at which the pixel bias matters.
 inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// Range of sizes of image parts that are prefetched. Smaller parts are already in the cache.
 /// Larger parts would evict their own first rows.
@@ -173,8 +175,8 @@ namespace cascade {
 /// Minimum odds of another code, relative to the code of the fix, at which a frame is read again in
 /// that code.
 inline constexpr float kBetterOdds = 2;
-/// Minimum number of dots per contradicting bit at which a reading in another code is reported.
-/// Less than one bit in a hundred then contradicts the reading, which misread bits explain.
+/// Minimum number of dots per contradicting bit at which a reading in another code is reported. At
+/// most one bit in a hundred then contradicts the reading, which misread bits explain.
 inline constexpr int kBitsPerError = 50;
 /// Minimum odds of a different place in another code, relative to the fix, at which the place is
 /// reported next to a certain fix.

@@ -67,8 +67,8 @@ ThreeBands three_bands(const AdaptiveThreshold& threshold, int band) {
             band + 1 < band_count(threshold) ? tiles_of(threshold, band + 1).data() : here};
 }
 
-/// Computes the maximum mean and the maximum darkness of each tile and the tiles above and below
-/// the tile.
+/// For each tile, computes the maximum mean and the maximum darkness of the tile and the tiles
+/// above and below this tile.
 void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
                 std::uint8_t* darknesses) {
     for (std::size_t t = 0; t < count; ++t) {
@@ -148,7 +148,7 @@ unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses
 
 /// Sets the thresholds of all columns. The low threshold is darker than the paper by the fraction
 /// `to_low_q16` of the paper level, and the high threshold by the fraction `to_high_q16`. Both
-/// fractions are in units of 2^-16.
+/// fractions are in units of 2^-16. The high threshold is at most the low threshold.
 void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q16,
                 unsigned to_high_q16, AdaptiveThreshold& threshold) {
     std::uint8_t* half_low_levels = threshold.half_low_levels.data();

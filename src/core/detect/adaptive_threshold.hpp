@@ -25,7 +25,7 @@ inline constexpr int kMaxSideWithLowTiles_px = 240;
 /// threshold contain a sentinel.
 inline constexpr int kReadAhead_px = 8;
 
-/// Grey levels of one tile.
+/// Grey levels of one tile, measured in every fourth row.
 struct Tile {
     std::uint8_t mean = 0;
     std::uint8_t darkness = 0;  ///< 255 minus the mean level of the darkest pair of adjacent pixels
@@ -67,8 +67,8 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold);
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold);
 
 /// Returns the minimum contrast, in grey levels, of tiles of the next band that are not blank. The
-/// minimum increases with the largest contrast so far. This rejects noise in blank tiles as soon as
-/// tiles with dots have been measured.
+/// minimum increases with the largest contrast so far, from `options.min_contrast` to twice this
+/// value. This rejects noise in blank tiles as soon as tiles with dots have been measured.
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold);
 
 /// Returns the number of bands in the image.

@@ -69,7 +69,8 @@ std::int32_t mean_q8(std::uint32_t sum, std::uint32_t mass) {
 }
 
 /// Returns true if a blob is small, is not at the border of the image, and has a pixel darker than
-/// the high threshold.
+/// the high threshold. Does not test the lower border, because blobs in the last row are never
+/// closed.
 bool may_be_dot(const OpenBlob& blob, const AdaptiveThreshold& threshold) {
     return blob.passes_high && blob.area_px <= kMaxDotArea_px && blob.first_v > 0 &&
            blob.left > 0 && blob.right < threshold.width_px &&
@@ -194,7 +195,7 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
 }
 
 /// Closes the blobs of the row above that do not continue in row `v`, and adds them to the list if
-/// they may be dots.
+/// they may be dots. Also frees the blobs that were merged into other blobs.
 void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& threshold,
                  OpenBlobs& open, DotList list) {
     for (const Run& run : above) {

@@ -58,9 +58,9 @@ void begin_blobs(const AdaptiveThreshold& threshold, OpenBlobs& open, DotList li
 /// they may be dots.
 void grow_blobs(int v, const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
-/// Removes blobs with too few pixels, with a mass far below the upper quartile of the list, or with
-/// an area far above it. Paper section II-B.1 ("only blobs with sufficient pixels are retained").
-/// Limits relative to the upper quartile suit any spacing.
+/// Removes blobs with too few pixels, with a mass far below the upper quartile of the masses, or
+/// with an area far above the upper quartile of the areas. Paper section II-B.1 ("only blobs with
+/// sufficient pixels are retained"). Limits relative to the upper quartiles suit any spacing.
 void sift_dots(const BlobOptions& options, DotList list);
 
 }  // namespace dotpose::core

@@ -17,7 +17,7 @@ int blocks_along(int length_px, int side) {
 }
 
 /// Returns the paper level of a block: the grey level that a third of an evenly spaced sample of
-/// its pixels exceed.
+/// its pixels reach or exceed.
 std::uint8_t paper_of_block(const ImageView& image, int u0, int v0, int side) {
     static_assert(kSamplesPerSide * kSamplesPerSide <= UINT8_MAX);
     std::array<std::uint8_t, 256> pixels_of_level{};

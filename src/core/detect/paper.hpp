@@ -21,9 +21,10 @@ struct PaperMap {
     std::span<std::uint8_t> brightest;
 };
 
-/// Measures the paper level of each block: the grey level that a third of the pixels of the block
-/// exceed. If graphics cover most of a block, its level is replaced by the brightest level around
-/// it. The side of a block is a tenth of the shorter side of the image.
+/// Measures the paper level of each block: the grey level that a third of a sample of the pixels of
+/// the block reach or exceed. A block that is much darker than the brightest of the blocks around
+/// it is mostly covered by graphics, so the brightest level replaces its level. The side of a block
+/// is a tenth of the shorter side of the image.
 void measure_paper(const ImageView& image, PaperMap& map);
 
 /// Returns the index of the block of a pixel. Pixels outside the image belong to the nearest block.

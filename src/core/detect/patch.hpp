@@ -14,8 +14,9 @@ namespace dotpose::core {
 bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int width_px,
                  int height_px, int scale, Patch& patch);
 
-/// Sets the thresholds of the tiles of a smoothed patch from the paper level of each tile and the
-/// typical darkness of dots. Returns false if too few tiles have contrast.
+/// Measures the typical contrast of the dots of a smoothed patch, and sets the threshold of each
+/// tile from this contrast and the paper level of the tile. Returns false if too few tiles have
+/// contrast.
 bool measure_contrast(Patch& patch);
 
 /// Removes minima that are not dots: minima on plateaus, minima in tiles without contrast, and

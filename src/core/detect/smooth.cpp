@@ -20,7 +20,8 @@ std::uint16_t* line(const Smoothing& smoothing, int v, int width_px) {
     return smoothing.lines.data() + static_cast<std::ptrdiff_t>(v % kRows) * width_px;
 }
 
-/// Clamps each pixel to the range of its neighbours, which removes single impulses.
+/// Clamps each pixel to the range of its eight neighbours, which removes single impulses. Pixels at
+/// the border of the image keep their levels.
 void clip_impulses(const ImageView& image, int v, std::uint8_t* out) {
     const std::uint8_t* above = image.row(std::max(v - 1, 0));
     const std::uint8_t* here = image.row(v);
@@ -70,7 +71,8 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
 }
 
 /// Returns half the side, along one axis, of the window whose mean is the local light level. Near
-/// the border the window shrinks but stays centred on the pixel, to cancel a gradient of the light.
+/// the border, the window shrinks to stay centred on the pixel, which cancels a gradient of the
+/// light. The result is at least kMinHalf_px.
 int half_side(int at, int length, int max_half) {
     return std::max(std::min({max_half, at, length - 1 - at}), tuned::kMinHalf_px);
 }
@@ -131,7 +133,8 @@ constexpr std::uint32_t normalising_factor_q24(std::uint32_t mean) {
     return mean == 0 ? 0 : ((std::uint32_t{kNormalLevel} << 24) - 1) / mean + 1;
 }
 
-/// Multiplies each pixel of row `v` by kNormalLevel divided by the mean of its surroundings.
+/// Multiplies each pixel of row `v` by kNormalLevel divided by the mean of its surroundings, and
+/// clamps the result to kMinLevel to 255.
 void normalise_light(const ImageView& image, int v, Smoothing& smoothing) {
     const int max_half = smoothing.paper.block_px;
     const int half_height = half_side(v, image.height_px, max_half);

@@ -31,8 +31,9 @@ inline constexpr int kNormalLevel = 192;
 void begin_smoothing(const ImageView& image, Smoothing& smoothing);
 
 /// Returns the next row, from the top, of the filtered image. Each pixel is clamped to the range of
-/// its eight neighbours, smoothed with the 5 x 5 binomial (sigma 1 px), and normalised by the mean
-/// of a rectangle around it. The row is valid until the next call.
+/// its eight neighbours (except at the border of the image), smoothed with the 5 x 5 binomial
+/// (sigma 1 px), and normalised by the mean of a rectangle around it. The row is valid until the
+/// next call.
 const std::uint8_t* next_smooth_row(const ImageView& image, Smoothing& smoothing);
 
 }  // namespace dotpose::core

@@ -1,7 +1,7 @@
 // Tuning: empirical constants of dot detection. The constants of the second attempt were determined
 // on the hard frames that decode/tuning.hpp names. Comments state the number of frames that
 // `dotpose evaluate --preset hard --frames 2000 --seed 404` locates with other values. With the
-// values in this file, it locates 1,994.
+// values in this file, the command locates 1,994.
 #pragma once
 
 namespace dotpose::core::tuning {
@@ -43,9 +43,9 @@ namespace patch {
 /// Minimum side, in px, of a patch to which `kMinTiles` applies. Smaller patches have too few
 /// tiles.
 inline constexpr int kSmall_px = 48;
-/// Minimum darkness, in grey levels, of the darkest smoothed pixel of a tile. Tiles with less
-/// darkness count as blank. At least kMinTiles tiles of a patch, or half of the tiles of a small
-/// patch, must not be blank.
+/// Minimum darkness, in grey levels below the paper level, of the darkest smoothed pixel of a tile.
+/// Tiles with less darkness count as blank. At least kMinTiles tiles of a patch, or half of the
+/// tiles of a small patch, must not be blank.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
 /// Minimum darkness of a dot, in units of 1/256 of the darkness of a typical dot. Lighter minima of

@@ -71,7 +71,8 @@ struct CellsInView {
     float width_px = 0;
     float height_px = 0;
     float margin_px = 0;  ///< minimum distance of a dot from the border of the image
-    /// Maximum distance of a dot from (centre_x, centre_y) along each axis.
+    /// Maximum distance of a dot, without lens distortion, from (centre_x, centre_y) along each
+    /// axis.
     float reach_px = 0;
     float displacement = 0;  ///< distance of dots from their intersections, in spacings
     Windows windows = Windows::on_intersections;
@@ -88,8 +89,9 @@ struct CellsInView {
 
 /// Options of `measure_windows`.
 struct WindowOptions {
-    float spacing_px = 11;  ///< spacing at the image centre
-    /// Half the side of a window, in spacings. In px, it is limited to kMaxHalfWindow_px.
+    float spacing_px = 11;  ///< spacing at the centre of the view
+    /// Half the side of a window, in spacings. The half side in px is clamped to 2 to
+    /// kMaxHalfWindow_px.
     float reach = 0.36F;
     /// Minimum contrast of a pixel of a dot, in 1/256 of the paper level.
     int cut_q8 = 128;
@@ -158,18 +160,19 @@ struct BlockSums {
 
 /// Result of reading the bits of cells and comparing them with the code.
 struct BitsRead {
-    int seen = 0;  ///< number of cells with a dark spot
-    int read = 0;  ///< number of `seen` cells whose spot is clearly at one of the four places
-    int wrong_x = 0;
+    int seen = 0;     ///< number of cells with a dark spot
+    int read = 0;     ///< number of `seen` cells whose spot is clearly at one of the four places
+    int wrong_x = 0;  ///< number of `read` cells whose x bit contradicts the code
     int wrong_y = 0;
     int right = 0;  ///< number of `read` cells without a wrong bit
-    /// Sum of the distances of `right` dots from their intersections, in spacings.
+    /// Sum, over the `right` dots, of the larger component of their offset from the intersection,
+    /// in spacings.
     float projected = 0;
     /// Sum of the squared distances of `right` dots from their places, in spacings^2.
     float squares = 0;
 };
 
-/// Minimum loss of an alternative, in bits, in a line that it does not share.
+/// Minimum loss, in bits, of an alternative that does not share the line.
 struct LineLoss {
     std::uint8_t line = 0;
     std::uint8_t loss = 0;
@@ -225,24 +228,26 @@ struct Kernels {
     /// adds a white margin.
     void (*fill_patch)(const ImageView& image, Patch& patch);
     /// Smooths the patch by 1-2-1 along both axes, and finds the brightest and the darkest smoothed
-    /// pixel of each tile.
+    /// pixel of each tile. The outermost pixels of the patch do not count as brightest, because the
+    /// margin brightens them.
     void (*smooth_patch)(Patch& patch);
     /// Lists the dots: minima of the smoothed patch that are at most as bright as the threshold of
     /// their tile. The place of a dot is the vertex of the parabolas through the minimum and its
-    /// neighbouring pixels, in px of the image relative to the middle of the patch.
+    /// neighbouring pixels, in px of the image relative to the middle of the patch. Ignores minima
+    /// in the two outermost rows and columns of the patch.
     void (*find_minima)(Patch& patch);
     /// Evaluates a pair of perpendicular waves with a frequency of `per_px` cycles per px in 12
     /// directions (steps of 7.5 degrees). Returns the pair with the highest power.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
     /// Evaluates single waves in all directions, with frequencies from 0.6 to 1.63 times `per_px`.
-    /// Returns the strongest wave, and the strongest wave with which it forms cells of about the
-    /// area 1 / per_px^2. If there is no such pair, the power is 0.
+    /// Returns the strongest wave, paired with the strongest wave that forms cells of about the
+    /// area 1 / per_px^2 with the first wave. If there is no such pair, the power is 0.
     Waves (*strongest_skewed_waves)(const float* x, const float* y, int count, float per_px);
     /// Assigns the dots to cells. Returns the sums over the dots that are near a place of their
     /// cell.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
-    /// Sets the bits of the cells that contain dots. The first column and the first row are those
-    /// of cell (-32, -32).
+    /// Sets the bits of the cells whose dots are clearly at one of the four places. The first
+    /// column and the first row are those of cell (-32, -32).
     void (*read_cells)(const PatchDots& dots, const FloatPlane& plane, float displacement,
                        BitLines& columns, BitLines& rows);
     /// Scores a line of 64 cells at each roll. Each valid cell adds 127 if its bit agrees with the
@@ -254,12 +259,14 @@ struct Kernels {
     void (*sum_rolls)(const RollScores& scores, const std::uint8_t* rolls, int positions,
                       RollSums* sums);
     /// Lists the cells in view, with the centres of their windows and the symbols of the code. Sets
-    /// `x` and `y` to the expected image points of the dots, including lens distortion.
+    /// `x` and `y` to the expected image points of the dots, including lens distortion. Stops when
+    /// `dots` is full.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
-    /// Finds the common shift of all dots at which the sum of their images is darkest. Tests the
-    /// shifts along each axis up to `max_px`, in steps of `step_px`, but at most 6 steps in each
-    /// direction. Sets `cut_q8` to the contrast at this shift relative to the paper level, in
-    /// 1/256. Returns false if the surroundings of too few dots are completely in the image.
+    /// Finds the common shift of the dots at which the sum of their images is darkest, from the
+    /// first 16 dots whose surroundings are completely in the image. Tests the shifts along each
+    /// axis up to `max_px`, in steps of `step_px`, but at most 6 steps in each direction. Sets
+    /// `cut_q8` to the contrast at this shift relative to the paper level, in 1/256. Returns false
+    /// if there are fewer than 8 such dots, or if their surroundings are black.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
     /// Sets `x` and `y` to the centroids of the dark pixels in the windows of the dots. Drops dots
@@ -269,13 +276,15 @@ struct Kernels {
                              const WindowOptions& options, MeasuredDots& dots);
     /// Replaces the centres with weighted centroids in centroid windows. These centroids need no
     /// threshold, which would bias the centres. `radius_px` is at most kMaxCentroidRadius_px.
-    /// Windows at the border of the image are smaller.
+    /// Windows at the border of the image are smaller. Ignores corrections of 1 px or more. Does
+    /// nothing if the windows do not fit in the image.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float radius_px,
                            MeasuredDots& dots);
     /// Reads the bits of cells whose dots are predicted to a fraction of their displacement: the
     /// dot is at the darkest of the four places of its cell. `depth_q8` is the contrast of a
     /// typical dot relative to the paper level, in 1/256. Bits are compared and added to lines as
-    /// in `read_bits`. Drops dots that are not read or have a wrong bit.
+    /// in `read_bits`. Drops dots that are not read or have a wrong bit. Does not compute
+    /// `projected` and `squares`.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures the centres of predicted dots as `refine_centres` does, in windows with a radius of
@@ -310,8 +319,8 @@ struct Kernels {
     /// Lists the places, other than those of the reading (`own`), at which an alternative may lose
     /// less than `loss_limit` over the given lines. Searches the sequences whose bit is set in
     /// `sequences`. The lines must be sorted by decreasing loss. Returns false if there are too
-    /// many places, or if an alternative that shares none of the first four lines may lose less
-    /// than the limit.
+    /// many places, if there are fewer than two lines, if the limit exceeds 200, or if an
+    /// alternative that shares none of the first four lines may lose less than the limit.
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 unsigned sequences, std::span<const LineLoss> lines, int loss_limit,
                                 SimilarPlaceList& list);

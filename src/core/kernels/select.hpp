@@ -10,7 +10,7 @@ const Kernels& portable_kernels();
 /// Returns kernels with vectors of 16 bytes, for all x86-64 and 64-bit ARM processors and for
 /// WebAssembly with SIMD instructions.
 const Kernels& wide_kernels();
-/// Returns kernels for AVX2, or null if the processor or the compiler does not support AVX2.
+/// Returns kernels for AVX2, or null if the processor does not support AVX2 and BMI2.
 const Kernels* avx2_kernels();
 
 /// Returns the fastest kernels for this processor.

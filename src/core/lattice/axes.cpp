@@ -44,8 +44,8 @@ std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t 
         const std::int32_t x = (step.x * inverse_q16) >> 16;
         const std::int32_t y = (step.y * inverse_q16) >> 16;
         const std::int32_t squared_length = x * x + y * y;
-        // Diagonals are ignored, because their fourth powers have the opposite sign and four times
-        // the magnitude.
+        // Only edges of 1/2 to 5/4 of the median length are used. This leaves out diagonals, whose
+        // fourth powers have the opposite sign and four times the magnitude.
         if (squared_length > 1280 * 1280 || squared_length < 512 * 512) continue;
         const std::int32_t re = (x * x - y * y) >> 10;
         const std::int32_t im = (2 * x * y) >> 10;

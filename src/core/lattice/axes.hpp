@@ -9,8 +9,8 @@ namespace dotpose::core {
 
 /// Sets u and v of the lattice, but not its origin. v is u rotated by 90 degrees from +x to +y.
 /// `memory` must contain two elements per edge. Errors: no_grid, if there are fewer than 12 edges,
-/// or if the edges do not have two directions with about equal lengths and about a right angle
-/// between them.
+/// if all edges extend over 128 px or more along an axis, or if the edges do not have two
+/// directions with about equal lengths and about a right angle between them.
 Status estimate_axes(std::span<const SeedEdge> edges, std::span<std::int32_t> memory,
                      Lattice& lattice);
 

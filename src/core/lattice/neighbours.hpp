@@ -36,7 +36,7 @@ void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uin
                      std::span<std::array<std::int16_t, 4>> neighbours);
 
 /// Finds the pairs of seeds in which each seed is among the four nearest seeds of the other. Writes
-/// each pair once, as an edge that points down, or right if it is horizontal. Returns the number of
+/// each pair once, as an edge that points down. Horizontal edges point right. Returns the number of
 /// edges.
 int connect_symmetric(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                       std::span<const std::array<std::int16_t, 4>> neighbours,

@@ -75,7 +75,7 @@ FloatPlane plane_from_waves(const Waves& waves) {
     return plane;
 }
 
-/// Inverse of the 3 x 3 matrix of the sums, over all dots, of the products of x, y and 1.
+/// Inverse of the 3 x 3 matrix of the sums, over the used dots, of the products of x, y and 1.
 struct Inverse {
     std::array<std::array<float, 3>, 3> m;
     bool is_regular = false;
@@ -264,8 +264,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
             break;
         pass.reach_px = std::min(std::max(pass.reach_px * growth(fraction), 4 * spacing), full);
     }
-    // Graphics may stop the growth of the reach before it includes the whole patch. Bits can still
-    // be read if the final reach is at least 5 spacings.
+    // Graphics may stop the growth of the reach before the reach includes the whole patch. Bits can
+    // still be read if the final reach is at least 5 spacings.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     return true;

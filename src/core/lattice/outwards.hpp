@@ -41,8 +41,8 @@ PatchView whole_view(const Patch& patch);
 /// if there are fewer than kMinDots dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
-/// Finds the grid. Returns false if the dots are not on a grid, or are not displaced from the
-/// intersections.
+/// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, or if the dots are
+/// not on a grid or not displaced from the intersections.
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid);
 
 }  // namespace dotpose::core

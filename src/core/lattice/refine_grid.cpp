@@ -63,7 +63,8 @@ struct Target {
     FixedVec place_q16;
 };
 
-/// Returns the largest distance of a dot from `centre_q8` along either axis, in px, rounded up.
+/// Returns an upper bound on the distance of the dots from `centre_q8` along either axis: the
+/// largest distance in px, rounded down, plus 1.
 int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
     std::int32_t reach = 1;
     for (const DetectedDot& dot : dots)
@@ -72,7 +73,8 @@ int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
 }
 
 /// Fits the plane to the targets of the dots by one Gauss-Newton step. `target_of(g)` returns the
-/// target of a dot at the grid point g.
+/// target of a dot at the grid point g. Does not change the plane if the dots do not determine the
+/// step.
 template <typename TargetOf>
 void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, TargetOf target_of) {
     const int reach = reach_px(dots, plane.centre_q8);

@@ -23,11 +23,11 @@ struct Regularity {
     int dots = 0;
     int near_intersections = 0;
     /// Maximum distance of the cell of any dot from the origin, in cells. Includes dots beyond the
-    /// reach.
+    /// reach, but not dots beyond kFarthest_cells, which the callers ignore.
     int farthest_cell = 0;
 
-    /// Returns true if the fraction kSettled_20th / 20 of the dots is near an intersection, which
-    /// permits extending the reach.
+    /// Returns true if at least the fraction kSettled_20th / 20 of the dots is near an
+    /// intersection, which permits extending the reach.
     bool is_settled() const {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
     }
@@ -48,7 +48,7 @@ struct Regularity {
 };
 
 /// Extends a fit from kFirstReach_cells to the farthest dot. `fit(reach_cells)` fits the grid to
-/// the dots within the reach, sets `found`, and returns false if it fails. Calls `fit` at most
+/// the dots within the reach, sets `found`, and returns false if the fit fails. Calls `fit` at most
 /// `max_rounds` times for each reach, until enough dots are near an intersection, because a better
 /// fit assigns more dots to the correct cells. Returns false if a fit fails.
 template <typename Fit>

@@ -47,8 +47,9 @@ inline float spacing_px(const FloatPlane& plane) {
 }
 
 /// Returns true if the plane is a plausible view of paper: the spacing is measurable, the paper
-/// faces the camera and is not seen at a grazing angle, the map does not fold within the image, and
-/// the coordinates are in the range of PlaneFromImage. Returns false if any value is NaN.
+/// faces the camera and is not seen at a grazing angle, perspective does not fold the map within
+/// the image, and the coordinates are in the range of PlaneFromImage. Returns false if any value is
+/// NaN.
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px);
 
 PlaneFromImage fixed_plane(const FloatPlane& plane, FixedVec centre_q8);

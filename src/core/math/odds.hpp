@@ -9,13 +9,13 @@
 
 namespace dotpose::core {
 
-/// Returns 2^n exactly, for n < 128; n is clamped to at least -126.
+/// Returns 2^max(n, -126) exactly, for n < 128.
 constexpr float power_of_two_exactly(int n) {
     return __builtin_bit_cast(float, static_cast<std::uint32_t>(std::max(n, -126) + 127) << 23);
 }
 
-/// Returns 2^(n / 256) with an error of at most 2 %, for n < 127 * 256; the result is at least
-/// 2^-100.
+/// Returns 2^(n / 256) with an error of at most 2 %, for n < 127 * 256. Values of n below -25,600
+/// count as -25,600.
 inline float power_of_two(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;

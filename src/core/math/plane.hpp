@@ -43,7 +43,8 @@ FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 /// 3-5.
 GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8);
 
-/// Returns the inverse of plane_point_q16, in units of 2^-8 px.
+/// Returns the image point of a plane point, in units of 2^-8 px: the inverse of `plane_point_q16`.
+/// Where the map folds, the result may be wrong, but its coordinates are at most 2^21.
 FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point_q16);
 
 /// Returns the tangent of the plane at an image point: the plane without perspective or lens that

@@ -79,7 +79,7 @@ DotShape::Terms DotShape::changed(const Terms& terms, const Terms& step) {
     for (std::size_t i = 0; i < Term::count; ++i)
         result[i] += step[i];
     // Half axes and blur must remain positive, so a step reduces each of these terms at most to a
-    // quarter of its value.
+    // quarter of its value, and not below kMin_px2.
     for (const std::size_t i : {radius_u, radius_v, blur_u, blur_v})
         result[i] = std::max({result[i], terms[i] / 4, tuned::kMin_px2});
     return result;

@@ -40,8 +40,8 @@ class DotShape {
     /// Returns the variance of a quantity, given its derivatives with respect to the terms. The
     /// variance includes the misfit of the model.
     float variance(const Terms& derivatives) const;
-    /// Returns the mean squared residual of the images, divided by the noise variance; at least 1.
-    /// A model that explains the images up to noise has a misfit of 1.
+    /// Returns the mean squared residual of the images, divided by the noise variance, but at least
+    /// 1. A model that explains the images up to noise has a misfit of 1.
     float misfit() const { return misfit_; }
 
   private:

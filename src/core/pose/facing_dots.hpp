@@ -11,8 +11,9 @@
 
 namespace dotpose::core {
 
-/// Estimates this bias from the residuals and subtracts it from the centres of facing dots. `dots`
-/// must be listed row by row. Returns false, without a change, if the bias is not significant.
+/// Estimates the common bias of facing dots from their residuals and subtracts the bias from the
+/// centres of these dots. `dots` must be listed row by row. Returns false, without a change, if the
+/// bias is not significant.
 bool correct_neighbour_bias(const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 
 }  // namespace dotpose::core

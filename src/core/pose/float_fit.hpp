@@ -11,7 +11,7 @@ namespace dotpose::core {
 /// Fits the plane by least squares, starting from `plane`. A dot is an inlier if its squared
 /// residual is at most `limit` (spacings^2) in the first round. In later rounds, the limit is four
 /// standard deviations. Sets all members of `fit` except `surface` and `uneven`. Returns false if
-/// the dots do not determine the plane.
+/// there are fewer than kMinDots inliers, or if the inliers do not determine the plane.
 bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, float limit,
                float displacement, FloatPlane& plane, PoseFit& fit);
 

@@ -50,7 +50,8 @@ struct Window {
 
     /// Returns the part of the window around a pixel in which every pixel has all its neighbours in
     /// the image, or nullopt if the pixel itself lacks a neighbour. Windows at the border are
-    /// cropped and not rejected, because the dots at the border contribute most to angle and tilt.
+    /// cropped instead of rejected, because the dots at the border contribute most to angle and
+    /// tilt.
     std::optional<Box> box_around(const ImageView& image, int u, int v) const {
         const int last_u = image.width_px - 2;
         const int last_v = image.height_px - 2;
@@ -132,7 +133,7 @@ BorderBackground border_background(const Patch& patch, FixedVec pixel, int half)
 /// Fits a Gaussian dot to a window by one Gauss-Newton step. The darkness of a dot with the width
 /// of the window, at a small `offset` from its centre, is
 ///
-///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d), all in units of sigma.
+///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d), with d and offset in units of sigma.
 ///
 /// In a complete window, the result is the windowed centroid. In a window that is cropped by the
 /// border of the image, the result is still unbiased.
@@ -152,7 +153,8 @@ class DotFit {
         float offset_x;
         float offset_y;
     };
-    /// Returns nullopt if the centre of the window is not darker than the paper.
+    /// Returns the fitted height and offset. Returns nullopt if the height is not positive: the
+    /// window then contains no dark spot.
     std::optional<Result> solve() const {
         const float one = one_x_y_xx_[0];
         const float sum_x = one_x_y_xx_[1];

@@ -261,7 +261,7 @@ class Search {
     }
 
     /// Returns the gain of a step at the line relative to the best affine map, as a log likelihood
-    /// ratio, or 0 if the gain is below `min_gain`.
+    /// ratio, or 0 if the gain is certainly at most `min_gain`.
     float gain_of_step(const PartSums& beyond, float min_gain) const {
         const float explained = affine_.explained_by_step(beyond);
         const float remaining = affine_.squares() - explained;

@@ -16,15 +16,15 @@ struct PaperStep {
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 
-    FloatVec direction{1, 0};  ///< unit vector from the reference point towards the line
+    FloatVec direction{1, 0};  ///< unit vector perpendicular to the line, pointing beyond the line
     /// Distance from the reference point to the line, in spacings; negative if the reference point
     /// is beyond the line.
     float distance = 0;
     float gain = 0;  ///< log likelihood ratio (natural) relative to a single plane
 };
 
-/// Returns the line with the largest gain among the lines that are tried. `fit` contains the
-/// scatter of the dots about the plane.
+/// Returns the line with the largest gain among the lines that are tried. If no line has a positive
+/// gain, the gain of the result is 0. `fit` contains the scatter of the dots about the plane.
 PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit& fit,
                           FloatVec reference_px);
 

@@ -94,7 +94,8 @@ CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, fl
     return error;
 }
 
-/// Bias of windows that are centred on their dots, along one axis: amplitude * sin(2 pi phase).
+/// Centroid bias, along one axis, of windows that are centred on their dots: amplitude * sin(2 pi
+/// phase).
 class AxisBias {
   public:
     AxisBias(const DotShape& shape, Along axis, float radius_px) {
@@ -164,7 +165,7 @@ class ExpectedDots {
           centre_px_(centre_px),
           dots_(dots) {}
 
-    /// Calls `use` for every `every`-th inlier, with its sub-pixel phase.
+    /// Calls `use` for each inlier among every `every`-th dot, with its sub-pixel phase.
     template <typename Use>
     void visit(std::size_t every, Use use) const {
         for (std::size_t k = 0; k < static_cast<std::size_t>(dots_.count); k += every) {

@@ -12,7 +12,7 @@ namespace dotpose::core {
 
 /// Improves the pose and rejects outliers. Distortion terms are shrunk to their posterior means
 /// (fit/posterior), because each term costs accuracy, and a camera straight above flat paper does
-/// not need them. Returns false, without a change, if the dots do not determine the pose.
+/// not need them. Returns false if the dots do not determine the pose.
 bool refine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                  PoseFit& fit);
 

@@ -14,7 +14,7 @@ namespace {
 namespace tuned = tuning::paper_step;
 
 /// Finds the residual, in spacings, that is shared by the most dots near a point. Returns false if
-/// too few dots share a residual.
+/// fewer than kMinAgreeing dots share a residual.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMaxDots = 256;

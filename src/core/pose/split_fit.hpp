@@ -31,11 +31,13 @@ struct SplitFit {
 };
 
 /// Finds the likeliest line and fits the plane to the dots on the side of the reference point. On
-/// entry, `split` contains the fit to all dots. Returns false if no line is likely enough.
+/// entry, `split` contains the fit to all dots. Returns false if no line is likely enough, or if
+/// the dots on this side do not determine a plane.
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    SplitFit& split);
 
-/// Fits a plane to the dots beyond the line. Returns false if these dots do not determine a plane.
+/// Fits a plane to the dots beyond the line. Returns false if too few of these dots share a
+/// displacement, or if these dots do not determine a plane.
 bool fit_far_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                   const SplitFit& split, FloatPlane& beyond);
 

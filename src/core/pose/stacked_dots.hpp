@@ -27,7 +27,8 @@ class StackedDots {
         DotPixels darkness;
     };
 
-    /// Uses the pixels within `reach_px` of the central pixel.
+    /// Uses the pixels within `reach_px` of the central pixel, but at most kHalf_px along each
+    /// axis.
     explicit StackedDots(float reach_px);
 
     /// Adds a dot if all its pixels are in the image.
@@ -49,21 +50,22 @@ class StackedDots {
             }
         }
     }
-    /// Returns the distance of the outermost pixels from the central pixel, along each axis, in px.
+    /// Returns the distance from the central pixel to the outermost pixels, along each axis, in px.
     int half_px() const { return half_px_; }
     /// Returns true if there are enough dots to separate signal from noise.
     bool are_enough() const;
     /// Returns the total darkness of a dot, summed over its pixels, as the mean over all dots.
     float mass() const;
-    /// Returns the variance of the darkness of a pixel among the dots of a stack.
+    /// Returns the variance of the darkness of a pixel among the dots of a stack, plus a minimum
+    /// for the quantization of grey levels.
     float noise_2() const;
 
   private:
     static constexpr int kAlong = 4;  ///< number of stacks along each axis
 
     std::array<Stack, kAlong * kAlong> stacks_{};
-    float squares_ = 0;  ///< squared darkness of all pixels used
-    float dots_ = 0;
+    float squares_ = 0;  ///< sum of the squared darkness of the used pixels of all dots
+    float dots_ = 0;     ///< number of dots in all stacks
     int half_px_;
     int reach_2_;
 };

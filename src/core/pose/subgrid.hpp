@@ -10,7 +10,8 @@ namespace dotpose::core {
 /// Returns the plane of the grid, rotated upright. The origin of the result is `Decoding::place`.
 PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn pattern_from_grid);
 
-/// Writes position, section, angle and spacing at the reference point into the fix.
+/// Writes the plane, its place, and the position, section, angle and spacing at the reference point
+/// into the fix.
 void write_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8, CodeVariant code,
                 const Place& place, Fix& fix);
 

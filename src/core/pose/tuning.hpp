@@ -79,8 +79,8 @@ inline constexpr float kMin_px2 = 0.005F;
 inline constexpr float kFirstDamping = 0.01F;
 inline constexpr float kMaxDamping = 1e4F;
 inline constexpr float kDampingGrows = 10;
-/// The fit ends after a step that reduces the cost by less than kSettled squared deviations, or
-/// after kMaxRounds rounds.
+/// The fit ends after a step that reduces the cost, the sum of the squared residuals in units of
+/// their variances, by less than kSettled, or after kMaxRounds rounds.
 inline constexpr float kSettled = 0.3F;
 inline constexpr int kMaxRounds = 30;
 }  // namespace shape

@@ -13,7 +13,7 @@ namespace {
 
 namespace tuned = tuning::uneven;
 
-/// Mean residuals of the dots in each block of the image.
+/// Scatter of the residuals between and within the blocks of the image.
 class Blocks {
   public:
     Blocks(const Kernels& kernels, const MeasuredDots& dots, const FloatPlane& plane,
@@ -113,7 +113,8 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
 }
 
 /// Fits only the side of the reference point if a line certainly divides the sheet and this side is
-/// even. If a line is only possible, the covariance includes both fits.
+/// even. If a line is found otherwise, the covariance includes the difference between the plane of
+/// all dots and the plane of this side.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
     SplitFit split{plane, fit};

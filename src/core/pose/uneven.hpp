@@ -8,8 +8,9 @@
 
 namespace dotpose::core {
 
-/// Tests the residuals of the fit for correlation. If a line divides the sheet, fits the plane
-/// again to the dots on the side of the reference point. Sets `surface` and `uneven` of `fit`.
+/// Tests the residuals of the fit for correlation. If a line certainly divides the sheet and the
+/// side of the reference point is even, fits the plane again to the dots on this side. Sets
+/// `surface` and `uneven` of `fit`.
 void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                 FloatPlane& plane, PoseFit& fit);
 

@@ -21,9 +21,9 @@ struct DarkSums {
 inline constexpr int kHalfOfDiamond = 2;
 
 /// Returns the sums of a square of 2 Half + 1 pixels per side whose upper left pixel is at `row`.
-/// The size is a compile-time constant, so the pixels of a row are summed without a loop, and the
-/// coordinates of the pixels are constants. Not inlined, so that small processors keep all
-/// variables in registers.
+/// Excludes the corners if Half is kHalfOfDiamond. The size is a compile-time constant, so the
+/// pixels of a row are summed without a loop, and the coordinates of the pixels are constants. Not
+/// inlined, so that small processors keep all variables in registers.
 template <int Half>
 DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t stride,
                                            std::int32_t level) {
