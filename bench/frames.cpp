@@ -23,8 +23,8 @@ int count_of(const CameraModel& camera) {
     return std::clamp(kPixels / (camera.width_px * camera.height_px), 1, kMaxFrames);
 }
 
-/// Returns true if the first attempt finds a pose. Frames without a pose are left out, because the
-/// attempt may end early on them and appear fast.
+/// Returns true if both the first attempt and the attempt of devices find a pose. All other frames
+/// are left out, because an attempt may end early on them and appear fast.
 bool is_located_by_first_attempt(const KnownFrame& frame) {
     const auto memory = std::make_unique<LargeMemory>();
     const auto locates = [&](Effort effort) {

@@ -12,8 +12,8 @@ namespace dotpose::bench {
 /// Seed that is not used by any test or for tuning.
 inline constexpr std::uint64_t kSeed = 606;
 
-/// Returns nominal frames of a camera that the first attempt locates. Returns more frames of small
-/// cameras. The frames are rendered at the first call.
+/// Returns nominal frames of a camera that both the first attempt and the attempt of devices
+/// locate. Returns more frames of small cameras. The frames are rendered at the first call.
 const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera);
 
 /// Returns true if the fix has a pose and the pose is correct.

@@ -1,6 +1,6 @@
 /// PoseSender processes the frames of a device, on any board. For each frame, it reads the rows
-/// from the camera, locates the pattern using a prediction, updates the tracker, sends the pose as
-/// a packet, and determines the time of the next frame.
+/// from the camera, locates the pattern using a prediction, sends the pose as a packet, updates the
+/// tracker, and determines the time of the next frame.
 ///
 ///     static PoseSender sender;
 ///     for (;;) sender.send_next();
@@ -35,8 +35,8 @@ class PoseSender {
     dotpose::DeviceLocator locator_;
     dotpose::Tracker tracker_;
     dotpose::FramePacer pacer_;
-    dotpose::Fix seen_;           ///< newest fix, if the newest frame has a pose
-    dotpose::Sighting sighting_;  ///< sighting of `seen_`
+    dotpose::Fix seen_;           ///< fix of the newest frame; not ok before the first frame
+    dotpose::Sighting sighting_;  ///< sighting of the newest fix that is ok
     std::uint16_t sequence_ = 0;  ///< number of frames so far, modulo 2^16
     std::int64_t next_us_ = 0;    ///< earliest time of the next frame
 };

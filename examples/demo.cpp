@@ -162,7 +162,7 @@ void print_table(const Drive& drive) {
                1e6 / median(drive.times_us));
 }
 
-/// Runs the demo. Returns true if nearly all frames were located and no fix is wrong.
+/// Runs the demo. Returns true if at most 1 % of the frames have no fix, and no fix is wrong.
 bool run(const fs::path& folder) {
     fs::create_directories(folder);
     DeviceOptions options;

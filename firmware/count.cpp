@@ -131,7 +131,7 @@ const Markers* markers = &kThumbMarkers;
 
 const Marker* marker_at(const qemu_plugin_insn* instruction) {
     const std::size_t size = qemu_plugin_insn_size(instruction);
-    std::uint32_t encoding = 0;  // bytes are copied, because targets and host are little-endian
+    std::uint32_t encoding = 0;  // copied bytes: targets and host are little-endian
     std::memcpy(&encoding, qemu_plugin_insn_data(instruction), std::min(size, sizeof encoding));
     const auto found = std::ranges::find_if(
         *markers, [&](const Marker& m) { return m.size == size && m.encoding == encoding; });

@@ -5,7 +5,7 @@
 
 namespace host {
 
-/// Opens the file for reading. Returns false if it does not exist.
+/// Opens the file for reading. Returns false if this fails.
 bool open(const char* path);
 
 /// Reads `size` bytes. Returns false if the file has fewer bytes left.

@@ -36,8 +36,8 @@ struct FrameHeader {
     Prediction prediction;
 };
 
-/// Reads the next number of a header and the byte that follows. Returns false if there is no number
-/// or it does not fit into 32 bits.
+/// Reads the next number of a header and the byte that follows. Returns false if there is no
+/// number, if its absolute value exceeds INT32_MAX, or if neither a blank nor a newline follows.
 bool read_number(std::int32_t& number) {
     char byte = 0;
     do {
@@ -62,7 +62,8 @@ bool read_into(Int& value) {
     return true;
 }
 
-/// Reads the numbers of a prediction, which follow the letter T.
+/// Reads the numbers of a prediction, which follow the letter T. Returns false as `read_number`
+/// does.
 bool read_prediction(Prediction& prediction) {
     Place& place = prediction.place;
     PlaneFromImage& plane = prediction.pattern_from_image;
@@ -98,8 +99,8 @@ Status begin_frame(const FrameHeader& frame) {
                               : locator.begin(frame.width_px, frame.height_px);
 }
 
-/// Reads and locates a frame and prints the result. Returns false if the file ends before the end
-/// of the frame.
+/// Reads the rows of a frame and locates it. Returns false if the file ends before the end of the
+/// frame.
 bool locate_frame(const FrameHeader& frame, Fix& fix) {
     markers::resume();
     const Status status = begin_frame(frame);

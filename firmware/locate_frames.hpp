@@ -9,5 +9,6 @@
 ///     BIT_ERRORS P_WRONG
 ///
 /// with the integers of Fix (fraction_q16, theta_bam, spacing_px_q16, p_wrong_log2). Returns the
-/// exit status: 0 if all frames were read, 1 if the file cannot be read.
+/// exit status: 0 if all frames were read, 1 if the file cannot be opened or has invalid content,
+/// in which case a message is printed.
 int locate_frames(const char* path);

@@ -24,7 +24,7 @@ struct CalibrationStatus {
     std::optional<double> corner_sigma_px;
     std::optional<double> theta_rad;  ///< direction of the newest frame, if it was located
     std::string now;                  ///< result of the newest frame
-    std::string remark;               ///< further remark; may be empty
+    std::string remark;               ///< advice after the newest calibration; may be empty
     bool is_taken = false;            ///< true if the newest frame was taken
 };
 

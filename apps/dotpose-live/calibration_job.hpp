@@ -33,9 +33,11 @@ class CalibrationJob {
     /// has ended.
     bool wait(std::chrono::milliseconds patience);
 
-    /// Returns the result of the newest calibration, or none if it failed.
+    /// Returns the result of the newest finished calibration, or none if it failed or if no
+    /// calibration has finished.
     const std::optional<LensCalibration>& newest() const { return newest_; }
-    /// Returns the reason why the newest calibration failed.
+    /// Returns the reason why the newest finished calibration failed, or an empty text if it
+    /// succeeded.
     const std::string& problem() const { return problem_; }
     /// Returns the number of frames of the newest finished calibration, or 0.
     std::size_t frames() const { return frames_; }

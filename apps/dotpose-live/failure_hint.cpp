@@ -36,8 +36,9 @@ GreyImage copy_of(ImageView image) {
 }  // namespace
 
 /// Counts a failed frame by its status. The first, second, fourth, eighth (and so on) frame with a
-/// status replaces the copy of the previous frame. At the end of the run, the copy is therefore
-/// from the second half of the frames with this status, although few copies were made.
+/// status replaces the stored copy of an earlier frame with the same status. At the end of the run,
+/// the copy is therefore from the second half of the frames with this status, although few copies
+/// were made.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;

@@ -14,10 +14,10 @@ namespace dotpose::cli {
 
 class FailureHint {
   public:
-    /// Takes the result of a frame that was located with `options`. Returns a sentence when most
-    /// frames of the last second failed, otherwise an empty text. The sentence is returned again
-    /// only after most frames of a second were located. `bits_per_px` describes the source of the
-    /// frame.
+    /// Takes the result of a frame that was located with `options`. Returns a sentence if the frame
+    /// and most frames of the last second failed, and at least three of them, otherwise an empty
+    /// text. Returns the sentence again only if at least half of the frames of a second were
+    /// located since then. `bits_per_px` describes the source of the frame.
     std::string after(const Reading& reading, ImageView image, const DeviceOptions& options,
                       double bits_per_px);
 

@@ -35,7 +35,7 @@ const char* ending_of(ImageEncoding format) {
     return ".png";
 }
 
-/// Returns the highest frame number in a folder plus one.
+/// Returns the highest frame number in a folder plus one, or 0 if the folder contains no frames.
 std::int64_t number_after(const fs::path& folder) {
     std::int64_t next = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {

@@ -24,9 +24,9 @@ class FrameSaver {
     /// Creates the folder, whose parent must exist. Throws Error if that fails.
     explicit FrameSaver(SaveOptions options);
 
-    /// Saves the frame, if its number or place is selected, as frame_000000.png and so on. Numbers
-    /// continue after the last image in the folder; files are never overwritten. Throws Error if
-    /// the image cannot be written.
+    /// Saves the frame, if its number or place is selected. The names are frame_000000.png and so
+    /// on, with the file extension of the format. Numbers continue after the highest number in the
+    /// folder. Existing files are never overwritten. Throws Error if the image cannot be written.
     void take(ImageView image, const Fix& fix);
 
     std::int64_t saved() const { return saved_; }

@@ -134,7 +134,7 @@ class LiveCalibration {
     Motion motion_;
     std::int64_t steady_us_ = 0;  ///< time of the newest steady frame, or of the first frame
     Tally tally_;
-    GreyImage failed_;  ///< the newest frame, until a frame is located
+    GreyImage failed_;  ///< newest frame before the first located frame
     Status failure_ = Status::ok;
     double bits_per_px_ = 0;  ///< bit rate of the source (capture/frame_source.hpp)
 };

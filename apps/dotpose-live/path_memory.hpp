@@ -33,7 +33,8 @@ class PathMemory {
     bool is_jump_ = true;
 };
 
-/// Returns the outlines of the sheets in the plane of the tracker.
+/// Returns the outlines of the sheets in the plane of the tracker. In the plane of the world,
+/// sheets without a world pose are omitted.
 std::vector<draw::MapSheet> map_sheets(const std::vector<SheetEntry>& sheets, Plane plane);
 
 }  // namespace dotpose::cli

@@ -55,7 +55,7 @@ class RobotOutput {
     RobotOutputOptions options_;
     Stamps stamps_;
     ros::RobotMessenger messenger_;
-    bool has_mount_ = false;  ///< true once the mount was sent
+    bool has_mount_ = false;  ///< true after the first frame, with which the mount is sent
     std::optional<RobotRecording> recording_;
     std::optional<dds::Publisher> publisher_;
 };

@@ -175,7 +175,8 @@ class Pace {
     std::optional<std::chrono::steady_clock::time_point> begun_;
 };
 
-/// Warns on standard error if the tracked poses are not in the world.
+/// Warns on standard error if a sheet has no world pose or, without sheets, if poses are published,
+/// because such poses are not in the world.
 void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follower) {
     const OutputOptions& outputs = arguments.outputs;
     const bool is_published = outputs.mqtt || outputs.messages.is_wanted();

@@ -126,7 +126,8 @@ std::string spin_picture_of(const CalibrateArguments& arguments) {
     return (lens.parent_path() / name).string();
 }
 
-/// Writes the camera file to the path of -o or to standard output.
+/// Writes the camera file to the path of -o, or to standard output if the path is "-". Without -o,
+/// writes nothing.
 void write_result(const std::string& out, const Camera& camera) {
     if (out.empty()) return;
     const DocumentOutput output(out, ".yaml");
@@ -143,7 +144,8 @@ void require_size(const Camera& file, const Camera& frames, const std::string& p
                     path, file.width_px, file.height_px, frames.width_px, frames.height_px));
 }
 
-/// Copies mount, readout time, exposure and gain from another calibration of the same camera.
+/// Copies mount and readout time, with their standard deviations, and exposure and gain from
+/// another calibration of the same camera.
 void keep_mount(const Camera& from, Camera& to) {
     to.reference_px = reference_in(to, from);
     to.theta_offset_rad = from.theta_offset_rad;
@@ -156,7 +158,8 @@ void keep_mount(const Camera& from, Camera& to) {
     }
 }
 
-/// Calibrates the lens and then the mount. Skips a calibration without frames. Returns a report.
+/// Calibrates the lens, the mount, the heading and the readout, in this order. Skips a calibration
+/// without frames. Writes the camera file and the pictures. Returns a report.
 std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
     std::string report;
     std::optional<Camera> camera = arguments.camera.camera;

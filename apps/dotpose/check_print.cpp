@@ -63,7 +63,7 @@ void require_svg(const std::string& path) {
 }
 
 /// Returns true if the scale differs from 1 by an amount that a printer driver can cause. If not,
-/// the resolution of the scan is probably wrong.
+/// the resolution of the scan or the spacing is probably wrong.
 bool is_plausible(const PrintScale& scale) {
     constexpr double kMaxDeviation = 0.25;
     return std::abs(scale.scale_x - 1) <= kMaxDeviation &&

@@ -26,7 +26,7 @@ struct Record {
     bool has_sheets = false;          ///< true if the record has the fields of a sheet file
     std::optional<SheetPlace> place;  ///< place of the fix; none if it is on no sheet
     int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }
-    double elapsed_us = 0;  ///< time that `dotpose::locate` took
+    double elapsed_us = 0;  ///< time taken to locate the image; NaN if not measured
     std::string advice;     ///< advice if there is no fix; may be empty
     int width_px = 0;
     int height_px = 0;

@@ -11,9 +11,10 @@ namespace dotpose::cli {
 
 class NewPlaces {
   public:
-    /// Returns true and stores the place if the frame differs from all stored places: its centre by
-    /// a quarter of the shorter side of the frame, its direction by 15 degrees, or its distance
-    /// from the paper by 10 %. Returns false for a frame without a fix.
+    /// Returns true and stores the place if the frame differs from all stored places in its
+    /// section, or in its centre by a quarter of the shorter side of the frame (at least two
+    /// spacings), its direction by 15 degrees, or its distance from the paper by 10 %. `thin_out`
+    /// increases these differences. Returns false for a frame without a fix.
     bool take(const Fix& fix, ImageView image);
 
     std::size_t count() const { return places_.size(); }

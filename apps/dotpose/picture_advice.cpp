@@ -172,9 +172,10 @@ double second_difference(ImageView image, int step_px) {
 }
 
 /// Returns true if the image has details, but only large ones. Compares the second difference over
-/// 2 px with the larger of the second differences over 8 and 16 px. The ratio is at least 1/6 in a
-/// picture in focus, even at a tilt of 70 degrees, and less than 1/20 if the dots are too blurred
-/// to be read.
+/// 2 px with the larger of the second differences over 8 and 16 px, each minus the second
+/// difference over 1 px, which estimates the noise. The ratio is at least 1/6 in a picture in
+/// focus, even at a tilt of 70 degrees, and less than 1/20 if the dots are too blurred to be read.
+/// Returns false for images too small for this comparison.
 bool is_out_of_focus(ImageView image) {
     constexpr double kMinDetail = 0.4;
     constexpr double kFocused = 0.06;
@@ -229,7 +230,7 @@ std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions&
     return std::nullopt;
 }
 
-/// Returns true if the dots are white on black.
+/// Returns true if the dots are white on black: the inverted image is located.
 bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     GreyImage inverted = reduced_by(image, 1);
     for (std::uint8_t& grey : inverted.pixels)

@@ -66,7 +66,8 @@ int read_number() {
     return number;
 }
 
-/// Waits for the next frame of the simulated camera. The program ends at the end of the file.
+/// Reads the header of the next frame of the simulated camera. Ends the program at the end of the
+/// file, or if the header is invalid.
 board::Frame next_frame() {
     std::array<char, 3> magic;
     if (!read(magic.data(), 1)) end(nullptr);

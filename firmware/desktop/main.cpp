@@ -37,12 +37,13 @@ void print(const char* text) {
 
 namespace {
 
-/// Locates frames without a prediction and writes predictions for them.
+/// Locates frames without a prediction, and writes the located frames with predictions.
 class Predictor {
   public:
     explicit Predictor(std::uint64_t seed) : rng_(seed) {}
 
-    /// Locates `image` and writes a prediction whose error is up to half a spacing and 4 degrees.
+    /// Locates `image`. If this succeeds, writes a prediction whose error is up to half a spacing
+    /// and 4 degrees, and then the image.
     void write(const dotpose::GreyImage& image) {
         using namespace dotpose;
         const DeviceOptions options;

@@ -1,4 +1,5 @@
-/// Writes files piece by piece that appear completely or not at all. write_file.hpp is for texts.
+/// Writes a file piece by piece. The file appears completely or not at all. write_file.hpp is for
+/// texts.
 #pragma once
 
 #include <cstddef>

@@ -8,7 +8,7 @@
 namespace dotpose::calibrate {
 
 /// Replaces the dots that `locate` read with all blobs at places where `fit` expects a dot of the
-/// code.
+/// code. If there are fewer than half as many such blobs as dots, the frame keeps its dots.
 ///
 /// `locate` reads only the dots that a pose needs. In the corners of the image of a slightly tilted
 /// camera, the plane of `locate` fits badly, and `locate` omits the dots with large residuals. The

@@ -132,9 +132,9 @@ class Meter {
         return darkest_px;
     }
 
-    /// Measures the dot at the darkest of its four places, after iterating to its centroid.
-    /// `strength` is the expected darkness of a dot. Returns the offset of the dot from its
-    /// intersection, in spacings.
+    /// Moves iteratively from the darkest of the four possible places of a dot to its centroid, and
+    /// measures the dot there. Sets `cell`, except its symbols. `strength` is the expected darkness
+    /// of a dot. Returns the offset of the dot from its intersection, in spacings.
     Vector2d measure(const Vector2d& intersection_px, double strength, SeenCell& cell) const {
         Vector2d place_px = darkest_place(intersection_px);
         double moved_px = 1;
@@ -244,8 +244,8 @@ Symbol nearest_symbol(const Vector2d& offset) {
 }
 
 /// Reads the symbols of the dots from their offsets in spacings. Subtracts the mean error of the
-/// offsets: a renderer or scanner that rounds dots to whole pixels displaces all dots equally, and
-/// the map of a fix does not include this displacement.
+/// offsets (without large errors): a renderer or scanner that rounds dots to whole pixels displaces
+/// all dots equally, and the map of a fix does not include this displacement.
 void read_symbols(const std::vector<Vector2d>& offsets, double displacement,
                   std::vector<SeenCell>& cells) {
     constexpr double kMaxError = 0.25;

@@ -90,8 +90,9 @@ double near_limit(std::span<const Pair> pairs, const Map& map) {
     return kNear_medians * median_residual(pairs, map) + 1e-9;
 }
 
-/// Fits a similarity to the pairs without outliers. Starts with the map through two pairs that has
-/// the smallest median residual, then repeatedly fits all pairs within the outlier limit.
+/// Fits a similarity to the pairs without outliers. Starts with the map that has the smallest
+/// median residual among the fit to all pairs and the maps through two pairs. Then repeatedly fits
+/// all pairs within the outlier limit.
 Map fit_most(std::span<const Pair> pairs) {
     constexpr std::size_t kTries = 500;
     constexpr int kRounds = 5;
@@ -142,8 +143,9 @@ MeasuredError error_of(const MeasuredFrame& frame, const std::optional<Similarit
     return error;
 }
 
-/// Marks frames as wrong if their error is above kWrongFrom_medians times the median of all frames,
-/// and above kWrongFrom_grid spacings or kWrongFrom_deg degrees.
+/// Marks a frame as wrong if its position error exceeds both kWrongFrom_medians times the median
+/// and kWrongFrom_grid spacings, or if its angle error exceeds both kWrongFrom_medians times the
+/// median and kWrongFrom_deg degrees. The medians are over all frames that are not marked yet.
 void mark_wrong(const std::vector<MeasuredFrame>& frames,
                 std::vector<std::optional<MeasuredError>>& errors) {
     constexpr double kWrongFrom_medians = 10;

@@ -56,8 +56,9 @@ Follower::Found Follower::read_in(CodeVariant code) {
     return by_camera_file(seen, place, reading);
 }
 
-/// Locates an image on a known sheet again after masking the area beside its dots, because labels
-/// and the table are not evidence against the fix.
+/// If bits contradict a fix on a known sheet, locates the image again after masking the area beside
+/// the dots of the sheet, because labels and the table are not evidence against the fix. Returns
+/// the new fix if fewer bits contradict it and it uses nearly as many dots, otherwise `fix`.
 Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
     if (fix.bit_errors == 0) return fix;
     const auto cut = cut_to_dots(image_, used_, fix, place.entry->sheet);

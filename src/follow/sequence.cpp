@@ -110,8 +110,8 @@ Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expe
     return by_camera_file(reading.fix, {}, reading);
 }
 
-/// Locates an image that extends beyond the edge of a page again without the part beyond the edge,
-/// if enough dots remain.
+/// If an image extends beyond the edge of a page, locates it again without the part beyond the
+/// edge. Returns `found` if the second attempt does not find the same sheet.
 Follower::Found Follower::without_neighbours(const Found& found) {
     Found guess = found;
     if (found.seen.status == Status::not_certain) {

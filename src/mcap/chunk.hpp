@@ -26,7 +26,7 @@ class Chunk {
   public:
     bool is_empty() const { return records_.empty(); }
     std::size_t size() const { return records_.size(); }
-    /// Time from the earliest to the latest message in ns.
+    /// Returns the time from the earliest to the latest message in ns.
     std::uint64_t duration_ns() const { return is_timeless() ? 0 : last_ns_ - first_ns_; }
 
     /// Returns the records, to append schemas and channels before the messages that use them.

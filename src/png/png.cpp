@@ -18,8 +18,8 @@ constexpr double kInchesPerMetre = 1 / 0.0254;
 // for files that are 20 % smaller. Slower compression hardly makes noisy frames smaller.
 constexpr int kCompressionLevel = 4;
 
-/// Writes PNG. libpng exits its functions by longjmp after an error. Therefore only `guarded` calls
-/// them, without objects in its scope that have a destructor.
+/// Writes a PNG file. libpng reports errors with longjmp. Only `guarded` calls its functions, and
+/// no objects with destructors may be created in the scope of that call.
 class Writer {
   public:
     explicit Writer(base::ByteSink& file) {
@@ -103,7 +103,8 @@ void write(const Header& header, const RowSource& rows, base::ByteSink& file) {
 
 std::vector<std::uint8_t> encode(ImageView image) {
     Memory file;
-    // Its `write` must not fail: enough for pixels that do not shrink, with a byte per row.
+    // Reserves memory in advance, because `Memory::write` must not throw. The size suffices for
+    // incompressible pixels and the filter byte of each row.
     const std::size_t size_bytes =
         static_cast<std::size_t>(image.height_px) * (static_cast<std::size_t>(image.width_px) + 1);
     file.bytes.reserve(size_bytes + size_bytes / 256 + 1024);

@@ -1,4 +1,4 @@
-/// Writes grey PNG images by libpng, for all libraries that write images.
+/// Writes grey PNG images with libpng, for all libraries that write images.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include "base/byte_sink.hpp"
 #include "dotpose/image.hpp"
 
-// Visible outside of the library because the other tools libraries call them.
+// Exported, because the other tools libraries call these functions.
 #pragma GCC visibility push(default)
 
 namespace dotpose::png {
@@ -17,7 +17,7 @@ namespace dotpose::png {
 struct Header {
     int width_px = 0;
     int height_px = 0;
-    int bits_per_px = 8;  ///< 8, with 0 for black; or 1, with 1 for black, 8 pixels per byte
+    int bits_per_px = 8;  ///< 8: 0 is black; 1: 1 is black, with 8 pixels per byte
     double dpi = 0;       ///< resolution in dots per inch; 0 if not known
 };
 
@@ -29,7 +29,7 @@ using RowSource = std::function<void(const RowSink&)>;
 /// Writes an image. Throws Error if libpng fails or the file cannot be written.
 void write(const Header& header, const RowSource& rows, base::ByteSink& file);
 
-/// Returns the contents of the file of an image, which must not be empty. Equal images give equal
+/// Returns an image, which must not be empty, as the bytes of a PNG file. Equal images give equal
 /// bytes. Throws Error.
 std::vector<std::uint8_t> encode(ImageView image);
 

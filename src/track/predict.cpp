@@ -16,8 +16,8 @@ constexpr std::int32_t kMinSigma_q16 = 65536 / 32;
 constexpr std::int32_t kMinSigma_theta_bam = 1 << 21;
 constexpr float kDeviations = 3;
 
-/// Maximum predicted motion between two frames, in spacings. Robots do not move further, and the
-/// limit prevents overflow of integer sums.
+/// Maximum predicted motion between two frames, in spacings. Robots do not move farther between two
+/// frames, and the limit prevents overflow of integer sums.
 constexpr float kMaxMotion = 2048;
 
 /// Converts a vector from the plane of the sighting to the pattern frame. The rotation between the

@@ -20,7 +20,7 @@ using testing::AnyOf;
 using testing::HasSubstr;
 
 /// Positions modulo 241, the period of the sequence a4. In the codes anoto and libdots, a4 differs
-/// at the positions 222 to 238 (docs/position-code.md): from 222 on, the digits of one code are
+/// at the positions 222 to 238 (docs/position-code.md): starting at 222, the digits of one code are
 /// shifted by one position in the other code.
 constexpr std::uint32_t kPeriod = 241;
 constexpr std::uint32_t kShifted = 231;

@@ -78,7 +78,8 @@ TEST_F(EvaluateCommand, AFolderGivesTheNumbersOfTheSameFramesInMemory) {
     ASSERT_EQ(run("evaluate --preset nominal --frames 10 --seed 7 --format json"), 0) << errors_;
     const json memory = result();
     EXPECT_EQ(memory["located"], folder["located"]);
-    // truth.csv has 8 decimals of a grid spacing.
+    // truth.csv gives positions with 8 decimals, in grid spacings. Rounding explains the
+    // difference.
     EXPECT_NEAR(memory["position_um"]["median"], folder["position_um"]["median"], 1e-4);
     EXPECT_NEAR(memory["angle_deg"]["max"], folder["angle_deg"]["max"], 1e-6);
 }
@@ -126,8 +127,8 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     const json image = result();
     EXPECT_EQ(image["located"], 5);
     EXPECT_LT(image["position_um"]["max"], 5);
-    // The view of the camera is also used. The pose has five parameters instead of eight, so the
-    // angle is more accurate.
+    // The scale and tilt in the camera file are also used. The fit then has five parameters instead
+    // of eight, so the angle differs.
     EXPECT_NE(image["angle_deg"]["max"], lens_alone["angle_deg"]["max"]);
     ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
     EXPECT_EQ(result()["wrong"], 5);  // truth.csv contains the pose of the image centre
@@ -142,8 +143,9 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     truth.close();
     ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
     EXPECT_EQ(result()["located"], 5);
-    // An angle of 0.03 degrees moves the centre by 3 µm at 5 mm. The truth was written with 6
-    // digits.
+    // The limit is larger than above for two reasons. The centre is 5 mm from the camera, so an
+    // angle error of 0.03 degrees moves it by 3 µm. The coordinates in truth.csv have only 6
+    // significant digits, an error of up to 3 µm.
     EXPECT_LT(result()["position_um"]["max"], 15);
     EXPECT_LT(result()["angle_deg"]["max"], 0.15);
 }

@@ -1,5 +1,5 @@
-// Tests publishing to a real broker: which messages arrive and which messages are dropped, also if
-// the broker disconnects.
+// Tests publishing to a real broker: which messages arrive and which messages are dropped,
+// including when the broker disconnects.
 #include "publish/mqtt.hpp"
 
 #include <algorithm>

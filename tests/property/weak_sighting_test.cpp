@@ -105,8 +105,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     const auto main = [](int index) {
         return main_bit(static_cast<std::uint32_t>(index + kSections));
     };
-    // Sum of the weights of the bits of a line, positive where they agree with the main sequence
-    // from an index on.
+    // Returns the sum of the weights of the bits of a line. A weight counts as positive if its bit
+    // agrees with the main sequence, which begins at index `start` in the first cell of the line.
     const core::Grid grid = view.grid();
     const auto score = [&](bool is_x, int line, int start) {
         int sum = 0;

@@ -38,7 +38,7 @@ std::string stream_with(const std::string& keys, const std::string& data) {
     return fmt::format("<< /Length {} {} >>\nstream\n{}\nendstream", data.size(), keys, data);
 }
 
-/// Returns one page. `more` are the objects from number 5 on.
+/// Returns one page. `more` contains the objects with numbers from 5.
 std::vector<std::string> page_with(const std::string& keys, const std::string& content = stream(""),
                                    const std::vector<std::string>& more = {}) {
     std::vector<std::string> objects = {
@@ -49,7 +49,7 @@ std::vector<std::string> page_with(const std::string& keys, const std::string& c
     return objects;
 }
 
-/// Returns objects from number 5 on. `names` makes each object refer to the next one.
+/// Returns objects with numbers from 5. `names` makes each object refer to the next one.
 std::vector<std::string> chain(const std::function<std::string(int)>& names) {
     std::vector<std::string> objects;
     for (int number = 5; number < 5 + kDeep; ++number)

@@ -43,7 +43,7 @@ async function printed({ paper, x, y, code = "anoto", margin = "6", name = "test
     return { page, complaints, path, suggested: file.suggestedFilename() };
 }
 
-/** Counts the different pixels inside the margins. */
+/** Counts the pixels inside the margins that differ, and the dark pixels of `a`. */
 function differences(a, b, margin_px) {
     assert.deepEqual([a.width, a.height], [b.width, b.height]);
     let [different, dark] = [0, 0];

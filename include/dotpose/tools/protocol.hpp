@@ -19,8 +19,9 @@ namespace dotpose {
 /// Options of the simulated experiment.
 struct ProtocolOptions {
     int samples = 20;  ///< number of samples at each position and angle
-    /// Light, blur and noise of the device. Their random values are drawn once for all frames. The
-    /// positions of the dots come from the page of the experiment.
+    /// Light, blur and noise of the device. Their levels are drawn once for all frames. The device
+    /// is at rest and not tilted, and the page has no dirt or graphics. The positions of the dots
+    /// come from the page of the experiment.
     Setup setup;
     DeviceOptions locate;
     int threads = 0;
@@ -60,7 +61,7 @@ struct Protocol {
     ProtocolResult printed;  ///< page with the errors of `PrintModel`
 };
 
-/// Simulates the experiment. Throws Error if interrupted.
+/// Simulates the experiment. Throws Error if interrupted, and BadArgument without samples.
 Protocol run_protocol(const ProtocolOptions& options);
 
 /// Returns Table III in Markdown, with the numbers of the paper and the simulated numbers.

@@ -34,11 +34,13 @@ struct Score {
     int wrong = 0;                                 ///< number of wrong fixes
     std::array<int, kStatusCount> by_status = {};  ///< `ok` counts correct and wrong fixes
 
-    // The following statistics are computed over the correct fixes.
+    // The following statistics are computed over the correct fixes, except `largest_p_wrong` and
+    // `elapsed_us`.
     Quantiles position_um;  ///< distance between the found and the true position
     Quantiles angle_deg;
     /// Mean of error^2 / variance, for x, y and theta: 1 if the covariance is correct, above 1 if
-    /// the errors are larger than the covariance predicts.
+    /// the errors are larger than the covariance predicts. NaN without correct fixes, or if one of
+    /// them has no covariance.
     std::array<double, 3> normalised = {};
 
     double largest_p_wrong = 0;  ///< maximum p_wrong of all fixes

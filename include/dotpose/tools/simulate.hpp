@@ -133,8 +133,9 @@ struct PageArea {
 /// A printed page: a pattern, its printing errors, and its extent.
 struct Page {
     Pattern pattern;
-    /// Seed of the printing errors. Together with the cell it determines the jitter, ink and
-    /// absence of a dot, which are therefore the same in every frame.
+    /// Seed of the printing errors and of the texture of the paper. Together with the section and
+    /// the cell, it determines the jitter, ink and absence of a dot, which are therefore the same
+    /// in every frame.
     std::uint64_t seed = 1;
     /// Printed intersections: `columns` x `rows`, starting at `origin`. The whole plane if
     /// `columns` is 0.

@@ -42,11 +42,13 @@ struct TestPageOptions {
 };
 
 /// Lays out the patches, with a label "spacing/dot" in mm above each patch. Combinations with
-/// touching dots are omitted. Throws BadArgument as `make_sheet` does, and for settings outside 1
-/// to 80.
+/// touching dots are omitted. Throws BadArgument as `make_sheet` does, for settings outside 1 to
+/// 80, and if there are no spacings or no dot diameters.
 PrintPage make_test_page(const TestPageOptions& options);
 
-/// Returns the settings of the patch with this cell; none for cells outside test pages.
+/// Returns the settings of the patch whose first cell is nearest to `cell` on both axes. This
+/// includes cells slightly outside the patch. None if the cell is outside the region of the test
+/// pages, or if the dots of such a patch would touch.
 std::optional<Pattern> test_patch_at(CodeVariant code, Cell cell);
 
 }  // namespace dotpose

@@ -282,7 +282,7 @@ TEST(Decode, RefusesOneSymbolAllOver) {
     }
 }
 
-/// Returns a window whose columns from `cut` on belong to another section.
+/// Returns a window whose columns, starting at `cut`, belong to another section.
 Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int cut) {
     Grid seam = reference_window(CodeVariant::anoto, place, columns, 8);
     const Place other{place.cell, {other_u, place.section.v}};

@@ -30,7 +30,8 @@ std::vector<GreyImage> mixed_frames() {
     return frames;
 }
 
-/// Expects all members of two fixes to be equal, bit by bit. Padding is ignored.
+/// Expects the status and the number of dots of two fixes to be equal and, if the status is ok,
+/// also the pose, counts, residual and covariance. Compares the covariances bit by bit.
 void expect_same(const Fix& a, const Fix& b) {
     EXPECT_EQ(a.status, b.status);
     EXPECT_EQ(a.dots_seen, b.dots_seen);

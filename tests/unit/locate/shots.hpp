@@ -15,7 +15,7 @@
 
 namespace dotpose::core_test {
 
-/// Changes to a frame of the preset nominal.
+/// Parameters of a simulated frame. The defaults are those of a nominal frame.
 struct ShotSize {
     double spacing_px = 11;
     int width_px = 188;
@@ -41,8 +41,8 @@ inline double turn_between(double a_rad, double b_rad) {
     return std::abs(std::remainder(a_rad - b_rad, 2 * std::numbers::pi));
 }
 
-/// Returns true if the cell and section of a fix are correct, within a fifth of a spacing and two
-/// degrees.
+/// Returns true if the section of a fix is correct, its position is within a fifth of a spacing
+/// along each axis, and its angle is within two degrees of the true pose.
 inline bool is_right(const Fix& fix, const Shot& shot) {
     return std::abs(fix.x_grid() - x_grid(shot.pose)) < 0.2 &&
            std::abs(fix.y_grid() - y_grid(shot.pose)) < 0.2 &&
@@ -50,7 +50,8 @@ inline bool is_right(const Fix& fix, const Shot& shot) {
            fix.section == shot.page.pattern.section;
 }
 
-/// Expects all members of two fixes to be equal, bit by bit.
+/// Expects the status, pose, counts, residual and covariance of two fixes to be equal. Compares the
+/// covariances bit by bit.
 inline void expect_same_bits(const Fix& a, const Fix& b) {
     EXPECT_EQ(a.status, b.status);
     EXPECT_EQ(a.attempt, b.attempt);
@@ -69,7 +70,7 @@ inline void expect_same_bits(const Fix& a, const Fix& b) {
     EXPECT_EQ(std::memcmp(a.covariance, b.covariance, sizeof a.covariance), 0);
 }
 
-/// Returns the forms of the kernels (portable, wide, AVX2) that this machine supports.
+/// Returns the kernel implementations (portable, wide, AVX2) that this machine supports.
 inline std::vector<const core::Kernels*> kernel_forms() {
     std::vector<const core::Kernels*> forms{&core::portable_kernels(), &core::wide_kernels()};
     if (core::avx2_kernels() != nullptr) forms.push_back(core::avx2_kernels());

@@ -11,17 +11,17 @@ namespace dotpose::gstreamer {
 
 /// Properties that may change from frame to frame.
 struct Switches {
-    bool is_inverted = false;    ///< dots are white on black
-    bool posts_messages = true;  ///< on the bus, for each frame
-    bool attaches_meta = true;   ///< to the buffer of each frame
+    bool is_inverted = false;    ///< true if dots are white on black
+    bool posts_messages = true;  ///< true to post a message on the bus for each frame
+    bool attaches_meta = true;   ///< true to attach a meta to the buffer of each frame
 };
 
 struct Settings {
     std::string sheets;        ///< path of the sheet file; empty for none
     std::string camera;        ///< path of the camera file; empty for none
     FollowerOptions options;   ///< options except the files
-    bool is_tracked = true;    ///< if false, each frame is located independently
-    bool has_overlay = false;  ///< dots and pose are drawn on the frames
+    bool is_tracked = true;    ///< false to locate each frame independently
+    bool has_overlay = false;  ///< true to draw dots and pose on the frames
     Switches switches;
 };
 

@@ -1,4 +1,4 @@
-/// Locates a stream of frames one after the other.
+/// Locates the frames of a stream in sequence.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@ namespace {
 
 using Pair = std::array<double, 2>;
 
-/// Returns a property that is a point of the image, as (u, v).
+/// Defines a property whose value is a point of the image, as (u, v).
 template <typename Member>
 void define_point(py::class_<Camera>& camera, const char* name, Member member, const char* doc) {
     camera.def_property(

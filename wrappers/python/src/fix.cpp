@@ -128,7 +128,8 @@ py::list bits(const SeenFix& self) {
     return all.list();
 }
 
-/// Returns a field of the evidence for Python. Without a pose, numbers are 0 or NaN.
+/// Returns a field of the evidence for Python. If `is_known` is false, integers are 0 and
+/// floating-point numbers NaN.
 template <typename Value>
 py::object evidence(bool is_known, Value value) {
     if constexpr (std::is_enum_v<Value>)

@@ -28,9 +28,10 @@ struct SeenFix {
     std::optional<OtherPlace> other;
     /// The reference point of the pose, in 2^-8 px from the image centre.
     FixedVec reference_q8;
-    std::shared_ptr<StageSource> source;   ///< the locator of the frame
-    std::uint64_t number = 0;              ///< number of the frame, among the frames of `source`
-    std::string fault;                     ///< option outside of its range; empty if none is
+    std::shared_ptr<StageSource> source;  ///< the locator of the frame
+    std::uint64_t number = 0;             ///< number of the frame, among the frames of `source`
+    /// Message about an option that is out of range; empty if all are valid.
+    std::string fault;
     std::shared_ptr<const Stages> stages;  ///< null until requested
 
     bool is_ok() const { return fix.status == Status::ok; }

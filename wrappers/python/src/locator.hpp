@@ -15,15 +15,15 @@ namespace dotpose::python {
 
 /// The known properties of the code and the camera.
 struct LocatorSetup {
-    std::optional<CodeVariant> code;  ///< none: found from all frames
+    std::optional<CodeVariant> code;  ///< none: the code is detected from all frames
     std::optional<Camera> camera;
     std::optional<PixelPoint> reference_px;
     DeviceOptions options;
     bool keep_stages = false;
 };
 
-/// Locates frames one after the other. Threads may share a locator: they wait for each other with
-/// the GIL released.
+/// Locates frames in sequence. Threads may share a locator: they wait for each other with the GIL
+/// released.
 class LocatorOfPython : public StageSource, public std::enable_shared_from_this<LocatorOfPython> {
   public:
     explicit LocatorOfPython(const LocatorSetup& setup);

@@ -36,8 +36,8 @@ class Stages {
     std::vector<GridCell> cells_;
 };
 
-/// Interface of objects that locate frames one after the other and can return the stages of the
-/// newest frame.
+/// Interface of objects that locate frames in sequence and can return the stages of the newest
+/// frame.
 class StageSource {
   public:
     virtual ~StageSource() = default;

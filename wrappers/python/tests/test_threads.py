@@ -51,7 +51,7 @@ def test_threads_may_share_a_locator(images):
 
 
 def test_the_interpreter_goes_on_while_a_thread_locates():
-    """Another thread records the time repeatedly, also while a frame is located."""
+    """Another thread records the time repeatedly, including while a frame is located."""
     image = dotpose.simulate(1, seed=8, width_px=4096, height_px=4096)[0].image
     locator = dotpose.Locator("anoto")
     noted = []

@@ -15,7 +15,7 @@ namespace dotpose::core_test {
 
 using namespace core;
 
-/// Lines of the code from a position on, and the odds of their bits.
+/// Consecutive lines of the code, starting at a position, and the odds of their bits.
 struct RatiosCase {
     CodeVariant code;
     std::uint32_t position;
@@ -80,8 +80,8 @@ inline PlacesOfAlternative own_places(const RatiosCase& c) {
     return places;
 }
 
-/// Returns the rolls of the lines from these places on, shifted to give line `shared` the roll of
-/// the reading.
+/// Returns the rolls of the lines that start at these places, shifted to give line `shared` the
+/// roll of the reading.
 inline std::vector<int> rolls_from(const RatiosCase& c, const PlacesOfAlternative& places,
                                    std::size_t shared) {
     const auto texts = code_test::secondary_texts(c.code);

@@ -39,7 +39,7 @@ class AlikeFrame {
                 const int u = kMiddle_u + kSpacing_px * column + 2 * dx(symbol);
                 const int v = kMiddle_v + kSpacing_px * row + 2 * dy(symbol);
                 add(dot, u, v);
-                // Windows locate dots with an error of a tenth of a pixel.
+                // Simulates a centroid error of 0.1 px along each axis.
                 const Vec2 found{u - kMiddle_u + phase.x + 0.1, v - kMiddle_v + phase.y - 0.1};
                 owned_.add({column, row}, symbol, found);
                 truth_.push_back({u - kMiddle_u + phase.x, v - kMiddle_v + phase.y});
