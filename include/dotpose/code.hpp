@@ -13,9 +13,10 @@
 #include <cstdint>
 #include <span>
 
+#include "dotpose/export.hpp"
 #include "dotpose/status.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -136,4 +137,4 @@ int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

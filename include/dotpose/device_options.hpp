@@ -7,8 +7,9 @@
 #include <cstdint>
 
 #include "dotpose/code.hpp"
+#include "dotpose/export.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -136,4 +137,4 @@ struct DeviceOptions {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

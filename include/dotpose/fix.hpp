@@ -7,10 +7,11 @@
 #include <numbers>
 
 #include "dotpose/code.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/geometry.hpp"
 #include "dotpose/status.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -110,4 +111,4 @@ struct Fix {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

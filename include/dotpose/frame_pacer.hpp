@@ -13,9 +13,10 @@
 
 #include <cstdint>
 
+#include "dotpose/export.hpp"
 #include "dotpose/fix.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -71,4 +72,4 @@ class FramePacer {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

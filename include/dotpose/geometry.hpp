@@ -6,9 +6,10 @@
 
 #include <cstdint>
 
+#include "dotpose/export.hpp"
 #include "dotpose/language.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -36,4 +37,4 @@ struct PlaneFromImage {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

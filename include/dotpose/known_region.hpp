@@ -10,8 +10,9 @@
 #include <cstdint>
 
 #include "dotpose/code.hpp"
+#include "dotpose/export.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -36,4 +37,4 @@ enum class OtherSheets : std::uint8_t {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

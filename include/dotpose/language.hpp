@@ -2,6 +2,7 @@
 /// first compiler error is a clear message.
 #pragma once
 
-#if __cplusplus < 202002L
+// Microsoft's compiler sets __cplusplus to the version only with the option /Zc:__cplusplus.
+#if __cplusplus < 202002L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
 #error "dotpose needs C++20: compile with -std=c++20, GCC 12 or clang 14 or later"
 #endif

@@ -20,6 +20,7 @@
 
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/device_options.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/known_region.hpp"
@@ -28,7 +29,7 @@
 #include "dotpose/prediction.hpp"
 #include "dotpose/trace.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -221,4 +222,4 @@ class DeviceLocator : public RowLocator {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -9,8 +9,9 @@
 
 #include "dotpose/code.hpp"
 #include "dotpose/device_options.hpp"
+#include "dotpose/export.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -117,4 +118,4 @@ inline LocatorOptions::operator DeviceOptions() const {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -6,9 +6,10 @@
 #include <array>
 #include <cstddef>
 
+#include "dotpose/export.hpp"
 #include "dotpose/language.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -93,4 +94,4 @@ using DeviceMemory = DeviceMemoryFor<188, 120>;
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -4,8 +4,9 @@
 #include <cstdint>
 
 #include "dotpose/device_options.hpp"
+#include "dotpose/export.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -22,4 +23,4 @@ OptionFault option_fault(const DeviceOptions& options) noexcept;
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -18,9 +18,10 @@
 #include <numbers>
 
 #include "dotpose/code.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/fix.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -91,4 +92,4 @@ class PacketReader {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

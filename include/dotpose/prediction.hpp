@@ -11,10 +11,11 @@
 
 #include <cstdint>
 
+#include "dotpose/export.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/geometry.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -46,4 +47,4 @@ Prediction moved(const Prediction& prediction, CodeVariant code, FixedVec by_q16
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -4,9 +4,10 @@
 
 #include <cstdint>
 
+#include "dotpose/export.hpp"
 #include "dotpose/language.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -59,4 +60,4 @@ const char* message(Status status) noexcept;
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

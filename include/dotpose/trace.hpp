@@ -18,10 +18,11 @@
 
 #include "dotpose/code.hpp"
 #include "dotpose/device_options.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/geometry.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -148,4 +149,4 @@ struct Trace {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -26,10 +26,11 @@
 #include <numbers>
 
 #include "dotpose/device_options.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/prediction.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -248,4 +249,4 @@ class Tracker {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

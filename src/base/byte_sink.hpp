@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <string_view>
 
+#include "dotpose/export.hpp"
+
 // Exported, because the tools library derives from this class.
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
 
@@ -25,4 +27,4 @@ class ByteSink {
 
 }  // namespace dotpose::base
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -8,9 +8,10 @@
 #include <filesystem>
 
 #include "base/byte_sink.hpp"
+#include "dotpose/export.hpp"
 
 // Exported, because the tools library uses these declarations.
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
 
@@ -48,4 +49,4 @@ class OutputFile : public ByteSink {
 
 }  // namespace dotpose::base
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

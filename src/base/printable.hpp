@@ -4,8 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include "dotpose/export.hpp"
+
 // Exported, because the tools library uses these functions.
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
 
@@ -20,4 +22,4 @@ std::string with_escaped_controls(std::string_view json);
 
 }  // namespace dotpose::base
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -3,10 +3,11 @@
 
 #include <cstdint>
 
+#include "dotpose/export.hpp"
 #include "dotpose/files/sheet.hpp"
 
 // Exported, because the tools library uses these functions.
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
 
@@ -27,4 +28,4 @@ void validate_region(const char* what, char axis, std::uint32_t first, double co
 
 }  // namespace dotpose::base
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -9,8 +9,10 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "dotpose/export.hpp"
+
 // Exported, because the tools library uses these functions.
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::files {
 
@@ -33,4 +35,4 @@ nlohmann::json parse_json(const std::string& text);
 
 }  // namespace dotpose::files
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "base/byte_sink.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/image.hpp"
 
 // Exported, because the other tools libraries call these functions.
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::png {
 
@@ -35,4 +36,4 @@ std::vector<std::uint8_t> encode(ImageView image);
 
 }  // namespace dotpose::png
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -2,7 +2,8 @@
 //
 //   dotpose_golden_files DIRECTORY [TIMES]
 //
-// For each set, `nominal` (200 frames), `hard` (150) and `vga` (40), or TIMES as many frames, it writes
+// For each set, `nominal` (200 frames), `hard` (150) and `vga` (40), or TIMES as many frames, it
+// writes
 //
 //   SET.frames  a sequence of binary PGM images: each frame, and its next frame
 //   SET.csv     a line for each frame and way of locating; wrappers/golden/README.md describes

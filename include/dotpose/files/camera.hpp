@@ -11,9 +11,10 @@
 #include <string>
 
 #include "dotpose/device_options.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/files/error.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -128,4 +129,4 @@ void use_camera(const Camera& camera, int width_px, int height_px, DeviceOptions
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -9,10 +9,11 @@
 
 #include <filesystem>
 
+#include "dotpose/export.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/files/error.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -38,4 +39,4 @@ void write_camera(const std::filesystem::path& path, const Camera& camera);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -5,8 +5,9 @@
 #include <string_view>
 
 #include "dotpose/code.hpp"
+#include "dotpose/export.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -18,4 +19,4 @@ std::optional<CodeVariant> code_by_name(std::string_view name);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -4,9 +4,10 @@
 
 #include <stdexcept>
 
+#include "dotpose/export.hpp"
 #include "dotpose/language.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -26,4 +27,4 @@ class BadArgument : public Error {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -5,8 +5,9 @@
 #pragma once
 
 #include "dotpose/code.hpp"
+#include "dotpose/export.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -60,4 +61,4 @@ void validate(const Sheet& sheet);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -16,10 +16,11 @@
 #include <span>
 
 #include "dotpose/code.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/fix.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -65,4 +66,4 @@ PoseCovariance world_covariance(const PoseCovariance& on_sheet, double sheet_yaw
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -4,9 +4,10 @@
 #include <filesystem>
 #include <string_view>
 
+#include "dotpose/export.hpp"
 #include "dotpose/language.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -24,4 +25,4 @@ std::filesystem::path without_links(std::filesystem::path path);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -19,13 +19,14 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/export.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/grey_image.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -274,4 +275,4 @@ Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEn
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -24,12 +24,13 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/export.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/tools/image_file.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -217,4 +218,4 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& options);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -15,13 +15,14 @@
 #include <span>
 #include <string>
 
+#include "dotpose/export.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/files/sheet_place.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/trace.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -114,4 +115,4 @@ void draw_sweep(std::ostream& out, const Sweep& sweep);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "dotpose/device_options.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/tools/grey_image.hpp"
@@ -29,7 +30,7 @@
 #include "dotpose/tools/truth.hpp"
 #include "dotpose/trace.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -76,4 +77,4 @@ std::vector<std::vector<Outcome>> evaluate(const FrameRun& run);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

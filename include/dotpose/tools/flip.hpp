@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "dotpose/export.hpp"
 #include "dotpose/tools/grey_image.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -29,4 +30,4 @@ inline GreyImage flipped(ImageView image) {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "dotpose/code_evidence.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/files/sheet_place.hpp"
 #include "dotpose/locate.hpp"
@@ -24,7 +25,7 @@
 #include "dotpose/tools/mounted_pose.hpp"
 #include "dotpose/track.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -164,4 +165,4 @@ class Follower {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

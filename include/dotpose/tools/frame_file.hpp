@@ -3,10 +3,11 @@
 
 #include <filesystem>
 
+#include "dotpose/export.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/image_file.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -18,4 +19,4 @@ inline GreyImage read_frame(const std::filesystem::path& path) {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "dotpose/export.hpp"
 #include "dotpose/image.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -26,4 +27,4 @@ struct GreyImage {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

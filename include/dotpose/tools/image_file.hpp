@@ -24,10 +24,11 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/export.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/tools/grey_image.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -102,4 +103,4 @@ void write_png(const std::filesystem::path& path, ImageView image);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -17,9 +17,10 @@
 #include <span>
 #include <string>
 
+#include "dotpose/export.hpp"
 #include "dotpose/tools/ros_messages.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -68,4 +69,4 @@ class McapFile {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -18,12 +18,13 @@
 #include <utility>
 #include <vector>
 
+#include "dotpose/export.hpp"
 #include "dotpose/status.hpp"
 #include "dotpose/tools/protocol.hpp"
 #include "dotpose/tools/score.hpp"
 #include "dotpose/tools/truth.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -105,4 +106,4 @@ void write_measurement(const std::filesystem::path& folder, const Measurement& m
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -9,12 +9,13 @@
 #include <array>
 #include <optional>
 
+#include "dotpose/export.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/trace.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -60,4 +61,4 @@ bool contradicts(double measured_mm, double spacing_mm);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -11,10 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/export.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/sheet.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -93,4 +94,4 @@ OpticsReport design_optics(const Optics& optics);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -5,8 +5,9 @@
 #include <string>
 
 #include "dotpose/device_options.hpp"
+#include "dotpose/export.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -23,4 +24,4 @@ std::string fault_text(const DeviceOptions& options);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

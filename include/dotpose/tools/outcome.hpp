@@ -3,10 +3,11 @@
 
 #include <string>
 
+#include "dotpose/export.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/tools/truth.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -40,4 +41,4 @@ struct Outcome {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -15,9 +15,10 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/export.hpp"
 #include "dotpose/tools/print.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -86,4 +87,4 @@ OverlayReport overlay_pdf(const std::filesystem::path& in, const std::filesystem
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -18,10 +18,11 @@
 #include <string_view>
 #include <vector>
 
+#include "dotpose/export.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/sheet.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -171,4 +172,4 @@ void write_page(const PrintPage& page, const std::filesystem::path& path,
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

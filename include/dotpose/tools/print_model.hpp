@@ -1,9 +1,10 @@
 /// Print model: the displacement of printed ink from its intended place.
 #pragma once
 
+#include "dotpose/export.hpp"
 #include "dotpose/tools/simulate.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -29,4 +30,4 @@ class PrintModel {
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

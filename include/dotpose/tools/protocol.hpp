@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "dotpose/device_options.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/tools/evaluate.hpp"
 #include "dotpose/tools/print_model.hpp"
 #include "dotpose/tools/simulate.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -75,4 +76,4 @@ void write_protocol(const std::filesystem::path& folder, const Protocol& protoco
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

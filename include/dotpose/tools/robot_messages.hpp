@@ -23,11 +23,12 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/export.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/tools/follower.hpp"
 #include "dotpose/tools/ros_messages.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::ros {
 
@@ -125,4 +126,4 @@ std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFr
 
 }  // namespace dotpose::ros
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -14,9 +14,10 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/export.hpp"
 #include "dotpose/language.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::ros {
 
@@ -162,4 +163,4 @@ const MessageType& type_of(const CompressedImage& message);
 
 }  // namespace dotpose::ros
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

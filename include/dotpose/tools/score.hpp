@@ -8,10 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "dotpose/export.hpp"
 #include "dotpose/status.hpp"
 #include "dotpose/tools/outcome.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -56,4 +57,4 @@ std::vector<std::pair<std::string, std::string>> described(const Score& score);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -25,12 +25,13 @@
 #include <vector>
 
 #include "dotpose/code.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/tools/grey_image.hpp"
 #include "dotpose/tools/random.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -284,4 +285,4 @@ GreyImage render_scene(Scene scene, const Shot& shot, double density = 0.5);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

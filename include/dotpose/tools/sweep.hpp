@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "dotpose/device_options.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/tools/evaluate.hpp"
 #include "dotpose/tools/score.hpp"
 #include "dotpose/tools/simulate.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -72,4 +73,4 @@ void write_sweep(const std::filesystem::path& folder, const Sweep& sweep);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

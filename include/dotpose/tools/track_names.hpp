@@ -3,9 +3,10 @@
 
 #include <string>
 
+#include "dotpose/export.hpp"
 #include "dotpose/track.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -17,4 +18,4 @@ std::string event_names(const TrackEvents& events);
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "dotpose/code.hpp"
+#include "dotpose/export.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/tools/simulate.hpp"
 
-#pragma GCC visibility push(default)
+DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
@@ -64,4 +65,4 @@ std::vector<TruthRow> read_truth(const std::filesystem::path& path,
 
 }  // namespace dotpose
 
-#pragma GCC visibility pop
+DOTPOSE_END_EXPORT
