@@ -13,7 +13,7 @@ BUILD = env -u MAKEFLAGS cmake --build --preset
 RELEASE = build/release
 
 .DEFAULT_GOAL := release
-.PHONY: release setup demo test quick asan fuzz bench parsers accuracy budget portable python wasm web api format lint check install clean
+.PHONY: release setup demo test quick asan fuzz bench parsers accuracy budget portable python wasm web api docs format lint check install clean
 
 # The groups of scripts/setup that each target needs.
 release: GROUPS = live
@@ -27,6 +27,7 @@ budget portable: GROUPS = firmware
 wasm web: GROUPS = wasm tests
 python: GROUPS = python
 api: GROUPS = api
+docs: GROUPS = docs
 lint format: GROUPS = format
 check: GROUPS = format tools
 parsers: GROUPS = tests
@@ -125,11 +126,18 @@ python: $(RELEASE)/build.ninja
 	build/python/venv/bin/python wrappers/python/examples/first.py
 	@echo 'Begin: . build/python/venv/bin/activate'
 
-# API pages of the public headers in build/api. Fails if there are warnings.
+# API pages of the public headers in build/docs/cpp. Fails if there are warnings.
 api: setup
 	mkdir -p build
 	DOTPOSE_VERSION=$$(sed -n 's/^#define DOTPOSE_VERSION "\(.*\)"/\1/p' include/dotpose/version.hpp) \
 	    doxygen cmake/Doxyfile
+
+# API pages of all languages, with the start page build/docs/index.html.
+docs: $(RELEASE)/build.ninja api
+	$(BUILD) release -j $(JOBS) --target dotpose_python
+	PYTHONPATH=$(RELEASE)/wrappers/python $(PYTHON) -m sphinx -q -W -b html wrappers/python/docs build/docs/python
+	cd wrappers/wasm && npm ci --no-audit --no-fund && npx typedoc
+	cp docs/api.html build/docs/index.html
 
 format: setup
 	scripts/format
@@ -141,6 +149,7 @@ lint: setup
 	scripts/check-names
 	scripts/check-design
 	scripts/generate-fields --check
+	scripts/check-recipes
 	if command -v doxygen >/dev/null; then $(MAKE) api SETUP=true; fi
 
 check: lint $(RELEASE)/build.ninja

@@ -10,7 +10,6 @@
 namespace dotpose::core {
 
 using Word = std::size_t;
-static_assert(std::endian::native == std::endian::little);
 
 /// Returns the word with this value in every byte.
 constexpr Word in_all_bytes(std::uint8_t byte) {
@@ -25,6 +24,8 @@ inline constexpr Word kTops = in_all_bytes(0x80);
 inline Word word_at(const std::uint8_t* pixels) {
     Word word = 0;
     std::memcpy(&word, __builtin_assume_aligned(pixels, sizeof(Word)), sizeof word);
+    if constexpr (std::endian::native == std::endian::big)
+        word = sizeof word == 8 ? __builtin_bswap64(word) : __builtin_bswap32(word);
     return word;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/math/exponential.hpp"
 #include "core/math/symmetric2.hpp"
 
 namespace dotpose::core {
@@ -58,7 +59,7 @@ void weigh(PosteriorsByKind& kinds) {
     float sum = 0;
     for (PosteriorOfKind& kind : kinds) {
         kind.probability *=
-            std::sqrt(kind.precision.determinant()) * std::exp((nearest - kind.distance) / 2);
+            std::sqrt(kind.precision.determinant()) * natural_exp((nearest - kind.distance) / 2);
         sum += kind.probability;
     }
     for (PosteriorOfKind& kind : kinds)

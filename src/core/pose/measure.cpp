@@ -1,12 +1,12 @@
 #include "core/pose/measure.hpp"
 
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include "core/detect/surroundings.hpp"
 #include "core/detect/undistort.hpp"
 #include "core/lattice/regularity.hpp"
+#include "core/math/exponential.hpp"
 #include "core/math/plane.hpp"
 #include "core/math/vectors.hpp"
 #include "core/pose/tuning.hpp"
@@ -196,7 +196,7 @@ struct AxisProfile {
         for (int i = first; i <= last; ++i, ++count) {
             const float d = static_cast<float>(i * 256 - middle_q8) / static_cast<float>(sigma_q8);
             distance[count] = d;
-            profile[count] = std::exp(-d * d / 2);
+            profile[count] = natural_exp(-d * d / 2);
             from_pixel[count] = static_cast<float>(i - pixel);
         }
         for (Values* values : {&distance, &profile, &from_pixel})

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/math/exponential.hpp"
 #include "core/math/vectors.hpp"
 #include "core/pose/dot_offsets.hpp"
 #include "core/pose/tuning.hpp"
@@ -184,7 +185,7 @@ class Search {
         per_spacing_ = static_cast<float>(lines_) / length;
         // If outliers are frequent, for example in printed text, outliers beyond a line are only
         // weak evidence that the paper is displaced there.
-        off_plane_ = std::log((outliers + 1) / static_cast<float>(count_ + 1));
+        off_plane_ = natural_log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
             sums_[k] = sums_of(dots_[k]);
         fit_affine();
@@ -267,7 +268,7 @@ class Search {
         const float remaining = affine_.squares() - explained;
         const float dots = weight_ * all_.dots();
         if (!(dots * explained > min_gain * remaining)) return 0;
-        return dots * std::log(affine_.squares() / remaining);
+        return dots * natural_log(affine_.squares() / remaining);
     }
 
     /// Returns the log odds of the dots of a part, for a plane fitted to this part alone.

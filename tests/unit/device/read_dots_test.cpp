@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -27,7 +28,8 @@ TEST(ReadDots, LooksAtAllCellsInView) {
         tracking.stride_px = 188;
         tracking.first_cell = 2;
         tracking.last_cell = 29;
-        const double angle = round < 4 ? round * M_PI / 2 : rng.uniform(-M_PI, M_PI);
+        const double angle = round < 4 ? round * std::numbers::pi / 2
+                                       : rng.uniform(-std::numbers::pi, std::numbers::pi);
         const double spacing_px = rng.uniform(8.6, 13);
         const double along = spacing_px * 65536 * std::cos(angle);
         const double across = spacing_px * 65536 * std::sin(angle);

@@ -1,4 +1,4 @@
-"""Computes the pose of a camera over a sheet printed with tiny dots, to microns.
+"""Computes the pose of a camera over a sheet printed with tiny dots, to microns::
 
     import dotpose
 

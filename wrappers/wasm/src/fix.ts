@@ -22,6 +22,7 @@ export interface Fix extends FixFields {
     message: string;
     /** Covariance of x, y and theta, in mm and rad: nine numbers, row by row. */
     covariance: Float32Array;
+    /** Section in which `cell` was read. */
     section: Section;
     /** Grid intersection to the upper left of the pose. */
     cell: Cell;
@@ -98,8 +99,20 @@ function planeOf(fix: Fix): Plane {
     };
 }
 
-/** Returns the point of the pattern, in mm, at an image point. The fix must be ok. */
-export function patternFromImage(fix: Fix, u_px: number, v_px: number): { x_mm: number; y_mm: number } {
+/**
+ * Returns the point of the pattern at an image point, in px from the centre of the first pixel.
+ * The fix must be ok.
+ */
+export function patternFromImage(
+    fix: Fix,
+    u_px: number,
+    v_px: number,
+): {
+    /** Position in the pattern frame, to the right. */
+    x_mm: number;
+    /** Position in the pattern frame, downwards. */
+    y_mm: number;
+} {
     const plane = planeOf(fix);
     const u = u_px - plane.centre[0];
     const v = v_px - plane.centre[1];
@@ -113,8 +126,17 @@ export function patternFromImage(fix: Fix, u_px: number, v_px: number): { x_mm: 
     };
 }
 
-/** Returns the image point, in px, of a point of the pattern. The fix must be ok. */
-export function imageFromPattern(fix: Fix, x_mm: number, y_mm: number): { u_px: number; v_px: number } {
+/** Returns the image point of a point of the pattern. The fix must be ok. */
+export function imageFromPattern(
+    fix: Fix,
+    x_mm: number,
+    y_mm: number,
+): {
+    /** Distance from the centre of the first pixel, to the right. */
+    u_px: number;
+    /** Distance from the centre of the first pixel, downwards. */
+    v_px: number;
+} {
     const plane = planeOf(fix);
     const x = x_mm / fix.spacing_mm - plane.place.x - plane.at_centre[0];
     const y = y_mm / fix.spacing_mm - plane.place.y - plane.at_centre[1];

@@ -9,6 +9,18 @@ export {
     type Image,
     type LocatorOptions,
 } from "./locator.js";
-export type { Attempt, Cell, Code, KnownRegion, Prior, Section, Surface } from "./names.js";
+export {
+    kAttempts,
+    kCodes,
+    kPriors,
+    kSurfaces,
+    type Attempt,
+    type Cell,
+    type Code,
+    type KnownRegion,
+    type Prior,
+    type Section,
+    type Surface,
+} from "./names.js";
 export { kDisplacements, patternBits, type PatternPart } from "./pattern.js";
 export { WorkerLocator, type Located } from "./worker_locator.js";

@@ -7,8 +7,11 @@ import { codeNumber, type Code, type KnownRegion } from "./names.js";
 
 /** An 8-bit grey image with dark dots on light paper. Row v begins at `data[v * stride]`. */
 export interface Image {
+    /** Grey levels, row by row. 0 is black. */
     data: Uint8Array | Uint8ClampedArray;
+    /** Width in px. */
     width: number;
+    /** Height in px. */
     height: number;
     /** Distance of the beginnings of rows, in bytes. Default: `width`. */
     stride?: number;
@@ -72,8 +75,9 @@ const kRegionBytes = 20;
 const kMaxDots = 16384;
 const kPointerBytes = 4;
 
-/** Minimum and maximum width and height of an image. With known sheets the minimum is 24. */
+/** Minimum width and height, in px, of an image that can be located. With `sheets`, 24. */
 export const kMinFrameSide_px = 64;
+/** Maximum width and height, in px, of an image that can be located. */
 export const kMaxFrameSide_px = 4096;
 
 /**

@@ -1,5 +1,6 @@
 // Names of the enumeration values in wrappers/c/dotpose.h.
 
+/** All values of `Code`, indexed by their numbers in C. */
 export const kCodes = ["anoto", "libdots", "microdots"] as const;
 /** Code variants in which sheets are printed. Use `anoto` for new sheets. */
 export type Code = (typeof kCodes)[number];
@@ -11,27 +12,34 @@ export function codeNumber(code: Code): number {
     return number;
 }
 
+/** All values of `Attempt`, indexed by their numbers in C. */
 export const kAttempts = ["tracked", "first", "second", "device"] as const;
 /** Attempt that produced a fix. `tracked` if the prediction was confirmed. */
 export type Attempt = (typeof kAttempts)[number];
 
+/** All values of `Surface`, indexed by their numbers in C. */
 export const kSurfaces = ["even", "divided", "uneven"] as const;
 /** Flatness of the paper in view, as determined from the dots. */
 export type Surface = (typeof kSurfaces)[number];
 
+/** All values of `Prior`, indexed by their numbers in C. */
 export const kPriors = ["plane", "sheets", "only_sheets"] as const;
 /** The places that counted as possible for `p_wrong`. */
 export type Prior = (typeof kPriors)[number];
 
 /** Section of the code, 0 to 62 per axis. There are 63 x 63 sections, each with all cells. */
 export interface Section {
+    /** Roll of column 0: the offset at which the main sequence starts, 0 to 62. */
     u: number;
+    /** Roll of row 0, 0 to 62. */
     v: number;
 }
 
 /** An intersection of the grid: column x and row y, 0 to 410,815,347. */
 export interface Cell {
+    /** Column, which increases to the right. */
     x: number;
+    /** Row, which increases downwards. */
     y: number;
 }
 
@@ -43,6 +51,8 @@ export interface KnownRegion {
     section?: Section;
     /** Upper left intersection. */
     first: Cell;
+    /** Number of columns of intersections, at least 1. */
     columns: number;
+    /** Number of rows of intersections, at least 1. */
     rows: number;
 }

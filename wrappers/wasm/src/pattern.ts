@@ -3,22 +3,30 @@ import { coreModule } from "./core.js";
 import { Instance, type WasmSource } from "./instance.js";
 import { codeNumber, type Cell, type Code, type Section } from "./names.js";
 
-/** A rectangle of the code. `cell` is its upper left corner. */
+/** A rectangle of the code. */
 export interface PatternPart {
     /** Default: "anoto". */
     code?: Code;
     /** Default: 0, 0. */
     section?: Section;
+    /** Upper left intersection. */
     cell: Cell;
+    /** Number of columns of intersections, 1 to 65535. */
     columns: number;
+    /** Number of rows of intersections, 1 to 65535. */
     rows: number;
 }
 
 /**
  * Displacements of a dot from its intersection, indexed by symbol, in units of the displacement
- * length. y points down.
+ * length.
  */
-export const kDisplacements: readonly { dx: number; dy: number }[] = [
+export const kDisplacements: readonly {
+    /** Displacement to the right: -1, 0 or 1. */
+    dx: number;
+    /** Displacement downwards: -1, 0 or 1. */
+    dy: number;
+}[] = [
     { dx: 0, dy: -1 },
     { dx: -1, dy: 0 },
     { dx: 1, dy: 0 },

@@ -11,6 +11,7 @@ export interface SheetOptions {
     code?: Code;
     /** Default: 0, 0. */
     section?: Section;
+    /** Spacing of the printed grid. Default: 0.508. */
     spacing_mm?: number;
     /** Distance of the centre of a dot from its intersection. Default: a sixth of the spacing. */
     displacement_mm?: number;
@@ -18,16 +19,19 @@ export interface SheetOptions {
     dot_mm?: number;
     /** Cell of the upper left dot. Should be different for each sheet. Default: 0, 0. */
     origin?: Cell;
-    /** Default: A4 portrait. */
+    /** Width of the page, at most 100,000. Default: 210. */
     width_mm?: number;
+    /** Height of the page, at most 100,000. Default: 297. */
     height_mm?: number;
-    /** Margin without ink on all sides. */
+    /** Margin without ink on all sides. Default: 5. */
     margin_mm?: number;
 }
 
 /** Size and optics of the simulated camera. The defaults describe the device in the paper. */
 export interface Camera {
+    /** Width of the image, 1 to 16384. Default: 188. */
     width_px?: number;
+    /** Height of the image, 1 to 16384. Default: 120. */
     height_px?: number;
     /** Size of a pixel on the paper at the image centre. Default: 0.046. */
     mm_per_px?: number;
@@ -42,8 +46,9 @@ export interface Camera {
 
 /** Pose of the simulated camera. */
 export interface CameraPose {
-    /** Pattern point at the image centre. */
+    /** Position of the pattern point at the image centre, to the right. */
     x_mm: number;
+    /** Position of the pattern point at the image centre, downwards. */
     y_mm: number;
     /** Angle of the image's x axis in the pattern, clockwise as seen on the paper. */
     theta_rad?: number;
@@ -73,10 +78,16 @@ export interface Imperfections {
     vignetting?: number;
     /** Change of light from one side to the other, 0 to 2. */
     fall?: number;
+    /** Direction in which the light decreases, from the image x axis towards the y axis (down). */
     fall_direction_rad?: number;
+    /** Standard deviation of the Gaussian blur, 0 to 100. */
     blur_sigma_px?: number;
-    /** Motion in the image during the exposure. */
+    /**
+     * Motion of the scene in the image during the exposure, to the right. The pose applies to the
+     * middle of the exposure. The length of the motion is at most 100 px.
+     */
     motion_x_px?: number;
+    /** Motion of the scene in the image during the exposure, downwards. */
     motion_y_px?: number;
     /** Standard deviation of the noise, in grey levels. */
     noise_sigma?: number;
@@ -104,8 +115,11 @@ export interface Scene {
     page_seed?: number;
     /** Reflectance of the table, relative to paper. Default: 0.2. */
     table_reflectance?: number;
+    /** Size and optics of the camera. Default: the device in the paper. */
     camera?: Camera;
+    /** Pose of the camera on the page. */
     pose: CameraPose;
+    /** Effects of printer, paper, light and sensor. Default: none. */
     imperfections?: Imperfections;
     /** Seed of noise and dirt. Default: 1. */
     seed?: number;

@@ -11,10 +11,13 @@ export type { Image } from "./locator.js";
 
 /** Layout of the dots of a sheet. */
 export interface SheetLayout {
+    /** Number of columns of dots, at least 8. */
     columns: number;
+    /** Number of rows of dots, at least 8. */
     rows: number;
-    /** Position of the first intersection, from the upper left corner of the page. */
+    /** Distance of the first intersection from the left edge of the page. */
     origin_x_mm: number;
+    /** Distance of the first intersection from the upper edge of the page. */
     origin_y_mm: number;
 }
 
@@ -23,9 +26,13 @@ export interface SheetLayout {
  * Rows begin at whole bytes.
  */
 export interface Raster {
+    /** Width of the page. */
     width_px: number;
+    /** Height of the page. */
     height_px: number;
+    /** Resolution in pixels per inch, above 0 and at most 19,200. */
     dpi: number;
+    /** The pixels: `height_px` rows of `Math.ceil(width_px / 8)` bytes, from the top. */
     bits: Uint8Array<ArrayBuffer>;
 }
 

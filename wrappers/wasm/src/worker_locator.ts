@@ -5,6 +5,7 @@ import type { FrameOptions, Image, LocatorOptions } from "./locator.js";
 
 /** The answer to one frame. */
 export interface Located {
+    /** The pose computed from the image. */
     fix: Fix;
     /** The image that was sent, to reuse its buffer. */
     image: Image;
