@@ -1,4 +1,6 @@
-"""Computes the pose of a camera over a sheet printed with tiny dots, to microns::
+"""Computes the pose of a camera over a sheet printed with tiny dots, to microns.
+
+A first program::
 
     import dotpose
 

@@ -109,7 +109,8 @@ void define_follower(py::module_& module) {
         .def("__repr__", &text_of_located);
     py::class_<FollowerOfPython>(
         module, "Follower",
-        "Locates images on the sheets of a sheet file and tracks a robot over the sheets::\n\n"
+        "Locates images on the sheets of a sheet file and tracks a robot over the sheets.\n\nFor "
+        "example::\n\n"
         "    follower = dotpose.Follower(dotpose.read_sheets(\"sheets.json\"))\n"
         "    now = follower.follow(image, time_us)\n"
         "    if now.place:\n"
