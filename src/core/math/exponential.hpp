@@ -2,7 +2,6 @@
 /// The functions of C libraries differ in the last bit.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 #include "core/math/odds.hpp"
@@ -34,9 +33,9 @@ inline float natural_exp(float x) {
 /// of the result, whichever is larger.
 inline float natural_log(float x) {
     constexpr float kRootHalf = 0.7071067812F;
-    const auto bits = std::bit_cast<std::int32_t>(x);
+    const auto bits = __builtin_bit_cast(std::int32_t, x);
     int exponent = (bits >> 23) - 126;
-    float mantissa = std::bit_cast<float>((bits & 0x007fffff) | 0x3f000000);  // 0.5 to 1
+    float mantissa = __builtin_bit_cast(float, (bits & 0x007fffff) | 0x3f000000);  // 0.5 to 1
     if (mantissa < kRootHalf) {
         mantissa *= 2;
         --exponent;
