@@ -1,8 +1,6 @@
-/// Macros around declarations whose names a shared library of dotpose exports. All other names are
-/// hidden. On Windows, the build exports all names instead.
+/// Macros around the declarations whose names the shared libraries of dotpose export. All other
+/// names are hidden. For Windows the macros are empty: Mingw-w64 exports all names of a library.
 #pragma once
-
-#include "dotpose/export.hpp"
 
 #if defined(__GNUC__) && !defined(_WIN32)
 #define DOTPOSE_BEGIN_EXPORT _Pragma("GCC visibility push(default)")

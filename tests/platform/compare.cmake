@@ -1,0 +1,8 @@
+# Runs PROGRAM, a list with its arguments, and compares its lines with those of the file EXPECTED.
+execute_process(COMMAND ${PROGRAM} OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
+# Windows ends lines with two characters.
+string(REPLACE "\r" "" lines "${lines}")
+file(READ ${EXPECTED} expected)
+if(NOT lines STREQUAL expected)
+    message(FATAL_ERROR "The lines differ from ${EXPECTED}")
+endif()
