@@ -10,6 +10,7 @@
 #include "dotpose/image.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/locator_options.hpp"
+#include "dotpose/measured_motion.hpp"
 #include "dotpose/memory.hpp"
 #include "dotpose/option_fault.hpp"
 #include "dotpose/pose_packet.hpp"

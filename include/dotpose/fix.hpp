@@ -66,6 +66,9 @@ struct Fix {
     /// Spacing of the printed grid, from the options; 0 if unknown.
     std::int32_t spacing_nm = 508'000;
 
+    /// Number of frames whose bits determined the position. More than 1 only if the camera's motion
+    /// between the frames was given.
+    int frames = 1;
     int dots_seen = 0;  ///< number of blobs of the size of a dot
     int dots_used = 0;  ///< number of dots to which the pose was fitted
     /// Number of bits that contradict the position. Each cell read has two bits.

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <concepts>
+#include <optional>
 #include <span>
 
 #include "dotpose/code_evidence.hpp"
@@ -25,6 +26,7 @@
 #include "dotpose/image.hpp"
 #include "dotpose/known_region.hpp"
 #include "dotpose/locator_options.hpp"
+#include "dotpose/measured_motion.hpp"
 #include "dotpose/memory.hpp"
 #include "dotpose/prediction.hpp"
 #include "dotpose/trace.hpp"
@@ -133,6 +135,15 @@ class Locator : public RowLocator {
     /// prediction must have been made in `options().code`.
     Fix locate(const ImageView& image, const Prediction& prediction);
 
+    /// Locates an image of a camera that has moved by `since_last` since the previous image. If the
+    /// previous image was located, first searches near the place that the motion predicts. If the
+    /// image is not certain alone, reads it together with the previous images, so views that are
+    /// too small or too dirty become certain as the camera moves; `Fix::frames` is their number.
+    /// Images without a pattern may be between them. A call of another function that locates an
+    /// image ends the series. Without the spacing of the printed grid in the options, or if the
+    /// motion is not usable, the image is located alone.
+    Fix locate(const ImageView& image, const MeasuredMotion& since_last);
+
     /// Locates an image whose code variant is not known. Places in all code variants are
     /// alternatives, weighted with the odds in `evidence`. If places of two code variants explain
     /// the frame about equally well, the status is ambiguous_code. Afterwards `options().code` is
@@ -142,6 +153,10 @@ class Locator : public RowLocator {
     /// Locates an image whose code variant is not known, and tries the predicted place first. The
     /// prediction must have been made in `options().code`.
     CodeReading locate_in_any_code(const ImageView& image, const Prediction& prediction,
+                                   const CodeEvidence& evidence);
+
+    /// Locates an image of a moved camera, as `locate` does, whose code variant is not known.
+    CodeReading locate_in_any_code(const ImageView& image, const MeasuredMotion& since_last,
                                    const CodeEvidence& evidence);
 
     /// Locates an image in `options().code`, with the same fix as `locate`. Sets `has_other` in
@@ -172,9 +187,14 @@ class Locator : public RowLocator {
     }
     void set_fixed_options(const DeviceOptions& options);
     core::DesktopWorkspace& workspace();
+    Fix locate_one(const ImageView& image, const Prediction* prediction);
+    CodeReading read_one(const ImageView& image, const Prediction* prediction,
+                         const CodeEvidence& evidence);
+    /// Adds a motion to the series of images. Returns the prediction for the next image, if the
+    /// previous image was located.
+    std::optional<Prediction> begin_motion(const MeasuredMotion& since_last);
+    void end_motion();
     CodeReading finished(CodeReading reading);
-    /// Stores the evidence of a reading and returns its fix.
-    Fix detected(const CodeReading& reading);
     using RowLocator::finished;
 
     LargeMemory* owned_ = nullptr;

@@ -28,6 +28,7 @@
 #include "dotpose/device_options.hpp"
 #include "dotpose/export.hpp"
 #include "dotpose/fix.hpp"
+#include "dotpose/measured_motion.hpp"
 #include "dotpose/prediction.hpp"
 
 DOTPOSE_BEGIN_EXPORT
@@ -83,8 +84,11 @@ struct TrackOptions {
     /// the acceptance. A smaller number may accept a single wrong fix.
     int confirmations = 3;
 
-    /// Time without an accepted sighting after which the robot is lost.
+    /// Time without an accepted sighting and without a motion after which the robot is lost.
     std::int64_t lost_after_us = 70'000;
+    /// Standard deviation of the position, along either axis, above which the robot is lost if only
+    /// motions are known.
+    float max_sigma_mm = 5;
 
     /// A robot whose pose changes by at most these limits, along each axis, for
     /// `stationary_after_us` is stationary.
@@ -209,6 +213,12 @@ class Tracker {
     /// clears the events.
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
+    /// Updates the state with a frame and with the motion since the previous update, from odometry.
+    /// Its displacement is along the axes to which theta of the sightings refers. Without
+    /// sightings, the motions carry the pose on, and its covariance grows by theirs.
+    const Track& update(std::int64_t time_us, const Sighting* sighting,
+                        const MeasuredMotion& motion);
+
     /// Returns the state after the newest frame.
     const Track& track() const { return track_; }
 
@@ -229,8 +239,13 @@ class Tracker {
   private:
     /// Returns the motion with `seen` as its newest sighting, or null if there is none.
     const track::MotionEstimate* following(const Sighting& seen) const;
-    Verdict judge(const track::MotionEstimate& prediction, const Sighting& sighting);
+    const Track& update(std::int64_t time_us, const Sighting* sighting,
+                        const MeasuredMotion* motion);
+    /// Judges a sighting, `dt_s` after the time of `last_` before this frame.
+    Verdict judge(const track::MotionEstimate& prediction, const Sighting& sighting, float dt_s);
     bool is_confirmed(const Sighting& sighting);
+    /// Returns true if neither sightings nor motions determine the pose any longer.
+    bool is_stale() const;
     void restart(const track::MotionEstimate& motion);
     void watch_motion();
 
@@ -238,8 +253,10 @@ class Tracker {
     Track track_;
     bool was_seen_ = false;       ///< true if a sighting was accepted
     bool has_frame_ = false;      ///< true if there was a frame
+    bool is_y_up_ = false;        ///< direction of the y axis in the newest sighting
     std::int64_t newest_us_ = 0;  ///< time of the newest frame
-    track::MotionEstimate last_;  ///< state at the last accepted sighting
+    /// State at the last accepted sighting, or at the last motion after this sighting.
+    track::MotionEstimate last_;
     /// Estimate from the newest sightings that contradict the track. These sightings are filtered
     /// like accepted sightings, because the robot may have been put down elsewhere.
     track::MotionEstimate candidate_;

@@ -190,6 +190,14 @@ inline constexpr auto kMainRepeated = [] {
     return bits;
 }();
 
+/// Returns the 64 bits of the main sequence that begin at `index`. The first bit is the lowest bit.
+constexpr std::uint64_t main_bits(std::size_t index) {
+    std::uint64_t bits = 0;
+    for (std::size_t bit = 0; bit < 64; ++bit)
+        bits |= std::uint64_t{kMain[(index + bit) % kSections]} << bit;
+    return bits;
+}
+
 /// The 32 bits of the main sequence that begin at each index. The first bit is the lowest bit.
 inline constexpr auto kMainWords = [] {
     std::array<std::uint32_t, kSections> words{};

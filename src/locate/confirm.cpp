@@ -57,31 +57,71 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
             Confidence::of_hard_bits(bits.read, bits.wrong_y)};
 }
 
-/// Returns ok if the bits in `block` make the place of the hypothesis certain, and uncertain
+/// Returns true if the bits in `block`, all bits of the frame, make the place of the hypothesis
+/// certain.
+bool is_certain_alone(const Kernels& kernels, const DeviceOptions& options,
+                      const Hypothesis& hypothesis, const CellsInView& view, const BitBlock& block,
+                      const BitsRead& bits, DesktopWorkspace& w) {
+    const auto confidences = confidences_in(bits);
+    OtherCodes* others = wanted_codes(w);
+    if (w.known.are_all() && !shows_sheet(w.known, options.code, hypothesis.place, block))
+        return false;
+    const CodedBlock coded(options.code, hypothesis.place, view, block);
+    if (passes_hard_bit_test(
+            kernels, {coded.axis(Axis::x, confidences[0]), coded.axis(Axis::y, confidences[1])},
+            options.code, options.integrity, w.fix, others)) {
+        return true;
+    }
+    if (w.known.any() &&
+        is_certain_on_sheets(kernels, options, hypothesis.place, block, w.known, w.fix)) {
+        return true;
+    }
+    const Evidence evidence =
+        evidence_of(kernels, options.code, hypothesis.place, block, confidences, w.line_scores);
+    return is_certain(kernels, evidence, options.code, options.integrity, w.fix, others);
+}
+
+/// Returns true if the bits in `block`, together with the bits of earlier frames, make the place of
+/// the hypothesis certain. `grid_from_image` is relative to the image centre.
+bool is_certain_together(const Kernels& kernels, const DeviceOptions& options, const Place& place,
+                         const FloatPlane& grid_from_image, const BitBlock& block,
+                         DesktopWorkspace& w) {
+    // A wrong match of the frames and a wrong place each have half of the permitted probability.
+    DeviceOptions half = options;
+    --half.integrity.max_p_wrong_log2;
+    const int limit_log2 = half.integrity.max_p_wrong_log2;
+    const auto joined = w.earlier.join(block, grid_from_image, limit_log2);
+    if (!joined) return false;
+    const bool is_on_sheet =
+        w.known.any() && is_certain_on_sheets(kernels, half, place, joined->block, w.known, w.fix);
+    if (!is_on_sheet) {
+        if (w.known.are_all()) return false;
+        const Evidence evidence =
+            evidence_of(kernels, options.code, place, joined->block,
+                        compared_with_code(options.code, place, joined->block), w.line_scores);
+        if (!is_certain(kernels, evidence, options.code, half.integrity, w.fix, wanted_codes(w)))
+            return false;
+    }
+    w.fix.p_wrong_log2 = 1 + std::max(w.fix.p_wrong_log2, joined->p_mismatch_log2);
+    w.fix.frames = joined->frames;
+    return true;
+}
+
+/// Returns ok if the bits in `block` make the place of the hypothesis certain, alone or, in an
+/// attempt that reads frames together, with the bits of earlier frames. Returns uncertain
 /// otherwise.
 Confirmation confirm_place(const Kernels& kernels, const DeviceOptions& options,
                            const Hypothesis& hypothesis, const CellsInView& view,
                            const BitBlock& block, const BitsRead& bits, DesktopWorkspace& w) {
     w.decoding.bits = 2 * bits.read;
-    const auto confidences = confidences_in(bits);
-    OtherCodes* others = wanted_codes(w);
-    if (w.known.are_all() && !shows_sheet(w.known, options.code, hypothesis.place, block))
-        return Confirmation::uncertain;
-    const CodedBlock coded(options.code, hypothesis.place, view, block);
-    if (passes_hard_bit_test(
-            kernels, {coded.axis(Axis::x, confidences[0]), coded.axis(Axis::y, confidences[1])},
-            options.code, options.integrity, w.fix, others)) {
-        return Confirmation::ok;
-    }
-    if (w.known.any() &&
-        is_certain_on_sheets(kernels, options, hypothesis.place, block, w.known, w.fix)) {
-        return Confirmation::ok;
-    }
-    const Evidence evidence =
-        evidence_of(kernels, options.code, hypothesis.place, block, confidences, w.line_scores);
-    return is_certain(kernels, evidence, options.code, options.integrity, w.fix, others)
-               ? Confirmation::ok
-               : Confirmation::uncertain;
+    const FloatVec from = hypothesis.from_centre;
+    const FloatPlane grid = recentred(hypothesis.pattern_from_image, {-from.x, -from.y});
+    const bool is_certain =
+        is_certain_alone(kernels, options, hypothesis, view, block, bits, w) ||
+        (w.earlier.is_joining &&
+         is_certain_together(kernels, options, hypothesis.place, grid, block, w));
+    w.earlier.note(block, grid, is_certain);
+    return is_certain ? Confirmation::ok : Confirmation::uncertain;
 }
 
 /// Writes the dots and their bits into the workspace, for the trace.

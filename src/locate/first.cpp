@@ -83,6 +83,20 @@ bool find_turn_and_place(const Kernels& kernels, const DeviceOptions& options,
            find_place(options.code, score_block(kernels, upright, w.line_scores), place);
 }
 
+/// Replaces the bits of the current frame by the bits of all frames, if the frames are read
+/// together. Returns false if their grids do not match.
+bool join_earlier(const DeviceOptions& options, const FloatPlane& grid_from_image,
+                  DesktopWorkspace& w, BitBlock& block) {
+    if (!w.earlier.is_joining) {
+        w.earlier.note(block, grid_from_image, false);
+        return true;
+    }
+    const auto joined =
+        w.earlier.join(block, grid_from_image, options.integrity.max_p_wrong_log2 - 1);
+    if (joined) block = joined->block;
+    return joined.has_value();
+}
+
 /// Finds a place in the code from the dots of a patch. The dots and the hypothesis are relative to
 /// `from_centre`. Returns false if no grid or no place is found.
 bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const PatchView& view,
@@ -93,6 +107,10 @@ bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const
     BitBlock block;
     kernels.read_cells(patch.dots, grid.grid_from_image, grid.displacement, block.columns,
                        block.rows);
+    if (!join_earlier(options, recentred(grid.grid_from_image, {-from_centre.x, -from_centre.y}), w,
+                      block)) {
+        return false;
+    }
     int quarters = 0;
     if (!find_turn_and_place(kernels, options, block, w, quarters, hypothesis.place)) return false;
     hypothesis.pattern_from_image = turned(quarters, grid.grid_from_image);
@@ -257,7 +275,13 @@ bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOp
                   DesktopWorkspace& w) {
     forget_frame(w);
     w.fix.status = Status::no_contrast;
-    const Confirmation confirmation = locate_outwards(kernels, image, options, w);
+    Confirmation confirmation = locate_outwards(kernels, image, options, w);
+    if (confirmation != Confirmation::ok && w.earlier.has_earlier()) {
+        w.earlier.is_joining = true;
+        const Confirmation together = locate_outwards(kernels, image, options, w);
+        w.earlier.is_joining = false;
+        if (together == Confirmation::ok) confirmation = together;
+    }
     w.fix.attempt = Attempt::first;
     if (confirmation == Confirmation::uncertain) w.fix.status = Status::not_certain;
     return confirmation == Confirmation::ok;

@@ -1,9 +1,11 @@
 // Implements the members of Locator: memory, options, evidence for the codes, and pushed rows.
 // locate/locate.cpp contains the attempts.
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "dotpose/locate.hpp"
+#include "locate/after_motion.hpp"
 #include "locate/locate.hpp"
 #include "locate/workspace.hpp"
 
@@ -43,21 +45,54 @@ core::DesktopWorkspace& Locator::workspace() {
     return static_cast<core::DesktopWorkspace&>(*workspace_);
 }
 
+Fix Locator::locate_one(const ImageView& image, const Prediction* prediction) {
+    if (!detects_code_) {
+        core::locate(image, options_, prediction, workspace());
+        return finished();
+    }
+    const CodeReading reading = read_one(image, prediction, evidence_);
+    evidence_ = reading.evidence;
+    return reading.fix;
+}
+
+CodeReading Locator::read_one(const ImageView& image, const Prediction* prediction,
+                              const CodeEvidence& evidence) {
+    return finished(core::locate_in_any_code(image, options_, prediction, evidence, workspace()));
+}
+
+std::optional<Prediction> Locator::begin_motion(const MeasuredMotion& since_last) {
+    core::EarlierBits& earlier = workspace().earlier;
+    if (options_.spacing_nm <= 0 || !since_last.is_usable()) {
+        earlier.clear();
+        return {};
+    }
+    earlier.begin_frame(since_last, core::spacing_mm(options_),
+                        {static_cast<float>(options_.reference_dx_q8) / 256,
+                         static_cast<float>(options_.reference_dy_q8) / 256});
+    const Fix& last = workspace().fix;
+    if (last.status != Status::ok) return {};
+    return core::after(since_last, last, options_);
+}
+
+void Locator::end_motion() {
+    workspace().earlier.end_frame(options_.integrity.max_p_wrong_log2 - 1);
+}
+
 Fix Locator::locate(const ImageView& image) {
-    if (detects_code_) return detected(locate_in_any_code(image, evidence_));
-    core::locate(image, options_, nullptr, workspace());
-    return finished();
+    workspace().earlier.clear();
+    return locate_one(image, nullptr);
 }
 
 Fix Locator::locate(const ImageView& image, const Prediction& prediction) {
-    if (detects_code_) return detected(locate_in_any_code(image, prediction, evidence_));
-    core::locate(image, options_, &prediction, workspace());
-    return finished();
+    workspace().earlier.clear();
+    return locate_one(image, &prediction);
 }
 
-Fix Locator::detected(const CodeReading& reading) {
-    evidence_ = reading.evidence;
-    return reading.fix;
+Fix Locator::locate(const ImageView& image, const MeasuredMotion& since_last) {
+    const auto prediction = begin_motion(since_last);
+    const Fix fix = locate_one(image, prediction ? &*prediction : nullptr);
+    end_motion();
+    return fix;
 }
 
 CodeReading Locator::finished(CodeReading reading) {
@@ -68,15 +103,26 @@ CodeReading Locator::finished(CodeReading reading) {
 }
 
 CodeReading Locator::locate_in_any_code(const ImageView& image, const CodeEvidence& evidence) {
-    return finished(core::locate_in_any_code(image, options_, nullptr, evidence, workspace()));
+    workspace().earlier.clear();
+    return read_one(image, nullptr, evidence);
 }
 
 CodeReading Locator::locate_in_any_code(const ImageView& image, const Prediction& prediction,
                                         const CodeEvidence& evidence) {
-    return finished(core::locate_in_any_code(image, options_, &prediction, evidence, workspace()));
+    workspace().earlier.clear();
+    return read_one(image, &prediction, evidence);
+}
+
+CodeReading Locator::locate_in_any_code(const ImageView& image, const MeasuredMotion& since_last,
+                                        const CodeEvidence& evidence) {
+    const auto prediction = begin_motion(since_last);
+    const CodeReading reading = read_one(image, prediction ? &*prediction : nullptr, evidence);
+    end_motion();
+    return reading;
 }
 
 CodeReading Locator::locate_in_code(const ImageView& image) {
+    workspace().earlier.clear();
     return finished(core::locate_in_code(image, options_, workspace()));
 }
 

@@ -153,6 +153,24 @@ inline constexpr float kMargin_px = 1;
 inline constexpr int kMinWeight = 48;
 }  // namespace known
 
+/// Constants of frames that are read together (locate/earlier_bits). docs/integrity.md, "Frames
+/// read together", explains them.
+namespace joined {
+/// log2 of the likelihood ratios of an equal and of a different bit in the overlap of two frames,
+/// if one bit of 16 is wrong: log2(2 * 15 / 16) and log2(2 * 1 / 16).
+inline constexpr float kEqualBit_log2 = 0.907F;
+inline constexpr float kDifferentBit_log2 = -3;
+/// Weight of the hypothesis that a motion was measured wrongly, beyond its standard deviation.
+inline constexpr float kBlunder_log2 = -36;
+/// Standard deviations of the grid in a frame: of its angle, which a tilt of the camera changes,
+/// and of its place, in spacings.
+inline constexpr float kGridAngle_rad = 0.035F;
+inline constexpr float kGridPhase = 0.06F;
+/// Number of standard deviations, and maximum distance in spacings, of the matches that count.
+inline constexpr float kReach_sigmas = 8;
+inline constexpr float kMaxReach = 24;
+}  // namespace joined
+
 /// Constants of the second attempt (locate/second).
 namespace second {
 /// Factors of the thresholds for the filtered image, in which noise is a third of the original

@@ -15,6 +15,7 @@
 #include "device/workspace.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/prediction.hpp"
+#include "locate/earlier_bits.hpp"
 #include "locate/tuning.hpp"
 
 namespace dotpose::core {
@@ -63,6 +64,7 @@ struct DesktopWorkspace : DeviceWorkspace {
     Smoothing smoothing;
     OtherCodes other_codes;
     KnownSheets known;
+    EarlierBits earlier;
     PushedImage pushed;
     bool is_mirrored = false;  ///< true if an attempt found the mirrored code
 

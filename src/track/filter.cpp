@@ -215,6 +215,90 @@ MotionEstimate predicted(const MotionEstimate& motion, std::int64_t time_us,
     return later;
 }
 
+namespace {
+
+/// A measured motion in the plane of the sightings.
+struct PlaneMotion {
+    Vector3 step{};       ///< mm, mm, rad
+    Vector3 by_theta{};   ///< derivative of `step` with respect to theta
+    Vector3 variances{};  ///< of the measurement, per axis
+};
+
+PlaneMotion in_plane(const MeasuredMotion& measured, std::int32_t theta_bam, bool is_y_up) {
+    const float theta_rad = static_cast<float>(theta_bam) * kRad_per_bam;
+    const float c = std::cos(theta_rad);
+    const float s = std::sin(theta_rad);
+    const float down_mm = is_y_up ? -measured.down_mm : measured.down_mm;
+    const float variance_mm2 = squared(measured.sigma_mm);
+    const float x = c * measured.right_mm - s * down_mm;
+    const float y = s * measured.right_mm + c * down_mm;
+    return {{x, y, is_y_up ? -measured.turn_rad : measured.turn_rad},
+            {-y, x, 0},
+            {variance_mm2, variance_mm2, squared(measured.sigma_rad)}};
+}
+
+}  // namespace
+
+MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measured,
+                       std::int64_t time_us, bool is_y_up, const TrackOptions& options) {
+    const float dt_s = static_cast<float>(time_us - motion.pose.time_us) * 1e-6F;
+    const PlaneMotion seen = in_plane(measured, motion.pose.theta_bam, is_y_up);
+    // The agility was fitted to sightings, so it does not apply between sightings.
+    MotionEstimate later = motion;
+    later.agility = {1, 1, 1};
+    later = predicted(later, time_us, options);
+    later.agility = motion.agility;
+    // The measurement is the new pose minus the old pose. Its error is that of the odometry, plus
+    // g = e_new - e_old - by_theta * (error of the old theta), because the displacement was
+    // measured along axes that are turned by this error.
+    std::array<Vector9, 3> with_old{};  // covariance of the old pose with the new state
+    for (std::size_t k = 0; k < 3; ++k) {
+        with_old[k] = motion.covariance[k];
+        advance([&](std::size_t i) -> float& { return with_old[k][i]; }, dt_s);
+    }
+    std::array<Vector9, 3> with_g{};  // covariance of g with the new state
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t i = 0; i < 9; ++i) {
+            with_g[k][i] =
+                later.covariance[k][i] - with_old[k][i] - seen.by_theta[k] * with_old[2][i];
+        }
+    }
+    Matrix3 s{};  // covariance of the innovation: that of g, plus that of the odometry
+    for (std::size_t k = 0; k < 3; ++k) {
+        Vector3 g_with_old{};  // covariance of g[k] with the old pose
+        for (std::size_t i = 0; i < 3; ++i) {
+            g_with_old[i] = with_old[i][k] - motion.covariance[k][i] -
+                            seen.by_theta[k] * motion.covariance[2][i];
+        }
+        for (std::size_t i = 0; i < 3; ++i)
+            s[k][i] = with_g[k][i] - g_with_old[i] - seen.by_theta[i] * g_with_old[2];
+        s[k][k] += seen.variances[k];
+    }
+    const auto weighted = product(inverse(s), with_g);  // the transpose of the gain
+    const Vector3 expected = difference(motion.pose, later.pose);
+    Vector9 step{};
+    for (std::size_t i = 0; i < 9; ++i) {
+        for (std::size_t k = 0; k < 3; ++k)
+            step[i] += weighted[k][i] * (seen.step[k] - expected[k]);
+    }
+    move(later, step);
+    const Covariance9 before = later.covariance;
+    for (std::size_t i = 0; i < 9; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+            for (std::size_t k = 0; k < 3; ++k)
+                later.covariance[i][j] -= with_g[k][i] * weighted[k][j];
+            later.covariance[j][i] = later.covariance[i][j];
+        }
+        later.covariance[i][i] += kRounding * before[i][i];
+    }
+    // Errors of the odometry have nothing in common with those of the sightings.
+    const float scatter = later.scatter;
+    later.scatter = std::max(scatter, 1.0F);
+    set_pose_covariance(later);
+    later.scatter = scatter;
+    return later;
+}
+
 Vector3 difference(const TrackedPose& a, const TrackedPose& b) {
     constexpr float kMm_per_nm = 1e-6F;
     const std::uint32_t turn =

@@ -22,6 +22,10 @@ MotionEstimate started_at(const Sighting& sighting, const TrackOptions& options)
 MotionEstimate predicted(const MotionEstimate& motion, std::int64_t time_us,
                          const TrackOptions& options);
 
+/// Returns the state predicted for a later time, corrected by a measured motion.
+MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measured,
+                       std::int64_t time_us, bool is_y_up, const TrackOptions& options);
+
 /// Returns b - a in mm, mm and rad in [-pi, pi).
 Vector3 difference(const TrackedPose& a, const TrackedPose& b);
 

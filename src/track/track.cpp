@@ -106,20 +106,38 @@ Sighting sighting_of(const Fix& fix, std::int64_t time_us) {
 }
 
 const Track& Tracker::update(std::int64_t time_us, const Sighting* sighting) {
+    return update(time_us, sighting, nullptr);
+}
+
+const Track& Tracker::update(std::int64_t time_us, const Sighting* sighting,
+                             const MeasuredMotion& motion) {
+    return update(time_us, sighting, motion.is_usable() ? &motion : nullptr);
+}
+
+const Track& Tracker::update(std::int64_t time_us, const Sighting* sighting,
+                             const MeasuredMotion* motion) {
     track_.events = {};
     if (has_frame_ && time_us <= newest_us_) return track_;
     has_frame_ = true;
     newest_us_ = time_us;
     track_.verdict = Verdict::none;
     track_.p_wrong_log2 = 0;
-    const MotionEstimate prediction =
-        was_seen_ ? predicted(last_, time_us, options_) : MotionEstimate{};
+    MotionEstimate prediction;
+    const float dt_s = seconds(last_.pose.time_us, time_us);
+    if (was_seen_ && motion != nullptr && !track_.is_lost) {
+        last_ = prediction = carried(last_, *motion, time_us, is_y_up_, options_);
+    } else if (was_seen_) {
+        prediction = predicted(last_, time_us, options_);
+    }
     track_.pose = prediction.pose;
-    if (sighting != nullptr) track_.verdict = judge(prediction, *sighting);
+    if (sighting != nullptr) {
+        is_y_up_ = sighting->is_y_up;
+        track_.verdict = judge(prediction, *sighting, dt_s);
+    }
     if (track_.verdict != Verdict::accepted && track_.verdict != Verdict::with_prior) {
         track_.p_wrong_log2 = 0;
     }
-    if (!track_.is_lost && time_us - last_.pose.time_us >= options_.lost_after_us) {
+    if (!track_.is_lost && is_stale()) {
         track_.is_lost = track_.events.lost = true;
         track_.is_stationary = false;
     }
@@ -127,7 +145,13 @@ const Track& Tracker::update(std::int64_t time_us, const Sighting* sighting) {
     return track_;
 }
 
-Verdict Tracker::judge(const MotionEstimate& prediction, const Sighting& sighting) {
+bool Tracker::is_stale() const {
+    const float sigma_mm = std::sqrt(std::max(last_.covariance[0][0], last_.covariance[1][1]));
+    return newest_us_ - last_.pose.time_us >= options_.lost_after_us ||
+           !(sigma_mm <= options_.max_sigma_mm);
+}
+
+Verdict Tracker::judge(const MotionEstimate& prediction, const Sighting& sighting, float dt_s) {
     const bool is_weak = sighting.p_wrong_log2 > options_.max_p_wrong_log2;
     track_.p_wrong_log2 = sighting.p_wrong_log2;
     bool is_possible = !was_seen_;
@@ -137,7 +161,6 @@ Verdict Tracker::judge(const MotionEstimate& prediction, const Sighting& sightin
         if (is_possible) restart(started_at(sighting, options_));
     } else {
         const Innovation found = innovation(prediction, sighting, options_);
-        const float dt_s = seconds(last_.pose.time_us, sighting.time_us);
         const Vector3 limits = gate(found, dt_s, options_);
         is_possible = last_.pose.plane == sighting.plane && is_within(found.difference, limits);
         if (is_weak) {

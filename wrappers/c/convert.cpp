@@ -78,6 +78,15 @@ bool is_place(const dotpose_place& place) {
            place.u < std::uint32_t{kSections} && place.v < std::uint32_t{kSections};
 }
 
+dotpose_status to_core(const dotpose_measured_motion& given, MeasuredMotion& motion) {
+    motion = {.right_mm = given.right_mm,
+              .down_mm = given.down_mm,
+              .turn_rad = given.turn_rad,
+              .sigma_mm = given.sigma_mm,
+              .sigma_rad = given.sigma_rad};
+    return motion.is_usable() ? DOTPOSE_OK : DOTPOSE_BAD_VALUE;
+}
+
 Place to_core(const dotpose_place& place) {
     return {{place.x, place.y},
             {static_cast<std::uint8_t>(place.u), static_cast<std::uint8_t>(place.v)}};

@@ -8,6 +8,7 @@
 #include "dotpose.h"
 #include "dotpose/fix.hpp"
 #include "dotpose/locator_options.hpp"
+#include "dotpose/measured_motion.hpp"
 #include "dotpose/prediction.hpp"
 
 namespace dotpose::c {
@@ -56,6 +57,9 @@ Place to_core(const dotpose_place& place);
 
 /// Reads options. Null selects the defaults. Returns BAD_ARGUMENT if an option is out of range.
 dotpose_status to_core(const dotpose_options* given, LocatorOptions& options);
+
+/// Reads a motion. Returns BAD_VALUE if it is not usable.
+dotpose_status to_core(const dotpose_measured_motion& given, MeasuredMotion& motion);
 
 /// Reads a prediction. Returns BAD_VALUE if its place is not in the code.
 dotpose_status to_core(const dotpose_prediction& given, Prediction& prediction);

@@ -89,6 +89,24 @@ dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region*
     return set == Status::ok ? DOTPOSE_OK : DOTPOSE_BAD_VALUE;
 }
 
+dotpose_status dotpose_locate_moved(dotpose_locator* locator, const uint8_t* pixels,
+                                    int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
+                                    const dotpose_measured_motion* since_last, dotpose_fix* fix) {
+    dotpose_status status = c::check(fix);
+    if (status != DOTPOSE_OK) return status;
+    status = check_desktop(locator);
+    c::Frame frame;
+    MeasuredMotion motion;
+    if (status == DOTPOSE_OK)
+        status = c::read_image(pixels, width_px, height_px, stride_bytes, frame);
+    if (status == DOTPOSE_OK && since_last == nullptr) status = DOTPOSE_NULL_POINTER;
+    if (status == DOTPOSE_OK) status = c::to_core(*since_last, motion);
+    if (status != DOTPOSE_OK) return c::refuse(status, *fix);
+    c::drop_frame(*locator);
+    c::to_c(locator->actions->locate_moved(*locator->locator, frame.image, motion), *fix);
+    return fix->status;
+}
+
 dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* pixels,
                                        int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                        const dotpose_prediction* prediction,

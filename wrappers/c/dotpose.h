@@ -269,8 +269,9 @@ typedef struct dotpose_fix {
     float covariance_grid[9]; /* 204 */
     /* Places that counted as possible in p_wrong: DOTPOSE_PRIOR_. */
     int32_t prior; /* 240 */
-    /* Zero. */
-    int32_t reserved; /* 244 */
+    /* Number of frames whose bits determined the position; more than 1 only if the motion between
+     * the frames was given. */
+    int32_t frames; /* 244 */
 } dotpose_fix;
 
 /* Sets up a fix before the first call that writes to it. `bytes` is sizeof(dotpose_fix) in the
@@ -428,6 +429,24 @@ dotpose_status dotpose_locate(dotpose_locator* locator, const uint8_t* pixels, i
                               int32_t height_px, ptrdiff_t stride_bytes,
                               const dotpose_prediction* prediction, dotpose_fix* fix);
 
+/* Motion of the camera since the previous image, from odometry: 20 bytes. */
+typedef struct dotpose_measured_motion {
+    float right_mm;  /*  0: displacement of the reference point along the x axis of that image */
+    float down_mm;   /*  4: along its y axis */
+    float turn_rad;  /*  8: change of theta */
+    float sigma_mm;  /* 12: standard deviation of each displacement; too small values lead to wrong
+                            fixes */
+    float sigma_rad; /* 16: standard deviation of the rotation */
+} dotpose_measured_motion;
+
+/* Locates an image of a camera that has moved by `since_last` since the previous image. Images that
+ * are not certain alone are read together with the previous images; `frames` of the fix is their
+ * number. Any other function that locates an image ends the series. The spacing must be set in the
+ * options. Not for devices: WRONG_KIND. */
+dotpose_status dotpose_locate_moved(dotpose_locator* locator, const uint8_t* pixels,
+                                    int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
+                                    const dotpose_measured_motion* since_last, dotpose_fix* fix);
+
 /* Returns the code of the options or, if it is detected, the code of the last image. Move
  * predictions of the fix of that image with this code, and pass it to dotpose_packet_of. */
 dotpose_status dotpose_code_of(const dotpose_locator* locator, int32_t* code);
@@ -510,7 +529,7 @@ typedef struct dotpose_tracker {
     uint64_t state[216];
 } dotpose_tracker;
 
-/* Motion of the robot, and limits for accepting sightings: 80 bytes. Comments give the defaults. */
+/* Motion of the robot, and limits for accepting sightings: 88 bytes. Comments give the defaults. */
 typedef struct dotpose_track_options {
     uint32_t size;                         /*  0: set by dotpose_track_options_init */
     float acceleration_mm_s2;              /*  4: standard deviation while manoeuvring; 600 */
@@ -530,6 +549,8 @@ typedef struct dotpose_track_options {
     float spacing_mm;                      /* 60: spacing of the pattern; 0.508 */
     int64_t lost_after_us;                 /* 64: 70000 */
     int64_t stationary_after_us;           /* 72: 500000 */
+    float max_sigma_mm;                    /* 80: limit of a pose carried on by odometry; 5 */
+    float reserved;                        /* 84: 0 */
 } dotpose_track_options;
 
 /* Position and angle of the robot measured in one frame, in any plane: 80 bytes. */
@@ -600,6 +621,14 @@ dotpose_status dotpose_sighting_of(const dotpose_fix* fix, int64_t time_us,
  * fix), and returns the new state. Frames that are not newer than the last frame are ignored. */
 dotpose_status dotpose_tracker_update(dotpose_tracker* tracker, int64_t time_us,
                                       const dotpose_sighting* sighting, dotpose_track* track);
+
+/* Updates the tracker as dotpose_tracker_update does, with the motion since the previous update,
+ * along the axes to which theta of the sightings refers. Without sightings, the motions carry the
+ * pose on. */
+dotpose_status dotpose_tracker_update_moved(dotpose_tracker* tracker, int64_t time_us,
+                                            const dotpose_sighting* sighting,
+                                            const dotpose_measured_motion* motion,
+                                            dotpose_track* track);
 
 /* Predicts the position of the pattern in the frame at `time_us`, from the newest fix and its
  * sighting. `locator` is the locator that will locate the frame. */

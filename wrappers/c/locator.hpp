@@ -14,7 +14,7 @@
 namespace dotpose::c {
 
 /// Functions that differ between kinds of locators. They are function pointers, so a program
-/// contains only the kinds that it creates. The last three are null for devices.
+/// contains only the kinds that it creates. The last four are null for devices.
 struct Actions {
     void (*set_options)(RowLocator& locator, const LocatorOptions& options);
     Fix (*locate)(RowLocator& locator, const ImageView& image, const Prediction* prediction);
@@ -26,6 +26,7 @@ struct Actions {
     CodeReading (*locate_in_code)(RowLocator& locator, const ImageView& image);
     Status (*set_known)(RowLocator& locator, std::span<const KnownRegion> regions,
                         OtherSheets others);
+    Fix (*locate_moved)(RowLocator& locator, const ImageView& image, const MeasuredMotion& motion);
 };
 
 /// Returns the actions of a Locator or a DeviceLocator.
@@ -63,6 +64,10 @@ constexpr Actions actions_of() {
         actions.set_known = [](RowLocator& locator, std::span<const KnownRegion> regions,
                                OtherSheets others) {
             return static_cast<Kind&>(locator).set_known(regions, others);
+        };
+        actions.locate_moved = [](RowLocator& locator, const ImageView& image,
+                                  const MeasuredMotion& motion) {
+            return static_cast<Kind&>(locator).locate(image, motion);
         };
     }
     return actions;

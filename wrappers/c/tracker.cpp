@@ -12,7 +12,7 @@ using namespace dotpose;
 
 using TrackerObject = c::Object<Tracker, 0xD07C0004>;
 
-constexpr std::size_t kFirstBytes = 80;
+constexpr std::size_t kFirstBytes = 88;
 /// Limits of times and places, as powers of two. Differences of two values must not overflow.
 constexpr int kLatest_us = 62;
 constexpr int kFarthest_nm = 60;
@@ -35,7 +35,9 @@ dotpose_track_options options_of(const TrackOptions& o) {
             o.max_weak_p_wrong_log2,
             o.spacing_mm,
             o.lost_after_us,
-            o.stationary_after_us};
+            o.stationary_after_us,
+            o.max_sigma_mm,
+            0};
 }
 
 TrackOptions options_of(const dotpose_track_options& o) {
@@ -48,6 +50,7 @@ TrackOptions options_of(const dotpose_track_options& o) {
             .gate_sigmas = o.gate_sigmas,
             .confirmations = o.confirmations,
             .lost_after_us = o.lost_after_us,
+            .max_sigma_mm = o.max_sigma_mm,
             .still_mm = o.still_mm,
             .still_rad = o.still_rad,
             .stationary_after_us = o.stationary_after_us,
@@ -74,7 +77,8 @@ bool are_good(const dotpose_track_options& o) {
                            o.still_mm,
                            o.still_rad,
                            o.min_sigma_mm,
-                           o.min_sigma_rad};
+                           o.min_sigma_rad,
+                           o.max_sigma_mm};
     return std::all_of(sizes.begin(), sizes.end(), is_size) && is_size(o.spacing_mm) &&
            o.spacing_mm > 0 && o.confirmations >= 1 && o.max_p_wrong_log2 <= 0 &&
            o.max_weak_p_wrong_log2 <= -1 && o.lost_after_us >= 0 && o.stationary_after_us >= 0;
@@ -150,6 +154,22 @@ void to_c(const Track& track, dotpose_track& result) {
         result.covariance[i] = pose.covariance[i / 6][i % 6];
 }
 
+dotpose_status update(dotpose_tracker* tracker, int64_t time_us, const dotpose_sighting* sighting,
+                      const MeasuredMotion* motion, dotpose_track* track) {
+    if (track == nullptr) return DOTPOSE_NULL_POINTER;
+    Tracker* found = nullptr;
+    dotpose_status status = TrackerObject::find(tracker, found);
+    if (status != DOTPOSE_OK) return status;
+    if (!c::is_within_range(time_us, kLatest_us)) return DOTPOSE_BAD_VALUE;
+    Sighting read;
+    if (sighting != nullptr) status = to_core(*sighting, read);
+    if (status != DOTPOSE_OK) return status;
+    const Sighting* seen = sighting == nullptr ? nullptr : &read;
+    to_c(motion == nullptr ? found->update(time_us, seen) : found->update(time_us, seen, *motion),
+         *track);
+    return DOTPOSE_OK;
+}
+
 }  // namespace
 
 extern "C" {
@@ -186,16 +206,17 @@ dotpose_status dotpose_sighting_of(const dotpose_fix* fix, int64_t time_us,
 
 dotpose_status dotpose_tracker_update(dotpose_tracker* tracker, int64_t time_us,
                                       const dotpose_sighting* sighting, dotpose_track* track) {
-    if (track == nullptr) return DOTPOSE_NULL_POINTER;
-    Tracker* found = nullptr;
-    dotpose_status status = TrackerObject::find(tracker, found);
-    if (status != DOTPOSE_OK) return status;
-    if (!c::is_within_range(time_us, kLatest_us)) return DOTPOSE_BAD_VALUE;
-    Sighting read;
-    if (sighting != nullptr) status = to_core(*sighting, read);
-    if (status != DOTPOSE_OK) return status;
-    to_c(found->update(time_us, sighting == nullptr ? nullptr : &read), *track);
-    return DOTPOSE_OK;
+    return update(tracker, time_us, sighting, nullptr, track);
+}
+
+dotpose_status dotpose_tracker_update_moved(dotpose_tracker* tracker, int64_t time_us,
+                                            const dotpose_sighting* sighting,
+                                            const dotpose_measured_motion* motion,
+                                            dotpose_track* track) {
+    if (motion == nullptr) return DOTPOSE_NULL_POINTER;
+    MeasuredMotion read;
+    const dotpose_status status = c::to_core(*motion, read);
+    return status != DOTPOSE_OK ? status : update(tracker, time_us, sighting, &read, track);
 }
 
 dotpose_status dotpose_tracker_predict(const dotpose_tracker* tracker, int64_t time_us,

@@ -36,4 +36,5 @@ static const golden_column golden_columns[] = {
     {'i', 1, offsetof(dotpose_fix, displacement_q16)},
     {'f', 9, offsetof(dotpose_fix, covariance_grid)},
     {'i', 1, offsetof(dotpose_fix, prior)},
+    {'i', 1, offsetof(dotpose_fix, frames)},
 };

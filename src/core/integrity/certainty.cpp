@@ -281,6 +281,25 @@ bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>&
                        {code, odds_q8, options.max_p_wrong_log2, others}, fix);
 }
 
+std::array<Confidence, 2> compared_with_code(CodeVariant code, const Place& place,
+                                             const BitBlock& block) {
+    const Place corner = moved(code, place, -BitBlock::kMiddle, -BitBlock::kMiddle);
+    const auto compared = [&](const BitLines& lines, const AxisReading& first) {
+        std::array<std::uint8_t, BitBlock::kSide> rolls;
+        code::follow_rolls(code, first.position, first.roll, rolls);
+        int read = 0;
+        int wrong = 0;
+        for (std::size_t line = 0; line < rolls.size(); ++line) {
+            read += std::popcount(lines.valid[line]);
+            wrong += std::popcount(lines.valid[line] &
+                                   (lines.bits[line] ^ code::main_bits(rolls[line])));
+        }
+        return Confidence::of_hard_bits(read, wrong);
+    };
+    const auto [column, row] = readings_at(corner, code);
+    return {compared(block.columns, column), compared(block.rows, row)};
+}
+
 Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& place,
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage) {

@@ -43,6 +43,11 @@ struct Evidence {
     Lines rows;
 };
 
+/// Returns the bits of x and of y of an upright block, compared with the code. `place` is the place
+/// of cell (0, 0) of the block.
+std::array<Confidence, 2> compared_with_code(CodeVariant code, const Place& place,
+                                             const BitBlock& block);
+
 /// Returns the evidence of a block whose cell (0, 0) is at `place`. `storage` receives the scores.
 Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& place,
                      const BitBlock& block, const std::array<Confidence, 2>& bits,

@@ -375,6 +375,7 @@ static void trackers(dotpose_locator* locator) {
     EXPECT(NOT_INITIALIZED, dotpose_tracker_update(&tracker, 0, NULL, &track));
     EXPECT(NULL_POINTER, dotpose_track_options_init(NULL, sizeof options));
     EXPECT(BAD_SIZE, dotpose_track_options_init(&options, sizeof options - 8));
+    EXPECT(NULL_POINTER, dotpose_tracker_update_moved(&tracker, 0, NULL, NULL, &track));
     EXPECT(OK, dotpose_track_options_init(&options, sizeof options));
     EXPECT(NULL_POINTER, dotpose_tracker_init(NULL, &options));
     EXPECT(OK, dotpose_tracker_init(&tracker, &options));

@@ -75,7 +75,7 @@ std::vector<GreyImage> drive(int frames) {
 
 /// Returns a view of six by six cells of a sheet.
 GreyImage small_view_of(const KnownRegion& sheet) {
-    Setup setup;
+    dotpose::Setup setup;
     setup.camera.width_px = 66;
     setup.camera.height_px = 66;
     Shot shot = draw_shot(setup, 3);
@@ -86,7 +86,7 @@ GreyImage small_view_of(const KnownRegion& sheet) {
 
 /// Returns frames of distant places on a sheet of a code other than the default.
 std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
-    Setup setup;
+    dotpose::Setup setup;
     setup.pattern.code = CodeVariant::libdots;
     std::vector<GreyImage> images;
     for (std::uint64_t i = 0; i < frames; ++i)
@@ -99,7 +99,7 @@ std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
 template <int Width, int Height>
 void expect_same_device(int kind, dotpose_status (*init)(void*, std::size_t, const dotpose_options*,
                                                          dotpose_locator**)) {
-    Setup setup;
+    dotpose::Setup setup;
     setup.camera.width_px = Width;
     setup.camera.height_px = Height;
     const GreyImage image = render(draw_shot(setup, 4));
@@ -371,6 +371,46 @@ TEST(C, LocatesSmallViewsOfKnownSheets) {
     EXPECT_TRUE(same(locate(locator.get(), image), as_c(expected)));
     ASSERT_EQ(dotpose_set_known(locator.get(), nullptr, 0, DOTPOSE_OTHERS_POSSIBLE), DOTPOSE_OK);
     EXPECT_NE(locate(locator.get(), image).status, DOTPOSE_OK);
+}
+
+TEST(C, ReadsFramesTogether) {
+    dotpose::Setup setup;
+    setup.camera.width_px = setup.camera.height_px = 80;
+    setup.seed = 5;
+    Shot shot = draw_shot(setup, 0);
+    shot.pose.theta_rad = 0;
+    Locator core(DeviceOptions{});
+    const CLocator locator = make_locator();
+    const dotpose_measured_motion motion{1.524F, 1.524F, 0, 0.02F, 0.005F};
+    int together = 0;
+    for (int k = 0; k < 5; ++k) {
+        const GreyImage image = render(shot);
+        const Fix expected = core.locate(
+            image.view(),
+            MeasuredMotion{
+                .right_mm = 1.524F, .down_mm = 1.524F, .sigma_mm = 0.02F, .sigma_rad = 0.005F});
+        dotpose_fix fix;
+        dotpose_fix_init(&fix, sizeof fix);
+        dotpose_locate_moved(locator.get(), image.pixels.data(), 80, 80, 80, &motion, &fix);
+        EXPECT_EQ(fix.status, as_c(expected).status);
+        EXPECT_TRUE(!expected || same(fix, as_c(expected)));
+        EXPECT_EQ(fix.frames, expected.frames);
+        together += expected.frames > 1 ? 1 : 0;
+        shot.pose.cell.x += 3;
+        shot.pose.cell.y += 3;
+    }
+    EXPECT_GT(together, 1);
+    dotpose_measured_motion bad = motion;
+    bad.sigma_mm = -1;
+    dotpose_fix fix;
+    dotpose_fix_init(&fix, sizeof fix);
+    EXPECT_EQ(dotpose_locate_moved(locator.get(), nullptr, 80, 80, 80, &bad, &fix),
+              DOTPOSE_NULL_POINTER);
+    const std::vector<std::uint8_t> white(80 * 80, 255);
+    EXPECT_EQ(dotpose_locate_moved(locator.get(), white.data(), 80, 80, 80, &bad, &fix),
+              DOTPOSE_BAD_VALUE);
+    EXPECT_EQ(dotpose_locate_moved(locator.get(), white.data(), 80, 80, 80, nullptr, &fix),
+              DOTPOSE_NULL_POINTER);
 }
 
 TEST(C, FindsTheCodeOfASheet) {

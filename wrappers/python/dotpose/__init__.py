@@ -31,6 +31,7 @@ from dotpose._dotpose import (
     LensCalibration,
     Located,
     Locator,
+    MeasuredMotion,
     Options,
     OverlayReport,
     PaperScale,

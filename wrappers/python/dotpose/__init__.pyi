@@ -124,6 +124,8 @@ class Fix:
     @property
     def prior(self) -> Literal["plane", "sheets", "only_sheets"]: ...
     @property
+    def frames(self) -> int: ...
+    @property
     def _bits(self) -> list[Any]: ...
     @property
     def dots(self) -> Floats: ...
@@ -135,6 +137,22 @@ class Prediction:
     def moved(self, x_mm: float, y_mm: float, turn_rad: float = 0.0) -> Prediction: ...
     sigma_mm: float
     sigma_theta_rad: float
+
+class MeasuredMotion:
+    def __init__(
+        self,
+        *,
+        right_mm: float = 0.0,
+        down_mm: float = 0.0,
+        turn_rad: float = 0.0,
+        sigma_mm: float,
+        sigma_rad: float,
+    ) -> None: ...
+    right_mm: float
+    down_mm: float
+    turn_rad: float
+    sigma_mm: float
+    sigma_rad: float
 
 class PaperScale:
     mm_per_px_x: float
@@ -186,7 +204,13 @@ class Locator:
         options: Options = ...,
         keep_stages: bool = False,
     ) -> None: ...
-    def locate(self, image: Image, prediction: Optional[Prediction] = None) -> Fix: ...
+    def locate(
+        self,
+        image: Image,
+        prediction: Optional[Prediction] = None,
+        *,
+        motion: Optional[MeasuredMotion] = None,
+    ) -> Fix: ...
     def _cpp_us(self, image: Image, repeats: int) -> float: ...
     @property
     def code(self) -> Code: ...
@@ -232,6 +256,7 @@ class Tracker:
         gate_sigmas: float = 5,
         confirmations: int = 3,
         lost_after_us: int = 70_000,
+        max_sigma_mm: float = 5,
         still_mm: float = 0.1,
         still_rad: float = 0.02,
         stationary_after_us: int = 500_000,
@@ -241,7 +266,9 @@ class Tracker:
         max_weak_p_wrong_log2: int = -10,
         spacing_mm: float = 0.508,
     ) -> None: ...
-    def update(self, time_us: int, fix: Optional[Fix] = None) -> Track: ...
+    def update(
+        self, time_us: int, fix: Optional[Fix] = None, motion: Optional[MeasuredMotion] = None
+    ) -> Track: ...
     def predict(self, time_us: int) -> Optional[Prediction]: ...
     @property
     def track(self) -> Track: ...

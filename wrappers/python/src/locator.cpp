@@ -58,7 +58,12 @@ void LocatorOfPython::set_options(CodeVariant code, bool show_stages) {
 
 CodeReading LocatorOfPython::read(const ImageView& image, const Request& request) {
     CodeReading reading;
-    if (setup_.code) {
+    if (request.motion && setup_.code) {
+        reading.code = *setup_.code;
+        reading.fix = locator_.locate(image, *request.motion);
+    } else if (request.motion) {
+        reading = locator_.locate_in_any_code(image, *request.motion, request.evidence);
+    } else if (setup_.code) {
         reading.code = *setup_.code;
         reading.fix = request.expected ? locator_.locate(image, request.expected->prediction)
                                        : locator_.locate(image);
@@ -72,12 +77,14 @@ CodeReading LocatorOfPython::read(const ImageView& image, const Request& request
 }
 
 SeenFix LocatorOfPython::locate_locked(const ImageView& image,
-                                       const std::optional<SeenPrediction>& expected) {
+                                       const std::optional<SeenPrediction>& expected,
+                                       const std::optional<MeasuredMotion>& motion) {
     use_options_for(image.width_px, image.height_px);
     ++newest_.number;
     newest_.evidence = evidence_;
     newest_.code = locator_.options().code;
     newest_.expected = expected;
+    newest_.motion = motion;
     if (expected && !setup_.code && expected->code != newest_.code) {
         newest_.code = expected->code;
         set_options(newest_.code, false);
@@ -95,13 +102,19 @@ SeenFix LocatorOfPython::locate_locked(const ImageView& image,
 }
 
 SeenFix LocatorOfPython::locate(const py::object& image,
-                                const std::optional<SeenPrediction>& expected) {
+                                const std::optional<SeenPrediction>& expected,
+                                const std::optional<MeasuredMotion>& motion) {
+    if (expected && motion) throw BadArgument("give a prediction or a motion, not both");
+    if (motion && !motion->is_usable()) {
+        throw BadArgument(
+            "motion: all numbers must be finite and below 1e6, and the sigmas not negative");
+    }
     const ImageView view = view_of(image);
     SeenFix seen;
     {
         const py::gil_scoped_release others_may_run;
         const std::scoped_lock lock(mutex_);
-        seen = locate_locked(view, expected);
+        seen = locate_locked(view, expected, motion);
     }
     seen.source = shared_from_this();
     if (seen.number > image_number_) {
@@ -122,6 +135,11 @@ std::shared_ptr<const Stages> LocatorOfPython::stages_of(std::uint64_t number) {
             "the locator has located a newer frame, so the dots and picture of this frame "
             "are no longer available; Locator(keep_stages=True) keeps them with each fix");
     }
+    if (newest_.motion) {
+        throw Error(
+            "a frame that was located with a motion can be located only once, so its dots and "
+            "picture are not available; Locator(keep_stages=True) keeps them with each fix");
+    }
     const CodeVariant code = locator_.options().code;
     set_options(newest_.code, true);
     const CodeReading again = read(view, newest_);
@@ -140,7 +158,7 @@ double LocatorOfPython::cpp_us(const py::object& image, int repeats) {
     use_options_for(view.width_px, view.height_px);
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < repeats; ++i)
-        read(view, {0, evidence_, locator_.options().code, std::nullopt, {}});
+        read(view, {0, evidence_, locator_.options().code, {}, {}, {}});
     const std::chrono::duration<double, std::micro> elapsed =
         std::chrono::steady_clock::now() - start;
     return elapsed.count() / repeats;
@@ -195,11 +213,14 @@ void define_locator(py::module_& module) {
             "keep_stages: if true, each fix keeps its image, dots and grid for later calls of dots "
             "and draw; costs time and memory.")
         .def("locate", &LocatorOfPython::locate, "image"_a, "prediction"_a = py::none(),
+             py::kw_only(), "motion"_a = py::none(),
              "Return the Fix of an image: a numpy array of uint8 with the shape (height, width), "
              "0 is black, with dark dots on light paper. The image is not copied; rows need not be "
              "contiguous.\n\n"
              "With a prediction, the pattern is first searched at the predicted position. A frame "
-             "that does not confirm the prediction is located without it.")
+             "that does not confirm the prediction is located without it.\n\n"
+             "motion: the MeasuredMotion since the previous frame. Frames that are not certain "
+             "alone are then read together with the previous frames; fix.frames is their number.")
         .def("_cpp_us", &LocatorOfPython::cpp_us, "image"_a, "repeats"_a)
         .def_property_readonly(
             "code", [](LocatorOfPython& self) { return name(self.code()); },

@@ -30,7 +30,8 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
 
     /// Locates the pattern in an array. Throws TypeError if the object is not an image, BadArgument
     /// if the image does not have the size of the camera file.
-    SeenFix locate(const py::object& image, const std::optional<SeenPrediction>& expected);
+    SeenFix locate(const py::object& image, const std::optional<SeenPrediction>& expected,
+                   const std::optional<MeasuredMotion>& motion);
 
     std::shared_ptr<const Stages> stages_of(std::uint64_t number) override;
 
@@ -48,13 +49,15 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
         CodeEvidence evidence;  ///< evidence before the frame was located
         CodeVariant code = CodeVariant::anoto;
         std::optional<SeenPrediction> expected;
+        std::optional<MeasuredMotion> motion;
         Fix fix;  ///< fix before the camera file is applied
     };
 
     void use_options_for(int width_px, int height_px);
     void set_options(CodeVariant code, bool show_stages);
     CodeReading read(const ImageView& image, const Request& request);
-    SeenFix locate_locked(const ImageView& image, const std::optional<SeenPrediction>& expected);
+    SeenFix locate_locked(const ImageView& image, const std::optional<SeenPrediction>& expected,
+                          const std::optional<MeasuredMotion>& motion);
 
     LocatorSetup setup_;
     std::mutex mutex_;  ///< guards all members below except the image

@@ -28,6 +28,7 @@ constexpr std::array kFloatOptions = {
     FloatOption{"max_speed_mm_s", &TrackOptions::max_speed_mm_s},
     FloatOption{"max_turn_rad_s", &TrackOptions::max_turn_rad_s},
     FloatOption{"gate_sigmas", &TrackOptions::gate_sigmas},
+    FloatOption{"max_sigma_mm", &TrackOptions::max_sigma_mm},
     FloatOption{"still_mm", &TrackOptions::still_mm},
     FloatOption{"still_rad", &TrackOptions::still_rad},
     FloatOption{"min_sigma_mm", &TrackOptions::min_sigma_mm},
@@ -72,7 +73,8 @@ class TrackerOfPython {
   public:
     explicit TrackerOfPython(const TrackOptions& options) : tracker_(options) {}
 
-    Track update(std::int64_t time_us, const std::optional<SeenFix>& fix) {
+    Track update(std::int64_t time_us, const std::optional<SeenFix>& fix,
+                 const std::optional<MeasuredMotion>& motion) {
         const bool is_ok = fix && fix->is_ok();
         if (is_ok && !(fix->fix.spacing_mm() <= 20)) {
             throw BadArgument("the spacing of the pattern must be known and at most 20 mm");
@@ -81,7 +83,9 @@ class TrackerOfPython {
             newest_ = fix;
             sighting_ = sighting_of(fix->fix, time_us);
         }
-        return tracker_.update(time_us, is_ok ? &sighting_ : nullptr);
+        const Sighting* sighting = is_ok ? &sighting_ : nullptr;
+        return motion ? tracker_.update(time_us, sighting, *motion)
+                      : tracker_.update(time_us, sighting);
     }
 
     std::optional<SeenPrediction> predict(std::int64_t time_us) const {
@@ -195,6 +199,26 @@ TrackOptions track_options_of(const py::dict& given) {
 }
 
 void define_tracker(py::module_& module) {
+    py::class_<MeasuredMotion>(module, "MeasuredMotion",
+                               "Motion of the camera between two frames, from odometry. The "
+                               "displacement is along the axes of the previous image.")
+        .def(py::init([](float right_mm, float down_mm, float turn_rad, float sigma_mm,
+                         float sigma_rad) {
+                 return MeasuredMotion{right_mm, down_mm, turn_rad, sigma_mm, sigma_rad};
+             }),
+             py::kw_only(), "right_mm"_a = 0.0F, "down_mm"_a = 0.0F, "turn_rad"_a = 0.0F,
+             "sigma_mm"_a, "sigma_rad"_a,
+             "Make a motion. sigma_mm and sigma_rad are the standard deviations of each "
+             "displacement and of the rotation; too small values lead to wrong fixes.")
+        .def_readwrite("right_mm", &MeasuredMotion::right_mm,
+                       "Displacement along the image x axis, in mm.")
+        .def_readwrite("down_mm", &MeasuredMotion::down_mm,
+                       "Displacement along the image y axis, in mm.")
+        .def_readwrite("turn_rad", &MeasuredMotion::turn_rad, "Change of theta, in rad.")
+        .def_readwrite("sigma_mm", &MeasuredMotion::sigma_mm,
+                       "Standard deviation of each displacement, in mm.")
+        .def_readwrite("sigma_rad", &MeasuredMotion::sigma_rad,
+                       "Standard deviation of the rotation, in rad.");
     define_track(module);
     py::class_<TrackerOfPython>(module, "Tracker",
                                 "Tracks one robot from the fixes of its frames.\n\n"
@@ -207,9 +231,12 @@ void define_tracker(py::module_& module) {
              "acceleration_mm_s2=600, max_speed_mm_s=1000, lost_after_us=70000; docs/tracking.md\n"
              "lists all options.")
         .def("update", &TrackerOfPython::update, "time_us"_a, "fix"_a = py::none(),
+             "motion"_a = py::none(),
              "Update the tracker with the next frame: its time in us on any clock, and its Fix, "
              "which "
-             "need not be ok. Return the Track after the frame.")
+             "need not be ok. Return the Track after the frame. motion: the MeasuredMotion since "
+             "the "
+             "previous update, from odometry; without fixes, motions carry the pose on.")
         .def("predict", &TrackerOfPython::predict, "time_us"_a,
              "Return the Prediction for a frame at the given time; None while the robot is lost.")
         .def_property_readonly(

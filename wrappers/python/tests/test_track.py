@@ -21,6 +21,37 @@ def drive(frames, step_mm=0.15, turn_rad=0.002):
         shot.seed += 1
 
 
+def test_frames_that_are_too_small_are_read_together():
+    shot = dotpose.draw_shots(1, seed=5, section=(0, 0), width_px=80, height_px=80)[0]
+    motion = dotpose.MeasuredMotion(
+        right_mm=1.5, down_mm=1.5, sigma_mm=0.02, sigma_rad=0.005
+    )
+    locator, fixes = dotpose.Locator(), []
+    for _ in range(6):
+        fixes.append(locator.locate(shot.render(), motion=motion))
+        c, s = math.cos(shot.theta_rad), math.sin(shot.theta_rad)
+        shot.x_mm += 1.5 * (c - s)
+        shot.y_mm += 1.5 * (s + c)
+        shot.seed += 1
+    assert not fixes[0].ok and fixes[-1].ok
+    assert max(fix.frames for fix in fixes) > 1
+    with pytest.raises(ValueError, match="sigmas not negative"):
+        locator.locate(shot.render(), motion=dotpose.MeasuredMotion(sigma_mm=-1, sigma_rad=0))
+
+
+def test_odometry_carries_the_pose_on():
+    locator, tracker = dotpose.Locator(), dotpose.Tracker()
+    shot = dotpose.draw_shots(1, seed=21, section=(0, 0))[0]
+    tracker.update(0, locator.locate(shot.render()))
+    motion = dotpose.MeasuredMotion(right_mm=0.5, sigma_mm=0.01, sigma_rad=0.001)
+    for index in range(1, 101):
+        track = tracker.update(index * PERIOD_US, motion=motion)
+    assert not track.is_lost
+    distance = math.hypot(track.x_mm - shot.x_mm, track.y_mm - shot.y_mm)
+    assert distance == pytest.approx(50, abs=0.1)
+    assert 0.1 < math.sqrt(track.covariance[0, 0] + track.covariance[1, 1]) < 1.0
+
+
 def test_a_tracker_knows_pose_and_speed():
     locator, tracker = dotpose.Locator(), dotpose.Tracker()
     assert tracker.track.is_lost and tracker.predict(0) is None

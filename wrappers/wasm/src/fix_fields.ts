@@ -33,6 +33,7 @@ export const kAt = {
     displacement_q16: 200,
     covariance_grid: 204,
     prior: 240,
+    frames: 244,
 } as const;
 
 /** The fields of a fix that are plain values. */
@@ -68,6 +69,11 @@ export interface FixFields {
     residual_px: number;
     /** Places that counted as possible in p_wrong. */
     prior: Prior;
+    /**
+     * Number of frames whose bits determined the position; more than 1 only if the motion between the frames was
+     * given.
+     */
+    frames: number;
 }
 
 /** Returns the plain values of a dotpose_fix. */
@@ -84,5 +90,6 @@ export function fieldsOf(view: DataView): FixFields {
         bit_errors: view.getInt32(60, true),
         residual_px: view.getFloat32(64, true),
         prior: kPriors[view.getInt32(240, true)]!,
+        frames: view.getInt32(244, true),
     };
 }

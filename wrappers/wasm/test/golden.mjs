@@ -42,6 +42,7 @@ const kColumns = [
     ["int", 1, 200], // displacement_q16
     ["float", 9, 204], // covariance_grid
     ["int", 1, 240], // prior
+    ["int", 1, 244], // frames
 ];
 
 /** Returns the numbers of a fix in the format of the lines of the golden files. */

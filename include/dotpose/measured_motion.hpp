@@ -1,0 +1,33 @@
+/// Measured motion: the displacement and rotation of the camera between two frames, as measured by
+/// wheel odometry or an inertial unit. A Locator uses motions to read frames together that are not
+/// certain alone, a Tracker to follow a robot across places without a pattern.
+#pragma once
+
+#include "dotpose/export.hpp"
+
+DOTPOSE_BEGIN_EXPORT
+
+namespace dotpose {
+
+/// The motion of the camera since the previous frame, with its uncertainty. The displacement is
+/// that of the reference point, along the axes of the previous image.
+struct MeasuredMotion {
+    float right_mm = 0;  ///< displacement along the image x axis
+    float down_mm = 0;   ///< displacement along the image y axis
+    float turn_rad = 0;  ///< change of the angle of a fix, clockwise as seen on the paper
+    /// Standard deviations of the displacement along each axis, and of the rotation. The errors are
+    /// assumed to be normally distributed and independent. Too small values lead to wrong fixes.
+    float sigma_mm = 0;
+    float sigma_rad = 0;
+
+    /// Returns true if all values are finite and below 1e6, and the standard deviations are not
+    /// negative. Motions with other values are ignored.
+    bool is_usable() const;
+};
+
+/// Returns the motion `first` followed by the motion `second`.
+MeasuredMotion followed_by(const MeasuredMotion& first, const MeasuredMotion& second);
+
+}  // namespace dotpose
+
+DOTPOSE_END_EXPORT

@@ -1,0 +1,63 @@
+// Earlier bits: the bits of earlier frames, in the grid of one of them. A motion between the frames
+// relates this grid to the grid of the current frame, so frames that are not certain alone can be
+// certain together. docs/integrity.md, "Frames read together", derives the bound.
+#pragma once
+
+#include <optional>
+
+#include "core/decode/bit_lines.hpp"
+#include "core/math/float_plane.hpp"
+#include "dotpose/measured_motion.hpp"
+
+namespace dotpose::core {
+
+/// The bits of one or several frames in one grid.
+struct FrameBits {
+    BitBlock block;
+    FloatPlane grid_from_image;  ///< px relative to the image centre
+    int bits = 0;                ///< number of bits in the block
+    int frames = 0;              ///< number of frames from which the bits were read
+};
+
+/// Bits of several frames in the grid of the current frame.
+struct JoinedBits {
+    BitBlock block;
+    int frames = 0;
+    /// log2 of an upper bound on the probability that the grids of the frames were matched wrongly.
+    int p_mismatch_log2 = 0;
+};
+
+class EarlierBits {
+  public:
+    /// Forgets all frames.
+    void clear();
+    /// Begins a frame. `motion` is the motion since the previous frame. `reference_px` is the
+    /// reference point, relative to the image centre.
+    void begin_frame(const MeasuredMotion& motion, float spacing_mm, FloatVec reference_px);
+    /// Ends the frame. Keeps its bits, joined with the earlier bits if the grids match.
+    void end_frame(int max_p_mismatch_log2);
+
+    /// Stores bits of the current frame. Ignores all calls before `begin_frame`. Of several
+    /// blocks, keeps the last one that a fix confirmed or, if there is none, the largest one.
+    void note(const BitBlock& block, const FloatPlane& grid_from_image, bool is_confirmed);
+
+    /// True while an attempt reads the current frame together with the earlier frames.
+    bool is_joining = false;
+    bool has_earlier() const { return is_in_frame_ && earlier_.frames > 0; }
+    /// Returns the bits of a block of the current frame together with the earlier bits. Drops cells
+    /// in which the frames contradict each other. Returns nullopt if the match of the grids is
+    /// wrong with a probability above 2^max_p_mismatch_log2.
+    std::optional<JoinedBits> join(const BitBlock& block, const FloatPlane& grid_from_image,
+                                   int max_p_mismatch_log2) const;
+
+  private:
+    bool is_in_frame_ = false;
+    bool is_confirmed_ = false;
+    FloatVec reference_px_;
+    float spacing_mm_ = 0;
+    MeasuredMotion motion_;  ///< from the frame of `earlier_` to the current frame
+    FrameBits earlier_;
+    FrameBits current_;
+};
+
+}  // namespace dotpose::core

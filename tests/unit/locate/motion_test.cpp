@@ -1,0 +1,213 @@
+// Tests locators that know the motion between frames: frames that are read together, and
+// predictions from motions.
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "shots.hpp"
+
+namespace dotpose::core_test::motion_test {
+namespace {
+
+constexpr std::uint64_t kSeed = 7171;
+constexpr KnownRegion kSheet{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
+
+/// Returns the shot of a camera that has moved: its displacement along the axes of the image of
+/// `shot`, in mm, and its rotation. Noise and light are those of another frame.
+Shot moved_shot(const Shot& shot, const MeasuredMotion& motion) {
+    Shot next = shot;
+    CameraPose& pose = next.pose;
+    const double spacing_mm = shot.page.pattern.spacing_mm;
+    const double c = std::cos(pose.theta_rad);
+    const double s = std::sin(pose.theta_rad);
+    const double right = static_cast<double>(motion.right_mm) / spacing_mm;
+    const double down = static_cast<double>(motion.down_mm) / spacing_mm;
+    const double x = pose.fraction_x + c * right - s * down;
+    const double y = pose.fraction_y + s * right + c * down;
+    pose.cell.x = static_cast<std::uint32_t>(static_cast<std::int64_t>(pose.cell.x) +
+                                             static_cast<std::int64_t>(std::floor(x)));
+    pose.cell.y = static_cast<std::uint32_t>(static_cast<std::int64_t>(pose.cell.y) +
+                                             static_cast<std::int64_t>(std::floor(y)));
+    pose.fraction_x = x - std::floor(x);
+    pose.fraction_y = y - std::floor(y);
+    pose.theta_rad =
+        std::remainder(pose.theta_rad + static_cast<double>(motion.turn_rad), 2 * std::numbers::pi);
+    ++next.seed;
+    return next;
+}
+
+/// Draws the motion of about half a view of `view_mm`, in any direction.
+MeasuredMotion draw_motion(double view_mm, Rng& rng) {
+    const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    MeasuredMotion motion;
+    motion.right_mm = static_cast<float>(view_mm / 2 * std::cos(direction_rad));
+    motion.down_mm = static_cast<float>(view_mm / 2 * std::sin(direction_rad));
+    motion.turn_rad = static_cast<float>(rng.uniform(-0.5, 0.5));
+    return motion;
+}
+
+/// Returns the measurement of a motion, with normally distributed errors.
+MeasuredMotion measured(const MeasuredMotion& motion, float sigma_mm, float sigma_rad, Rng& rng) {
+    MeasuredMotion seen = motion;
+    seen.right_mm += static_cast<float>(rng.normal()) * sigma_mm;
+    seen.down_mm += static_cast<float>(rng.normal()) * sigma_mm;
+    seen.turn_rad += static_cast<float>(rng.normal()) * sigma_rad;
+    seen.sigma_mm = sigma_mm;
+    seen.sigma_rad = sigma_rad;
+    return seen;
+}
+
+Shot shot_on_sheet(const ShotSize& size, std::uint64_t index) {
+    Shot shot = shot_of(size, kSeed, index);
+    Rng rng(shot.seed, 1);
+    shot.page.pattern.section = kSheet.section;
+    shot.pose.cell = {kSheet.first.x + 40 + rng.below(kSheet.columns - 80),
+                      kSheet.first.y + 40 + rng.below(kSheet.rows - 80)};
+    return shot;
+}
+
+constexpr int kLength = 6;
+
+/// Results of several series of `kLength` frames each.
+struct Series {
+    std::array<int, kLength> located{};  ///< number of series with a fix in their first k frames
+    int with_earlier = 0;                ///< number of fixes from more than one frame
+    int wrong = 0;
+};
+
+Series run_series(Locator& locator, const ShotSize& size, int count, float sigma_mm,
+                  float sigma_rad, bool is_on_sheet) {
+    Series series;
+    for (int i = 0; i < count; ++i) {
+        const auto index = static_cast<std::uint64_t>(i);
+        Shot shot = is_on_sheet ? shot_on_sheet(size, index) : shot_of(size, kSeed, index);
+        Rng rng(kSeed, 1'000'000 + index);
+        // The first call of a series is without a motion, which makes the locator forget.
+        static_cast<void>(locator.locate(render_scene(Scene::white, shot).view()));
+        MeasuredMotion motion;
+        bool is_located = false;
+        for (std::size_t k = 0; k < kLength; ++k) {
+            const Fix fix = locator.locate(render(shot).view(), motion);
+            if (fix) {
+                is_located = true;
+                series.with_earlier += fix.frames > 1 ? 1 : 0;
+                series.wrong += is_right(fix, shot) ? 0 : 1;
+            }
+            series.located[k] += is_located ? 1 : 0;
+            const double view_mm = size.width_px * shot.camera.mm_per_px;
+            const MeasuredMotion truth = draw_motion(view_mm, rng);
+            shot = moved_shot(shot, truth);
+            motion = measured(truth, sigma_mm, sigma_rad, rng);
+        }
+    }
+    return series;
+}
+
+TEST(MeasuredMotion, FollowsAnotherMotion) {
+    const MeasuredMotion quarter{.turn_rad = std::numbers::pi_v<float> / 2, .sigma_rad = 0.01F};
+    const MeasuredMotion ahead{.right_mm = 3, .sigma_mm = 0.04F};
+    const MeasuredMotion both = followed_by(quarter, ahead);
+    EXPECT_NEAR(both.right_mm, 0, 1e-6);
+    EXPECT_NEAR(both.down_mm, 3, 1e-6);
+    EXPECT_NEAR(both.sigma_mm, 0.05, 1e-6);  // 3 mm * 0.01 rad, and 0.04 mm
+    EXPECT_NEAR(both.turn_rad, std::numbers::pi / 2, 1e-6);
+}
+
+class FramesReadTogether : public testing::Test {
+  protected:
+    std::unique_ptr<LargeMemory> memory_ = std::make_unique<LargeMemory>();
+    Locator locator_{*memory_, DeviceOptions{}};
+};
+
+// Alone, views of 7.3 cells are never certain on the whole plane.
+TEST_F(FramesReadTogether, SmallViewsOfTheWholePlaneBecomeCertain) {
+    const Series series =
+        run_series(locator_, {.width_px = 80, .height_px = 80}, 40, 0.02F, 0.005F, false);
+    EXPECT_EQ(series.wrong, 0);
+    EXPECT_EQ(series.located[0], 0);
+    EXPECT_GE(series.located[3], 35);
+    EXPECT_EQ(series.located[5], 40);
+    EXPECT_GT(series.with_earlier, 100);
+}
+
+// Alone, views of 4.9 cells are never certain on a sheet.
+TEST_F(FramesReadTogether, SmallViewsOfKnownSheetsBecomeCertain) {
+    ASSERT_EQ(locator_.set_known({&kSheet, 1}, OtherSheets::impossible), Status::ok);
+    const Series series =
+        run_series(locator_, {.width_px = 54, .height_px = 54}, 40, 0.02F, 0.005F, true);
+    EXPECT_EQ(series.wrong, 0);
+    EXPECT_EQ(series.located[0], 0);
+    EXPECT_GE(series.located[1], 35);
+    EXPECT_EQ(series.located[3], 40);
+}
+
+// The dots that two frames share determine a motion of which only the order of magnitude is known.
+TEST_F(FramesReadTogether, CommonDotsReplaceAnInaccurateMotion) {
+    const Series series =
+        run_series(locator_, {.width_px = 90, .height_px = 90}, 40, 0.8F, 0.3F, false);
+    EXPECT_EQ(series.wrong, 0);
+    EXPECT_EQ(series.located[0], 0);
+    EXPECT_GE(series.located[1], 33);
+    EXPECT_EQ(series.located[5], 40);
+}
+
+// The robot is lifted between frames, and its odometry does not notice. Its place becomes certain
+// after more frames, and is never wrong.
+TEST_F(FramesReadTogether, AWrongMotionGivesNoWrongFix) {
+    constexpr ShotSize kSize{.width_px = 80, .height_px = 80};
+    const MeasuredMotion none{.sigma_mm = 0.05F, .sigma_rad = 0.02F};
+    int located = 0;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+        const Shot shot = shot_of(kSize, kSeed, i);
+        const Fix fix = locator_.locate(render(shot).view(), none);
+        located += fix ? 1 : 0;
+        EXPECT_TRUE(!fix || is_right(fix, shot)) << "frame " << i;
+    }
+    EXPECT_EQ(located, 0);
+}
+
+// Frames without a pattern between the views of a series change nothing but the distance.
+TEST_F(FramesReadTogether, FramesWithoutAPatternAreSkipped) {
+    constexpr ShotSize kSize{.width_px = 80, .height_px = 80};
+    int located = 0;
+    for (std::uint64_t i = 0; i < 20; ++i) {
+        Shot shot = shot_of(kSize, kSeed, i);
+        static_cast<void>(locator_.locate(render(shot).view()));
+        MeasuredMotion motion;
+        Rng rng(kSeed, i);
+        for (int k = 0; k < 9; ++k) {
+            const bool is_blank = k % 2 == 1;
+            const GreyImage image = is_blank ? render_scene(Scene::white, shot) : render(shot);
+            const Fix fix = locator_.locate(image.view(), motion);
+            EXPECT_TRUE(!fix || is_right(fix, shot)) << "series " << i << ", frame " << k;
+            if (k == 8) located += fix && fix.frames > 3 ? 1 : 0;
+            motion = {.right_mm = 1.0F, .turn_rad = 0.1F, .sigma_mm = 0.01F, .sigma_rad = 0.003F};
+            shot = moved_shot(shot, motion);
+        }
+    }
+    EXPECT_GE(located, 16);
+}
+
+// A motion predicts the next frame after a fix, so the tracked attempt reads it.
+TEST_F(FramesReadTogether, AMotionPredictsTheNextFrame) {
+    Shot shot = shot_of({}, kSeed, 3);
+    const MeasuredMotion motion{.right_mm = 2.5F,
+                                .down_mm = -1.5F,
+                                .turn_rad = 0.4F,
+                                .sigma_mm = 0.02F,
+                                .sigma_rad = 0.01F};
+    ASSERT_TRUE(locator_.locate(render(shot).view()));
+    for (int k = 0; k < 5; ++k) {
+        shot = moved_shot(shot, motion);
+        const Fix fix = locator_.locate(render(shot).view(), motion);
+        ASSERT_TRUE(fix);
+        EXPECT_TRUE(is_right(fix, shot));
+        EXPECT_EQ(fix.attempt, Attempt::tracked);
+        EXPECT_EQ(fix.frames, 1);
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test::motion_test
