@@ -39,6 +39,7 @@ constexpr Table kTables[] = {
     {"integrity", "Whether p_wrong is an upper bound of the frequency of wrong positions",
      tables::integrity_table},
     {"known", "How small views of known sheets may be", tables::known_table},
+    {"together", "How soon a moving camera with small views is located", tables::together_table},
     {"limits", "How much frames may be degraded", tables::limits_table},
     {"seams", "Whether covariances are right where two sheets are butted", tables::seams_table},
     {"slips", "Whether covariances are right where the sheet is not one plane",

@@ -15,6 +15,7 @@ bool drive_table(TableRun& run);
 bool golden_table(TableRun& run);
 bool integrity_table(TableRun& run);
 bool known_table(TableRun& run);
+bool together_table(TableRun& run);
 bool limits_table(TableRun& run);
 bool seams_table(TableRun& run);
 bool slips_table(TableRun& run);

@@ -43,6 +43,8 @@ class EarlierBits {
 
     /// True while an attempt reads the current frame together with the earlier frames.
     bool is_joining = false;
+    /// Returns true between `begin_frame` and `end_frame`.
+    bool is_in_series() const { return is_in_frame_; }
     bool has_earlier() const { return is_in_frame_ && earlier_.frames > 0; }
     /// Returns the bits of a block of the current frame together with the earlier bits. Drops cells
     /// in which the frames contradict each other. Returns nullopt if the match of the grids is

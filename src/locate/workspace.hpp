@@ -77,10 +77,12 @@ struct DesktopWorkspace : DeviceWorkspace {
     }
 };
 
-/// Returns the minimum number of dots of a grid. On known sheets, fewer dots determine a place.
+/// Returns the minimum number of dots of a grid. On known sheets, or together with other frames,
+/// fewer dots determine a place.
 inline int min_dots(const DeviceOptions& options, const DesktopWorkspace& w) {
-    return w.known.any() ? std::min(options.lattice.min_dots, kMinKnownDots)
-                         : options.lattice.min_dots;
+    return w.known.any() || w.earlier.is_in_series()
+               ? std::min(options.lattice.min_dots, kMinKnownDots)
+               : options.lattice.min_dots;
 }
 
 /// Returns the storage for the odds of other codes, or null if these odds are not requested.
