@@ -18,7 +18,7 @@ macro(dotpose_dependency target)
 endmacro()
 
 #                  target                    Debian's package              how it is found
-dotpose_dependency(fmt::fmt                  libfmt-dev                    PACKAGE fmt)
+dotpose_dependency(fmt::fmt                  libfmt-dev                    FILE fmt.cmake)
 dotpose_dependency(nlohmann_json::nlohmann_json nlohmann-json3-dev         PACKAGE nlohmann_json)
 dotpose_dependency(PkgConfig::YamlCpp        libyaml-cpp-dev               MODULES yaml-cpp)
 dotpose_dependency(PNG::PNG                  libpng-dev                    PACKAGE PNG)

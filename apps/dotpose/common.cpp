@@ -13,9 +13,9 @@
 
 #include "dotpose/files/camera_file.hpp"
 #include "dotpose/files/code_names.hpp"
+#include "dotpose/files/option_names.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/image_file.hpp"
-#include "dotpose/tools/option_names.hpp"
 
 namespace dotpose::cli {
 namespace {

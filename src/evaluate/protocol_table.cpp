@@ -20,7 +20,7 @@ std::string cells(const Summary& summary, const char* unit, int decimals) {
                        summary.worst_sigma, unit);
 }
 
-struct Coordinate {
+struct TabledCoordinate {
     const char* name;
     const char* paper;
     const char* unit;
@@ -29,7 +29,7 @@ struct Coordinate {
     SpreadOf spread;
 };
 
-std::vector<Coordinate> coordinates() {
+std::vector<TabledCoordinate> coordinates() {
     return {
         {"x", "0.155 mm | ± 0.010 mm", " mm", 4, false, [](const Station& s) { return s.x_mm; }},
         {"y", "0.273 mm | ± 0.014 mm", " mm", 4, false, [](const Station& s) { return s.y_mm; }},
@@ -54,11 +54,11 @@ std::string table_3(const Protocol& protocol) {
                         const std::string& perfect, const std::string& printed) {
         return fmt::format("| {} | {} | {} | {} |\n", what, paper, perfect, printed);
     };
-    std::string table = row("Coordinate", "Paper: accuracy | precision",
+    std::string table = row("TabledCoordinate", "Paper: accuracy | precision",
                             "Simulated, perfect page: accuracy | precision",
                             "Simulated, printer model: accuracy | precision") +
                         "|:---|---:|---:|---:|---:|---:|---:|\n";
-    for (const Coordinate& c : coordinates()) {
+    for (const TabledCoordinate& c : coordinates()) {
         const auto stations = [&c](const ProtocolResult& result) {
             return std::span<const Station>(c.is_angle ? result.angles : result.positions);
         };

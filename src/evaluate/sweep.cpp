@@ -8,8 +8,8 @@
 
 #include <fmt/core.h>
 
+#include "dotpose/files/option_names.hpp"
 #include "dotpose/tools/draw.hpp"
-#include "dotpose/tools/option_names.hpp"
 #include "draw/svg.hpp"
 #include "evaluate/raster.hpp"
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <ostream>
 
+#include "dotpose/files/option_names.hpp"
 #include "dotpose/tools/draw.hpp"
-#include "dotpose/tools/option_names.hpp"
 #include "evaluate/plot.hpp"
 #include "evaluate/sweep.hpp"
 

@@ -1,6 +1,9 @@
-"""Builds the package: CMake compiles its module from the sources of dotpose around this folder.
+"""Builds the package: CMake compiles its modules from the sources of dotpose around this folder.
 
-DOTPOSE_BUILD names a configured build directory, to compile nothing twice.
+Environment variables:
+    DOTPOSE_BUILD   a configured build directory, to compile nothing twice
+    DOTPOSE_WHEEL   "core": only the module that locates, tracks and simulates. It needs no library of
+                    the system, so its wheel runs on other systems.
 """
 
 import os
@@ -25,22 +28,37 @@ UNWANTED = ["build", "dist", "dotpose-[0-9]*", "node_modules", "*.egg-info", "__
 
 
 class BuildWithCMake(build_ext):
+    def configured(self):
+        """Returns the build directory."""
+        if build := os.environ.get("DOTPOSE_BUILD"):
+            return Path(build)
+        build = Path(self.build_temp).resolve()
+        generator = ["-G", "Ninja"] if shutil.which("ninja") else []
+        options = ["CMAKE_BUILD_TYPE=Release", "DOTPOSE_WITH_TESTS=OFF", "DOTPOSE_WITH_TOOL=OFF"]
+        options += ["DOTPOSE_BUILD_PYTHON=ON", f"Python_EXECUTABLE={sys.executable}"]
+        if os.environ.get("DOTPOSE_WHEEL") == "core":
+            options += ["DOTPOSE_PARTS=CORE", "DOTPOSE_WITH_BASE=ON", "DOTPOSE_WITH_SIMULATE=ON"]
+            options += ["DOTPOSE_FMT_HEADER_ONLY=ON"]
+        try:
+            import pybind11
+
+            options += [f"pybind11_DIR={pybind11.get_cmake_dir()}"]
+        except ModuleNotFoundError:
+            pass  # The package of the system is found without help.
+        configure = ["cmake", "-S", str(ROOT), "-B", str(build), *generator]
+        subprocess.run(configure + [f"-D{option}" for option in options], check=True)
+        return build
+
     def build_extension(self, extension):
-        build = os.environ.get("DOTPOSE_BUILD")
-        if not build:
-            build = str(Path(self.build_temp).resolve())
-            generator = ["-G", "Ninja"] if shutil.which("ninja") else []
-            options = ["CMAKE_BUILD_TYPE=Release", "DOTPOSE_WITH_TESTS=OFF", "DOTPOSE_WITH_TOOL=OFF"]
-            options += ["DOTPOSE_BUILD_PYTHON=ON", f"Python_EXECUTABLE={sys.executable}"]
-            configure = ["cmake", "-S", str(ROOT), "-B", build, *generator]
-            subprocess.run(configure + [f"-D{option}" for option in options], check=True)
-        jobs = str(os.cpu_count())
-        compile_it = ["cmake", "--build", build, "--target", "dotpose_python", "-j", jobs]
-        subprocess.run(compile_it, check=True)
-        (module,) = Path(build, "wrappers/python/dotpose").glob("_dotpose.*.so")
-        target = Path(self.get_ext_fullpath(extension.name))
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(module, target)
+        build = self.configured()
+        command = ["cmake", "--build", str(build), "--target", "dotpose_python"]
+        subprocess.run(command + ["-j", str(os.cpu_count())], check=True)
+        package = Path(self.get_ext_fullpath(extension.name)).parent
+        package.mkdir(parents=True, exist_ok=True)
+        for name in ("_dotpose", "_tools"):
+            for module in Path(build, "wrappers/python/dotpose").glob(f"{name}.*"):
+                if module.suffix in (".so", ".pyd"):
+                    shutil.copy(module, package)
 
 
 class PackSources(sdist):

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "canvas.hpp"
+#include "dotpose/files/option_names.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/option_fault.hpp"
-#include "dotpose/tools/option_names.hpp"
 
 namespace dotpose::core_test::options_test {
 namespace {

@@ -22,57 +22,83 @@ the first pixel is (0, 0).
 from dotpose._dotpose import (
     BadArgument,
     Camera,
-    DriveCalibration,
     Error,
-    Finding,
     Fix,
-    Follower,
     ImageTooLarge,
-    LensCalibration,
-    Located,
     Locator,
     MeasuredMotion,
     Options,
-    OverlayReport,
     PaperScale,
     Picture,
     Prediction,
-    PrintCheck,
-    PrintField,
-    PrintScale,
-    Protocol,
-    ProtocolResult,
-    Sheet,
-    SheetEntry,
-    SheetFile,
-    SheetPlace,
     Shot,
     SimulatedFrame,
-    SpinCalibration,
-    Station,
-    Stitching,
     Tilt,
     Track,
     Tracker,
-    WorldPlace,
-    WorldPose,
     __version__,
-    calibrate,
-    calibrate_drive,
-    calibrate_spin,
-    check_print,
     draw_shots,
-    make_sheet,
-    make_sheets,
-    overlay,
-    print_sheet,
-    print_sheets,
-    read_image,
-    read_sheets,
-    run_protocol,
     simulate,
-    stitch_sheets,
-    write_image,
 )
+
+try:
+    from dotpose._tools import (
+        DriveCalibration,
+        Finding,
+        Follower,
+        LensCalibration,
+        Located,
+        OverlayReport,
+        PrintCheck,
+        PrintField,
+        PrintScale,
+        Protocol,
+        ProtocolResult,
+        Sheet,
+        SheetEntry,
+        SheetFile,
+        SheetPlace,
+        SpinCalibration,
+        Station,
+        Stitching,
+        WorldPlace,
+        WorldPose,
+        calibrate,
+        calibrate_drive,
+        calibrate_spin,
+        check_print,
+        make_sheet,
+        make_sheets,
+        overlay,
+        print_sheet,
+        print_sheets,
+        read_image,
+        read_sheets,
+        run_protocol,
+        stitch_sheets,
+        write_image,
+    )
+except ModuleNotFoundError as error:
+    if error.name != "dotpose._tools":
+        raise
+
+    # Wheels only locate, track and simulate, because the tools need libraries of the system.
+    def __getattr__(name):
+        tools = """
+            DriveCalibration Finding Follower LensCalibration Located
+            OverlayReport PrintCheck PrintField PrintScale Protocol
+            ProtocolResult Sheet SheetEntry SheetFile SheetPlace
+            SpinCalibration Station Stitching WorldPlace WorldPose
+            calibrate calibrate_drive calibrate_spin check_print make_sheet
+            make_sheets overlay print_sheet print_sheets read_image
+            read_sheets run_protocol stitch_sheets write_image
+        """.split()
+        if name in tools:
+            raise ImportError(
+                f"dotpose.{name} needs the tools of dotpose, which this installation does not have; "
+                "install the Debian package python3-dotpose or build from source: "
+                "wrappers/python/README.md"
+            )
+        raise AttributeError(f"module 'dotpose' has no attribute '{name}'")
 
 __all__ = [name for name in dir() if not name.startswith("_")] + ["__version__"]

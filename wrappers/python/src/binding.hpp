@@ -18,21 +18,28 @@ namespace dotpose::python {
 namespace py = pybind11;
 using namespace py::literals;
 
-/// Define the classes and functions of one subject in the module, in this order.
+/// Define the classes and functions of one subject in the module _dotpose, in this order.
 void define_errors(py::module_& module);
 void define_options(py::module_& module);
 void define_fix(py::module_& module);
 void define_camera(py::module_& module);
 void define_locator(py::module_& module);
 void define_tracker(py::module_& module);
+void define_simulate(py::module_& module);
+
+/// Define the classes and functions of one subject in the module _tools, in this order.
 void define_sheets(py::module_& module);
 void define_follower(py::module_& module);
 void define_files(py::module_& module);
 void define_print(py::module_& module);
 void define_check(py::module_& module);
 void define_calibrate(py::module_& module);
-void define_simulate(py::module_& module);
 void define_protocol(py::module_& module);
+void define_drawing(py::module_& module);
+void define_camera_files(py::module_& module);
+
+/// Imports the module _tools. Throws ImportError, which names `wanted`, if it is not installed.
+py::module_ tools_for(const char* wanted);
 
 /// Returns options in fixed point. Throws BadArgument if an option is out of range.
 DeviceOptions checked(const LocatorOptions& options);

@@ -1,10 +1,11 @@
 // Camera: lens, view and mount of a camera, and camera files.
+#include "dotpose/files/camera.hpp"
+
 #include <array>
 
 #include <fmt/core.h>
 
 #include "binding.hpp"
-#include "dotpose/files/camera_file.hpp"
 
 namespace dotpose::python {
 namespace {
@@ -85,11 +86,17 @@ void define_camera(py::module_& module) {
              "centre_px"_a = py::none(),
              "Make a camera from a lens: k in 1/px^2, negative for barrel distortion, about a "
              "centre (u, v) in px, by default the image centre.")
-        .def_static("read", &read_camera, "path"_a,
-                    "Return the camera of a camera file, or of a camera_info file of ROS.")
+        .def_static(
+            "read",
+            [](const std::filesystem::path& path) {
+                return tools_for("Camera.read").attr("_read_camera")(path);
+            },
+            "path"_a, "Return the camera of a camera file, or of a camera_info file of ROS.")
         .def(
             "write",
-            [](const Camera& self, const std::filesystem::path& path) { write_camera(path, self); },
+            [](const Camera& self, const std::filesystem::path& path) {
+                tools_for("Camera.write").attr("_write_camera")(path, self);
+            },
             "path"_a, "Write a camera file atomically.")
         .def_readwrite("width_px", &Camera::width_px, "Width of the images, in px.")
         .def_readwrite("height_px", &Camera::height_px, "Height of the images, in px.")

@@ -41,11 +41,8 @@ py::array_t<double> dots(SeenFix& self) {
     return array;
 }
 
-Picture draw(SeenFix& self, const std::optional<std::filesystem::path>& path,
-             const std::string& title) {
-    Picture picture{self.seen_stages().drawn(title)};
-    if (path) picture.save(*path);
-    return picture;
+py::object draw(const py::object& self, const py::object& path, const std::string& title) {
+    return tools_for("Fix.draw").attr("_draw")(self, path, title);
 }
 
 py::object other(const SeenFix& self) {

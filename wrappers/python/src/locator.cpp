@@ -4,9 +4,8 @@
 
 #include "dotpose/files/code_names.hpp"
 #include "dotpose/files/error.hpp"
+#include "dotpose/files/option_names.hpp"
 #include "dotpose/files/sheet.hpp"
-#include "dotpose/tools/mounted_pose.hpp"
-#include "dotpose/tools/option_names.hpp"
 #include "image.hpp"
 #include "rounded.hpp"
 
@@ -93,7 +92,8 @@ SeenFix LocatorOfPython::locate_locked(const ImageView& image,
     newest_.fix = reading.fix;
     if (!setup_.code) evidence_ = reading.evidence;
     SeenFix seen = seen_fix(reading);
-    if (setup_.camera) seen.fix = with_camera(seen.fix, *setup_.camera, locator_.trace());
+    if (setup_.with_camera != nullptr)
+        seen.fix = setup_.with_camera(seen.fix, *setup_.camera, locator_.trace());
     if (seen.fix.status == Status::bad_argument) seen.fault = fault_text(locator_.options());
     seen.reference_q8 = {options_.reference_dx_q8, options_.reference_dy_q8};
     seen.number = newest_.number;
@@ -180,6 +180,11 @@ std::shared_ptr<LocatorOfPython> new_locator(const std::string& code, double spa
     setup.code = code_or_auto(code);
     setup.camera = camera;
     if (camera) validate(*camera);
+    if (camera && (camera->paper || camera->theta_offset_rad != 0)) {
+        const py::capsule with_camera =
+            tools_for("a mounted camera").attr("_with_camera").cast<py::capsule>();
+        setup.with_camera = *with_camera.get_pointer<const WithCamera>();
+    }
     if (reference) setup.reference_px = PixelPoint{(*reference)[0], (*reference)[1]};
     setup.options = checked(options);
     if (!(spacing_mm > 0 && spacing_mm < 2000)) {

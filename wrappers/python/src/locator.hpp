@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "binding.hpp"
+#include "camera_files.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/locate.hpp"
 #include "fix.hpp"
@@ -17,6 +18,7 @@ namespace dotpose::python {
 struct LocatorSetup {
     std::optional<CodeVariant> code;  ///< none: the code is detected from all frames
     std::optional<Camera> camera;
+    WithCamera with_camera = nullptr;  ///< not null if the camera is mounted
     std::optional<PixelPoint> reference_px;
     DeviceOptions options;
     bool keep_stages = false;

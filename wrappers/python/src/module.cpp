@@ -1,4 +1,5 @@
-// The module dotpose._dotpose. The package dotpose re-exports its contents.
+// The module dotpose._dotpose: what locating and tracking need. The package dotpose re-exports its
+// contents.
 #include "binding.hpp"
 #include "dotpose/version.hpp"
 
@@ -15,13 +16,6 @@ PYBIND11_MODULE(_dotpose, module) {
     define_camera(module);
     define_locator(module);
     define_tracker(module);
-    define_sheets(module);
-    define_follower(module);
-    define_files(module);
-    define_print(module);
-    define_check(module);
-    define_calibrate(module);
     define_simulate(module);
-    define_protocol(module);
     module.attr("__name__") = own_name;
 }

@@ -3,8 +3,8 @@
 
 #include "binding.hpp"
 #include "dotpose/files/error.hpp"
+#include "dotpose/files/option_names.hpp"
 #include "dotpose/locator_options.hpp"
-#include "dotpose/tools/option_names.hpp"
 
 namespace dotpose::python {
 namespace {

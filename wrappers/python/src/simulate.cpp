@@ -9,7 +9,6 @@
 
 #include "binding.hpp"
 #include "dotpose/files/code_names.hpp"
-#include "dotpose/tools/truth.hpp"
 #include "image.hpp"
 
 namespace dotpose::python {

@@ -1,8 +1,5 @@
 #include "stages.hpp"
 
-#include <sstream>
-
-#include "dotpose/tools/draw.hpp"
 #include "image.hpp"
 
 namespace dotpose::python {
@@ -45,15 +42,6 @@ std::vector<PixelPoint> Stages::dots_px() const {
         pixels.push_back(camera.k_per_px2 == 0 ? point : distorted(camera, point));
     }
     return pixels;
-}
-
-std::string Stages::drawn(const std::string& title) const {
-    DrawOptions options;
-    options.spacing_mm = trace_.fix.spacing_mm();
-    options.title = title;
-    std::ostringstream out;
-    draw_frame(out, image_.view(), trace_, options);
-    return out.str();
 }
 
 }  // namespace dotpose::python

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,11 +20,10 @@ class Stages {
     Stages(const Stages&) = delete;
     Stages& operator=(const Stages&) = delete;
 
+    ImageView image() const { return image_.view(); }
     const Trace& trace() const { return trace_; }
     /// Returns the pixels of the image where dots were found.
     std::vector<PixelPoint> dots_px() const;
-    /// Returns the picture of `draw_frame`, an SVG document.
-    std::string drawn(const std::string& title) const;
 
   private:
     GreyImage image_;

@@ -1,15 +1,37 @@
 """The package as users install it, without a network: a wheel, and pip in a virtual environment."""
 
 import os
+import re
+import shutil
 import subprocess
 import sys
 import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 HERE = Path(__file__).resolve().parents[1]
 PROGRAM = "import dotpose; print(dotpose.__file__, dotpose.Locator().locate(dotpose.simulate(1)[0].image))"
+
+
+# Libraries that a wheel for Linux may need, by the policy manylinux_2_28.
+PERMITTED = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "libgcc_s.so.1", "libstdc++.so.6",
+             "ld-linux-x86-64.so.2"}
+ONLY_LOCATES = """
+import sys, dotpose
+fix = dotpose.Locator().locate(dotpose.simulate(1)[0].image)
+assert fix.ok, fix
+assert "dotpose._tools" not in sys.modules
+for use in (lambda: dotpose.print_sheet, lambda: fix.draw("a.svg"), lambda: dotpose.Camera.read("a")):
+    try:
+        use()
+    except ImportError as error:
+        assert "python3-dotpose" in str(error), error
+    else:
+        raise AssertionError("not refused")
+print(dotpose.__file__)
+"""
 
 
 def run(*command, **environment):
@@ -30,6 +52,7 @@ def copy_of_sources(tmp_path_factory):
         pytest.skip("without DOTPOSE_BUILD, a build directory")
     root = tmp_path_factory.mktemp("checkout")
     (root / "CMakeLists.txt").write_text((HERE.parents[1] / "CMakeLists.txt").read_text())
+    shutil.copytree(HERE.parents[1] / "include", root / "include")
     copy = root / "wrappers" / "python"
     copy.mkdir(parents=True)
     for name in ("setup.py", "pyproject.toml", "README.md"):
@@ -47,7 +70,8 @@ def test_a_wheel_has_what_is_needed(copy_of_sources, tmp_path):
     (wheel,) = tmp_path.glob("dotpose-*.whl")
     names = {Path(name).name for name in zipfile.ZipFile(wheel).namelist()}
     assert {"__init__.py", "__init__.pyi", "py.typed", "METADATA"} <= names
-    assert any(name.startswith("_dotpose.") and name.endswith(".so") for name in names)
+    for module in ("_dotpose.", "_tools."):
+        assert any(name.startswith(module) and name.endswith(".so") for name in names)
 
 
 def test_pip_installs_it_in_a_virtual_environment(copy_of_sources, tmp_path):
@@ -59,3 +83,28 @@ def test_pip_installs_it_in_a_virtual_environment(copy_of_sources, tmp_path):
     version = run(venv / "bin" / "python", "-c", "import dotpose; print(dotpose.__version__)")
     assert f"Version: {version.strip()}" in run(venv / "bin" / "pip", "show", "dotpose")
     run(venv / "bin" / "pip", "uninstall", "--yes", "dotpose")
+
+
+def test_a_wheel_of_the_core_needs_numpy_only(tmp_path):
+    pytest.importorskip("build")
+    if not os.environ.get("DOTPOSE_BUILD"):
+        pytest.skip("compiles the core, as the nightly tests do")
+    # In a copy, because setuptools writes beside the sources.
+    copy = tmp_path / "checkout" / "wrappers" / "python"
+    shutil.copytree(HERE, copy, ignore=shutil.ignore_patterns("build", "dist", "*.egg-info", "__pycache__"))
+    os.symlink(HERE.parents[1], copy / "source")
+    run(sys.executable, "-m", "build", "--wheel", "--no-isolation", "-o", tmp_path, copy,
+        DOTPOSE_BUILD="", DOTPOSE_WHEEL="core")
+    (wheel,) = tmp_path.glob("dotpose-*.whl")
+    venv = tmp_path / "venv"
+    run(sys.executable, "-m", "venv", venv)
+    run(venv / "bin" / "pip", "install", "--no-index", "--no-deps", wheel)
+    (packages,) = venv.glob("lib/python*/site-packages")
+    numpy = Path(np.__file__).parent
+    os.symlink(numpy, packages / "numpy")
+    if (libraries := numpy.parent / "numpy.libs").exists():
+        os.symlink(libraries, packages / "numpy.libs")
+    assert str(venv) in run(venv / "bin" / "python", "-c", ONLY_LOCATES)
+    (module,) = packages.glob("dotpose/*.so")
+    needed = set(re.findall(r"NEEDED.*\[(.*)\]", run("readelf", "-d", module)))
+    assert needed <= PERMITTED

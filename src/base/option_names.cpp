@@ -1,4 +1,4 @@
-#include "dotpose/tools/option_names.hpp"
+#include "dotpose/files/option_names.hpp"
 
 #include <fmt/core.h>
 

@@ -1,0 +1,12 @@
+# The library fmt. Wheels of Python contain it, because it is not on every system: they use only its headers.
+option(DOTPOSE_FMT_HEADER_ONLY "Compile fmt from its headers, so nothing needs libfmt at run time")
+if(DOTPOSE_FMT_HEADER_ONLY)
+    find_path(DOTPOSE_FMT_HEADERS fmt/core.h)
+    if(DOTPOSE_FMT_HEADERS)
+        add_library(fmt::fmt INTERFACE IMPORTED GLOBAL)
+        target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY=1)
+        target_include_directories(fmt::fmt SYSTEM INTERFACE ${DOTPOSE_FMT_HEADERS})
+    endif()
+else()
+    find_package(fmt QUIET)
+endif()
