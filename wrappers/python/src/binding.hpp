@@ -1,5 +1,5 @@
-/// Declarations shared by the binding files: the namespace `py`, one function per subject that
-/// defines its classes and functions, and conversions of option values.
+/// Declarations shared by the binding files: the namespace `py`, functions that each define the
+/// classes and functions of one subject, and conversions of option values.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ namespace dotpose::python {
 namespace py = pybind11;
 using namespace py::literals;
 
-/// Define the classes and functions of one subject in the module, in this order.
+/// Defines the classes and functions of one subject in the module. Must be called in this order.
 void define_errors(py::module_& module);
 void define_options(py::module_& module);
 void define_fix(py::module_& module);
@@ -34,12 +34,12 @@ void define_calibrate(py::module_& module);
 void define_simulate(py::module_& module);
 void define_protocol(py::module_& module);
 
-/// Returns options in fixed point. Throws BadArgument if an option is out of range.
+/// Returns the options in fixed point. Throws BadArgument if an option is out of range.
 DeviceOptions checked(const LocatorOptions& options);
 
-/// Returns the code with the given name, or none for "auto". Throws BadArgument for any other text.
+/// Returns the code with the given name, or none for "auto". Throws BadArgument for any other name.
 std::optional<CodeVariant> code_or_auto(const std::string& name);
-/// Returns the code with the given name. Throws BadArgument for any other text.
+/// Returns the code with the given name. Throws BadArgument for any other name.
 CodeVariant code_named(const std::string& name);
 
 }  // namespace dotpose::python

@@ -13,8 +13,8 @@
 
 namespace dotpose::python {
 
-/// A frame and its trace, whose spans refer to the vectors in this object. Neither copied nor
-/// moved.
+/// A frame and its trace. The spans of the trace refer to vectors in this object, so the object
+/// cannot be copied or moved.
 class Stages {
   public:
     Stages(const ImageView& image, const Trace& trace);
@@ -22,9 +22,9 @@ class Stages {
     Stages& operator=(const Stages&) = delete;
 
     const Trace& trace() const { return trace_; }
-    /// Returns the pixels of the image where dots were found.
+    /// Returns the positions of the detected dots in the image.
     std::vector<PixelPoint> dots_px() const;
-    /// Returns the picture of `draw_frame`, an SVG document.
+    /// Returns the picture drawn by `draw_frame`, as an SVG document.
     std::string drawn(const std::string& title) const;
 
   private:
