@@ -1,10 +1,11 @@
-// Measures all numbers of docs/accuracy.md. Run by `make accuracy`.
+// Measures all numbers in docs/accuracy.md. Run by `make accuracy`.
 //
 //   dotpose_tables accuracy [--quick] [--update docs/accuracy.md] [--seed S] [FOLDER]
 //
 // Writes tables.md, sweep-*.{csv,svg,png}, table-3.md and figure-*.{svg,png} to FOLDER
 // (accuracy-out). --update also replaces the generated parts of the document and its pictures.
-// --quick locates a tenth of the frames, to test the program. The numbers are then inaccurate.
+// --quick locates only a tenth of the frames. It is a test of the program, and its numbers are
+// inaccurate.
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -27,7 +28,7 @@ struct AccuracyOptions {
     int share(int frames) const { return is_quick ? frames / 10 : frames; }
 };
 
-/// A choice of decoder and effort, and its name in the tables.
+/// A combination of decoder and effort, with its name in the tables.
 struct Way {
     const char* name;
     Decoder decoder;
@@ -75,7 +76,7 @@ std::string status_rows(Preset preset, const Score& score) {
     return rows;
 }
 
-/// Prints the tables of clean, nominal and hard frames, located in all ways of `kWays`.
+/// Prints the tables of clean, nominal and hard frames, located with every combination in `kWays`.
 void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     std::string frames =
         "| preset | decoder | frames | located | wrong | position error, µm: median / 95 % / max | "
@@ -104,9 +105,9 @@ void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     run.print_block("statuses", statuses);
 }
 
-/// Returns the limit of a condition: the last value such that at least the fraction `share` of the
-/// frames is located at this value and at all easier values. For the spacing, which has a lower and
-/// an upper limit, returns the range of values.
+/// Returns the limit of a condition: the hardest value such that at least the fraction `share` of
+/// the frames is located at this value and at all easier values. For the spacing, which has a lower
+/// and an upper limit, returns the range of values.
 std::string reach(const Sweep& sweep, Decoder decoder, double share) {
     const auto located = [&](std::size_t i) {
         const SweepPoint& point = sweep.points[i];
@@ -164,7 +165,7 @@ void print_protocol(const AccuracyOptions& accuracy, TableRun& run) {
 bool accuracy_table(TableRun& run) {
     AccuracyOptions options;
     std::string folder = "accuracy-out";
-    run.seed = 404;  // this seed is not used by any test or for tuning
+    run.seed = 404;  // not used by any test or for tuning
     run.command.add_option("FOLDER", folder, "Folder of tables and figures")->capture_default_str();
     run.command.add_flag("--quick", options.is_quick, "A tenth of the frames: not exact");
     run.add_update();

@@ -3,9 +3,9 @@
 //   dotpose_tables adversarial [--frames N] [--class NAME] [--code given|auto] [--seed S]
 //   [--threads N]
 //
-// Locates N frames: N is divided evenly among the classes of tests/adversarial_frames.hpp, or all
-// frames are of the class NAME. The exit status is 1 if any fix is wrong. After Ctrl-C the table
-// contains the frames located so far. Times are processor times.
+// Locates N frames, divided evenly among the classes in tests/adversarial_frames.hpp, or all of
+// class NAME. The exit status is 1 if any fix is wrong. After Ctrl-C, the table contains the frames
+// located so far. Times are CPU times.
 #include <algorithm>
 #include <array>
 #include <ctime>
@@ -30,14 +30,14 @@ constexpr std::array<std::string_view, 5> kVerdicts{"refused", "right", "second"
 using Counts = std::array<std::uint64_t, kVerdicts.size()>;
 constexpr std::size_t kClasses = test::kAdversaries.size();
 
-/// Returns the processor time of this thread in seconds.
+/// Returns the CPU time of this thread in seconds.
 double thread_seconds() {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Results and processor times of the frames of one class.
+/// Results and CPU times of the frames of one class.
 struct ClassTally {
     Counts verdicts{};
     double rendering_s = 0;
@@ -69,7 +69,7 @@ struct AdversaryTally {
     }
 };
 
-/// How the locator gets the code variant: from the options of the frame, or by detection.
+/// Source of the code variant: the options of the frame, or detection by the locator.
 enum class Code : std::uint8_t { given, automatic };
 
 /// Locates a frame. Stores a detected code variant in the options of the frame.

@@ -1,6 +1,6 @@
-// Measures the accuracy of frames in which all dots have the same position relative to the pixels:
-// spacings of whole pixels, no printing errors, and angles of 0, 45 and 90 degrees. For comparison,
-// measures frames at 7 degrees, in which the biases of the dots average out. Prints a table of
+// Measures the accuracy of frames in which all dots have the same sub-pixel phase: spacings of
+// whole pixels, no printing errors, and angles of 0, 45 and 90 degrees. For comparison, measures
+// frames at 7 degrees, in which the biases of the dots average out. Prints a table of
 // docs/accuracy.md in Markdown.
 //
 //   dotpose_tables alike [--frames N] [--seed S] [--threads N] [--spacings P,...] [--dots D,...]
@@ -24,8 +24,8 @@ namespace {
 
 constexpr double kReference_deg = 7;
 constexpr std::array kAngles_deg{0.0, 45.0, 90.0};
-/// The table marks values outside these limits: the maximum ratio of the error to the error at 7
-/// degrees, and the range of the mean of error^2 / variance.
+/// The table marks values outside these limits. The first is the maximum ratio of the error to the
+/// error at 7 degrees, the second the range of the mean of error^2 / variance.
 constexpr double kMaxErrorRatio = 2;
 constexpr std::array kNormalisedRange{0.7, 1.5};
 

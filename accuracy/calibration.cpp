@@ -1,5 +1,5 @@
 // Simulates many calibrations of each kind and measures their errors, absolute and relative to the
-// reported standard deviations. Prints all numbers of docs/calibration.md.
+// reported standard deviations. Prints all numbers in docs/calibration.md.
 //
 //   dotpose_tables calibration [--calibrations N] [--large N] [--spins N] [--tables N] [--seed S]
 //                              [--threads N]

@@ -1,4 +1,4 @@
-/// The parts of the table `calibration`, and statistics of the errors of many calibrations.
+/// Parts of the table `calibration`, and error statistics over many calibrations.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace dotpose::tables {
 
-/// Errors of one parameter, and the standard deviations reported by the calibrations.
+/// Error statistics of one parameter, absolute and relative to the reported standard deviations.
 struct Errors {
     double squares = 0;
     double normalised_squares = 0;
@@ -33,15 +33,15 @@ struct Errors {
         return *this;
     }
     double rms() const { return std::sqrt(squares / count); }
-    /// Returns the mean of error^2 / variance, which is 1 if the reported deviations are correct,
-    /// or "-" if none are reported.
+    /// Returns the mean of error^2 / variance, which is 1 if the reported standard deviations are
+    /// correct, or "-" if no standard deviations are reported.
     std::string normalised_text() const {
         return std::isnan(normalised_squares) ? "-"
                                               : fmt::format("{:.2f}", normalised_squares / count);
     }
 };
 
-/// Errors by the name of the parameter.
+/// Maps the name of a parameter to its error statistics.
 using ErrorTable = std::map<std::string, Errors>;
 inline ErrorTable& operator+=(ErrorTable& table, const ErrorTable& other) {
     for (const auto& [key, errors] : other)
@@ -73,15 +73,15 @@ struct Numbers {
 /// the calibrated cameras. Prints tables in Markdown.
 void measure_lenses(std::uint64_t small_cameras, std::uint64_t large_cameras, const TableRun& run);
 
-/// Measures the errors of the reference point, calibrated by robots that turn on the spot. Prints a
+/// Measures the errors of the reference point calibrated by turning a robot on the spot. Prints a
 /// table.
 void measure_spins(std::uint64_t count, const TableRun& run);
 
-/// Measures the errors of stitching four adjacent sheets with different print scales. Prints a
+/// Measures the errors of stitching four adjacent sheets that have different print scales. Prints a
 /// table.
 void measure_stitching(std::uint64_t count, const TableRun& run);
 
-/// Writes the frames of the example in docs/calibration.md.
+/// Writes the frames of the example in docs/calibration.md to `folder`.
 void write_example(const std::string& folder, std::uint64_t seed);
 
 }  // namespace dotpose::tables

@@ -1,5 +1,5 @@
-// Bounds that no calibration can surpass: the residual with the true parameters, and the Cramer-Rao
-// bounds for the printer's jitter.
+// Lower bounds for the errors of any calibration: the residual with the true parameters, and the
+// Cramer-Rao bounds for the printer's jitter.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace dotpose::tables {
 
-/// A dot that a calibration used, with its true values.
+/// A dot that a calibration used, with its true displacement and its true error.
 struct TrueDot {
     int frame = 0;
     PixelPoint pixel;
@@ -20,15 +20,16 @@ struct TrueDot {
 };
 std::vector<TrueDot> true_dots(const LensCalibration& found, const std::vector<Shot>& shots);
 
-/// The unknown parameters of a mounted camera; the pose of each frame is always unknown.
+/// Unknown parameters of a mounted camera. In addition, the pose of each frame is always unknown.
 enum class Unknown {
     view,      ///< lens, scale along both axes, skew, perspective, as for `calibrate_lens`
     square,    ///< lens, one scale, perspective
     straight,  ///< lens, one scale
 };
 
-/// Returns the minimum standard deviations of an unbiased estimate from these dots, by the names of
-/// `Camera::sigma`. `jitter_mm` is the standard deviation of a dot's position along each axis.
+/// Returns the minimum standard deviations of an unbiased estimate from these dots, keyed by the
+/// names of `Camera::sigma`. `jitter_mm` is the standard deviation of a dot's position along each
+/// axis.
 std::map<std::string, double> min_sigmas(const Camera& camera, const std::vector<TrueDot>& dots,
                                          double jitter_mm, Unknown unknown);
 

@@ -30,8 +30,8 @@ struct CameraKind {
     bool is_mounted = true;
 };
 
-/// Returns the paper's camera: field of view 54 degrees, distortion of 12 % in the corner, 8.6 x
-/// 5.5 mm after correction.
+/// Returns the camera of the paper. It has a field of view of 54 degrees and 12 % distortion in the
+/// corners, and it shows 8.6 x 5.5 mm after correction.
 CameraModel small_camera() {
     CameraModel camera;
     camera.k = -8.7e-6;
@@ -49,7 +49,7 @@ CameraModel large_camera() {
 struct LensTally {
     ErrorTable errors;
     std::map<Unknown, ErrorTable> bounds_if;
-    Numbers residual;     ///< relative to the residual with the true parameters
+    Numbers residual;     ///< residual relative to the residual with the true parameters
     Errors located;       ///< position errors with the calibrated camera, um per axis
     Errors undistorted;   ///< position errors for a lens without distortion, um per axis
     int not_located = 0;  ///< frames without a fix, with the calibrated camera
@@ -70,7 +70,7 @@ struct LensTally {
     }
 };
 
-/// The frames of one camera.
+/// Simulated frames of one camera.
 struct Series {
     const CameraKind& kind;
     std::uint64_t seed;
@@ -98,7 +98,7 @@ struct Series {
     }
 };
 
-/// Returns the width of the middle row of the image on the paper.
+/// Returns the width on the paper of the middle image row, in mm.
 double field_mm(const Camera& camera) {
     const double v = (camera.height_px - 1) / 2.0;
     const CameraPoint left = on_paper(camera, undistorted(camera, {0, v}));
@@ -113,8 +113,7 @@ double field_mm(const CameraModel& model) {
     return std::hypot(right.x - left.x, right.y - left.y);
 }
 
-/// The error of a parameter, with its name, the key of its standard deviation and its unit in the
-/// table.
+/// The error of a parameter, its name and unit in the table, and the key of its standard deviation.
 struct ParameterError {
     const char* title;
     const char* sigma;  ///< key in `Camera::sigma`; empty if no standard deviation is reported
@@ -175,7 +174,7 @@ void measure_parameters(const Series& series, const LensCalibration& found,
 void measure_residual(const LensCalibration& found, const std::vector<Shot>& shots,
                       const std::vector<TrueDot>& dots, LensTally& tally) {
     Locator locator{DeviceOptions{}};
-    // The unit of the calibration's residual is px in the middle of each frame.
+    // `residual_px` is in pixels at the middle of each frame.
     std::vector<double> mm_per_px(shots.size(), NAN);
     for (std::size_t i = 0; i < shots.size(); ++i) {
         DeviceOptions options;
@@ -195,7 +194,7 @@ void measure_residual(const LensCalibration& found, const std::vector<Shot>& sho
     tally.residual.add(found.residual_px / std::sqrt(squares / count));
 }
 
-/// Locates more frames with the calibrated camera, and frames of a lens without distortion.
+/// Locates further frames with the calibrated camera, and frames of a camera without distortion.
 void measure_positions(const Series& series, const Camera& camera, LensTally& tally) {
     Locator locator{DeviceOptions{}};
     Locator undistorted{DeviceOptions{}};

@@ -17,13 +17,13 @@ using Blocks = std::vector<Block>;
 /// Returns the text of a document. Throws Error if it cannot be read.
 std::string read_document(const std::filesystem::path& path);
 
-/// Replaces the blocks of a document. Throws Error if the document has no such block or cannot be
-/// written.
+/// Replaces the blocks of a document. Throws Error if a block is missing from the document, or if
+/// the document cannot be written.
 void update_document(const std::filesystem::path& path, const Blocks& blocks);
 
-/// Writes the blocks to tables.md in `folder`. If a document is given, also replaces its blocks,
-/// and copies all SVG pictures of `folder` to the folder with the document's name beside the
-/// document.
+/// Writes the blocks to tables.md in `folder`. If `document` is not empty, also replaces its blocks
+/// and copies all SVG pictures of `folder` to its picture folder. The pictures of docs/a.md are in
+/// docs/a.
 void write_tables(const std::filesystem::path& folder, const Blocks& blocks,
                   const std::filesystem::path& document);
 

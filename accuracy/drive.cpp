@@ -1,5 +1,5 @@
-// Measures the accuracy of tracking a robot. Processes the frames of the tests' simulated drive as
-// `dotpose watch` does, at several speeds, and on paper with and without printing errors.
+// Measures the accuracy of tracking a robot. Processes the frames of the simulated drive of the
+// tests as `dotpose watch` does, at several speeds, on paper with and without printing errors.
 //
 //   dotpose_tables drive [--speeds V...] [--width W] [--height H] [--draw FILE] [--threads N]
 #include <array>
@@ -41,7 +41,7 @@ constexpr std::array kDriveKinds{DriveKind{"nominal", true, 1},
                                  DriveKind{"no printing errors", false, 1},
                                  DriveKind{"no printing errors, four times the noise", false, 4}};
 
-/// The results of one frame of a drive.
+/// Result of one frame of a drive.
 struct Sample {
     double t_s = 0;
     test::DriveState truth;

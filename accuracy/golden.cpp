@@ -1,6 +1,7 @@
 // Computes checksums that detect every change of a pose, down to the last bit. Locates sets of
-// simulated frames with every attempt and prints one line for each set and attempt: a checksum of
-// the pixels, a checksum of all integers of the fixes, and the number of frames that were located.
+// simulated frames with every attempt and prints one line for each set and attempt. The line
+// contains a checksum of the pixels, a checksum of all integers of the fixes, and the number of
+// located frames.
 //
 //   dotpose_tables golden [--threads N]
 //
@@ -52,8 +53,8 @@ void add(Checksum& sum, const PlaneFromImage& plane) {
     sum.add(plane.lens_q40);
 }
 
-/// Adds all integers of a fix to the checksum. If the status is not ok, adds only status and number
-/// of dots.
+/// Adds all integers of a fix to the checksum. If the status is not ok, adds only the status and
+/// the number of dots.
 void add(Checksum& sum, const Fix& fix) {
     sum.add(static_cast<std::int64_t>(fix.status));
     sum.add(fix.dots_seen);
@@ -71,21 +72,21 @@ void add(Checksum& sum, const Fix& fix) {
     add(sum, fix.pattern_from_image);
 }
 
-/// A frame and the next frame. The fix of the frame gives the prediction for the next frame.
+/// Two consecutive frames. The fix of the first frame predicts the pose of the second.
 struct FramePair {
     GreyImage image;
     GreyImage next;
     DeviceOptions options;
 };
 
-/// A way to locate a frame.
+/// A named method of locating a frame.
 struct GoldenWay {
     std::string name;
     std::function<Fix(const FramePair&, LargeMemory&)> locate;
 };
 constexpr std::size_t kMaxWays = 5;
 
-/// A set of frames, each rendered once and located in several ways.
+/// A set of frames, each rendered once and located with every method in `ways`.
 struct GoldenSet {
     std::uint64_t frames = 0;
     std::function<FramePair(std::uint64_t)> frames_at;

@@ -3,12 +3,12 @@
 //
 //   dotpose_tables integrity [--grids N] [--doubtful N] [--frames N] [--seed S] [--threads N]
 //
-// Grids are bits with random errors, decoded without an image. As in the model of p_wrong, the
-// errors are independent of each other, and less frequent in bits of larger weight. Doubtful grids
-// have enough errors that p_wrong is between 1e-3 and 1e-5, a range in which counting can refute
-// p_wrong. Frames are rendered patterns with flipped bits, read by `locate`. The exit status is 1
-// if more positions are wrong than p_wrong predicts. After Ctrl-C the tables contain the cases
-// counted so far.
+// A grid consists of bits with random errors and is decoded without an image. As in the model of
+// p_wrong, the errors are independent of each other, and less frequent in bits of larger weight.
+// Doubtful grids have enough errors that p_wrong is between 1e-3 and 1e-5. In this range, counting
+// can refute p_wrong. Frames are rendered patterns with flipped bits, read by `locate`. The exit
+// status is 1 if more positions are wrong than p_wrong predicts. After Ctrl-C, the tables contain
+// the cases counted so far.
 #include "integrity.hpp"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ void try_flipped_frame(std::uint64_t seed, std::uint64_t index, IntegrityTally& 
 
 // ---- Result ----
 
-/// Returns P(X <= count) for a Poisson variable X with this mean.
+/// Returns P(X <= count) for a Poisson variable X with mean `mean`.
 double poisson_at_most(std::uint64_t count, double mean) {
     double sum = 0;
     for (std::uint64_t n = 0; n <= count; ++n) {
@@ -70,7 +70,7 @@ double poisson_at_most(std::uint64_t count, double mean) {
     return sum;
 }
 
-/// Returns P(X >= count) for a Poisson variable X with this mean.
+/// Returns P(X >= count) for a Poisson variable X with mean `mean`.
 double poisson_at_least(std::uint64_t count, double mean) {
     return count == 0 || mean <= 0 ? 1 : 1 - poisson_at_most(count - 1, mean);
 }
@@ -93,11 +93,11 @@ bool holds(const Bin& bin) {
            poisson_at_least(bin.wrong, bin.predicted) > 1e-3;
 }
 
-/// Prints the counts of all readings, in classes of p_wrong by factors of 8. Returns true if all
-/// classes are consistent with p_wrong.
+/// Prints the counts of all readings, in classes of p_wrong that span a factor of 8 each. Returns
+/// true if all classes are consistent with p_wrong.
 bool print(std::string_view title, const IntegrityTally& tally) {
     constexpr std::size_t kWidth_log2 = 3;
-    constexpr std::size_t kLast = 34;  // the class of this bin and of all smaller values of p_wrong
+    constexpr std::size_t kLast = 34;  // first bin of the last class, which is open-ended
     bool all_hold = true;
     fmt::print("\n{} ({} not read{})\n{:>17} {:>9} {:>7} {:>10} {:>10}\n", title, tally.unread,
                tally.skipped > 0 ? fmt::format(", {} skipped", tally.skipped) : "", "p_wrong",

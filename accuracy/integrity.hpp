@@ -1,4 +1,4 @@
-/// Counts of readings and wrong positions by their p_wrong, for the table `integrity`.
+/// Counts of readings and wrong positions, grouped by p_wrong, for the table `integrity`.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct IntegrityTally {
     /// Bin n counts the readings with p_wrong = 2^-n. The last bin also counts all smaller values.
     std::array<Bin, 64> bins;
     std::uint64_t unread = 0;
-    std::uint64_t skipped = 0;  ///< number of grids that are not doubtful
+    std::uint64_t skipped = 0;  ///< number of grids skipped because they are not doubtful
 
     void add(int p_wrong_log2, bool is_wrong) {
         Bin& bin = bins[std::min(static_cast<std::size_t>(-p_wrong_log2), bins.size() - 1)];
@@ -60,8 +60,8 @@ enum class GridKind : std::uint8_t {
     doubtful,  ///< with enough errors that p_wrong is between 1e-3 and 1e-5
 };
 
-/// Draws grid `index` of a run, with random errors of its bits, decodes the grid without an image
-/// and counts the result. Thread-safe.
+/// Draws grid `index` of a run with random bit errors, decodes it without an image and counts the
+/// result. Thread-safe.
 void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityTally& tally);
 
 }  // namespace dotpose::tables

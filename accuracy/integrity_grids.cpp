@@ -36,7 +36,7 @@ GridCell cell_of(QuarterTurn turn, int x, int y) {
 
 /// Parameters of the random errors in a simulated reading.
 struct Noise {
-    double odds_log2;  ///< log2 of the odds that a bit of full weight is correct
+    double odds_log2;  ///< log2 of the odds that a bit of weight 127 is correct
     double missing;    ///< fraction of the cells without a dot
     int min_weight;
 
@@ -49,12 +49,13 @@ struct Noise {
         const bool is_wrong = rng.uniform() < chance_of_error(weight);
         return (bit == 1) != is_wrong ? weight : -weight;
     }
-    /// Returns the information of a bit of this weight: 1 - H(probability of error).
+    /// Returns the information of a bit of this weight, in bits: 1 - H(probability of error).
     double information(int weight) const {
         const double q = chance_of_error(weight);
         return 1 + q * std::log2(q) + (1 - q) * std::log2(1 - q);
     }
-    /// Returns the mean information over all cells.
+    /// Returns the expected information of a bit, averaged over all weights. Missing cells
+    /// contribute 0.
     double information() const {
         double sum = 0;
         for (int weight = min_weight; weight <= 127; ++weight)
@@ -63,9 +64,9 @@ struct Noise {
     }
 };
 
-/// Draws the odds of a bit for a doubtful reading with this number of cells. On one axis, log2 of
-/// the number of positions, sections and turns is 36.6. With about 30 bits of information more than
-/// this, p_wrong is about 2^-13.
+/// Draws the odds of a bit for a doubtful reading with this number of cells. The number of
+/// positions, sections and turns along one axis is 2^36.6. About 30 bits of information in addition
+/// to 36.6 make p_wrong about 2^-13.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
     constexpr double kMaxOdds_log2 = 12;
@@ -99,7 +100,7 @@ void draw(GridKind kind, Rng& rng, Reading& reading) {
     core::Grid& grid = reading.grid;
     Noise noise{rng.uniform(2.5, 9), rng.below(2) == 0 ? 0 : rng.uniform(0, 0.25),
                 rng.below(2) == 0 ? 127 : 8};
-    // In a third of the grids, the paper is blank beyond a column.
+    // In a third of the grids, the paper is blank beyond a random column.
     const int visible = rng.below(3) == 0 ? 6 + static_cast<int>(rng.below(3)) : grid.columns;
     if (kind == GridKind::doubtful) {
         const int cells = std::min(visible, grid.columns) * grid.rows;
@@ -139,7 +140,7 @@ bool is_right(const Reading& reading, const Decoding& decoding) {
 }
 
 /// Returns the information of a reading's bits per axis, with the odds per bit that `verify`
-/// estimates. The information is a fast estimate of p_wrong from the results of the decoder.
+/// estimates. The information is a fast estimate of -log2(p_wrong) from the results of the decoder.
 double apparent_information(const core::Grid& grid, const Decoding& decoding,
                             const core::Nominal& nominal) {
     core::Confidence confidence;

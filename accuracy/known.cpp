@@ -1,5 +1,5 @@
 // Counts how many small views of known sheets are located, and how many views of unknown sheets are
-// located on the known ones. Prints tables in Markdown.
+// wrongly located on known sheets. Prints tables in Markdown.
 //
 //   dotpose_tables known [--frames N] [--foreign N] [--sheets N] [--seed S]
 //
@@ -17,7 +17,8 @@
 namespace dotpose::tables {
 namespace {
 
-/// Columns and rows of an A4 page of `dotpose print`, and the gap between two pages, in cells.
+/// Columns and rows of an A4 page printed by `dotpose print`, and the gap between two pages, in
+/// cells.
 constexpr std::uint32_t kColumns = 393;
 constexpr std::uint32_t kRows = 564;
 constexpr std::uint32_t kGap = 1024;
@@ -58,7 +59,7 @@ Setup setup_of(const ViewSize& size, std::uint64_t seed) {
     return setup;
 }
 
-/// Draws a view of a page with the whole view on it.
+/// Draws a view that lies completely on a page.
 Shot draw_on_page(const ViewSize& size, std::uint64_t seed, std::uint64_t index,
                   std::span<const KnownRegion> sheets) {
     Shot shot = draw_shot(setup_of(size, seed), index);

@@ -1,10 +1,10 @@
-// Measures the share of degraded frames that are located. Prints the table of docs/limits.md in
+// Measures the fraction of degraded frames that are located. Prints the table of docs/limits.md in
 // Markdown.
 //
 //   dotpose_tables limits [--frames N] [--seed S] [--threads N]
 //
-// Locates N frames for each condition of tests/limit_frames.hpp, but fewer large images and mirror
-// images, which take longer. The exit status is 1 if any fix is wrong.
+// Locates N frames for each condition in tests/limit_frames.hpp, but fewer large images and mirror
+// images, because they take longer. The exit status is 1 if any fix is wrong.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -3,7 +3,8 @@
 //   dotpose_tables TABLE [OPTION...]
 //   dotpose_tables TABLE --help
 //
-// The exit status is 1 if a fix is wrong or the run was interrupted, and 2 for wrong usage.
+// The exit status is 1 if a fix is wrong or the run was interrupted, and 2 if the command line is
+// invalid.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

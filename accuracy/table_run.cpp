@@ -40,7 +40,7 @@ void TableRun::add_update() {
 
 bool TableRun::parse() {
     if (!command.parse(argc_, argv_)) return false;
-    // Reports a document that cannot be read before the measurement, and not an hour later.
+    // If the document cannot be read, fails before the measurement, which may take an hour.
     if (!document_.empty()) read_document(document_);
     return true;
 }

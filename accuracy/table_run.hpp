@@ -35,7 +35,8 @@ struct Count : Done {
     Tally tally;
 };
 
-/// A table adds its options, parses the command line, measures, and prints the results.
+/// Runs one table. The table adds its options, parses the command line, measures, and prints
+/// results.
 class TableRun {
   public:
     /// `what` is the first line of the help. `argv[0]` is skipped.
@@ -76,7 +77,7 @@ class TableRun {
     /// Prints a generated part of the document, and keeps it for `update_document`.
     void print_block(const std::string& name, const std::string& text);
     const Blocks& blocks() const { return blocks_; }
-    /// If a document was named, replaces its generated parts by the printed parts.
+    /// If a document was named, replaces its generated parts with the printed parts.
     void update_document() const;
     const std::string& document() const { return document_; }
 
@@ -97,10 +98,10 @@ Progress shown_on(cli::ProgressLine& line);
 /// Returns the memory for the locators of this thread.
 LargeMemory& thread_memory();
 
-/// Returns the frame of a shot with its true pose, but without its code.
+/// Returns the frame of a shot with the true pose. The code variant of the frame is not set.
 KnownFrame known_frame(const Shot& shot);
 
-/// Returns a setup of preset nominal with images of this size.
+/// Returns a setup with the preset `nominal` and images of this size.
 Setup setup_of(std::uint64_t seed, int width_px, int height_px);
 
 }  // namespace dotpose::tables

@@ -1,10 +1,10 @@
-// Counts the results of `locate` for right and wrong predictions.
+// Counts the results of `locate` for correct and wrong predictions.
 //
 //   dotpose_tables tracked [--part NAME] [--frames N] [--predictions N] [--seed S]
 //                          [--update docs/tracking.md]
 //
 // Prints four tables: tracked drives, predictions with errors, changes between two frames, and
-// wrong predictions by class. The exit status is 1 if any fix is wrong. After Ctrl-C the tables
+// classes of wrong predictions. The exit status is 1 if any fix is wrong. After Ctrl-C, the tables
 // contain the frames located so far.
 #include "tracked.hpp"
 

@@ -1,4 +1,4 @@
-/// The parts of the table `tracked`, and their counts.
+/// Parts of the table `tracked`, and their counts.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct TrueView {
     }
 };
 
-/// Returns a quantile, or 0 if there are no values.
+/// Returns the quantile `share` of the values, or 0 if there are no values.
 inline double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
     const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
@@ -54,7 +54,7 @@ struct TrackedTally {
     std::uint64_t afresh_wrong = 0;   ///< number of wrong fixes after the prediction was refused
     std::vector<double> errors_um;    ///< position errors of correct fixes that use the prediction
 
-    /// Counts a fix. Without a true pose, every fix is wrong.
+    /// Counts a fix. If there is no true pose, every fix is wrong.
     void count(const Fix& fix, const std::optional<TrueView>& truth) {
         if (fix.status != Status::ok) {
             ++none;
@@ -69,8 +69,8 @@ struct TrackedTally {
         }
     }
 
-    /// Returns two cells of a table: the median and the 95 % quantile of the errors. The cells are
-    /// empty if no frame was tracked.
+    /// Returns two cells of a table, with the median and the 95 % quantile of the errors. The cells
+    /// are empty if no frame was tracked.
     std::string errors() const {
         if (errors_um.empty()) return " | ";
         return fmt::format("{:.2f} | {:.2f}", quantile(errors_um, 0.5), quantile(errors_um, 0.95));
@@ -92,7 +92,7 @@ struct TrackedTally {
     }
 };
 
-/// The tallies of all kinds of predictions, by index.
+/// Tallies, indexed by the kind of prediction.
 struct TrackedTallies {
     std::vector<TrackedTally> kinds;
 
@@ -127,17 +127,17 @@ TrackedTable drives_table(const TableRun& run);
 TrackedTable offsets_table(const TableRun& run, std::uint64_t frames);
 
 /// Returns the table of changes between two frames: light, lifting, turning, another sheet, covered
-/// dots. The prediction is made from the fix of the first frame, before the change.
+/// dots. The prediction is based on the fix of the first frame, before the change.
 TrackedTable changes_table(const TableRun& run, std::uint64_t frames);
 
 /// Returns the table of predictions of positions that are not in view. Each class gets the same
 /// number of predictions.
 TrackedTable wrong_predictions_table(const TableRun& run, std::uint64_t predictions);
 
-/// Returns the wrong position that shares the maximum number of lines with `place`, among the
-/// `lines` columns that begin at `place` (rows if not `is_along_x`). Along this axis, the wrong
-/// position differs in its place in one secondary sequence, and in its section. All lines of the
-/// other axis are shared.
+/// Returns the wrong position that shares the maximum number of lines with `place`. The lines are
+/// the `lines` columns that begin at `place`, or rows if not `is_along_x`. Along this axis, the
+/// wrong position differs from `place` in its place in one secondary sequence and in its section.
+/// The two positions share all lines of the other axis.
 Place worst_alternative(CodeVariant code, const Place& place, bool is_along_x, int lines);
 
 }  // namespace dotpose::tables

@@ -9,7 +9,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// A drive at a constant speed. Uses every `every`-th of its 200 frames per second.
+/// A drive at a constant speed with 200 frames per second. Every `every`-th frame is processed.
 struct DriveRate {
     double speed_mm_s;
     int every;
@@ -21,7 +21,7 @@ constexpr std::array kDrives{DriveRate{0, 1},   DriveRate{30, 1},  DriveRate{100
 /// Results of a drive.
 struct DriveTally {
     TrackedTally seen;
-    TrackedTally settled;  ///< frames after the robot was put down, without the first two
+    TrackedTally settled;  ///< frames after the robot was put down, except the first two
 };
 
 struct DriveTallies {
@@ -68,7 +68,7 @@ void follow(const DriveRate& rate, DriveTally& tally) {
     const auto take = [&](int, const test::DriveState& truth, const Followed& now) {
         if (truth.is_lifted) {
             since_put_down = 0;
-            // A fix of a lifted robot is wrong; frames without a fix are not counted.
+            // A fix of a lifted robot is wrong. Lifted frames without a fix are not counted.
             if (now.located.fix.status == Status::ok) count(now.located, truth, tally.seen);
             return;
         }

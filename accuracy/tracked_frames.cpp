@@ -25,7 +25,7 @@ constexpr std::array kOffsets{Offset{0, 0},   Offset{0.1, 0}, Offset{0.2, 0}, Of
                               Offset{0, 4},   Offset{0, 5},   Offset{0, 6},   Offset{0.3, 2},
                               Offset{0.5, 3}, Offset{0.6, 4}, Offset{0.9, 6}};
 
-/// Returns the prediction from a fix with an error in a random direction.
+/// Returns the prediction from a fix, displaced by the offset in a random direction.
 Prediction displaced(const Fix& fix, const Offset& offset, Rng& rng) {
     const double direction = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double sign = rng.below(2) == 0 ? 1 : -1;
@@ -43,8 +43,8 @@ Setup nominal(std::uint64_t seed) {
     return setup;
 }
 
-/// Locates a frame with predictions of increasing error. The first tally counts fixes without a
-/// prediction.
+/// Locates a frame with predictions of increasing error. The first tally counts the fixes that do
+/// not use the prediction.
 void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     const GreyImage image = render(shot);
     const Fix fresh = Locator(thread_memory(), DeviceOptions{}).locate(image.view());
@@ -92,8 +92,8 @@ void turn(Shot& shot, const Shot&, Rng& rng) {
 /// The change between the first and the second frame.
 struct Change {
     const char* text;
-    /// Changes the first shot into the second shot. `other` is a shot of another sheet. Null if the
-    /// camera is lifted.
+    /// Changes the first shot into the second shot. `other` is a shot of another sheet. Null means
+    /// that the camera is lifted.
     void (*apply)(Shot& shot, const Shot& other, Rng& rng);
 };
 constexpr std::array kChanges{

@@ -9,7 +9,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// A frame whose fix is right, and another frame.
+/// A correctly located frame, and the fix of another frame.
 struct LocatedPair {
     Shot shot;
     GreyImage image;
@@ -22,7 +22,8 @@ std::int32_t between(std::uint32_t from, std::uint32_t to) {
 }
 
 /// Returns a prediction of the wrong position that shares the maximum number of lines with the true
-/// position, among the 10 to 16 lines in the middle of the view. The view shows 11 to 18 lines.
+/// position. Only the 10 to 16 lines in the middle of the view count. The view shows 11 to 18
+/// lines.
 template <bool is_along_x>
 Prediction worst(const LocatedPair& views, Rng& rng) {
     const Fix& fix = views.fix;

@@ -1,5 +1,5 @@
-// Compares the errors of fixes with their covariances on sheets that are not one plane. Prints
-// tables of docs/integrity.md in Markdown, with N frames for each condition.
+// Compares the errors of fixes with their covariances on sheets that are not planar. Prints tables
+// of docs/integrity.md in Markdown, with N frames for each condition.
 //
 //   dotpose_tables slips [--frames N] [--seed S] [--threads N]
 //   dotpose_tables seams [--frames N] [--seed S] [--threads N]
@@ -41,7 +41,7 @@ struct SheetFrames {
     Effort effort = Effort::twice;
 };
 
-/// Maximum error that agrees with the covariance of a fix, in standard deviations.
+/// Maximum error that is consistent with the covariance of a fix, in standard deviations.
 constexpr double kMaxSigmas = 4;
 
 /// Returns the largest error of x, y and theta in units of their standard deviations.

@@ -1,13 +1,13 @@
-// Counts the located views of sheets that dotpose did not print: views anywhere on images of pages,
-// at any angle, with the code given and with the code detected. Prints the rows of a table of
-// docs/integrity.md in Markdown.
+// Counts the located views of sheets that were not printed by dotpose. The views are at random
+// places and angles on images of pages. They are located with the code given and with the code
+// detected. Prints the rows of a table of docs/integrity.md in Markdown.
 //
 //   dotpose_tables views PAGE... --code NAME [--dpi D] [--views N] [--seed S]
 //
-// PAGE is an image of a page at D dots per inch, or a text file of symbols, one of u d l r for each
-// dot, row by row. The true pose of a view is read from the page itself, with the code given, from
-// many more dots than are in the view. Locates N views of each size, from all pages in turn. The
-// exit status is 1 if any fix is wrong.
+// PAGE is an image of a page at D dots per inch, or a text file with one symbol (u, d, l or r) for
+// each dot, row by row. The true pose of a view is read from the page itself, with the code given
+// and from many more dots than the view contains. Locates N views of each size, from all pages in
+// turn. The exit status is 1 if any fix is wrong.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,10 +32,10 @@ namespace dotpose::tables {
 namespace {
 
 constexpr double kMmPerInch = 25.4;
-/// Side of the part of a page from which the true pose of a view is read. The part contains about
-/// 1500 dots.
+/// Side length of the part of a page from which the true pose of a view is read, in spacings. The
+/// part contains about 1500 dots.
 constexpr double kSurroundings_grid = 40;
-/// Number of frames of one run after which its evidence of the code is expected to be complete.
+/// Number of views of a run after which the evidence of the code is expected to be complete.
 constexpr int kFirstViews = 50;
 
 struct ScannedPage {
@@ -97,7 +97,8 @@ struct View {
     Truth truth;
 };
 
-/// Returns the pose on the page at a point. None if the part around the point cannot be read.
+/// Returns the pose at a point of the page, or none if the surroundings of the point cannot be
+/// read.
 std::optional<Fix> pose_on_page(const ScannedPage& page, double x_px, double y_px,
                                 Locator& locator) {
     const int side_px =
@@ -146,13 +147,13 @@ std::optional<View> draw_view(const ScannedPage& page, int width_px, int height_
 struct ViewCounts {
     int views = 0;
     int given = 0;  ///< number of views located with the code given
-    // Numbers of `given` views for which the following holds if the code is not given:
-    int alone = 0;        ///< located without evidence of other views
-    int ambiguous = 0;    ///< refused with the status ambiguous_code, without such evidence
-    int later_given = 0;  ///< follows the first kFirstViews views
-    int later = 0;        ///< counted in `later_given`, and located with the evidence of all views
+    // The following counts are subsets of `given`. They apply to detection of the code.
+    int alone = 0;        ///< number located without evidence from other views
+    int ambiguous = 0;    ///< number refused with ambiguous_code, without evidence from other views
+    int later_given = 0;  ///< number of views after the first kFirstViews views
+    int later = 0;        ///< number of `later_given` located with the evidence of earlier views
     int wrong = 0;
-    double max_against_log2 = 0;  ///< maximum evidence of one view alone against the given code
+    double max_against_log2 = 0;  ///< maximum evidence of a single view against the given code
 };
 
 class ViewReader {

@@ -12,7 +12,8 @@
 namespace dotpose::tables {
 namespace {
 
-/// Position and section along one axis, and along the perpendicular axis (`cross`).
+/// Position and section along one axis, and along the perpendicular axis (`cross` and
+/// `cross_section`).
 struct Along {
     std::uint32_t position;
     std::uint8_t section;
@@ -55,7 +56,7 @@ std::uint8_t section_of(int value) {
     return static_cast<std::uint8_t>((value % kSections + kSections) % kSections);
 }
 
-/// Returns the section in which the largest number of the lines that start at `position` have the
+/// Returns the section for which the largest number of lines, starting at `position`, have the
 /// rolls `rolls`.
 std::uint8_t likest_section(CodeVariant code, std::uint32_t position, std::uint32_t cross,
                             const std::vector<std::uint8_t>& rolls) {
@@ -79,8 +80,8 @@ Along worst(CodeVariant code, const Along& true_place, int lines) {
     Along alternative = true_place;
     alternative.position = code::position_at(basis, worst_places(basis, places, lines));
     alternative.section = likest_section(code, alternative.position, alternative.cross, rolls);
-    // The rolls of the crossing lines depend on the position. The section of the perpendicular axis
-    // is chosen to keep these rolls unchanged.
+    // The rolls of the crossing lines depend on the position. The new section of the perpendicular
+    // axis keeps these rolls unchanged.
     const auto residue = [](std::uint32_t position) {
         return static_cast<int>(position % static_cast<std::uint32_t>(kSections));
     };

@@ -10,18 +10,18 @@
 
 namespace dotpose::bench {
 
-/// A frame with one tag of the family tag36h11 in its middle.
+/// A frame with one tag of the family tag36h11 in the centre.
 struct TagFrame {
     GreyImage image;
     int id = 0;
 };
 
-/// Renders frames with a tag. The tag and its white border cover two thirds of the shorter side of
-/// the frame, at a random angle. Lighting, blur and noise are the same as in the nominal frames of
-/// the same camera.
+/// Renders frames with a tag at a random angle. The tag and its white border cover two thirds of
+/// the shorter side of the frame. Lighting, blur and noise are the same as in nominal frames of the
+/// same camera.
 std::vector<TagFrame> render_tags(const CameraModel& camera, int count);
 
-/// A detector with the library's default options, on one thread.
+/// A single-threaded detector with the library's default options.
 class TagDetector {
   public:
     /// `decimate` is the factor by which the library reduces the image before it searches for tags.
@@ -30,8 +30,8 @@ class TagDetector {
     const apriltag_family_t& family() const { return *family_; }
     /// Returns the number of tags found.
     int detect(GreyImage& image);
-    /// Returns true if the detector finds exactly the tag of the frame, with all bits correct and
-    /// in the correct place.
+    /// Returns true if the detector finds exactly one tag, the tag of the frame, in the correct
+    /// position and with all bits correct.
     bool is_right(TagFrame& frame);
 
   private:

@@ -1,4 +1,4 @@
-/// The parts of the program. Each part measures something and makes tables of the results.
+/// Parts of the program. Each part runs measurements and formats tables of the results.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace dotpose::bench {
 
 void add_frame_benchmarks();
 
-/// Times for one kind of frame, in µs. 0 if not measured.
+/// Times for one kind of frame, in µs, or 0 if not measured.
 struct FrameTimes {
     CameraModel camera;
     double dots = 0;
@@ -46,12 +46,12 @@ void draw_dots(std::ostream& out, const std::vector<FrameTimes>& times);
 
 // ---- Individual frames: varied.cpp ----
 
-/// Ways to process the frames, in the order of the table.
+/// Methods of processing the frames, in the order of the table.
 enum class Way : std::uint8_t {
     twice,
     once,
     narrow,   ///< the first attempt with 16-byte vectors, as on a processor without AVX2
-    tracked,  ///< with predictions whose error is up to a third of a spacing and 2 degrees
+    tracked,  ///< predictions with errors of up to a third of a spacing and 2 degrees
     device,
     floor,
     apriltag_1,
@@ -59,7 +59,7 @@ enum class Way : std::uint8_t {
 };
 inline constexpr std::size_t kWays = 8;
 
-/// Statistics of the times of one way, in µs. The time of a frame is the time of its fastest pass.
+/// Time statistics of one method, in µs. The time of a frame is the time of its fastest pass.
 struct FrameSpread {
     int frames = 0;
     int found = 0;
@@ -76,8 +76,8 @@ struct Varied {
     const FrameSpread& of(Way way) const { return spreads[static_cast<std::size_t>(way)]; }
 };
 
-/// Times nominal frames of 188 x 120 px, and a tenth of that number of frames with a tag. Throws
-/// Error if a fix is wrong.
+/// Times nominal frames of 188 x 120 px, and a tenth as many frames with a tag. Throws Error if a
+/// fix is wrong.
 Varied time_varied_frames(int frames, int passes);
 std::string varied_table(const Varied& varied);
 
@@ -101,7 +101,7 @@ std::string tilt_table(const std::vector<TiltTimes>& times);
 struct HardTimes {
     int frames = 0;
     int located = 0;
-    int by_first_attempt = 0;  ///< number of frames with a fix of the first attempt
+    int by_first_attempt = 0;  ///< number of frames located by the first attempt
     double median_ms = 0;
     double p99_ms = 0;
     double longest_ms = 0;
@@ -125,7 +125,7 @@ std::string code_table(const Results& results);
 /// Returns the load averages of the last 1, 5 and 15 minutes.
 std::string load_average();
 
-/// Returns a Markdown list of processor, caches, compiler and library.
+/// Returns a list of the processor, caches, compiler and library, in Markdown.
 std::string machine_list();
 
 }  // namespace dotpose::bench

@@ -6,8 +6,8 @@
 namespace dotpose::bench {
 namespace {
 
-/// Number of pixels that are counted in parallel. Each lane has an 8-bit counter, to let the
-/// compiler use the widest vectors of the processor.
+/// Number of pixels that are counted in parallel. Each lane has an 8-bit counter, so the compiler
+/// can use the widest vectors of the processor.
 constexpr std::size_t kLanes = 64;
 /// Maximum count of a lane.
 constexpr std::size_t kMaxSteps = 255;

@@ -1,4 +1,4 @@
-/// The minimum work of any method that reads all pixels, as a lower bound of its time.
+/// Minimum work of any method that reads all pixels. Its time is a lower bound for these methods.
 #pragma once
 
 #include <cstdint>

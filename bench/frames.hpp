@@ -1,4 +1,4 @@
-/// The frames of the benchmarks, which are rendered before the measurement begins.
+/// Frames of the benchmarks. They are rendered before the measurement begins.
 #pragma once
 
 #include <functional>
@@ -9,30 +9,30 @@
 
 namespace dotpose::bench {
 
-/// Seed that is not used by any test or for tuning.
+/// Seed not used by any test or for tuning.
 inline constexpr std::uint64_t kSeed = 606;
 
-/// Returns nominal frames of a camera that both the first attempt and the attempt of devices
-/// locate. Returns more frames of small cameras. The frames are rendered at the first call.
+/// Returns nominal frames that the first attempt and the attempt of DeviceLocator both locate.
+/// There are more frames of small cameras. The first call for a camera renders the frames.
 const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera);
 
 /// Returns true if the fix has a pose and the pose is correct.
 bool is_right(const Fix& fix, const Truth& truth);
 
-/// Returns a quantile of sorted values, by the nearest rank.
+/// Returns the quantile `share` of sorted values, by the nearest rank.
 double quantile(const std::vector<double>& sorted, double share);
 
 /// Calls `work(i)` for i from 0 to count - 1, on all cores.
 void on_all_cores(int count, const std::function<void(int)>& work);
 
-/// Returns frame_at(0) to frame_at(count - 1), rendered on all cores.
+/// Returns frame_at(0) to frame_at(count - 1), computed on all cores.
 std::vector<KnownFrame> render_frames(int count, const FrameSource& frame_at);
 
-/// Results of frames that were located individually.
+/// Results for frames that were timed individually.
 struct TimedFrames {
     int located = 0;
-    int by_first_attempt = 0;        ///< number of frames with a fix of the first attempt
-    std::vector<double> fastest_us;  ///< time of each frame in its fastest pass
+    int by_first_attempt = 0;        ///< number of frames located by the first attempt
+    std::vector<double> fastest_us;  ///< minimum time of each frame over all passes
 };
 /// Locates all frames `passes` times with `locate`. Throws Error if a fix is wrong.
 TimedFrames time_frames(const std::vector<KnownFrame>& frames, int passes,

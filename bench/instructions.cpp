@@ -18,7 +18,7 @@ constexpr std::uint64_t kSeed = 606;
 
 }  // namespace
 
-/// The counted functions have C linkage, because callgrind selects them by name.
+/// The counted functions have C linkage, so callgrind can select them by name.
 extern "C" [[gnu::noinline]] void count_fresh_frame(const ImageView& image, Locator& locator) {
     locator.locate(image);
 }
@@ -27,8 +27,8 @@ extern "C" [[gnu::noinline]] void count_tracked_frame(const ImageView& image,
                                                       Locator& locator) {
     locator.locate(image, prediction);
 }
-/// Locates a frame without a given code. count_frame_in_code locates the same frame with its code
-/// given; the difference is the cost of detecting the code.
+/// Locates a frame without a given code. The difference from count_frame_in_code, which locates the
+/// same frame with its code given, is the cost of detecting the code.
 extern "C" [[gnu::noinline]] CodeReading count_frame_in_any_code(const ImageView& image,
                                                                  Locator& locator) {
     return locator.locate_in_any_code(image, {});
@@ -40,7 +40,7 @@ extern "C" [[gnu::noinline]] void count_frame_in_code(const ImageView& image, Lo
 namespace {
 
 /// Locates the frame without and with its code given. Returns true if the first attempt located the
-/// frame in the first code that it tried. Only such frames are counted.
+/// frame in the first code that it tried. Other frames are not counted.
 bool compare_codes(const ImageView& image, Locator& locator) {
     const auto is_settled = [](const CodeReading& reading) {
         return reading.fix.status == Status::ok && reading.fix.attempt == Attempt::first &&
@@ -70,7 +70,7 @@ int main() {
         count_fresh_frame(image.view(), locator);
         const Fix fix = locator.trace().fix;
         if (fix.status != Status::ok) return 1;
-        // The robot has moved by a fifth of a spacing and turned by a degree.
+        // Displaces the prediction by a fifth of a spacing and a degree, as if the robot had moved.
         constexpr std::int32_t kDegree_bam = 11930465;
         const Prediction prediction =
             moved(Prediction::like(fix), CodeVariant::anoto, {65536 / 5, 0}, kDegree_bam,

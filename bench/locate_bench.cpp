@@ -30,8 +30,7 @@ CameraModel phone_camera() {
     return camera;
 }
 
-/// Maximum size of the frames that are measured with libapriltag, which is slower than all other
-/// methods.
+/// Maximum size of the frames measured with libapriltag, which is slower than all other methods.
 constexpr int kMaxTagPixels = 1280 * 800;
 
 const std::vector<CameraModel>& sizes() {
@@ -41,8 +40,8 @@ const std::vector<CameraModel>& sizes() {
     return all;
 }
 
-/// Returns cameras of one image size that see an increasing area of the paper, and therefore more
-/// dots.
+/// Returns cameras with the same image size that see increasing areas of the paper, and therefore
+/// increasing numbers of dots.
 const std::vector<CameraModel>& spacings() {
     static const std::vector<CameraModel> all = [] {
         std::vector<CameraModel> cameras;
@@ -60,7 +59,7 @@ std::string name_of(const char* what, const CameraModel& camera) {
                        kDefaultSpacing_mm / camera.mm_per_px);
 }
 
-/// Returns a locator with the minimum memory for the frames of the camera.
+/// Returns the locator with the smallest memory that is sufficient for the frames of the camera.
 Locator& locator_for(const CameraModel& camera, Effort effort) {
     static const auto small = std::make_unique<SmallMemory>();
     static const auto large = std::make_unique<LargeMemory>();
@@ -93,7 +92,7 @@ void locate_frames(benchmark::State& state, const CameraModel& camera, Effort ef
     state.counters["dots"] = dots / static_cast<double>(frames.size());
 }
 
-/// Tracks each frame from the prediction made from its own fix.
+/// Tracks each frame from a prediction based on its own fix.
 void track_frames(benchmark::State& state, const CameraModel& camera) {
     Locator& locator = locator_for(camera, DeviceOptions{}.effort);
     const std::vector<KnownFrame>& frames = nominal_frames(camera);

@@ -1,12 +1,12 @@
-// Regenerates all numbers and figures of docs/speed.md. Run by `make bench`.
+// Regenerates all numbers and figures in docs/speed.md. Run by `make bench`.
 //
 //   dotpose_bench [--quick] [--update docs/speed.md] [FOLDER]
 //   dotpose_bench --benchmark_filter=stage [--benchmark_...]
 //
 // Writes tables.md, pixels.svg and dots.svg to FOLDER (bench-out). --update also replaces the
-// generated parts of the document and its figures. --quick is a short run to test the program; its
-// numbers are inaccurate. With options of Google Benchmark, only the benchmarks that they select
-// are run and printed.
+// generated parts of the document and its figures. --quick is a short test of the program with
+// inaccurate numbers. If options of Google Benchmark are given, only the selected benchmarks are
+// run and printed.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -38,8 +38,8 @@ struct Arguments {
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    // Repetitions of all benchmarks are interleaved, so that a temporary load of the machine does
-    // not affect all repetitions of one benchmark.
+    // Interleaves the repetitions of all benchmarks, so that a temporary load on the machine does
+    // not affect all repetitions of a single benchmark.
     for (const char* option : {"--benchmark_enable_random_interleaving=true",
                                "--benchmark_repetitions=9", "--benchmark_min_time=0.05"})
         arguments.library.emplace_back(option);
@@ -96,8 +96,8 @@ const FrameTimes& of_width(const std::vector<FrameTimes>& sizes, int width_px) {
                               [](const FrameTimes& t) { return t.camera.width_px; });
 }
 
-/// Returns the minimum fraction of frames located by the first attempt, and the maximum time
-/// relative to the time at 0 degrees.
+/// Returns the minimum percentage of frames located by the first attempt, and the maximum ratio of
+/// the time to the time at 0 degrees.
 std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
     double share = 100;
     double ratio = 1;
@@ -110,7 +110,7 @@ std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
     return {share, ratio};
 }
 
-/// Returns a table of the targets and the measured values.
+/// Returns a table of target and measured values.
 std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varied,
                        const std::vector<TiltTimes>& tilts, const HardTimes& hard) {
     const double locate_us = varied.of(Way::twice).median_us;
@@ -148,7 +148,8 @@ std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varie
 void run(const Arguments& arguments) {
     Results results;
     if (arguments.is_partial) return run_benchmarks(arguments.library, results);
-    // Reads the document first, to report an error before the measurement and not minutes later.
+    // Reads the document first. If it cannot be read, the program fails before the measurement,
+    // which takes minutes.
     if (!arguments.document.empty()) read_document(arguments.document);
     fs::create_directories(arguments.out);
 

@@ -9,7 +9,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the processor time, which depends less on other processes than the elapsed time.
+/// Returns the CPU time, which depends less on other processes than the elapsed time does.
 double us_of(const benchmark::BenchmarkReporter::Run& run) {
     return 1e6 * run.cpu_accumulated_time / static_cast<double>(run.iterations);
 }
@@ -25,7 +25,7 @@ const Result& Results::of(const std::string& name) const {
 }
 
 void Results::ReportRuns(const std::vector<Run>& repetitions) {
-    if (repetitions.front().run_type != Run::RT_Iteration) return;  // statistics over repetitions
+    if (repetitions.front().run_type != Run::RT_Iteration) return;  // skip aggregate statistics
     Run fastest = *std::ranges::min_element(repetitions, {}, us_of);
     fastest.run_name.repetitions.clear();
     ConsoleReporter::ReportRuns({fastest});

@@ -1,4 +1,4 @@
-/// The times of the benchmarks of one run.
+/// Times of the benchmarks of one run.
 #pragma once
 
 #include <map>
@@ -10,12 +10,12 @@
 namespace dotpose::bench {
 
 struct Result {
-    double us = 0;    ///< time of one call in µs, in the fastest repetition
+    double us = 0;    ///< time of one call in the fastest repetition, in µs
     double dots = 0;  ///< mean number of dots in the frames; 0 for benchmarks without frames
 };
 
-/// Prints and keeps the fastest repetition of each benchmark. Other work of the machine can only
-/// make a repetition slower.
+/// Prints and stores the fastest repetition of each benchmark. Other load on the machine can only
+/// slow a repetition down.
 class Results : public benchmark::ConsoleReporter {
   public:
     Results();

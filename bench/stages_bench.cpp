@@ -1,6 +1,6 @@
-// Benchmarks of each stage of the pipeline, with the results of the earlier stages for a nominal
-// frame of 188 x 120 px as input. docs/pipeline.md describes the stages; src/locate and src/device
-// call them.
+// Benchmarks the stages of the pipeline for a nominal frame of 188 x 120 px. The input of each
+// stage is the result of the earlier stages. docs/pipeline.md describes the stages, which are
+// called in src/locate and src/device.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -36,7 +36,7 @@ constexpr CodeVariant kCode = kOptions.code;
 /// A located frame with the results of all stages.
 struct Located {
     const GreyImage* image = nullptr;
-    std::vector<DetectedDot> blobs;  ///< before the size filter
+    std::vector<DetectedDot> blobs;  ///< dots before the size filter
     core::SmallWorkspace w;
 
     std::span<const std::uint16_t> seeds() const { return w.seeds.first(size(w.seed_count)); }
@@ -50,7 +50,7 @@ struct Located {
     static std::size_t size(int count) { return static_cast<std::size_t>(count); }
 };
 
-/// A function that runs a stage. Returns true if the result is the same as in the pipeline.
+/// A function that runs a stage. It returns true if the result equals the result of the pipeline.
 using Stage = bool (*)(Located&);
 
 bool measure_light(Located& l) {
@@ -200,8 +200,8 @@ std::string name_of(const NamedStage& stage) {
     return fmt::format("stage/{}", stage.name);
 }
 
-/// Locates the frame again and keeps the results that later stages change. Returns false if this
-/// fails.
+/// Locates the frame again and keeps the results that later stages modify. Returns false on
+/// failure.
 bool prepare(const KnownFrame& frame, Located& l) {
     l.image = &frame.image;
     if (!push_rows(frame.image, l.w)) return false;
@@ -241,8 +241,8 @@ std::string stage_table(const Results& results) {
     double all_us = 0;
     for (const NamedStage& stage : kStages) {
         double us = results.of(name_of(stage)).us;
-        // Detecting blobs and updating the light thresholds alternate from band to band, so the
-        // benchmark of blobs runs both. The time of the thresholds is subtracted.
+        // The detection of blobs and the update of the adaptive threshold alternate from band to
+        // band. The benchmark of blobs includes both, so the time of the threshold is subtracted.
         if (stage.run == find_blobs) us -= results.of(name_of(kStages.front())).us;
         table +=
             fmt::format("| {} | {}{:.2f} |\n", stage.name, stage.is_part ? "of which " : "", us);

@@ -1,4 +1,4 @@
-// Times many different frames individually, to show the variation of the time.
+// Times many different frames individually, to show how the time varies between frames.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -24,7 +24,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// A way to locate frames, and the frames.
+/// A method of locating frames, and the frames that it locates.
 struct Subject {
     std::vector<const GreyImage*> frames;
     int found = 0;
@@ -58,7 +58,8 @@ Subject locating(const std::vector<KnownFrame>& frames, Effort effort, SmallMemo
     return subject;
 }
 
-/// Returns the way that locates frames as on a processor without AVX2, with the first attempt only.
+/// Returns the method that locates frames as on a processor without AVX2, with the first attempt
+/// only.
 Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     static core::SmallWorkspace workspace;
     const auto locates = [](const GreyImage& image) {
@@ -73,7 +74,7 @@ Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     return subject;
 }
 
-/// Returns the prediction from the frame's own fix, displaced by a random offset.
+/// Returns the prediction from the fix of the same frame, displaced by a random offset.
 Prediction prediction_for(const KnownFrame& frame, Rng& rng, SmallMemory& memory) {
     const Fix fix = Locator(memory, DeviceOptions{}).locate(frame.image.view());
     const double direction_rad = rng.uniform(0, 2 * std::numbers::pi);
@@ -121,8 +122,8 @@ Subject detecting(std::vector<TagFrame>& frames, TagDetector& detector) {
     return subject;
 }
 
-/// Times every frame once. As with a camera, all frames are copied to the same memory. All other
-/// frames are located between two passes of one frame, so caches and branch prediction do not adapt
+/// Times every frame once. All frames are copied to the same memory, like the frames of a camera.
+/// Between two passes, all other frames are located, so caches and branch prediction do not adapt
 /// to a single frame.
 void pass(Subject& subject) {
     using Clock = std::chrono::steady_clock;

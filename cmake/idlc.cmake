@@ -1,4 +1,4 @@
-# IDL compiler for the messages that `dotpose watch --dds` publishes.
+# Finds the IDL compiler for the messages that `dotpose watch --dds` publishes.
 find_program(DOTPOSE_IDLC idlc)
 if(DOTPOSE_IDLC)
     add_executable(CycloneDDS::idlc IMPORTED)

@@ -7,8 +7,8 @@ file(RELATIVE_PATH DOTPOSE_PREFIX_FROM_PC
      /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 string(REGEX REPLACE "/$" "" DOTPOSE_PREFIX_FROM_PC "${DOTPOSE_PREFIX_FROM_PC}")
 
-# Programs that link the static libraries must also link their dependencies. Shared libraries bring
-# their own.
+# Programs that link the static libraries must also link the dependencies of these libraries. Shared libraries
+# load their own dependencies.
 set(DOTPOSE_PC_FILES)
 set(DOTPOSE_PC_TOOLS)
 set(DOTPOSE_PC_TOOLS_LIBS)
@@ -29,8 +29,8 @@ if(NOT BUILD_SHARED_LIBS)
     string(APPEND DOTPOSE_PC_TOOLS_LIBS " -lceres -lglog -pthread")
 endif()
 
-# Headers whose library is not built are not installed. Otherwise, a program that includes such a
-# header would fail only at link time.
+# Headers whose library is not built are not installed. Otherwise, a program that includes one of these
+# headers would fail only at link time.
 set(without)
 if(NOT DOTPOSE_HAS_FILES)
     list(APPEND without PATTERN files EXCLUDE)
@@ -44,8 +44,7 @@ if(TARGET dotpose_c)
     install(FILES wrappers/c/dotpose.h TYPE INCLUDE)
 endif()
 
-# Each library has its own export set, because users of the core only must not need yaml-cpp or
-# libpng.
+# Each library has its own export set, so that users of the core alone do not need yaml-cpp or libpng.
 set(libraries dotpose dotpose_c)
 list(TRANSFORM DOTPOSE_LIBRARIES PREPEND dotpose_ OUTPUT_VARIABLE libraries_of_parts)
 list(APPEND libraries ${libraries_of_parts})
@@ -67,7 +66,7 @@ foreach(target IN LISTS libraries)
 endforeach()
 if(TARGET dotpose_cli)
     install(TARGETS dotpose_cli)
-    # The schema of the JSON lines that the tool writes.
+    # Schema of the JSON lines that the tool writes.
     install(DIRECTORY docs/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/dotpose)
 endif()
 if(TARGET dotpose_live_cli)

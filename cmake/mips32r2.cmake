@@ -1,4 +1,4 @@
-# Toolchain: MIPS32 release 2 without an FPU, as in a PIC32MZ; runs in QEMU's user mode.
+# Toolchain: MIPS32 release 2 without an FPU, as in a PIC32MZ. Programs run in QEMU's user mode.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR mips32r2)
 set(CMAKE_ASM_COMPILER mipsel-linux-gnu-gcc)
@@ -12,14 +12,14 @@ set(firmware ${CMAKE_CURRENT_LIST_DIR}/../firmware/mips32r2)
 # microMIPS instructions reduce the code size by a fifth.
 set(machine "-march=m14k -mmicromips -msoft-float -mno-abicalls -fno-pic -fno-pie -G0")
 set(CMAKE_ASM_FLAGS_INIT "${machine}")
-# The processor executes one instruction per cycle, in order. Scheduling would only increase the
-# register pressure. GCC's cost model of the 4Kc fits this processor better than the cost model of
-# the M14K. Divisors are known to be nonzero.
+# The processor executes one instruction per cycle, in order. Scheduling would only increase the register
+# pressure. GCC's cost model of the 4Kc fits this processor better than the cost model of the M14K. Divisors
+# are known to be nonzero, so division by zero is not checked.
 set(code "-mtune=4kc -fno-schedule-insns -mno-check-zero-division")
 set(CMAKE_CXX_FLAGS_INIT "${machine} ${code} -isystem ${firmware}/include -Wa,${firmware}/stores.s")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -no-pie")
 
 set(DOTPOSE_FIRMWARE mips32r2)
-# No library is linked: Debian's libraries are plain MIPS32 code for an FPU. A program that needs a
+# No library is linked, because Debian's libraries are plain MIPS32 code for an FPU. A program that needs a
 # library fails to link.
 set(DOTPOSE_FIRMWARE_LIBRARIES)

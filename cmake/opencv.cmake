@@ -1,4 +1,4 @@
-# Uses only the parts of OpenCV that live use needs. The CMake files are only in Debian's package of
+# Uses only the parts of OpenCV that live use requires. OpenCV's CMake files are only in Debian's package of
 # the complete OpenCV, which is ten times larger.
 find_path(DOTPOSE_OPENCV_INCLUDE opencv2/videoio.hpp PATH_SUFFIXES opencv4)
 set(libraries)
@@ -8,7 +8,7 @@ foreach(part IN ITEMS videoio highgui imgproc core)
 endforeach()
 if(DOTPOSE_OPENCV_INCLUDE AND NOT libraries MATCHES "NOTFOUND")
     add_library(dotpose_opencv INTERFACE)
-    # SYSTEM, because the headers of OpenCV do not compile without warnings.
+    # The directory is SYSTEM, because the headers of OpenCV do not compile without warnings.
     target_include_directories(dotpose_opencv SYSTEM INTERFACE ${DOTPOSE_OPENCV_INCLUDE})
     target_link_libraries(dotpose_opencv INTERFACE ${libraries})
 endif()

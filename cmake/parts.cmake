@@ -1,5 +1,5 @@
-# The parts of dotpose other than the core, and the libraries that they need. Each library is searched for
-# in one place, here, and only if a part needs it.
+# The parts of dotpose other than the core, and the libraries that they need. Only this file searches for
+# libraries. A library is searched for only if a part needs it.
 
 if(PROJECT_IS_TOP_LEVEL)
     set(default FOUND)
@@ -44,8 +44,8 @@ dotpose_dependency(GTest::gmock_main         libgtest-dev,\ libgmock-dev   PACKA
 dotpose_dependency(benchmark::benchmark      libbenchmark-dev              PACKAGE benchmark)
 dotpose_dependency(PkgConfig::Apriltag       libapriltag-dev               MODULES apriltag)
 
-# dotpose_find(TARGET): searches for the library, unless that has been done. This is a macro because find
-# modules set variables in the caller's scope.
+# dotpose_find(TARGET): searches for the library, unless it has already been searched for. This is a macro
+# because find modules set variables in the caller's scope.
 macro(dotpose_find target)
     if(NOT TARGET ${target})
         list(GET dotpose_how_${target} 1 dotpose_kind)
@@ -64,7 +64,7 @@ macro(dotpose_find target)
     endif()
 endmacro()
 
-# dotpose_part(NAME "description" SETUP group [NEEDS target...] [PARTS part...]): declares a part and the
+# dotpose_part(NAME "description" SETUP group [NEEDS target...] [PARTS part...]): declares a part, and the
 # libraries and earlier parts that it needs. The option DOTPOSE_WITH_NAME is ON (a missing library is an
 # error), OFF, or empty. If it is empty, DOTPOSE_PARTS decides, and parts that another part needs are ON.
 # SETUP: the group of scripts/setup that installs the libraries.
@@ -77,8 +77,7 @@ macro(dotpose_part name what)
     list(APPEND parts ${name})
 endmacro()
 
-# dotpose_decide(NAME): sets DOTPOSE_HAS_NAME for a part, and prints the reason if the part is left
-# out.
+# dotpose_decide(NAME): sets DOTPOSE_HAS_NAME for a part. If the part is left out, prints the reason.
 macro(dotpose_decide name)
     set(missing)
     foreach(needed IN LISTS ${name}_PARTS)
@@ -131,7 +130,7 @@ dotpose_part(LIVE      "dotpose watch and fleet" SETUP live
              NEEDS dotpose_opencv PkgConfig::FFmpeg PkgConfig::Mosquitto simdjson::simdjson)
 dotpose_part(DDS       "dotpose watch --dds" SETUP robots
              PARTS LIVE NEEDS CycloneDDS::ddsc CycloneDDS::idlc)
-# The fuzz preset has neither calibration nor live use. Both take minutes to build and have no fuzz target.
+# The fuzz preset excludes calibration and live use. Both take minutes to build and have no fuzz target.
 set(tested LIVE)
 if(DOTPOSE_SANITIZE MATCHES "fuzzer")
     set(tested TIFF PDF FILES EVALUATE)

@@ -1,9 +1,9 @@
 # dotpose_layer(NAME [PURE] [SOURCES file...] [EXCEPT file...] [USES target...])
 #
 # Defines a layer: one directory of src/, compiled to the object library dotpose_NAME_layer.
-# src/CMakeLists.txt combines the layers into the installed libraries. SOURCES: compiles only these sources
-# of the directory; EXCEPT: compiles all sources except these. PURE: the layer must not use the heap,
-# exceptions, RTTI or dependencies (scripts/check-core-symbols proves it).
+# src/CMakeLists.txt combines the layers into the installed libraries. SOURCES: compiles only these sources of
+# the directory. EXCEPT: compiles all sources except these. PURE: the layer must not use the heap, exceptions,
+# RTTI or dependencies (scripts/check-core-symbols proves it).
 function(dotpose_layer name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "PURE" "" "SOURCES;EXCEPT;USES")
     dotpose_sources(sources)
@@ -12,9 +12,8 @@ function(dotpose_layer name)
     target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include
                                                 ${PROJECT_SOURCE_DIR}/src)
     if(NOT DOTPOSE_FIRMWARE AND NOT EMSCRIPTEN)
-        # Position-independent code is needed for shared libraries, and for modules that link the
-        # static libraries. Only the names that include/dotpose declares are visible; internal calls
-        # are direct.
+        # Shared libraries, and modules that link the static libraries, need position-independent code. Only
+        # names declared in include/dotpose are visible, so internal calls are direct.
         set_target_properties(${target} PROPERTIES
             POSITION_INDEPENDENT_CODE ON
             CXX_VISIBILITY_PRESET hidden
@@ -25,12 +24,12 @@ function(dotpose_layer name)
         target_link_libraries(${target} PUBLIC $<TARGET_NAME_IF_EXISTS:${used}>)
     endforeach()
     if(arg_PURE)
-        # A unity build would recompile several sources after a change of one source.
+        # A unity build would recompile several sources after a change to one source.
         set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
         target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti -fno-threadsafe-statics
                                                  -ffunction-sections -fdata-sections)
         if(DOTPOSE_SANITIZE MATCHES "fuzzer")
-            # Tracing every comparison of numbers makes the core ten times slower and finds no
+            # Tracing every comparison of numbers makes the core ten times slower and does not find any
             # faults.
             target_compile_options(${target} PRIVATE -fno-sanitize-coverage=trace-cmp)
         endif()
@@ -85,8 +84,8 @@ function(dotpose_set_up_library name)
     set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
 endfunction()
 
-# dotpose_sources(RESULT): for functions with the arguments SOURCES and EXCEPT. Sets RESULT to
-# SOURCES or, without SOURCES, to all sources of the directory that are not in EXCEPT.
+# dotpose_sources(RESULT): for functions with the arguments SOURCES and EXCEPT. Sets RESULT to SOURCES or, if
+# SOURCES is not given, to all sources of the directory that are not in EXCEPT.
 macro(dotpose_sources result)
     set(${result} ${arg_SOURCES})
     if(NOT ${result})
@@ -154,8 +153,8 @@ function(dotpose_allow_array_bounds target)
     endif()
 endfunction()
 
-# dotpose_compile_light(TARGET): compiles with less optimization, in half the time. For programs
-# that spend most of their time in the libraries.
+# dotpose_compile_light(TARGET): compiles with less optimization, in half the time. Intended for programs that
+# spend most of their time in the libraries.
 function(dotpose_compile_light target)
     if(DOTPOSE_SANITIZE)
         target_compile_options(${target} PRIVATE -O0)
@@ -180,8 +179,8 @@ function(dotpose_use_internals name)
     dotpose_allow_promotion(${name})
 endfunction()
 
-# dotpose_allow_promotion(TARGET): disables the warning about promotions to double, which are harmless
-# outside of the core. GCC warns only of unintended promotions, and clang of all promotions.
+# dotpose_allow_promotion(TARGET): disables clang's warning about promotions to double, which are harmless
+# outside of the core. GCC warns only about unintended promotions, but clang warns about all promotions.
 function(dotpose_allow_promotion target)
     if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
         target_compile_options(${target} PRIVATE -Wno-double-promotion)

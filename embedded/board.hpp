@@ -1,11 +1,11 @@
-/// The interface of a board for main.cpp: three functions, which each port in boards/ implements.
-/// docs/porting.md describes a port step by step.
+/// Board interface of main.cpp. It consists of three functions, which each port in boards/
+/// implements. docs/porting.md describes step by step how to write a port.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-// Frame size that the memory is dimensioned for: 160 x 120, 188 x 120 or 320 x 240 px. Change the
+// Frame size for which the memory is dimensioned: 160 x 120, 188 x 120 or 320 x 240 px. Change the
 // size here, or define the two macros on the compiler's command line.
 #ifndef DOTPOSE_FRAME_WIDTH_PX
 #define DOTPOSE_FRAME_WIDTH_PX 188
@@ -17,21 +17,21 @@ namespace board {
 inline constexpr int kMaxWidth_px = DOTPOSE_FRAME_WIDTH_PX;
 inline constexpr int kMaxHeight_px = DOTPOSE_FRAME_HEIGHT_PX;
 
-/// A frame with a started exposure.
+/// A frame whose exposure has started.
 struct Frame {
     int width_px = 0;          ///< at most kMaxWidth_px
     int height_px = 0;         ///< number of rows that `next_row` returns
     std::int64_t time_us = 0;  ///< middle of the exposure, on a monotonic clock
 };
 
-/// Waits until `not_before_us` on the clock of Frame::time_us (0: no wait), and starts a frame: the
-/// camera fills one of two row buffers by DMA while the program reads the other. The first call
-/// also initialises the camera and the serial line.
+/// Waits until `not_before_us` on the clock of Frame::time_us (0 means no wait) and starts a frame.
+/// The camera fills one of two row buffers by DMA while the program reads the other buffer. The
+/// first call also initialises the camera and the serial line.
 Frame start_frame(std::int64_t not_before_us);
 
-/// Waits for the next row of the frame, from the top, and returns its grey values. The values are
-/// valid until the next call. The caller must read each row before the camera has delivered the
-/// next one.
+/// Waits for the next row of the frame, from top to bottom, and returns its grey values. The values
+/// are valid until the next call. The caller must read each row before the camera has delivered the
+/// next row.
 const std::uint8_t* next_row();
 
 /// Sends bytes over the serial line or radio. The implementation may copy the bytes and return

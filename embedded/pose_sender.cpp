@@ -4,8 +4,8 @@
 
 using namespace dotpose;
 
-/// The tracker needs the accuracy of the poses. Fixes of devices have no covariance, so the
-/// measured errors of docs/firmware.md are used.
+/// The tracker needs standard deviations of the poses. Fixes of DeviceLocator have no covariance,
+/// so this function sets the errors measured in docs/firmware.md.
 TrackOptions PoseSender::device_tracking() {
     TrackOptions options;
     options.min_sigma_mm = 0.0012F;
@@ -14,8 +14,8 @@ TrackOptions PoseSender::device_tracking() {
 }
 
 /// Begins a frame with the tracker's prediction. If the frame does not confirm the prediction, its
-/// rows are lost, because there is no frame buffer. The frame after a frame without a pose is
-/// therefore begun without a prediction.
+/// rows are lost, because there is no frame buffer. Therefore, after a frame without a pose, the
+/// next frame begins without a prediction.
 Status PoseSender::begin(const board::Frame& frame) {
     if (seen_.status != Status::ok) return locator_.begin(frame.width_px, frame.height_px);
     const Prediction expected =
@@ -25,9 +25,10 @@ Status PoseSender::begin(const board::Frame& frame) {
 
 Fix PoseSender::locate(const board::Frame& frame) {
     Status begun = begin(frame);
-    // An unusable prediction, for example after the robot was lifted, does not cost a frame.
+    // If the prediction cannot be used, for example after the robot was lifted, locates the frame
+    // without it.
     if (begun == Status::not_tracked) begun = locator_.begin(frame.width_px, frame.height_px);
-    // All rows are read, even if the frame was refused, to stay synchronised with the camera.
+    // Reads all rows even if the frame was refused, to stay synchronised with the camera.
     for (int row = 0; row < frame.height_px; ++row) {
         const std::uint8_t* pixels = board::next_row();
         if (begun == Status::ok) locator_.push_row(pixels);

@@ -1,11 +1,12 @@
-/// PoseSender processes the frames of a device, on any board. For each frame, it reads the rows
-/// from the camera, locates the pattern using a prediction, sends the pose as a packet, updates the
+/// Processes the frames of a device, on any board. For each frame, PoseSender reads the rows from
+/// the camera, locates the pattern using a prediction, sends the pose as a packet, updates the
 /// tracker, and determines the time of the next frame.
 ///
 ///     static PoseSender sender;
 ///     for (;;) sender.send_next();
 ///
-/// Uses no heap: the object contains all memory, about 15 KB for frames of 188 x 120 px.
+/// PoseSender does not use the heap. The object contains all memory, about 15 KB for frames of 188
+/// x 120 px.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +36,8 @@ class PoseSender {
     dotpose::DeviceLocator locator_;
     dotpose::Tracker tracker_;
     dotpose::FramePacer pacer_;
-    dotpose::Fix seen_;           ///< fix of the newest frame; not ok before the first frame
-    dotpose::Sighting sighting_;  ///< sighting of the newest fix that is ok
+    dotpose::Fix seen_;           ///< fix of the newest frame; not ok initially
+    dotpose::Sighting sighting_;  ///< sighting of the newest fix with status ok
     std::uint16_t sequence_ = 0;  ///< number of frames so far, modulo 2^16
     std::int64_t next_us_ = 0;    ///< earliest time of the next frame
 };

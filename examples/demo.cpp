@@ -1,5 +1,5 @@
-// Shows the whole library: prints a sheet, drives a simulated camera over it, locates every frame
-// and compares the poses with the true poses. Run by `make demo`.
+// Demonstrates the whole library: prints a sheet, drives a simulated camera over it, locates every
+// frame and compares the poses with the true poses. Run by `make demo`.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -37,8 +37,7 @@ Sheet print_sheet(const fs::path& folder) {
     return sheet;
 }
 
-/// A point of the page in mm from its top left corner, and the direction of the camera at this
-/// point.
+/// A point of the page in mm from the top left corner, and the direction of the camera there.
 struct Waypoint {
     double x_mm = 0;
     double y_mm = 0;
@@ -46,7 +45,7 @@ struct Waypoint {
 };
 
 /// Returns the waypoint of a frame. The path is a figure of eight that fills the page. The camera
-/// is aligned to the direction of travel.
+/// is aligned with the direction of travel.
 Waypoint waypoint(const Sheet& sheet, int frame) {
     const double t = 2 * std::numbers::pi * frame / kFrames;
     const double reach_x_mm = 0.4 * sheet.width_mm;
@@ -69,14 +68,14 @@ CameraPose pose_at(const Sheet& sheet, const Waypoint& waypoint) {
     return pose;
 }
 
-/// The results of a drive.
+/// Results of a drive.
 struct Drive {
     std::vector<PathPoint> path;
     std::vector<double> errors_um;
     std::vector<double> errors_deg;
     std::vector<double> times_us;
-    int lost = 0;         ///< frames without a fix
-    int wrong_fixes = 0;  ///< fixes in another section or with an error above half a cell
+    int lost = 0;         ///< number of frames without a fix
+    int wrong_fixes = 0;  ///< number of fixes in another section or with an error above half a cell
 };
 
 void record(const Sheet& sheet, const Waypoint& truth, const Fix& fix, Drive& drive) {

@@ -1,7 +1,7 @@
 // Follows a robot over printed sheets: dotpose_follow_sheets SHEETS.json FRAMES_PER_SECOND IMAGE...
 //
-// `dotpose print -o table.pdf --sheets sheets.json --name table` writes the sheet file. If the
-// sheets have world poses, the example prints the pose of the robot in the world.
+// The sheet file is written by `dotpose print -o table.pdf --sheets sheets.json --name table`. If
+// the sheets have world poses, the example prints the pose of the robot in the world.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

@@ -9,7 +9,8 @@
 
 int main(int argc, char** argv) {
     if (argc != 2) return std::fputs("usage: locate_one FRAME.pgm\n", stderr), 2;
-    // A binary PGM: width, height and the level of white as text, then a byte for each pixel.
+    // Reads a binary PGM: width, height and maximum grey level as text, followed by one byte per
+    // pixel.
     std::ifstream file(argv[1], std::ios::binary);
     std::string kind;
     int width = 0;

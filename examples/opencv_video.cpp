@@ -1,4 +1,4 @@
-// Locates the frames that OpenCV captures, as cv::Mat: dotpose_opencv_video CAMERA_OR_VIDEO
+// Locates frames captured by OpenCV as cv::Mat: dotpose_opencv_video CAMERA_OR_VIDEO
 #include <cctype>
 #include <cstdio>
 #include <exception>
@@ -11,7 +11,8 @@
 
 namespace {
 
-/// Returns a view of a grey cv::Mat. The pixels are not copied, so the Mat must outlive the view.
+/// Returns a view of a grey cv::Mat. The pixels are not copied, so the cv::Mat must outlive the
+/// view.
 dotpose::ImageView view_of(const cv::Mat& grey) {
     return {grey.data, grey.cols, grey.rows, static_cast<std::ptrdiff_t>(grey.step)};
 }

@@ -1,11 +1,12 @@
-// QEMU plugin that counts the instructions of each frame by stage of the locator.
+// QEMU plugin that counts the instructions of each frame, separately for each stage of the locator.
 //
 //   qemu-... -plugin ./libdotpose_count.so,stages=FILE,out=FILE
 //
 // The plugin counts the instructions between the markers `resume` and `pause` of markers.hpp,
-// without the markers. The file of stages has lines "ADDRESS NAME" with hexadecimal addresses. The
-// instruction at an address begins the named stage, which lasts until the next stage begins.
-// Instructions between `resume` and the first stage count as the stage "other". The output has one
+// excluding the markers. The stage file has lines "ADDRESS NAME" with hexadecimal addresses. The
+// instruction at an address begins the stage with this name. A stage lasts until the next stage
+// begins. Instructions between `resume` and the first stage belong to the stage "other". The output
+// has one line with the names of the stages, and one line of counts for each marker `end_frame`.
 // line with the names of the stages, and one line of counts for each marker `end_frame`.
 #include <algorithm>
 #include <array>
@@ -20,8 +21,8 @@
 #include <string>
 #include <string_view>
 
-// Debian has no package with the plugin header, so the functions and types used are declared here,
-// for version 1 of the interface ("QEMU TCG Plugins" in QEMU's documentation).
+// Debian has no package with the plugin header. The functions and types are therefore declared
+// here, for version 1 of the interface ("QEMU TCG Plugins" in QEMU's documentation).
 extern "C" {
 
 using qemu_plugin_id_t = std::uint64_t;
@@ -65,15 +66,15 @@ namespace {
 struct Stage {
     std::uint64_t address = 0;
     std::string name;
-    std::uint64_t count = 0;  ///< instructions in the current frame
+    std::uint64_t count = 0;  ///< number of instructions in the current frame
 };
 
-/// The state is global because QEMU passes only one pointer to callbacks. The emulated machine has
-/// one processor, so there is one thread.
+/// Global state, because QEMU passes only one pointer to callbacks. The emulated machine has one
+/// processor, so there is only one thread.
 struct Counter {
     std::deque<Stage> stages = {{0, "other"}};
     Stage* current = &stages.front();
-    std::uint64_t executed = 0;  ///< instructions since the start
+    std::uint64_t executed = 0;  ///< number of instructions since the start
     std::uint64_t credited = 0;  ///< value of `executed` at the last change of stage
     bool is_counting = false;
     std::ofstream out;
@@ -118,20 +119,20 @@ struct Marker {
 };
 using Markers = std::array<Marker, 3>;
 
-// The instructions are mov r10, r10; mov r11, r11; mov r12, r12.
+// The markers are the instructions mov r10, r10; mov r11, r11; mov r12, r12.
 constexpr Markers kThumbMarkers = {
     {{0x46D2, 2, on_resume}, {0x46DB, 2, on_pause}, {0x46E4, 2, on_end_frame}}};
-// The instructions are sltiu $0, $0, 0x1b1 to 0x1b3 in microMIPS.
+// The markers are the instructions sltiu $0, $0, 0x1b1 to 0x1b3 in microMIPS.
 constexpr Markers kMipsMarkers = {
     {{0x01B1B000, 4, on_resume}, {0x01B2B000, 4, on_pause}, {0x01B3B000, 4, on_end_frame}}};
-// The instructions are slti x0, x0, 0x1b1 to 0x1b3.
+// The markers are the instructions slti x0, x0, 0x1b1 to 0x1b3.
 constexpr Markers kRiscVMarkers = {
     {{0x1B102013, 4, on_resume}, {0x1B202013, 4, on_pause}, {0x1B302013, 4, on_end_frame}}};
 const Markers* markers = &kThumbMarkers;
 
 const Marker* marker_at(const qemu_plugin_insn* instruction) {
     const std::size_t size = qemu_plugin_insn_size(instruction);
-    std::uint32_t encoding = 0;  // copied bytes: targets and host are little-endian
+    std::uint32_t encoding = 0;  // bytes copied as is: targets and host are little-endian
     std::memcpy(&encoding, qemu_plugin_insn_data(instruction), std::min(size, sizeof encoding));
     const auto found = std::ranges::find_if(
         *markers, [&](const Marker& m) { return m.size == size && m.encoding == encoding; });

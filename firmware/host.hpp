@@ -5,10 +5,10 @@
 
 namespace host {
 
-/// Opens the file for reading. Returns false if this fails.
+/// Opens the file for reading. Returns false on failure.
 bool open(const char* path);
 
-/// Reads `size` bytes. Returns false if the file has fewer bytes left.
+/// Reads `size` bytes. Returns false if fewer bytes are left in the file.
 bool read(void* bytes, std::size_t size);
 
 /// Prints to standard output.

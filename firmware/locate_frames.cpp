@@ -9,7 +9,7 @@
 #include "markers.hpp"
 #include "number.hpp"
 
-// Frame size that the memory is dimensioned for.
+// Frame size for which the memory is dimensioned.
 #ifndef DOTPOSE_FRAME_WIDTH_PX
 #define DOTPOSE_FRAME_WIDTH_PX 188
 #define DOTPOSE_FRAME_HEIGHT_PX 120
@@ -26,7 +26,7 @@ constexpr int kMaxHeight_px = 9999;
 
 DeviceMemoryFor<DOTPOSE_FRAME_WIDTH_PX, DOTPOSE_FRAME_HEIGHT_PX> memory;
 DeviceLocator locator(memory);
-// Cameras write rows to word-aligned memory. Aligned rows are copied by words.
+// Rows are word-aligned, as with DMA from a camera. Aligned rows are copied by words.
 alignas(4) std::array<std::uint8_t, kMaxWidth_px> row;
 
 struct FrameHeader {
@@ -36,8 +36,8 @@ struct FrameHeader {
     Prediction prediction;
 };
 
-/// Reads the next number of a header and the byte that follows. Returns false if there is no
-/// number, if its absolute value exceeds INT32_MAX, or if neither a blank nor a newline follows.
+/// Reads the next number of a header and the byte after it. Returns false if there is no number, if
+/// its absolute value exceeds INT32_MAX, or if neither a blank nor a newline follows it.
 bool read_number(std::int32_t& number) {
     char byte = 0;
     do {
@@ -62,8 +62,8 @@ bool read_into(Int& value) {
     return true;
 }
 
-/// Reads the numbers of a prediction, which follow the letter T. Returns false as `read_number`
-/// does.
+/// Reads the numbers of a prediction, which follow the letter T. Returns false if a number is
+/// invalid.
 bool read_prediction(Prediction& prediction) {
     Place& place = prediction.place;
     PlaneFromImage& plane = prediction.pattern_from_image;

@@ -1,14 +1,14 @@
 #pragma once
 
 /// Locates the frames in the file at `path`, a sequence of binary PGM images (P5, 8 bits, no
-/// comments). A prediction may precede an image, which is then tracked. A prediction is a line with
+/// comments). If a prediction precedes an image, the image is tracked. A prediction is a line with
 /// the letter T and the integers of Place (x, y, u, v), PlaneFromImage (centre, at_centre, du, dv)
 /// and displacement_q16, separated by blanks. Prints one line for each frame:
 ///
 ///     STATUS CELL_X CELL_Y FRACTION_X FRACTION_Y THETA SECTION_U SECTION_V SPACING SEEN USED
 ///     BIT_ERRORS P_WRONG
 ///
-/// with the integers of Fix (fraction_q16, theta_bam, spacing_px_q16, p_wrong_log2). Returns the
-/// exit status: 0 if all frames were read, 1 if the file cannot be opened or has invalid content,
-/// in which case a message is printed.
+/// The values are the integers of Fix (fraction_q16, theta_bam, spacing_px_q16, p_wrong_log2).
+/// Returns the exit status: 0 if all frames were read, or 1 after printing a message if the file
+/// cannot be opened or has invalid content.
 int locate_frames(const char* path);

@@ -1,6 +1,6 @@
-// C library functions that compilers call implicitly. The programs link no C library: Debian's
-// library for MIPS needs an FPU, and instruction counts would change with the version of the
-// library.
+// C library functions that compilers call implicitly. The programs do not link a C library, because
+// Debian's library for MIPS needs an FPU, and because the instruction counts would depend on the
+// version of the library.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -17,7 +17,7 @@ bool are_aligned(const void* a, const void* b) {
 
 extern "C" {
 
-// Cortex-M0+ and MIPS override memcpy with a faster one in memcpy.S.
+// memcpy.S overrides memcpy with a faster version on Cortex-M0+ and MIPS.
 [[gnu::weak]] void* memcpy(void* __restrict to, const void* __restrict from, std::size_t size) {
     auto* target_word = static_cast<Word*>(to);
     const auto* source_word = static_cast<const Word*>(from);

@@ -1,5 +1,5 @@
 /// Measures the stack usage. The stack is filled with a pattern at the start. Words that no longer
-/// contain the pattern were used.
+/// contain the pattern have been used.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,15 @@
 
 namespace stack {
 
-/// Lowest word of the stack and the word after its highest, defined by the linker script.
+/// Lowest word of the stack, and the word above its highest word. The linker script defines the
+/// symbols.
 extern "C" std::uint32_t stack_bottom[], stack_top[];
 
 inline constexpr std::uint32_t kPaint = 0x5AFEC0DE;
 
-/// Fills the stack below the caller's frame with the pattern. Call it first.
+/// Fills the stack below the caller's frame with the pattern. Must be called first.
 [[gnu::always_inline]] inline void paint() {
-    // Words left unpainted for the variables of this function.
+    // Number of words left unpainted, for the variables of this function.
     constexpr std::size_t kOwnWords = 16;
     auto* const end = static_cast<std::uint32_t*>(__builtin_frame_address(0)) - kOwnWords;
     for (volatile std::uint32_t* word = stack_bottom; word < end; ++word)
@@ -29,7 +30,7 @@ inline std::size_t high_water_bytes() {
     return static_cast<std::size_t>(stack_top - word) * sizeof *word;
 }
 
-/// Returns true if the stack may have grown beyond its end, into the variables.
+/// Returns true if the stack may have overflowed into the variables.
 inline bool has_overflown() {
     return *static_cast<volatile std::uint32_t*>(stack_bottom) != kPaint;
 }

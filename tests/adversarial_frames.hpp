@@ -23,7 +23,7 @@ enum class Adversary : std::uint8_t {
     texture,         ///< 1/f noise, also thresholded
     plain_grid,      ///< dots on the intersections, without displacement
     random_symbols,  ///< a perfect grid with random symbols
-    random_offsets,  ///< dots displaced by the correct length in any direction
+    random_offsets,  ///< dots displaced by the nominal length in a random direction
     scattered_dots,
     seam,        ///< two sections with a border anywhere in the frame
     cut,         ///< two places of the pattern joined at a cut
@@ -31,10 +31,10 @@ enum class Adversary : std::uint8_t {
     mirrored,    ///< the mirrored pattern
     replaced,    ///< 30 to 60 % of the symbols replaced by random symbols
     flipped,     ///< 5 to 45 % of the bits flipped
-    half_empty,  ///< a pattern printed on one side of the frame only
+    half_empty,  ///< a pattern that is printed on only one side of the frame
     few_lines,   ///< 5 to 8 columns or rows on blank paper
     slip,        ///< one column or row of dots removed or doubled
-    other_code,  ///< printed as anoto and read in another code, or the reverse
+    other_code,  ///< printed as anoto and read in another code, or vice versa
 };
 inline constexpr std::array kAdversaries = {Adversary::noise,          Adversary::text,
                                             Adversary::halftone,       Adversary::texture,
@@ -64,7 +64,7 @@ struct AdversarialFrame {
     GreyImage image;
     DeviceOptions options;
     std::vector<Answer>
-        answers;  ///< empty if every fix is wrong; the first is the place at the centre
+        answers;  ///< empty if every fix is wrong; otherwise, the first is the place at the centre
     Pattern printed;
 };
 
@@ -72,7 +72,7 @@ enum class Verdict : std::uint8_t {
     refused,
     right,
     second,  ///< a place printed elsewhere in the frame, extrapolated to the centre
-    twin,    ///< a place that has the same symbols, around the centre, in the code variant of the
+    twin,    ///< a place with the same symbols around the centre, in the code variant of the
              ///< options
     wrong,
 };
@@ -123,8 +123,8 @@ inline int reach_cells(const Shot& shot) {
     return static_cast<int>(cells / 2);
 }
 
-/// The pattern up to a border. Beyond the border, the pattern of a place `other` cells away, in the
-/// same or another section.
+/// Two parts of the pattern, joined at a border. Beyond the border, the frame shows the pattern at
+/// an offset of (`other_x`, `other_y`) cells, in the same or another section.
 struct Joint {
     bool is_vertical;
     std::uint32_t border;
@@ -198,7 +198,7 @@ inline void render_changed(Adversary adversary, const Shot& shot, Rng& rng,
     frame.answers = {{shot.pose, pattern.section}};
 }
 
-/// Renders a pattern of which only some lines are printed.
+/// Renders a pattern with only some of its lines printed.
 inline void render_part(Adversary adversary, Shot shot, Rng& rng, AdversarialFrame& frame) {
     constexpr std::uint32_t kFar = 1000;
     const int reach = reach_cells(shot);

@@ -17,7 +17,7 @@ struct AlikeDots {
     double angle_deg = 0;  ///< at 0, 45 and 90 degrees, all dots have the same sub-pixel phase
 };
 
-/// Returns the camera: 188 x 120 px, or 640 x 480 px for at least 16 px per spacing.
+/// Returns a camera with 188 x 120 px, or with 640 x 480 px for a spacing of at least 16 px.
 inline CameraModel camera_of(const AlikeDots& dots) {
     CameraModel camera;
     if (dots.spacing_px >= 16) {
@@ -38,7 +38,7 @@ inline Shot shot_of(const AlikeDots& dots, std::uint64_t seed, int index) {
     shot.imperfections = {};
     shot.imperfections.noise_sigma = 3;
     shot.imperfections.blur_sigma_px = dots.blur_px;
-    shot.imperfections.sub_pixels = 8;  // because errors of 0.001 px matter here
+    shot.imperfections.sub_pixels = 8;  // because errors of 0.001 px matter
     shot.page.pattern.dot_mm = dots.dot * kDefaultSpacing_mm;
     return shot;
 }

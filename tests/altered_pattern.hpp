@@ -12,7 +12,7 @@ inline Vec2 displacement_of(Symbol symbol) {
     return {static_cast<double>(dx(symbol)), static_cast<double>(dy(symbol))};
 }
 
-/// Returns the random numbers of a cell, which are the same in every call.
+/// Returns the random number generator of a cell, which is the same in every call.
 inline Rng rng_of(std::uint64_t seed, Cell cell) {
     return Rng(seed, (std::uint64_t{cell.x} << 32) | cell.y);
 }
@@ -27,8 +27,8 @@ inline Symbol flipped_symbol(const Pattern& pattern, double probability, std::ui
     return make_symbol(x_bit(symbol) ^ flip_x, y_bit(symbol) ^ flip_y);
 }
 
-/// Renders like `render(shot)`, but with dots displaced by `displacement_of`, in units of the
-/// displacement.
+/// Renders the shot like `render(shot)`, but with dots displaced by `displacement_of`, in units of
+/// the nominal displacement.
 inline GreyImage render_dots(const Shot& shot, const simulate::DisplacementOf& displacement_of) {
     const Imperfections& seen = shot.imperfections;
     const simulate::View view(shot.camera, shot.pose, seen);

@@ -22,7 +22,7 @@ inline constexpr double kSeam_mm = 420;
 struct DriveState {
     double x_mm = 0;
     double y_mm = 0;
-    double yaw_rad = 0;  ///< angle of the image x axis, in which the robot drives
+    double yaw_rad = 0;  ///< angle of the image x axis, which is the driving direction
     double vx_mm_s = 0;
     double vy_mm_s = 0;
     double turn_rad_s = 0;
@@ -30,7 +30,7 @@ struct DriveState {
     bool has_graphics = false;
 };
 
-/// Times of the events of the drive, in s. All events are at whole frames.
+/// Times of the events of the drive, in s. All events coincide with frames.
 struct DrivePlan {
     double start = 0.8;  ///< the robot rests before this time
     double lift = 2.0;
@@ -164,7 +164,8 @@ class DriveCamera {
     }
 
   private:
-    /// Returns the pose on a sheet. Its x axis is parallel to the x axis of the world.
+    /// Returns the pose on a sheet. The x axis of each sheet is parallel to the x axis of the
+    /// world.
     CameraPose pose_on(std::size_t sheet_index, const DriveState& state) const {
         const Sheet& sheet = sheets_[sheet_index].sheet;
         const double x_sheet_mm = state.x_mm - kSeam_mm * static_cast<double>(sheet_index);

@@ -28,8 +28,8 @@ struct DriveReading {
     double turn_rad_s = 0;
 };
 
-/// Errors of position (per axis), heading and velocities. Velocities count from the third frame
-/// after the event `fix`, because a filter that has just started has no velocity.
+/// Errors of position (per axis), heading and velocities. Filtered errors are counted from the
+/// third frame after the event `fix`, because a filter that has just started has no velocity.
 class DriveErrors {
   public:
     void add(const DriveState& truth, const DriveReading& reading) {

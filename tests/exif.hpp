@@ -17,9 +17,9 @@ enum ExifTag : std::uint16_t {
     file_source = 41728,
 };
 
-/// Returns a TIFF structure whose first directory contains a maker, and refers to another directory
-/// with these tags. The first directory also describes an image of one pixel, so the structure is a
-/// TIFF file.
+/// Returns a TIFF structure. Its first directory contains a camera maker, and refers to a second
+/// directory with these tags. The first directory also describes an image of one pixel, so the
+/// structure is a valid TIFF file.
 inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endian) {
     std::string bytes = big_endian ? "MM" : "II";
     const auto add = [&](std::uint32_t value, int size) {

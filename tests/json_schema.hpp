@@ -19,7 +19,7 @@ class JsonSchema {
 
     struct Verdict {
         std::vector<std::string> errors;       ///< empty if the value is valid
-        std::set<std::string> described_keys;  ///< keys of the top object that the schema describes
+        std::set<std::string> described_keys;  ///< keys of the top-level object in the schema
     };
 
     explicit JsonSchema(Json schema) : root_(std::move(schema)) {}

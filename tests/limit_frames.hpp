@@ -19,9 +19,9 @@ struct Limit {
     std::string condition;
     std::function<void(Shot&)> worsen;
     CameraModel camera = {};
-    /// True if (almost) all frames are located. limits_test.cpp requires this.
+    /// True if limits_test.cpp requires that (almost) all frames are located.
     bool is_held = true;
-    FixedLens lens = {};  ///< lens that `locate` is given
+    FixedLens lens = {};  ///< lens passed to `locate`
     bool is_white_on_black = false;
 };
 
@@ -278,7 +278,7 @@ inline GreyImage white_on_black(const Shot& shot) {
 
 }  // namespace detail
 
-/// Returns all conditions in the order of the table.
+/// Returns all conditions in the order of the table in docs/limits.md.
 inline std::vector<Limit> all_limits() {
     std::vector<Limit> limits{{"nominal", [](Shot&) {}}};
     detail::add_light(limits);

@@ -1,5 +1,5 @@
-/// Paths of the files that tests use. Defined in a separate source, so that the objects of tests do
-/// not depend on the location of the checkout.
+/// Paths of the files that tests use. They are defined in a separate source, so that the object
+/// files of tests do not depend on the location of the checkout.
 #pragma once
 
 #include <string>

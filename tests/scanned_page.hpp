@@ -1,5 +1,5 @@
 /// Simulates a printer and a flatbed scanner, independently of src/simulate: discs at their true
-/// places on a page, anti-aliased, blurred, with noise.
+/// places on a page, with anti-aliasing, blur and noise.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ struct ScanSettings {
     double dpi = 600;
     double scale_x = 1;  ///< scale of the print
     double scale_y = 1;
-    double rotation_rad = 0;   ///< rotation of the page in the scan, clockwise as seen
+    double rotation_rad = 0;   ///< rotation of the page in the scan, clockwise
     double skew_rad = 0;       ///< rotation of the page's y axis away from its x axis
-    double dot_growth = 1;     ///< factor on the diameters of the dots
+    double dot_growth = 1;     ///< factor for the diameters of the dots
     double missing = 0;        ///< fraction of missing dots
     double jitter_mm = 0.004;  ///< standard deviation of each dot's place, per axis
     double wave_mm = 0;  ///< amplitude of uneven paper feed: a sine along y with a period of 100 mm

@@ -1,7 +1,7 @@
-/// Frames of two adjacent sheets with a straight seam, by an independent renderer. It shares no
-/// code with the simulator and therefore cannot repeat the simulator's errors. Each dot is a disc
-/// that is sampled within each pixel and cut off at the seam. The image is then blurred, lit and
-/// given noise.
+/// Frames of two adjacent sheets with a straight seam, drawn by an independent renderer. It shares
+/// no code with the simulator and therefore cannot repeat the simulator's errors. Each dot is a
+/// disc that is sampled within each pixel and cut off at the seam. Then blur, light and noise are
+/// applied to the image.
 #pragma once
 
 #include <algorithm>

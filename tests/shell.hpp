@@ -11,7 +11,7 @@
 namespace dotpose::test {
 
 struct ShellOutcome {
-    int exit_code = -1;  ///< -1 if the command was ended by a signal
+    int exit_code = -1;  ///< -1 if a signal ended the command
     std::string output;  ///< standard output
 };
 

@@ -1,4 +1,4 @@
-/// Frames of sheets that are not one plane: wrinkled paper, and sheets with two halves that are
+/// Frames of sheets that are not planar: wrinkled paper, and sheets with two halves that are
 /// displaced relative to each other, as by a printer with a bad paper feed or at the seam of two
 /// sheets. The true pose is the pose of the shot, which refers to the part of the paper at the
 /// image centre.
@@ -59,11 +59,11 @@ inline void apply(const Slip& slip, Shot& shot) {
     };
 }
 
-/// Adds waves to the paper, with wavelengths of 16 to 60 spacings in any direction, which displace
-/// dots by up to `amplitude_grid` each.
+/// Adds three waves to the paper, with wavelengths of 16 to 60 spacings in any direction. Each wave
+/// displaces dots by up to `amplitude_grid`.
 inline void wrinkle(double amplitude_grid, Shot& shot) {
     struct Wave {
-        Vec2 per_grid;  ///< radians
+        Vec2 per_grid;  ///< radians per spacing
         double phase_rad;
         Vec2 amplitude_mm;
     };

@@ -1,4 +1,4 @@
-/// A directory that is removed with the object.
+/// A temporary directory. The destructor removes it.
 #pragma once
 
 #include <filesystem>

@@ -10,7 +10,7 @@ function filesBelow(folder) {
     });
 }
 
-/** Returns the service worker with the list of all files of the build and its hash. */
+/** Returns the service worker with the list of all files of the build and their hash. */
 async function serviceWorker(paths, folder) {
     const hash = createHash("sha256");
     for (const path of paths) hash.update(path).update(readFileSync(path));
@@ -31,7 +31,7 @@ async function serviceWorker(paths, folder) {
     return output[0].code;
 }
 
-/** Adds the service worker after all other files. */
+/** Adds the service worker to the build, after all other files. */
 function offline() {
     let folder = "";
     return {
@@ -49,7 +49,7 @@ function offline() {
 }
 
 export default defineConfig({
-    // Relative addresses make the page work in any folder of a server.
+    // Relative addresses let the page work in any folder of a server.
     base: "./",
     build: { target: "es2022", assetsInlineLimit: 0 },
     worker: { format: "es" },

@@ -82,7 +82,7 @@ Lines captions_of(const CalibrationStatus& status) {
     return lines;
 }
 
-/// Returns the covered parts of the image as characters, beside the gauges.
+/// Returns a character map of the covered image blocks, with the gauges beside it.
 Lines terminal_lines(const CalibrationStatus& status) {
     using Image = ImageCoverage;
     Lines lines;

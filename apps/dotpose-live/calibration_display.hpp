@@ -1,5 +1,5 @@
-/// The display of `dotpose calibrate --live` while it takes frames: a window, or the terminal if
-/// there is no display. If standard error is not a terminal, each change is printed as a line.
+/// Display of `dotpose calibrate --live` while frames are taken: a window, or the terminal if there
+/// is no window. If standard error is not a terminal, each change is printed as a line.
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@ struct CalibrationStatus {
 
     CalibrationCoverage coverage;
     std::vector<CalibrationNeed> needs;  ///< unmet requirements, most urgent first
-    /// Standard deviation at the corner, from the newest calibration.
+    /// Standard deviation of the newest calibration in the corners of the image.
     std::optional<double> corner_sigma_px;
     std::optional<double> theta_rad;  ///< direction of the newest frame, if it was located
     std::string now;                  ///< result of the newest frame
@@ -35,7 +35,7 @@ class CalibrationDisplay {
     /// closed the window or pressed q or Escape in it.
     bool show(const CalibrationStatus& status, ImageView image, const Trace& trace);
 
-    /// Handles the events of the window. Returns false like `show`.
+    /// Handles the events of the window. Returns false if the user closed the window.
     bool is_wanted() { return screen_.is_wanted(); }
 
     /// Writes a message to standard error. The next status does not overwrite it. Thread-safe.

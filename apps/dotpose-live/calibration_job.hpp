@@ -1,4 +1,4 @@
-/// Calibrates a lens in a second thread, while new frames of the camera are shown.
+/// Calibrates a lens in a second thread, so new frames of the camera can be shown meanwhile.
 #pragma once
 
 #include <atomic>
@@ -29,14 +29,14 @@ class CalibrationJob {
     /// Starts a calibration with these frames. No other calibration may be running.
     void start(Frames frames);
 
-    /// Waits for the running calibration, at most for `patience`. Returns true if the calibration
-    /// has ended.
+    /// Waits at most `patience` for the running calibration. Returns true if the calibration has
+    /// ended.
     bool wait(std::chrono::milliseconds patience);
 
     /// Returns the result of the newest finished calibration, or none if it failed or if no
     /// calibration has finished.
     const std::optional<LensCalibration>& newest() const { return newest_; }
-    /// Returns the reason why the newest finished calibration failed, or an empty text if it
+    /// Returns the reason why the newest finished calibration failed, or an empty string if it
     /// succeeded.
     const std::string& problem() const { return problem_; }
     /// Returns the number of frames of the newest finished calibration, or 0.

@@ -1,4 +1,5 @@
-/// Subcommands that need a camera or a network. They are in dotpose-live, which `dotpose` starts.
+/// Subcommands that need a camera or a network. They belong to dotpose-live, which `dotpose`
+/// starts.
 #pragma once
 
 #include "command_line.hpp"

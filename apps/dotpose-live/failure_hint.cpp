@@ -15,7 +15,8 @@ constexpr std::int64_t kWindow_us = 1'000'000;
 /// Minimum number of failed frames in a second for a hint. Slow cameras deliver only a few frames
 /// per second.
 constexpr std::size_t kMinFrames = 3;
-/// Maximum number of frames that are remembered, in case the times of a source do not advance.
+/// Maximum number of remembered frames. It limits the memory if the timestamps of a source do not
+/// advance.
 constexpr std::size_t kMaxFrames = 2000;
 
 std::string reason_with_advice(Record record, ImageView image, const DeviceOptions& options,
@@ -35,10 +36,10 @@ GreyImage copy_of(ImageView image) {
 
 }  // namespace
 
-/// Counts a failed frame by its status. The first, second, fourth, eighth (and so on) frame with a
-/// status replaces the stored copy of an earlier frame with the same status. At the end of the run,
-/// the copy is therefore from the second half of the frames with this status, although few copies
-/// were made.
+/// Counts a failed frame by its status. Keeps a copy of the first, second, fourth, eighth (and so
+/// on) frame with each status; a new copy replaces the previous copy. At the end of the run, the
+/// copy is therefore from the second half of the frames with this status, although few copies were
+/// made.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;
@@ -69,8 +70,8 @@ std::string FailureHint::after(const Reading& reading, ImageView image,
     const Record& record = reading.record;
     remember(record, image, options, bits_per_px);
     last_second_.push_back({reading.time_us, record.fix.status != Status::ok});
-    // A hint requires that the remembered frames cover a full second, so the oldest frame is kept
-    // until the next one is a second old.
+    // A hint requires that the remembered frames span a full second. The oldest frame is therefore
+    // kept until the second-oldest frame is a second old.
     while (last_second_.size() > kMaxFrames ||
            (last_second_.size() > 1 && reading.time_us - last_second_[1].time_us >= kWindow_us)) {
         last_second_.pop_front();

@@ -1,4 +1,4 @@
-/// Explains why most frames of a camera or a video cannot be located.
+/// Explains why most frames of a camera or video cannot be located.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,15 @@ namespace dotpose::cli {
 
 class FailureHint {
   public:
-    /// Takes the result of a frame that was located with `options`. Returns a sentence if the frame
-    /// and most frames of the last second failed, and at least three of them, otherwise an empty
-    /// text. Returns the sentence again only if at least half of the frames of a second were
-    /// located since then. `bits_per_px` describes the source of the frame.
+    /// Takes the result of a frame that was located with `options`. Returns a sentence if this
+    /// frame and most frames of the last second failed, and at least three frames failed. Otherwise
+    /// returns an empty string. The sentence is returned again only after at least half of the
+    /// frames of a second were located. `bits_per_px` is the bit rate of the source
+    /// (capture/frame_source.hpp).
     std::string after(const Reading& reading, ImageView image, const DeviceOptions& options,
                       double bits_per_px);
 
-    /// Returns a sentence if most frames of the whole run failed, otherwise an empty text.
+    /// Returns a sentence if most frames of the whole run failed, otherwise an empty string.
     std::string at_end() const;
 
   private:

@@ -38,7 +38,7 @@ struct FleetArguments {
     std::string sheets;
     std::string map;
     std::string log;
-    double seconds = 0;  ///< run time; 0: until interrupted
+    double seconds = 0;  ///< run time; 0 means until interrupted
     double every_s = 1;
 };
 
@@ -67,7 +67,7 @@ class FleetInput {
         flush();
     }
 
-    /// Throws Error if the broker was never reached.
+    /// Throws Error if no connection to the broker was established.
     void require_reached() const { subscriber_->require_reached(); }
 
   private:

@@ -15,7 +15,7 @@ class FleetLog {
     /// Throws Error if the file cannot be created.
     explicit FleetLog(const std::string& path);
 
-    /// Adds a state to the buffer. May be called while another thread calls `flush`.
+    /// Adds a state to the buffer. May run concurrently with `flush`.
     void add(std::string_view robot, const RobotState& state, std::int64_t received_us);
 
     /// Writes the buffer to the file. Throws Error if this or an earlier write failed.

@@ -62,7 +62,7 @@ draw::Map map_of(const FleetState& fleet, const std::string& map_id,
     for (const auto& [name, robot] : fleet.robots()) {
         const RobotState& state = robot.newest;
         if (state.is_localized && state.map_id != map_id) continue;
-        // Copies one path at a time, and releases the lock between copies so that messages can be
+        // Copies one path at a time and releases the lock between copies, so messages can be
         // received.
         std::vector<draw::Point> path_mm = fleet.path_mm(name);
         if (path_mm.empty()) continue;

@@ -1,4 +1,4 @@
-/// Reports of `dotpose fleet` about the robots: a table and a map.
+/// Reports of `dotpose fleet`: a table of the robots and a map.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace dotpose::cli {
 
-/// Recipients of the states: one fleet receives all states of its robots, or several fleets share
-/// the states. If the states are shared, a gap in the numbers does not mean a lost state, so
-/// missing states are not reported.
+/// Recipients of the states: this `dotpose fleet` receives all states of its robots, or several
+/// instances share the states. If the states are shared, a gap in the sequence numbers does not
+/// mean a lost state, so missing states are not reported.
 enum class Delivery { all, shared };
 
 /// Returns a table of the robots as text, with a header line and a summary line.

@@ -1,4 +1,4 @@
-/// Divides the robots of a broker among several fleets.
+/// Divides the robots of a broker among several instances of `dotpose fleet`.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace dotpose::cli {
 
-/// One part of the robots. A robot belongs to the part that the hash of its name selects. The hash
-/// is the same on all computers, so fleets need no connection to each other.
+/// A subset of the robots, selected by the hash of the robot's name. The hash is the same on all
+/// computers, so the instances of `dotpose fleet` do not need to communicate.
 struct Shard {
     std::uint64_t index = 1;  ///< from 1 to `count`
     std::uint64_t count = 1;
@@ -24,8 +24,8 @@ class ShareArguments {
     /// Adds --share and --shard.
     void add_to(Command& command);
 
-    /// Returns the topics to subscribe to: the states, which the broker divides among the fleets of
-    /// a group, and the connections.
+    /// Returns the topics to subscribe to: the states, which the broker divides among the members
+    /// of a group, and the connections.
     std::vector<std::string> topics() const;
     bool is_shared() const { return !group_.empty(); }
     const Shard& shard() const { return shard_; }

@@ -33,7 +33,7 @@ void FleetState::take(std::string_view topic, std::string_view payload, std::int
 void FleetState::take_connection(std::string_view name, const RobotConnection& connection,
                                  std::int64_t now_us) {
     Robot& robot = touch(name);
-    // A retained message may be days old, so its own time is an upper limit for `heard_us`.
+    // A retained message may be days old, so the time it was sent is an upper limit for `heard_us`.
     FleetRobot& shown = robot.shown;
     shown.heard_us = std::max(shown.heard_us, std::min(now_us, connection.sent_us));
     if (connection.presence == publish::Presence::online) return;
@@ -48,7 +48,7 @@ void FleetState::take_state(std::string_view name, RobotState state, std::int64_
     count_latency(static_cast<float>(now_us - state.sent_us) * 1e-3F);
     const auto arrival = robot.numbers.take(state, robot.shown.counts);
     if (arrival == StateNumbers::Arrival::repeated) return;
-    // A lost robot stays on its last map.
+    // A lost robot remains on its last map.
     if (!state.is_localized) state.map_id = robot.shown.newest.map_id;
     listener_(name, state);
     if (arrival == StateNumbers::Arrival::late) return;
@@ -76,7 +76,7 @@ void FleetState::remove_oldest() {
 }
 
 void FleetState::extend_path(Robot& robot) const {
-    constexpr double kStep_mm = 0.1;  // minimum step, so a robot at rest adds no points to its path
+    constexpr double kStep_mm = 0.1;  // minimum step, so a resting robot adds no points to its path
     const std::size_t max_points = std::min(kPath, kAllPaths / robots_.size());
     const RobotState& newest = robot.shown.newest;
     const draw::Point place{newest.x_m * 1000, newest.y_m * 1000};

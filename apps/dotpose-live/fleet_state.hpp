@@ -1,4 +1,4 @@
-/// The state of all robots of a broker, computed from their state messages.
+/// State of all robots of a broker, computed from their state messages.
 #pragma once
 
 #include <cstddef>
@@ -24,8 +24,7 @@ struct FleetRobot {
     StateCounts counts;
 };
 
-/// Statistics of the time from sending a message to receiving it, measured with the clocks of the
-/// two computers.
+/// Latency statistics of the messages, measured with the clocks of the sender and of the receiver.
 struct Latency {
     double median_ms = 0;
     double p99_ms = 0;
@@ -33,7 +32,7 @@ struct Latency {
 
 class FleetState {
   public:
-    /// Maximum number of robots. Beyond the maximum, the robot with the oldest message is removed.
+    /// Maximum number of robots. If it is exceeded, the robot with the oldest message is removed.
     static constexpr std::size_t kMaxRobots = 10'000;
 
     using Listener = std::function<void(std::string_view robot, const RobotState& state)>;
@@ -43,10 +42,9 @@ class FleetState {
     explicit FleetState(Listener listener = [](std::string_view, const RobotState&) {})
         : listener_(std::move(listener)) {}
 
-    /// Takes a message. A state that is older than the newest state of its robot is only counted.
-    /// If several older states follow each other in ascending order of time, the clock of the
-    /// sender was set back, and the states are accepted. Invalid messages are counted as bad.
-    /// Thread-safe.
+    /// Takes a message. A state older than the newest state of its robot is only counted. If
+    /// several older states follow each other in ascending order of time, the clock of the sender
+    /// was set back, and the states are accepted. Invalid messages are counted as bad. Thread-safe.
     void take(std::string_view topic, std::string_view payload, std::int64_t now_us);
 
     /// Returns the robots, sorted by name.
@@ -63,7 +61,7 @@ class FleetState {
   private:
     static constexpr std::size_t kLatencies = 1 << 17;
     static constexpr std::size_t kPath = 2000;
-    /// Maximum total number of points of all paths. The more robots, the shorter their paths.
+    /// Maximum total number of points of all paths. With more robots, each path is shorter.
     static constexpr std::size_t kAllPaths = 1 << 21;
 
     struct Robot {

@@ -27,7 +27,7 @@ void FleetView::refresh(const FleetState& fleet) {
     if (on_terminal_) show_table(fleet);
     const auto begun = Clock::now();
     if (map_path_.empty() || begun < next_map_) return;
-    // Reports a failure and continues, because the next attempt may succeed.
+    // Reports a failure and continues, because the next attempt to draw the map may succeed.
     try {
         draw(fleet);
         is_failing_ = false;
@@ -54,8 +54,8 @@ void FleetView::draw(const FleetState& fleet) {
     write_file(map_path_, draw::draw_map(map_of(fleet, map_shown(fleet), sheets_)));
 }
 
-/// Returns the name of the map to draw: the world of the sheets or, without sheets, the plane of
-/// the first robot with a plane.
+/// Returns the name of the map to draw: the world frame of the sheet file or, without a sheet file,
+/// the map of the first robot that has one.
 std::string FleetView::map_shown(const FleetState& fleet) const {
     if (!map_id_.empty()) return map_id_;
     for (const auto& [name, robot] : fleet.robots()) {

@@ -1,4 +1,4 @@
-/// Shows the robots of a fleet periodically, as a table and as a map.
+/// Periodically shows the robots of a fleet, as a table and as a map.
 #pragma once
 
 #include <chrono>
@@ -17,8 +17,8 @@ class FleetView {
     /// Throws Error.
     FleetView(const std::string& sheets, std::string map, Delivery delivery);
 
-    /// Shows the table if standard output is a terminal. Draws the map, but uses at most a tenth of
-    /// the time for drawing.
+    /// Shows the table if standard output is a terminal. Draws the map, but spends at most a tenth
+    /// of the time on drawing.
     void refresh(const FleetState& fleet);
 
     /// Shows the last table and draws the last map. Throws Error if the map cannot be written.

@@ -73,8 +73,8 @@ bool write_new(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
 
 FrameSaver::FrameSaver(SaveOptions options) : options_(std::move(options)) {
     std::error_code failed;
-    // Creates only the last folder of the path. A missing parent folder means that the name is
-    // mistyped.
+    // Creates only the last folder of the path. If the parent folder is missing, the path is
+    // probably mistyped.
     fs::create_directory(options_.folder, failed);
     if (!fs::is_directory(options_.folder)) {
         throw Error(fmt::format("cannot create the folder {}: {}", options_.folder,

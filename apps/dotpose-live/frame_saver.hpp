@@ -13,20 +13,21 @@
 namespace dotpose::cli {
 
 struct SaveOptions {
-    std::string folder;  ///< empty: frames are not saved
-    /// Saves every n-th frame. 0: saves frames that show a new place.
+    std::string folder;  ///< frames are not saved if empty
+    /// Saves every n-th frame. If 0, saves the frames that show a new place.
     std::int64_t every = 0;
     ImageEncoding format = ImageEncoding::png;
 };
 
 class FrameSaver {
   public:
-    /// Creates the folder, whose parent must exist. Throws Error if that fails.
+    /// Creates the folder. Its parent must exist. Throws Error if the folder cannot be created.
     explicit FrameSaver(SaveOptions options);
 
-    /// Saves the frame, if its number or place is selected. The names are frame_000000.png and so
-    /// on, with the file extension of the format. Numbers continue after the highest number in the
-    /// folder. Existing files are never overwritten. Throws Error if the image cannot be written.
+    /// Saves the frame if its number or place is selected. The files are named frame_000000.png and
+    /// so on, with the file extension of the format. Numbers continue after the highest number in
+    /// the folder. Existing files are never overwritten. Throws Error if the image cannot be
+    /// written.
     void take(ImageView image, const Fix& fix);
 
     std::int64_t saved() const { return saved_; }

@@ -30,20 +30,19 @@ using namespace std::chrono_literals;
 
 /// Maximum number of frames that are taken. More frames take longer and do not improve the result.
 constexpr std::size_t kMaxLiveFrames = 50;
-/// Maximum speed of the image for a steady camera, in px/s: less than a pixel during an exposure or
-/// the readout of a rolling shutter.
+/// Maximum image speed of a steady camera, in px/s. At this speed, the image moves by less than a
+/// pixel during an exposure or the readout of a rolling shutter.
 constexpr double kSteady_px_s = 30;
-/// Time without a steady frame after which frames of a moving camera are accepted, for example on a
-/// robot that does not stop.
+/// Time without a steady frame after which frames of a moving camera are accepted, for example if
+/// the robot does not stop.
 constexpr std::int64_t kPatience_us = 3'000'000;
-/// Minimum number of uncovered parts of the image that a frame must show to be taken at a place
-/// that is not new.
+/// Minimum number of uncovered image blocks that a frame must cover to be taken at a known place.
 constexpr int kNewParts = 3;
 
 /// Measures the speed of the image between two located frames.
 class Motion {
   public:
-    /// Returns the speed since the previous frame, in px/s; infinity if unknown.
+    /// Returns the speed since the previous frame, in px/s, or infinity if the speed is unknown.
     double speed_px_s(const Fix& fix, std::int64_t time_us, double reach_px) {
         const std::optional<Seen> before =
             std::exchange(newest_, Seen{fix.x_grid(), fix.y_grid(), fix.theta_rad(), time_us});
@@ -67,7 +66,7 @@ class Motion {
     std::optional<Seen> newest_;
 };
 
-/// Counts of frames, which explain why too few frames were taken.
+/// Frame counts that explain why too few frames were taken.
 struct Tally {
     std::int64_t seen = 0;
     std::int64_t located = 0;
@@ -88,7 +87,7 @@ class LiveCalibration {
 
     void say(const std::string& message) { display_.say(message); }
 
-    /// Takes frames until they suffice, the source ends or the user stops.
+    /// Takes frames until there are enough, the source ends or the user stops.
     void take_all(capture::FrameSource& source) {
         try {
             capture::Frame frame;
@@ -99,7 +98,7 @@ class LiveCalibration {
         } catch (const BadArgument&) {
             throw;
         } catch (const Error& error) {
-            // The frames before the failure may suffice.
+            // The frames taken before the failure may be enough.
             say(error.what());
         }
     }
@@ -155,7 +154,7 @@ void LiveCalibration::start_with(const GreyImage& image) {
 }
 
 bool LiveCalibration::is_steady(const capture::Frame& frame) {
-    if (!frame.file.empty()) return true;  // images are taken one by one, so the camera was steady
+    if (!frame.file.empty()) return true;  // image files are assumed to be from a steady camera
     const double reach_px = std::hypot(width_px_, height_px_) / 2;
     const bool is_slow =
         motion_.speed_px_s(reader_.trace().fix, frame.time_us, reach_px) < kSteady_px_s;
@@ -179,7 +178,7 @@ bool LiveCalibration::is_new(const CalibrationView& view, ImageView image) {
     return places_.take(reader_.trace().fix, image) || coverage_->parts_added_by(view) >= kNewParts;
 }
 
-/// Returns the reason for not taking a frame, or an empty text if the frame is taken.
+/// Returns the reason for not taking a frame, or an empty string if the frame is taken.
 std::string LiveCalibration::refusal(const capture::Frame& frame,
                                      const std::optional<calibrate::LocatedFrame>& located) {
     ++tally_.seen;
@@ -209,8 +208,8 @@ std::string LiveCalibration::refusal(const capture::Frame& frame,
     return "";
 }
 
-/// Adds a frame to the calibration unless `refusal` gives a reason not to, and displays the frame
-/// in either case. Returns false if the user stopped the calibration.
+/// Displays a frame, and adds it to the calibration unless `refusal` gives a reason not to. Returns
+/// false if the user stopped the calibration.
 bool LiveCalibration::look(capture::Frame& frame) {
     // An unplugged camera delivers empty frames.
     if (frame.image.pixels.empty()) return display_.is_wanted();
@@ -246,9 +245,9 @@ std::optional<Camera> LiveCalibration::lens() const {
 }
 
 /// Returns true if another calibration would improve on the newest calibration. Each calibration
-/// takes longer than the previous calibration, so the next calibration waits for twice the number
-/// of frames. If only the accuracy of the lens is insufficient, it may wait for fewer than twice as
-/// many frames: standard deviations are inversely proportional to the root of the number of frames.
+/// takes longer than the previous one, so the next calibration waits for twice the number of
+/// frames. It waits for fewer frames if only the accuracy of the lens is insufficient, because
+/// standard deviations are inversely proportional to the square root of the number of frames.
 bool LiveCalibration::is_worth_calibrating() const {
     if (taken_.size() < std::size_t{kWantedFrames} || taken_.size() == job_.frames()) return false;
     const std::vector<CalibrationNeed> missing = needs();
@@ -287,9 +286,9 @@ bool LiveCalibration::is_enough() const {
            needs().empty();
 }
 
-/// Waits for a calibration with all frames. Throws Error after an interrupt.
+/// Waits for a calibration with all frames. Throws Error if interrupted.
 void LiveCalibration::finish_job() {
-    // The first Ctrl-C only stopped the taking of frames.
+    // The first Ctrl-C only ended the acquisition of frames.
     take_ctrl_c();
     ProgressLine line("calibrating the lens");
     while (job_.is_running() || job_.frames() < taken_.size()) {
@@ -323,7 +322,7 @@ std::string LiveCalibration::shortage() const {
     return text;
 }
 
-/// Returns the calibration with all frames. Throws Error if the frames do not suffice.
+/// Returns the calibration with all frames. Throws Error if there are not enough frames.
 LensCalibration LiveCalibration::result() {
     if (taken_.size() < std::size_t{kWantedFrames}) throw Error(shortage());
     finish_job();

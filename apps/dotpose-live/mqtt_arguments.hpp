@@ -1,4 +1,4 @@
-/// Options of the broker, shared by `watch` and `fleet`.
+/// Command-line options for the MQTT broker, shared by `watch` and `fleet`.
 #pragma once
 
 #include <optional>

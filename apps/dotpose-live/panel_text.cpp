@@ -20,7 +20,7 @@ struct Shown {
     double angle_rad = 0;
 };
 
-/// Returns the pose to show, or none while the robot is lost and not on a sheet.
+/// Returns the pose to show, or none if the robot is lost and not on a sheet.
 std::optional<Shown> shown_pose(const Reading& reading) {
     const std::optional<SheetPlace>& place = reading.record.place;
     const TrackedPose& pose = reading.track.pose;

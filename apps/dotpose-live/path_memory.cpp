@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kMm_per_m = 1000;
 
-/// Converts a point of a page, in mm, to the plane. For the plane of the world, the page must have
-/// a world pose.
+/// Converts a point of a page, in mm, to coordinates of `plane`. If `plane` is the world, the page
+/// must have a world pose.
 draw::Point in_plane(const SheetEntry& entry, Plane plane, double x_mm, double y_mm) {
     const Sheet& sheet = entry.sheet;
     if (plane == Plane::pattern) {

@@ -1,5 +1,5 @@
-/// Stores the path of a robot in bounded memory. Long paths are thinned to every second, fourth,
-/// ... point.
+/// Stores the path of a robot in bounded memory. As the path grows, only every second, fourth,
+/// eighth (and so on) point is kept.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,14 @@ namespace dotpose::cli {
 
 class PathMemory {
   public:
-    /// Takes the track after a frame. The path is extended only by frames in which the robot is
-    /// tracked.
+    /// Takes the track after a frame. The point is added only if the robot is tracked in this
+    /// frame.
     void add(const Track& track);
 
     const std::vector<video::PathMark>& marks() const { return marks_; }
 
-    /// Returns the path in mm. A new stroke begins where the robot was lost or moved by hand.
+    /// Returns the path in mm. A new stroke begins wherever the robot was lost or was moved by
+    /// hand.
     std::vector<std::vector<draw::Point>> strokes() const;
 
   private:
@@ -33,8 +34,8 @@ class PathMemory {
     bool is_jump_ = true;
 };
 
-/// Returns the outlines of the sheets in the plane of the tracker. In the plane of the world,
-/// sheets without a world pose are omitted.
+/// Returns the outlines of the sheets in coordinates of `plane`. If `plane` is the world, sheets
+/// without a world pose are omitted.
 std::vector<draw::MapSheet> map_sheets(const std::vector<SheetEntry>& sheets, Plane plane);
 
 }  // namespace dotpose::cli

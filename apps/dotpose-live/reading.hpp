@@ -1,4 +1,4 @@
-/// The results of `dotpose watch` for one frame: its fix, and the track up to the frame.
+/// Result of `dotpose watch` for one frame: the fix of the frame, and the track up to the frame.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace dotpose::cli {
 
-/// The plane of a track: the pattern, or the world of a sheet file.
+/// Plane of the coordinates of a track: the pattern, or the world frame of a sheet file.
 enum class Plane { pattern, sheet_world };
 Plane plane_of(const Follower& follower);
 

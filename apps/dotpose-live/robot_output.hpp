@@ -15,7 +15,7 @@
 namespace dotpose::cli {
 
 struct RobotOutputOptions {
-    std::string mcap;         ///< MCAP file to record; empty for none
+    std::string mcap;         ///< MCAP file to record; none if empty
     bool has_images = false;  ///< true to record the images as well
     ImageEncoding image_format = ImageEncoding::png;
     std::optional<dds::PublisherOptions> dds;  ///< none if nothing is published over DDS
@@ -26,9 +26,9 @@ struct RobotOutputOptions {
     bool is_wanted() const { return !mcap.empty() || dds; }
 };
 
-/// Computes the time stamps of messages in ns. The time of a live frame is the end of its exposure
-/// on the monotonic clock. ROS uses the middle of the exposure on the system clock, so the time is
-/// converted. Times of recorded frames are not changed.
+/// Computes the time stamps of messages, in ns. A live frame is stamped with the end of its
+/// exposure on the monotonic clock. ROS expects the middle of the exposure on the system clock, so
+/// the time is converted. Times of recorded frames are not changed.
 class Stamps {
   public:
     explicit Stamps(double exposure_us) : half_exposure_ns_(std::llround(exposure_us * 500)) {}
@@ -55,7 +55,7 @@ class RobotOutput {
     RobotOutputOptions options_;
     Stamps stamps_;
     ros::RobotMessenger messenger_;
-    bool has_mount_ = false;  ///< true after the first frame, with which the mount is sent
+    bool has_mount_ = false;  ///< true after the first frame; the mount is sent with this frame
     std::optional<RobotRecording> recording_;
     std::optional<dds::Publisher> publisher_;
 };

@@ -1,4 +1,4 @@
-/// The state of a robot, derived from the readings of `dotpose watch`.
+/// State of a robot, derived from the readings of `dotpose watch`.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace dotpose::cli {
 
-/// Returns the state message of a reading. `world_map` is the name of the world of the sheet file.
+/// Returns the state message of a reading. `world_map` is the map name of the sheet file's world.
 RobotState state_of(const Reading& reading, const std::string& robot, const std::string& world_map);
 
 }  // namespace dotpose::cli

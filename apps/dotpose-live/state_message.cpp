@@ -28,7 +28,7 @@ std::string timestamp(std::int64_t time_us) {
 /// Names of the subjects in topics, in the order of Subject.
 constexpr std::string_view kSubjects[] = {"visualization", "connection"};
 
-/// Returns the members with which all messages begin.
+/// Returns the members that begin every message.
 nlohmann::ordered_json header(const std::string& robot, std::uint64_t id, std::int64_t sent_us) {
     return {{"headerId", id},
             {"timestamp", timestamp(sent_us)},

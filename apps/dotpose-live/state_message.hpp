@@ -13,7 +13,7 @@
 
 namespace dotpose::cli {
 
-/// Prefix of the topics of all robots, kTopicRoot/ROBOT/SUBJECT.
+/// Prefix of the topics of all robots. A topic has the form kTopicRoot/ROBOT/SUBJECT.
 inline constexpr const char* kTopicRoot = "uagv/v2/dotpose";
 
 /// Values of `connectionState`, in the order of publish::Presence.
@@ -22,7 +22,7 @@ inline constexpr std::string_view kConnectionStates[] = {"ONLINE", "OFFLINE", "C
 /// Maximum length of the name of a robot. Topics with longer names are ignored.
 inline constexpr std::size_t kMaxNameBytes = 128;
 
-/// Subject of a message, the last part of its topic.
+/// Subject of a message, given by the last level of its topic.
 enum class Subject {
     visualization,  ///< a RobotState
     connection,     ///< a RobotConnection, retained by the broker
@@ -43,11 +43,11 @@ std::optional<MessageTopic> parse_topic(std::string_view topic);
 
 struct RobotState {
     std::string robot;            ///< name of the sender; empty in a parsed message
-    std::uint64_t header_id = 0;  ///< number of the message, counted by the robot
+    std::uint64_t header_id = 0;  ///< sequence number of the message
     std::int64_t sent_us = 0;     ///< microseconds since 1970, system clock of the sender
     std::string state = "lost";   ///< lost, moving or stationary
     bool is_localized = false;    ///< true if the members below are valid
-    std::string map_id;           ///< name of the plane of x and y
+    std::string map_id;           ///< name of the map, the plane of x and y
     double x_m = 0;
     double y_m = 0;
     double theta_rad = 0;
@@ -65,9 +65,9 @@ std::string json_of(const RobotState& state);
 std::optional<RobotState> parse_state(std::string_view json);
 
 struct RobotConnection {
-    std::string robot;            ///< name of the sender; empty in a parsed message
+    std::string robot;            ///< sequence number of the connection message
     std::uint64_t header_id = 0;  ///< number of the connection message, counted by the robot
-    /// Time of sending, in microseconds since 1970 by the system clock of the sender. In a last
+    /// Time of sending, in microseconds since 1970 on the system clock of the sender. In a last
     /// will, the time at which the robot connected.
     std::int64_t sent_us = 0;
     publish::Presence presence = publish::Presence::online;

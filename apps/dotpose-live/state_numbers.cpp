@@ -27,7 +27,7 @@ StateNumbers::Arrival StateNumbers::take(const RobotState& state, StateCounts& c
         counts.missed = std::max<std::int64_t>(counts.missed - 1, 0);
         return Arrival::late;
     }
-    // A lower number means that the robot was restarted. It is not a gap.
+    // A lower number means that the robot was restarted, so it does not indicate a gap.
     if (!is_first && sent.number > newest_.number) {
         constexpr std::uint64_t kMax = 1'000'000'000;
         counts.missed +=
@@ -43,8 +43,8 @@ bool StateNumbers::is_late(const Sent& sent) {
         doubts_ = 0;
         return false;
     }
-    // After an interruption, queued messages are sent in descending order of time. Older states in
-    // ascending order come from a clock that was set back.
+    // After an interruption, clients send queued messages in descending order of time. If older
+    // states arrive in ascending order, the clock of the robot was set back.
     doubts_ = sent.time_us > doubted_us_ || doubts_ == 0 ? doubts_ + 1 : 1;
     doubted_us_ = sent.time_us;
     if (doubts_ < kDoubts) return true;

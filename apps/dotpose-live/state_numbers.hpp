@@ -1,5 +1,5 @@
-/// Classifies the states of one robot by their numbers and times: news, late or repeated. Counts
-/// missing states.
+/// Classifies the states of one robot as news, late or repeated, by their sequence numbers and
+/// times. Counts missing states.
 #pragma once
 
 #include <array>
@@ -12,9 +12,9 @@ namespace dotpose::cli {
 
 struct StateCounts {
     std::int64_t messages = 0;
-    std::int64_t missed = 0;  ///< number of missing states so far, from gaps in the numbers
+    std::int64_t missed = 0;  ///< number of missing states, from gaps in the sequence
     std::int64_t late = 0;    ///< number of states that arrived after newer states; not in `missed`
-    /// Number of states that had arrived before. With QoS 1, some states are sent again after a
+    /// Number of repetitions of earlier states. With QoS 1, some states are sent again after a
     /// broken connection.
     std::int64_t repeated = 0;
 
@@ -25,11 +25,11 @@ class StateNumbers {
   public:
     enum class Arrival { news, late, repeated };
 
-    /// Takes a state and counts it. A state is news if its number is higher than the numbers of all
-    /// earlier states, regardless of its time. A state with a lower number but a later time is also
-    /// news, from a restarted robot. A state with a lower number and an earlier time is late.
-    /// Several such states in ascending order of time are news, from a robot that restarted with
-    /// its clock set back.
+    /// Takes a state and counts it. A state is news if its number is higher than all earlier
+    /// numbers, regardless of its time. A state with a lower number but a later time is also news,
+    /// because the robot was restarted. A state with a lower number and an earlier time is late.
+    /// However, if several late states are in ascending order of time, the robot was restarted with
+    /// its clock set back, and the states are news.
     Arrival take(const RobotState& state, StateCounts& counts);
 
   private:
@@ -40,14 +40,14 @@ class StateNumbers {
     };
     bool is_late(const Sent& sent);
 
-    /// Number of newest states whose repetitions are detected.
+    /// Number of most recent states among which repetitions are detected.
     static constexpr std::size_t kRemembered = 64;
 
     bool is_first_ = true;
     Sent newest_;
     std::array<Sent, kRemembered> seen_{};  ///< each state is stored at its number modulo the size
-    /// Number of successive states that are older than `newest_` but ascend in time, and the time
-    /// of the last of these states.
+    /// Number of successive states that are older than `newest_` but in ascending order of time,
+    /// and the time of the last of these states.
     int doubts_ = 0;
     std::int64_t doubted_us_ = 0;
 };

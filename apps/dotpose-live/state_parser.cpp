@@ -1,5 +1,5 @@
-// Parses state messages. `fleet` receives tens of thousands of messages per second, and simdjson is
-// ten times faster than the JSON library used elsewhere.
+// Parses state messages with simdjson, because `dotpose fleet` receives tens of thousands of
+// messages per second. simdjson is ten times faster than the JSON library used elsewhere.
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -24,8 +24,8 @@ using simdjson::dom::object;
 /// Maximum size of a message in bytes.
 constexpr std::size_t kMaxBytes = 1 << 16;
 
-/// Parses `count` digits from index `first`, which `text` must contain. Returns -1 if they are not
-/// all digits.
+/// Parses `count` digits from index `first`. `text` must be long enough. Returns -1 if any of the
+/// characters is not a digit.
 int digits(std::string_view text, std::size_t first, std::size_t count) {
     int value = -1;
     const char* const begin = text.data() + first;
@@ -33,8 +33,8 @@ int digits(std::string_view text, std::size_t first, std::size_t count) {
     return error == std::errc() && stop == begin + count ? value : -1;
 }
 
-/// Parses a fraction of a second such as ".123456" into microseconds. An empty text is 0. Returns
-/// none for any other text.
+/// Parses a fraction of a second such as ".123456" into microseconds. Returns 0 for an empty string
+/// and none for any other string.
 std::optional<std::int64_t> parse_decimals_us(std::string_view text) {
     if (text.empty()) return 0;
     double fraction_s = 0;
@@ -47,8 +47,8 @@ std::optional<std::int64_t> parse_decimals_us(std::string_view text) {
     return std::llround(fraction_s * 1e6);
 }
 
-/// Parses a time such as "2026-11-24T16:20:00.123456Z", with any number of decimals or none, into
-/// microseconds since 1970. Returns none for any other text.
+/// Parses a time such as "2026-11-24T16:20:00.123456Z" into microseconds since 1970. The time may
+/// have any number of decimals. Returns none for any other string.
 std::optional<std::int64_t> parse_timestamp(std::string_view text) {
     using namespace std::chrono;
     constexpr std::string_view kSeconds = "2026-11-24T16:20:00";
@@ -79,8 +79,8 @@ std::optional<std::int64_t> parse_timestamp(std::string_view text) {
 /// Thrown if a value of a message is out of range.
 struct OutOfRange {};
 
-/// Returns a number of a message. Throws simdjson_error if there is no number, and OutOfRange if
-/// its absolute value exceeds `max_magnitude`.
+/// Returns a number of a message. Throws simdjson_error if the value is missing or not a number,
+/// and OutOfRange if its absolute value exceeds `max_magnitude`.
 double bounded(const object& values, std::string_view key, double max_magnitude) {
     const double value = values[key].get_double();
     if (!(std::abs(value) <= max_magnitude)) throw OutOfRange();

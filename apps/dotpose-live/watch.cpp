@@ -53,7 +53,7 @@ constexpr const char* kWatchExamples =
     "newest frame; the frames in between are dropped and counted. Other sources deliver every\n"
     "frame. Ctrl-C ends.\n";
 
-/// Maximum DDS domain. Higher domains have no ports.
+/// Maximum DDS domain. Higher domains do not have port numbers.
 constexpr int kLastDomain = 232;
 
 struct DdsArguments {
@@ -98,7 +98,7 @@ struct WatchArguments {
     bool lists_cameras = false;
     bool has_no_window = false;
     bool is_realtime = false;
-    std::int64_t frames = 0;  ///< number of frames to take; 0: no limit
+    std::int64_t frames = 0;  ///< number of frames to take; 0 means no limit
 };
 
 void report(const WatchOutputs& outputs, std::int64_t dropped) {
@@ -124,7 +124,7 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
     return files;
 }
 
-/// Reports on standard error why most frames fail, and the first warning of each kind.
+/// Reports on standard error why most frames fail, and reports the first warning of each kind.
 void report_problems(const Reading& reading, ImageView image, const Follower& follower,
                      double bits_per_px, FailureHint& hint,
                      std::array<bool, kWarnings>& was_reported) {
@@ -155,12 +155,12 @@ void save(FrameSaver& saver, GreyImage& image, const Fix& fix, const WatchArgume
     undo_or_redo();
 }
 
-/// Waits until the time of a recorded frame.
+/// Delays recorded frames until their recording time is reached.
 class Pace {
   public:
     void wait_for(const capture::Frame& frame) {
         using namespace std::chrono;
-        // Live frames are due on arrival. The first recorded frame is due immediately.
+        // Live frames are due on arrival, and the first recorded frame immediately.
         if (frame.is_live) return;
         if (!begun_) begun_ = steady_clock::now() - microseconds(frame.time_us);
         const auto due = *begun_ + microseconds(frame.time_us);
@@ -175,8 +175,8 @@ class Pace {
     std::optional<std::chrono::steady_clock::time_point> begun_;
 };
 
-/// Warns on standard error if a sheet has no world pose or, without sheets, if poses are published,
-/// because such poses are not in the world.
+/// Warns on standard error if a sheet has no world pose. If there are no sheets, warns if poses are
+/// published, because these poses are not in world coordinates.
 void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follower) {
     const OutputOptions& outputs = arguments.outputs;
     const bool is_published = outputs.mqtt || outputs.messages.is_wanted();
@@ -208,7 +208,7 @@ std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
 }
 
 /// Follows the robot over all frames. `length` is the number of frames, or 0 if unknown. Returns
-/// the exit status. Throws BadArgument if the arguments do not fit the frames.
+/// the exit status. Throws BadArgument if the arguments do not match the frames.
 int follow(const WatchArguments& arguments, capture::FrameSource& source, std::int64_t length,
            Follower& follower, std::optional<FrameSaver>& saver, WatchOutputs& outputs,
            FailureHint& hint) {
@@ -232,7 +232,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
     } catch (const BadArgument&) {
         throw;
     } catch (const Error& error) {
-        // The map and the report on the frames before the failure are still written.
+        // After a failure, the map and the report still include the earlier frames.
         tell(error.what());
         return kExitFailed;
     }
@@ -312,7 +312,7 @@ int run(WatchArguments& arguments) {
     report(outputs, source->dropped());
     if (saver) tell(fmt::format("{} frames saved in {}", saver->saved(), arguments.save.folder));
     if (const std::string why = hint.at_end(); !why.empty()) tell(why);
-    // Images that cannot be read are skipped, but the run fails if no image was read.
+    // Unreadable images are skipped, but the run fails if no image at all could be read.
     return is_unreadable && outputs.tally().frames == 0 ? kExitFailed : exit_code;
 }
 

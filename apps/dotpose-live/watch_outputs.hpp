@@ -1,4 +1,4 @@
-/// The outputs of `dotpose watch`.
+/// Outputs of `dotpose watch`.
 #pragma once
 
 #include <chrono>
@@ -27,9 +27,9 @@ struct OutputOptions {
     std::string robot = "robot";               ///< name of the robot on the broker and in ROS
     RobotOutputOptions messages;               ///< ROS messages
     std::optional<publish::MqttOptions> mqtt;  ///< the broker; none if nothing is published
-    /// Maximum number of messages per second, not counting events. 0: one message per frame.
+    /// Maximum number of messages per second, excluding events. If 0, sends one message per frame.
     double mqtt_rate_hz = 0;
-    std::string world_map;  ///< name of the world of the sheets
+    std::string world_map;  ///< map name of the sheet file's world
     video::ScreenOptions screen;
 };
 
@@ -46,7 +46,7 @@ struct WatchTally {
 /// Writes pose packets to a file or serial device.
 class PacketOutput {
   public:
-    /// Throws Error if the file or device cannot be opened. `write` throws Error if it fails, and
+    /// Throws Error if the file or device cannot be opened. `write` throws Error on failure, and
     /// ReaderLeft if the reader closed a pipe.
     explicit PacketOutput(const std::string& path);
     ~PacketOutput();
@@ -67,8 +67,8 @@ class StateOutput {
 
     void take(const Reading& reading);
 
-    /// Waits up to 2 s until all messages are sent, and reports how many were sent. Throws Error if
-    /// the broker was never reached.
+    /// Waits up to 2 s until all messages are sent, and reports the number of sent messages. Throws
+    /// Error if no connection to the broker was established.
     void finish();
 
   private:
@@ -85,12 +85,11 @@ class WatchOutputs {
     /// Throws Error if an output cannot be opened.
     WatchOutputs(const OutputOptions& options, const Follower& follower);
 
-    /// Writes the outputs of a frame. Returns false if the user closed the window or all readers
-    /// closed their outputs. Throws Error if an output cannot be written.
+    /// Writes the outputs of a frame. Returns false if the user closed the window or no output is
+    /// left, because all readers closed theirs. Throws Error if an output cannot be written.
     bool take(const capture::Frame& frame, const Reading& reading, std::int64_t dropped);
 
-    /// Writes the map, completes the recording and sends the last states. Throws Error if that
-    /// fails.
+    /// Writes the map, completes the recording and sends the last states. Throws Error on failure.
     void finish();
 
     const WatchTally& tally() const { return tally_; }

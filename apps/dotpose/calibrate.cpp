@@ -58,11 +58,11 @@ struct CalibrateArguments {
     CameraArgument camera;
     std::string out;
     std::string picture;
-    std::optional<CodeVariant> code;  ///< none: the code is detected from the frames
+    std::optional<CodeVariant> code;  ///< none if the code is detected from the frames
     CalibrateOptions options;
 };
 
-/// Sources of the frames for each part of the calibration. A part without frames has none.
+/// Sources of the frames for each part of the calibration. A part without frames has no sources.
 struct Series {
     std::optional<Sources> lens;
     std::optional<Sources> spin;
@@ -70,7 +70,7 @@ struct Series {
     std::optional<Sources> rolling;
 };
 
-/// Returns the arguments with `names` as the sources and without a list.
+/// Returns a copy of the arguments with `names` as the sources and without a list file.
 SourceArguments with_names(SourceArguments arguments, const std::vector<std::string>& names) {
     arguments.names = names;
     arguments.list.clear();
@@ -94,7 +94,7 @@ Series series_of(const CalibrateArguments& arguments) {
     return series;
 }
 
-/// Runs `work(number of frames, frame_at, options)` and shows its progress.
+/// Runs `work(number of frames, frame_at, options)` and shows the progress.
 template <typename Work>
 auto with_progress(const CalibrateArguments& arguments, Sources& sources, const std::string& what,
                    Work work) {
@@ -116,8 +116,8 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources, const 
     }
 }
 
-/// Returns the path of the picture of the turn. It is the path of --draw. If that path is used for
-/// the picture of the lens, "-spin" is inserted before its extension.
+/// Returns the path of the picture of the turn. It is the path given by --draw. If the picture of
+/// the lens also needs this path, "-spin" is inserted before the extension.
 std::string spin_picture_of(const CalibrateArguments& arguments) {
     const bool is_only_picture = arguments.spin.empty() || !arguments.sources.is_given();
     if (arguments.picture.empty() || is_only_picture) return arguments.picture;
@@ -135,7 +135,7 @@ void write_result(const std::string& out, const Camera& camera) {
     output.finish();
 }
 
-/// Throws Error unless the frames and the camera file have the same image size.
+/// Throws Error if the image sizes of the camera file and of the frames differ.
 void require_size(const Camera& file, const Camera& frames, const std::string& path) {
     if (file.width_px == frames.width_px && file.height_px == frames.height_px) return;
     throw Error(
@@ -144,8 +144,8 @@ void require_size(const Camera& file, const Camera& frames, const std::string& p
                     path, file.width_px, file.height_px, frames.width_px, frames.height_px));
 }
 
-/// Copies mount and readout time, with their standard deviations, and exposure and gain from
-/// another calibration of the same camera.
+/// Copies mount, readout time, exposure and gain from another calibration of the same camera. Also
+/// copies the standard deviations of mount and readout time.
 void keep_mount(const Camera& from, Camera& to) {
     to.reference_px = reference_in(to, from);
     to.theta_offset_rad = from.theta_offset_rad;
@@ -158,8 +158,8 @@ void keep_mount(const Camera& from, Camera& to) {
     }
 }
 
-/// Calibrates the lens, the mount, the heading and the readout, in this order. Skips a calibration
-/// without frames. Writes the camera file and the pictures. Returns a report.
+/// Calibrates the lens, the mount, the heading and the readout, in this order. Skips calibrations
+/// that have no frames. Writes the camera file and the pictures. Returns a report.
 std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
     std::string report;
     std::optional<Camera> camera = arguments.camera.camera;
@@ -220,8 +220,8 @@ ScaleReference parse_scale_reference(const std::string& text) {
     return reference;
 }
 
-/// Computes the world poses and print scales of sheets and writes them into the sheet file. Returns
-/// a report.
+/// Computes the world poses and print scales of the sheets and writes them to the sheet file.
+/// Returns a report.
 std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     SheetFile file(arguments.sheets, {.tell = tell, .stop = interrupted});
     const Stitching stitching = with_progress(
@@ -237,8 +237,8 @@ std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     return stitching_report(stitching);
 }
 
-/// Without --camera, reads the camera file that -o replaces, to keep the values that this
-/// calibration does not change, such as the mount. Throws Error if the file is not a camera file.
+/// If --camera is not given, reads the camera file that -o replaces. Values that this calibration
+/// does not determine, such as the mount, are kept. Throws Error if the file is not a camera file.
 void keep_camera_of(const std::string& out, CameraArgument& camera) {
     std::error_code failed;
     if (!camera.path.empty() || !std::filesystem::is_regular_file(out, failed) ||
@@ -256,7 +256,7 @@ void keep_camera_of(const std::string& out, CameraArgument& camera) {
                      out));
 }
 
-/// Takes the code and the spacing of the frames from the sheets of --sheets.
+/// Takes the code and the spacing from the sheet file of --sheets.
 void use_sheets(CalibrateArguments& arguments) {
     if (arguments.sheets.empty() || arguments.stitch) return;
     arguments.spacing = SpacingSource::sheets;
@@ -276,7 +276,7 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
     } else {
         files.reads("--sheets", arguments.sheets);
     }
-    // -o may name the camera file of --camera: the values that are not calibrated are kept.
+    // -o may name the camera file given by --camera. Values that are not calibrated are then kept.
     const auto camera = identity_of(arguments.camera.path);
     if (camera && camera == identity_of(arguments.out) && !is_camera_info(arguments.camera.path)) {
         files.updates("-o", arguments.out, Content::yaml);
@@ -306,7 +306,7 @@ int run(CalibrateArguments& arguments) {
     require_apart(arguments, series);
     keep_camera_of(arguments.out, arguments.camera);
     use_sheets(arguments);
-    // Checks the output before the user spends minutes moving the camera.
+    // Checks the output now, because the user will spend minutes moving the camera.
     if (arguments.is_live && !arguments.out.empty()) require_writable(arguments.out);
     catch_interrupts();
     const std::string report =

@@ -7,11 +7,11 @@
 
 namespace dotpose::cli {
 
-/// Origin of the spacing that a calibration uses.
+/// Origin of the spacing used for a calibration.
 enum class SpacingSource { assumed, option, sheets };
 
 std::string lens_report(const LensCalibration& calibration, SpacingSource source);
-/// Returns, as a line of text for live calibration, the standard deviation of the undistorted
+/// Returns one line of text for live calibration, with the standard deviation of the undistorted
 /// position of the farthest image corner.
 std::string corner_report(const Camera& camera);
 std::string spin_report(const SpinCalibration& calibration);

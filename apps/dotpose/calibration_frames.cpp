@@ -18,7 +18,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum number of frames from one source. More frames take longer and do not improve the result.
+/// Maximum number of frames from one source. More frames take more time and do not improve the
+/// result.
 constexpr std::size_t kMaxChosen = 50;
 
 Follower follower_for(const CalibrateOptions& calibration) {

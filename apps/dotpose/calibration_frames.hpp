@@ -13,14 +13,14 @@ namespace dotpose::cli {
 inline constexpr const char* kMirrored =
     "the frames show the pattern mirrored: use --flip, which is then written into the camera file";
 
-/// The frames of a calibration: all named images, and at most 50 frames of each video, camera or
-/// raw stream, which show different places. Images are read from their files on request. The frames
-/// of videos, cameras and raw streams are kept in memory.
+/// The frames of a calibration: all given images, and at most 50 frames of each video, camera or
+/// raw stream. These frames show different places and are kept in memory. Images are read from
+/// their files on request.
 class CalibrationFrames {
   public:
     /// Reads videos and raw frames to their end, and a camera until 50 places were seen. Ctrl-C
-    /// ends the reading of a source earlier. Throws Error if a source fails, if no frame of a
-    /// source is located, or after a signal other than Ctrl-C.
+    /// ends the current source early. Throws Error if a source fails, if no frame of a source can
+    /// be located, or after a signal other than Ctrl-C.
     CalibrationFrames(const SourceArguments& arguments, Sources& sources,
                       const CalibrateOptions& options);
 

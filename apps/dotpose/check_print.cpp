@@ -62,8 +62,8 @@ void require_svg(const std::string& path) {
     throw BadArgument(fmt::format("'{}': the name of the map must end in .svg", path));
 }
 
-/// Returns true if the scale differs from 1 by an amount that a printer driver can cause. If not,
-/// the resolution of the scan or the spacing is probably wrong.
+/// Returns true if a printer driver can cause this deviation of the scale from 1. Otherwise, the
+/// resolution of the scan or the spacing is probably wrong.
 bool is_plausible(const PrintScale& scale) {
     constexpr double kMaxDeviation = 0.25;
     return std::abs(scale.scale_x - 1) <= kMaxDeviation &&
@@ -99,11 +99,12 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
     }
 }
 
-/// Returns a remark on the position of the dots on the page, which the scan does not show: the
-/// edges of the paper are not visible.
+/// Returns a remark that the position of the dots on the page was not fitted, with the largest
+/// expected shift. The scan does not show the position, because the edges of the paper are not
+/// visible.
 std::string offset_remark(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
-    // Printer drivers usually scale a page about its corner or its centre.
+    // Printer drivers usually scale a page about a corner or the centre of the page.
     const auto shift_mm = [](double scale, double first_mm, double side_mm) {
         return std::abs(1 - scale) * std::max(first_mm, std::abs(side_mm / 2 - first_mm));
     };
@@ -115,7 +116,7 @@ std::string offset_remark(const SheetEntry& entry) {
         shift_mm(entry.print_scale_y, sheet.origin_y_mm, sheet.height_mm));
 }
 
-/// Writes the scale of each field of dots into the entry of its sheet, and returns a report.
+/// Writes the scale of each field of dots to the entry of its sheet, and returns a report.
 /// `field.sheet` is an index into `sheets`.
 std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& sheets,
                        const PrintCheck& check) {
@@ -123,10 +124,9 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
     std::string done;
     std::set<std::size_t> fitted;
     for (const PrintField& field : check.fields) {
-        // A sheet may be visible in several parts; the first one is the largest.
+        // Several parts of a sheet may be visible. The first part is the largest.
         if (!field.scale || !field.sheet || !fitted.insert(*field.sheet).second) continue;
-        // Reads the entry again, because another process may have changed the entry during the
-        // check.
+        // Reads the entry again, because another process may have changed it during the check.
         const std::string& name = sheets[*field.sheet].name;
         const auto found = std::ranges::find(file.sheets(), name, &SheetEntry::name);
         if (found == file.sheets().end()) {
@@ -206,7 +206,7 @@ std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution
     return remedy + "; or scan the page in parts";
 }
 
-/// Reads the scan, and flips it if --flip is given. Throws Error.
+/// Reads the scan, and flips the image if --flip is given. Throws Error.
 GreyImage read_scan(const CheckPrintArguments& arguments, const CheckPrintOptions& options) {
     std::string note;
     try {

@@ -9,11 +9,11 @@
 
 namespace dotpose::cli {
 
-/// The image that was checked, and the sheets with which it was compared.
+/// The checked image, and the sheets with which it was compared.
 struct CheckedScan {
     std::string file;
-    int page = 1;   ///< number of the page that was checked
-    int pages = 1;  ///< number of pages of the file
+    int page = 1;   ///< page number of the checked page
+    int pages = 1;  ///< number of pages in the file
     int width_px = 0;
     int height_px = 0;
     std::vector<SheetEntry> sheets;  ///< in the order of CheckPrintOptions::sheets

@@ -11,8 +11,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Wraps the words of `text` into lines that begin at column `indent` and end at column 100 at
-/// most.
+/// Wraps the words of `text` into lines that begin at column `indent` and are at most 100 columns
+/// wide.
 std::string wrapped(const std::string& text, std::size_t indent) {
     constexpr std::size_t kColumns = 100;
     std::string lines(indent, ' ');
@@ -47,8 +47,8 @@ std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
 }
 
 /// Formats the help in two columns. The first column contains an option with its value. The second
-/// column contains the description of the option, followed in parentheses by the default and by the
-/// options that the option needs or excludes.
+/// column describes the option, followed in parentheses by its default and by the options that it
+/// requires or excludes.
 class HelpFormatter : public CLI::Formatter {
   public:
     HelpFormatter() {
@@ -98,15 +98,15 @@ Validator range(Number min, Number max) {
     });
 }
 
-/// Splits a text at the first `separator`.
+/// Splits a string at the first `separator`.
 std::pair<std::string, std::string> split(const std::string& text, std::string_view separator) {
     const std::size_t at = text.find(separator);
     if (at == std::string::npos) return {text, ""};
     return {text.substr(0, at), text.substr(at + separator.size())};
 }
 
-/// Returns the error message for an error of CLI11, whose own messages name types and counts. The
-/// names of options and the values are available only as parts of the text of the error.
+/// Returns our own error message for a CLI11 error, because the messages of CLI11 name types and
+/// counts. CLI11 reports option names and values only as parts of its message.
 std::string message_of(const CLI::ParseError& error) {
     const std::string text = error.what();
     if (text == "A subcommand is required") return "no command given";
@@ -134,7 +134,7 @@ std::string message_of(const CLI::ParseError& error) {
 }
 
 /// Calls `parse` and translates the exceptions of CLI11. Returns false after printing the help or
-/// the version. Throws UsageError after an error, as Command::parse does.
+/// the version. Like Command::parse, throws UsageError after an error.
 bool parsed(CLI::App& app, const std::function<void()>& parse) {
     try {
         parse();
@@ -383,7 +383,7 @@ Command* Command::command_of(CLI::App* app) const {
     return command.get();
 }
 
-// The types of option values for which the templates are compiled.
+// Types of option values for which the templates are instantiated.
 template <typename Value>
 using Store = std::function<void(const Value&)>;
 using Text = const std::string&;

@@ -1,7 +1,7 @@
-/// Commands and their options: a thin layer over CLI11, with the names of CLI11.
+/// Commands and their options: a thin layer over CLI11 that uses the names of CLI11.
 ///
-/// The header of CLI11 adds ten seconds of compile time to each source that includes it. Only
-/// command_line.cpp includes it.
+/// The CLI11 header adds ten seconds to the compile time of each source file that includes it.
+/// Therefore only command_line.cpp includes it.
 #pragma once
 
 #include <cstddef>
@@ -33,15 +33,15 @@ class ValidationError : public UsageError {
         : UsageError(option + ": " + why) {}
 };
 
-/// Parses a number in the same way as the values of options. Returns true if the whole text is a
+/// Parses a number in the same format as option values. Returns true if the whole string is a
 /// number.
 bool parse_number(const std::string& text, double& number);
 bool parse_number(const std::string& text, int& number);
 
-/// Returns the reason why a value is invalid, or an empty text if it is valid.
+/// Returns the reason why a value is invalid, or an empty string if it is valid.
 using Check = std::function<std::string(const std::string& value)>;
 
-/// A check of values. If only a few values are valid, `choices` lists them.
+/// Checks option values. If only a few values are valid, `choices` lists them.
 class Validator {
   public:
     explicit Validator(Check check, std::vector<std::string> choices = {})
@@ -89,7 +89,7 @@ class Option {
     std::vector<std::string> get_lnames() const;  ///< long names, without the hyphens
     bool get_positional() const;
     int get_items_expected_max() const;  ///< maximum number of values; 0 for a flag
-    /// All values that the validators accept; empty if the validators do not list them.
+    /// All values that the validators accept, or empty if the validators do not list them.
     const std::vector<std::string>& choices() const { return choices_; }
 
   private:
@@ -100,7 +100,7 @@ class Option {
 /// A command, or the program itself. Owns its subcommands and options.
 class Command {
   public:
-    /// Creates a program. Without `name`, the name of its file is used.
+    /// Creates a program. If `name` is empty, the program has the name of its executable file.
     explicit Command(const std::string& what = "", const std::string& name = "");
     /// Creates a subcommand.
     explicit Command(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
@@ -108,12 +108,12 @@ class Command {
     Command& operator=(const Command&) = delete;
 
     Command* add_subcommand(const std::string& name, const std::string& what = "");
-    /// Adds an option whose value is stored in a variable, which must outlive the command. The end
-    /// of command_line.cpp lists the possible types.
+    /// Adds an option whose value is stored in a variable. The variable must outlive the command.
+    /// The end of command_line.cpp lists the supported types.
     template <typename Value>
     Option* add_option(const std::string& names, Value& value, const std::string& help = "");
     /// Adds an option whose value is passed to a function. The end of command_line.cpp lists the
-    /// possible types.
+    /// supported types.
     template <typename Value>
     Option* add_option_function(const std::string& names,
                                 const std::function<void(const Value&)>& store,
@@ -127,14 +127,14 @@ class Command {
     Command* footer(const std::string& text);
     Command* group(const std::string& name);
     Command* require_subcommand(int number);
-    Command* prefix_command();  ///< accepts any words after the command
+    Command* prefix_command();  ///< accepts arbitrary words after the command
     Command* set_help_flag();   ///< removes --help
     Command* set_version_flag(const std::string& name, const std::string& version);
 
-    /// Parses the arguments of `main` and runs the callbacks of the commands that are named. Throws
-    /// UsageError. Returns false after printing the help or the version, if requested.
+    /// Parses the arguments of `main` and runs the callbacks of the given commands. Returns false
+    /// after printing the help or the version. Throws UsageError.
     bool parse(int argc, const char* const* argv);
-    /// Overload for words in reverse order, without the name of the program.
+    /// Overload for words in reverse order and without the program name.
     bool parse(std::vector<std::string> words);
 
     std::string get_name() const;

@@ -18,12 +18,12 @@
 
 namespace dotpose::cli {
 
-/// Adds --code anoto|libdots|microdots for commands that write a pattern. The default is the value
-/// of `code`.
+/// Adds --code anoto|libdots|microdots for commands that write a pattern. The initial value of
+/// `code` is the default.
 void add_code_option(Command& command, CodeVariant& code);
 
-/// Adds --code auto|anoto|libdots|microdots for commands that read a pattern. None means auto,
-/// which is the default.
+/// Adds --code auto|anoto|libdots|microdots for commands that read a pattern. None represents auto,
+/// the default.
 void add_code_option(Command& command, std::optional<CodeVariant>& code);
 
 /// Adds --section U,V, two numbers from 0 to 62.
@@ -32,11 +32,11 @@ void add_section_option(Command& command, Section& section);
 /// Adds --spacing MM, a spacing in mm from 0.01 to 100.
 void add_spacing_option(Command& command, double& spacing_mm);
 
-/// Adds an option for a cell X,Y, such as --origin. `help` explains the cell.
+/// Adds an option for a cell X,Y, such as --origin. `help` describes the cell.
 void add_cell_option(Command& command, const std::string& flag, Cell& cell,
                      const std::string& help);
 
-/// Adds --sheets FILE. `help` explains what the command does with the file.
+/// Adds --sheets FILE. `help` describes how the command uses the file.
 Option* add_sheets_option(Command& command, std::string& path, const std::string& help);
 
 /// Adds --k, the lens distortion in 1/px^2 that `locate` corrects.
@@ -51,7 +51,7 @@ struct CameraArgument {
     std::optional<Camera> camera;
 };
 
-/// Adds --camera FILE. The file is read while the command line is parsed.
+/// Adds --camera FILE. The file is read during the parsing of the command line.
 Option* add_camera_option(Command& command, CameraArgument& camera, const std::string& help);
 
 /// Adds --decoder and --effort. `options` must outlive the command.
@@ -85,8 +85,8 @@ Option* add_named(Command& command, const std::string& flag, const Values& value
 /// The options --code, --section, --spacing, --displacement and --dot.
 class PatternArguments {
   public:
-    /// Use of the pattern: the command makes the pattern, or expects the pattern in an image. An
-    /// expected pattern has no option --section, because the section is read from the image.
+    /// Use of the pattern: the command makes the pattern, or expects it in an image. An expected
+    /// pattern does not have the option --section, because the section is read from the image.
     enum class Use { made, expected };
     void add_to(Command& command, Use use = Use::made);
 
@@ -104,16 +104,16 @@ class PatternArguments {
     std::optional<double> dot_mm_;
 };
 
-/// Convert between DotDrawing and its names in --dots. `drawing_by_name` returns none for an
-/// unknown name.
+/// Converts between DotDrawing and its names in --dots. `drawing_by_name` returns none if the name
+/// is unknown.
 std::string drawing_name(DotDrawing drawing);
 std::optional<DotDrawing> drawing_by_name(const std::string& name);
 
-/// Adds --dots, the way in which a PDF draws dots.
+/// Adds --dots, the method by which a PDF draws dots.
 void add_drawing_option(Command& command, DotDrawing& drawing);
 
 /// Parses integers from 0 to `max`, separated by exactly these separators. For example, "640x480"
-/// has the separators "x", and "10,20,640x480" has ",,x". Returns none for any other text.
+/// has the separators "x", and "10,20,640x480" has ",,x". Returns none for any other string.
 std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,
                                                         std::string_view separators,
                                                         std::uint32_t max);
@@ -122,11 +122,11 @@ struct FrameSize {
     int width_px = 0;
     int height_px = 0;
 };
-/// Parses "WIDTHxHEIGHT". Throws ValidationError, which names the flag.
+/// Parses "WIDTHxHEIGHT". Throws ValidationError with the name of the flag.
 FrameSize parse_frame_size(const std::string& flag, const std::string& text);
 
-/// Makes all numeric options of all subcommands reject values that are not finite: nan, inf, 1e999.
-/// Must be called after all options were added.
+/// Makes all numeric options of all subcommands reject values that are not finite, such as nan, inf
+/// and 1e999. Must be called after all options were added.
 void refuse_non_finite_numbers(Command& app);
 
 /// Stores the arguments of `main` for `command_line`.
@@ -135,8 +135,8 @@ void remember_command_line(int argc, char** argv);
 /// Returns the arguments of `main` without the name of the program.
 std::vector<std::string> given_arguments();
 
-/// Returns the command line in a form that can be pasted into a shell, with quotes where necessary.
-/// The options `without` and their values are omitted.
+/// Returns the command line in a form that can be pasted into a shell, quoted where necessary.
+/// Omits the options in `without` and their values.
 std::string command_line(const std::set<std::string>& without = {});
 
 /// Describes the page and its region of the code plane in words.

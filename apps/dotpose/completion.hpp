@@ -1,4 +1,4 @@
-/// Completes command lines for shells. The scripts in apps/shell request the completions.
+/// Completes command lines for shells. The scripts in apps/shell request completions.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace dotpose::cli {
 
-/// First argument of a request for completions. The words of the command line follow it.
+/// First argument of a request for completions, followed by the words of the command line.
 inline constexpr const char* kComplete = "__complete";
 
 /// Prints the completions of the last of `words`: commands, options or values of an option. Each
-/// line contains a completion, a tab and a description. Prints nothing if the word may be any text
-/// or file. For a command of dotpose-live, runs the callback of the command, which starts that
-/// program.
+/// line contains a completion, a tab and a description. Prints nothing if the word may be arbitrary
+/// text or a file. If the command belongs to dotpose-live, runs its callback, which starts
+/// dotpose-live.
 void print_completions(Command& app, std::vector<std::string> words);
 
 }  // namespace dotpose::cli

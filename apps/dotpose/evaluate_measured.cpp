@@ -16,8 +16,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the place of the reference point in the frame of the true places, or none if the point
-/// is not in that frame.
+/// Returns the place of the reference point on its sheet or in the world, or none if the place is
+/// not known in this frame.
 std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPlace>& place) {
     if (!place) return std::nullopt;
     const std::string& sheet = place->entry->name;
@@ -27,8 +27,8 @@ std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPl
     return FoundPlace{sheet, 1000 * world->x_m, 1000 * world->y_m, world->yaw_rad};
 }
 
-/// Throws Error unless all true places are in one frame that contains the sheets. Returns true if
-/// the frame is the world.
+/// Throws Error unless all true places are in a single frame of reference, and the sheets have
+/// places in this frame. Returns true if the frame is the world.
 bool require_one_frame(const std::vector<TruthRow>& rows, const std::vector<SheetEntry>& sheets,
                        bool is_aligned) {
     bool is_in_world = false;

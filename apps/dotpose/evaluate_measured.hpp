@@ -1,5 +1,5 @@
-/// `dotpose evaluate --sheets`: compares frames with places that were measured on sheets or in the
-/// world.
+/// `dotpose evaluate --sheets`: compares located frames with places that were measured on sheets or
+/// in the world.
 #pragma once
 
 #include <string>
@@ -15,26 +15,26 @@
 
 namespace dotpose::cli {
 
-/// The options of an evaluation with a sheet file.
+/// Options of an evaluation with a sheet file.
 struct MeasuredArguments {
-    std::string sheets;      ///< sheet file; empty: poses are in the pattern frame
-    bool is_aligned = true;  ///< true to align the found places to the true places
+    std::string sheets;      ///< sheet file; if empty, poses are in the pattern frame
+    bool is_aligned = true;  ///< true to align the located places with the true places
     bool alignment_given = false;
-    std::string residuals;  ///< CSV file with the error of each frame; empty for none
-    std::string draw;       ///< folder for the figures; empty for none
+    std::string residuals;  ///< CSV file for the error of each frame; none if empty
+    std::string draw;       ///< folder for the figures; none if empty
 
     void add_to(Command& command);
     void add_files(RunFiles& files) const;
 
-    /// Throws BadArgument if another of these options is given without --sheets.
+    /// Throws BadArgument if any other option of this group is given without --sheets.
     void require_sheets() const;
 };
 
 /// Returns {"median": ..., "p95": ..., "max": ...}. NaN becomes null.
 nlohmann::ordered_json quantiles_json(const Quantiles& quantiles);
 
-/// Locates the frames in order, compares the poses with the true poses and writes the report.
-/// Returns the exit status.
+/// Locates the frames in order, compares the located poses with the true poses and writes the
+/// report. Returns the exit status.
 int evaluate_measured(const MeasuredArguments& arguments, const FollowerOptions& options,
                       const KnownFrames& known, const ReportArguments& report);
 

@@ -8,12 +8,12 @@
 
 namespace dotpose::cli {
 
-/// Format of output lines. Only `locate` writes text.
+/// Format of output lines. Only `locate` supports text.
 enum class RecordFormat { json, csv, text };
 
-/// Version of the JSON lines, the first field of each line. docs/schema/lines-VERSION.json
-/// describes the lines. Within a version, keys may be added. No key is removed, and no key
-/// changes its meaning.
+/// Version of the JSON lines, written in the first field of each line.
+/// docs/schema/lines-VERSION.json describes the lines. Keys may be added within a version. Keys are
+/// never removed, and never change their meaning.
 inline constexpr const char* kSchemaVersion = "1";
 
 struct Field {
@@ -23,21 +23,21 @@ struct Field {
     /// Name of the JSON array that contains the field. Adjacent fields with the same name form one
     /// array. In CSV, each field is a column.
     std::string array = {};
-    /// True if JSON contains null, instead of omitting the field, if `text` is empty.
+    /// True if JSON contains null if `text` is empty. Otherwise, JSON omits the field.
     bool is_null_if_empty = false;
 };
 
-/// Formats a number. Returns an empty text for NaN and infinity, which JSON cannot represent.
+/// Formats a number. Returns an empty string for NaN and infinity, which JSON cannot represent.
 std::string decimal(double value, int decimals);
 
-/// Formats an angle in degrees. The result is in (-180, 180], also after rounding.
+/// Formats an angle in degrees. The result is in (-180, 180] even after rounding.
 std::string degrees(double angle_rad);
 
 /// Formats an upper bound of a probability with three digits, rounded up to remain an upper bound.
 std::string p_wrong_text(double p_wrong);
 
-/// Format fields as one line with a line break. JSON omits fields without a value, unless they are
-/// null; CSV contains all columns. In JSON, bytes that are not UTF-8 are replaced.
+/// Formats fields as one line, including the line break. JSON omits fields without a value or
+/// contains null. CSV contains all columns. In JSON, invalid UTF-8 bytes are replaced.
 std::string json_line(const std::vector<Field>& fields);
 std::string csv_header(const std::vector<Field>& fields);
 std::string csv_line(const std::vector<Field>& fields);

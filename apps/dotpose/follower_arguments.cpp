@@ -7,7 +7,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum distance of a reference point from the image centre, in px: far outside of any image,
+/// Maximum distance of a reference point from the image centre, in px. It is far outside any image,
 /// but well within the range of the fixed-point pose.
 constexpr double kMaxReference_px = 10'000;
 

@@ -1,4 +1,4 @@
-/// Options of all commands that locate images: code, spacing, sheets, camera, effort.
+/// Options shared by all commands that locate images: code, spacing, sheets, camera, effort.
 #pragma once
 
 #include <string>
@@ -12,27 +12,27 @@
 namespace dotpose::cli {
 
 struct FollowerArguments {
-    std::string sheets;  ///< path of the sheet file; empty for none
+    std::string sheets;  ///< path of the sheet file; none if empty
     CameraArgument camera;
     bool is_inverted = false;
     FollowerOptions options;  ///< without the contents of the sheet file and the camera file
 
-    /// Adapts the camera file to the frames of `sources` (SourceArguments::fit_to). With a camera
-    /// file, --reference is a pixel of the whole frame, not of --roi.
+    /// Adapts the camera file to the frames of `sources` (SourceArguments::fit_to). If a camera
+    /// file is given, --reference is a pixel of the whole frame and not of the region --roi.
     void fit_to(SourceArguments& sources);
 
-    /// Registers the files that are read.
+    /// Registers the input files.
     void add_files(RunFiles& files) const;
 
     /// Reads the sheet file. Throws Error if it cannot be read or has no sheets.
     FollowerOptions read() const;
 };
 
-/// Adds the options. `sheets_help` explains what the command does with the sheet file.
+/// Adds the options. `sheets_help` describes how the command uses the sheet file.
 void add_follower_options(Command& command, FollowerArguments& arguments,
                           const std::string& sheets_help);
 
-/// Inverts the grey levels: white dots on black become dark dots on white.
+/// Inverts the grey levels, so white dots on black become dark dots on white.
 void invert(GreyImage& image);
 
 }  // namespace dotpose::cli

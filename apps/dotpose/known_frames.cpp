@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using capture::SourceKind;
 
-/// Returns true if the last components of `path` are equal to the components of `end`.
+/// Returns true if the last components of `path` are the components of `end`.
 bool ends_with(const fs::path& path, const fs::path& end) {
     const std::vector<fs::path> all(path.begin(), path.end());
     const std::vector<fs::path> last(end.begin(), end.end());
@@ -101,7 +101,7 @@ KnownFrames known_images(const std::vector<std::string>& names,
     return known;
 }
 
-/// Frames that can only be read in order, for threads that request them almost in order.
+/// Frames that can only be read in order. Threads may request them approximately in order.
 class FramesInOrder {
   public:
     /// Opens the first source. Throws Error or BadArgument if the source cannot be opened.
@@ -161,11 +161,11 @@ class FramesInOrder {
     std::size_t next_name_ = 0;
     std::mutex mutex_;
     capture::SourceList list_;
-    /// Frames that were read but not requested yet, by index.
+    /// Frames that were read but not yet requested, by index.
     std::map<std::int64_t, GreyImage> waiting_;
-    std::int64_t read_ = 0;  ///< index after the newest frame
+    std::int64_t read_ = 0;  ///< number of frames read so far
     bool is_over_ = false;
-    std::string problem_;  ///< reason why reading stopped early
+    std::string problem_;  ///< reason why reading ended early
 };
 
 }  // namespace

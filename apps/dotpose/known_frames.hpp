@@ -12,7 +12,7 @@
 namespace dotpose::cli {
 
 struct KnownFrames {
-    std::vector<TruthRow> rows;  ///< true pose of each frame; `file` is its path or name
+    std::vector<TruthRow> rows;  ///< true pose of each frame; `file` is the frame's path or name
     /// Returns a frame. If the frame cannot be read, its `problem` contains the reason.
     dotpose::FrameSource frame_at;
     /// Must be called after the last frame. Warns on standard error if there are more frames than
@@ -20,11 +20,11 @@ struct KnownFrames {
     std::function<void()> finish = [] {};
 };
 
-/// Returns the frames of the sources with their poses. The poses are read from `poses` or, without
-/// it, from truth.csv beside the images or the video. A folder stands for the frames of all rows of
-/// its truth.csv. Any other image has the pose in the row whose `file` names the image. If a video,
-/// a camera or raw frames are among the sources, row N belongs to frame N, counted over all
-/// sources. Throws Error if there are no poses, or an image has no pose.
+/// Returns the frames of the sources with their poses. The poses are read from `poses` or, if it is
+/// empty, from truth.csv beside the images or the video. A folder represents the frames of all rows
+/// of its truth.csv. Any other image has the pose of the row whose `file` is the name of the image.
+/// If the sources include a video, a camera or raw frames, row N belongs to frame N, counted over
+/// all sources. Throws Error if there are no poses, or if an image has no pose.
 KnownFrames known_frames(const SourceArguments& arguments, const std::string& poses,
                          std::optional<double> spacing_mm);
 

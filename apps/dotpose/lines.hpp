@@ -12,17 +12,17 @@ namespace dotpose::cli {
 /// Value of -o for standard output.
 inline constexpr const char* kStandardOutput = "-";
 
-/// Returns true if `out`, the value of -o, is standard output: "-", or empty if -o is not given.
+/// Returns true if `out`, the value of -o, is standard output. `out` is empty if -o is not given.
 inline bool is_standard_output(const std::string& out) {
     return out.empty() || out == kStandardOutput;
 }
 
-/// Thrown if the reader of an output, such as `head`, closed it.
+/// Thrown if the reader of an output, such as `head`, has closed its end.
 struct ReaderLeft : Error {
     using Error::Error;
 };
 
-/// Throws Error for an output that cannot be written. `error_number` is the errno of the failure.
+/// Throws Error because an output cannot be written. `error_number` is the errno of the failure.
 /// Throws ReaderLeft if the reader closed the output.
 [[noreturn]] void throw_unwritable(const std::string& output, int error_number);
 
@@ -32,18 +32,18 @@ struct FileCloser {
 /// A file of the C library that is closed automatically.
 using File = std::unique_ptr<std::FILE, FileCloser>;
 
-/// Creates or truncates a file. Throws Error if that fails.
+/// Creates or truncates a file. Throws Error on failure.
 File create_file(const std::string& path);
 
-/// Writes lines to standard output or a file. Flushes after each line, so no line is lost if the
-/// tool is stopped.
+/// Writes lines to standard output or a file. Flushes each line, so no line is lost if the tool is
+/// stopped.
 class Lines {
   public:
-    /// An empty path or "-" is standard output. Throws Error if the file cannot be created.
+    /// An empty path or "-" means standard output. Throws Error if the file cannot be created.
     explicit Lines(const std::string& path);
 
-    /// Throws Error if the line cannot be written. Throws ReaderLeft if the reader closed the
-    /// output and SIGPIPE is ignored.
+    /// Writes a line. Throws ReaderLeft if the reader closed the output and SIGPIPE is ignored, and
+    /// Error if the line cannot be written for another reason.
     void write(const std::string& line);
 
   private:

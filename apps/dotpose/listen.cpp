@@ -73,8 +73,8 @@ class ByteSource {
     ByteSource(const ByteSource&) = delete;
     ByteSource& operator=(const ByteSource&) = delete;
 
-    /// Returns at least one byte, or none at the end or after Ctrl-C. Throws Error if reading
-    /// fails.
+    /// Returns at least one byte, or none at the end of the input or after Ctrl-C. Throws Error if
+    /// reading fails.
     std::span<const std::uint8_t> next() {
         constexpr int kPatience_ms = 100;
         while (!interrupted()) {
@@ -110,7 +110,7 @@ class ByteSource {
     std::array<std::uint8_t, 4096> buffer_{};
 };
 
-/// Returns the pose of a packet in the frame of `units`, or none if the packet has no fix.
+/// Returns the pose of a packet in the units and axes of `units`, or none if the packet has no fix.
 std::optional<PlanePose> pose_of(const PosePacket& packet, double spacing_mm, Units units) {
     if (packet.status != Status::ok) return std::nullopt;
     const PlanePose pose{
@@ -118,10 +118,10 @@ std::optional<PlanePose> pose_of(const PosePacket& packet, double spacing_mm, Un
     return units == Units::ros ? with_other_y(pose) : pose;
 }
 
-/// Returns the field with the larger of the standard deviations of x and y.
+/// Returns the field of the position's standard deviation, the larger of the values along x and y.
 Field deviation_field(const PosePacket& packet, double spacing_mm, Units units) {
     const double sigma_mm = packet.deviation_q12 * spacing_mm / 4096;
-    // The value 255 also represents all larger deviations, so it is not reported.
+    // 255 represents all larger deviations as well, so it is not reported.
     const bool is_known = packet.status == Status::ok && packet.deviation_q12 < 255;
     if (units == Units::ros) return {"sigma_m", is_known ? metres(sigma_mm) : ""};
     return {"sigma_mm", is_known ? decimal(sigma_mm, 6) : ""};
@@ -156,7 +156,7 @@ std::vector<Field> fields(const PosePacket& packet, double spacing_mm, Units uni
 class LossCounter {
   public:
     void count(const PosePacket& packet) {
-        // Maximum backward step of the sequence number for a repeated or late packet. A larger step
+        // Maximum decrease of the sequence number for a repeated or late packet. A larger decrease
         // means that the device was restarted.
         constexpr int kMaxLate = 16;
         const int step = last_ ? static_cast<std::int16_t>(packet.sequence - *last_) : 1;

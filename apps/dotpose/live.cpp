@@ -1,5 +1,5 @@
-// Starts `dotpose-live` for commands that only dotpose-live implements, and for cameras and videos
-// in all commands that read frames.
+// Starts `dotpose-live` for the commands that only dotpose-live implements. Commands that read
+// frames also start it for cameras and videos.
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -19,8 +19,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the path of dotpose-live: in the libexec directory if dotpose is installed, otherwise
-/// beside this program.
+/// Returns the path of dotpose-live. It is in the libexec directory if dotpose is installed,
+/// otherwise beside this program.
 std::string live_program() {
     std::error_code failed;
     const auto folder = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
@@ -29,7 +29,7 @@ std::string live_program() {
     return (folder / "dotpose-live").string();
 }
 
-/// Replaces this process with dotpose-live. Returns only if that fails, with errno.
+/// Replaces this process with dotpose-live. Returns only on failure, with errno.
 int become_live() {
     std::vector<std::string> words = given_arguments();
     words.insert(words.begin(), "dotpose");
@@ -37,8 +37,8 @@ int become_live() {
     for (std::string& word : words)
         arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    // Timeout in seconds for a camera that delivers no frames. OpenCV reads the variable while it
-    // is loaded, so it must be set before the program starts.
+    // Timeout in seconds if a camera delivers no frames. OpenCV reads the variable when it is
+    // loaded, so it must be set before the program starts.
     setenv("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "2", 0);
     execv(live_program().c_str(), arguments.data());
     return errno;

@@ -1,5 +1,5 @@
-/// `dotpose calibrate --live`, which runs in dotpose-live because it opens a window. Each of the
-/// two programs has its own definition of this function.
+/// `dotpose calibrate --live`. It runs in dotpose-live because it opens a window. `dotpose` and
+/// dotpose-live have different definitions of this function.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@ namespace dotpose::cli {
 
 struct LiveCalibrationOptions {
     bool has_no_window = false;  ///< true to use the terminal even if there is a display
-    /// Folder for the frames that are taken. Empty: the frames are not saved.
+    /// Folder for the frames that are taken. If empty, the frames are not saved.
     std::string save;
 };
 
-/// Takes frames while the user moves the camera, shows the missing requirements, and calibrates the
-/// lens. Ends when the frames suffice, the source ends or the user stops it. In `dotpose`, replaces
-/// this process with dotpose-live. Throws Error if the source fails, or if the frames are too few
-/// for the verdict `good`. The message then names the missing requirements.
+/// Takes frames while the user moves the camera, shows the unmet requirements, and calibrates the
+/// lens. Ends when there are enough frames, the source ends, or the user stops it. In `dotpose`,
+/// replaces this process with dotpose-live. Throws Error if the source fails, or if there are too
+/// few frames for the verdict `good`. The message then names the unmet requirements.
 LensCalibration calibrate_live(const SourceArguments& arguments, Sources& sources,
                                const CalibrateOptions& calibration,
                                const LiveCalibrationOptions& options);

@@ -53,8 +53,8 @@ constexpr const char* kLocateExamples =
 struct LocateArguments {
     SourceArguments sources;
     LineArguments lines;
-    std::optional<Columns> columns;  ///< columns of CSV; none if not given
-    std::string draw;                ///< NAME.svg or a folder; empty for no pictures
+    std::optional<Columns> columns;  ///< columns of CSV; none if not specified
+    std::string draw;                ///< NAME.svg or a folder; no pictures if empty
     FollowerArguments follower;
     int threads = 1;
 };
@@ -69,9 +69,9 @@ class ImageLocator {
 
     bool has_sheets() const { return !follower_.sheets().empty(); }
 
-    /// Locates an image. The image must exist until it has been drawn. `bits_per_px` is the number
-    /// of bits per pixel of the compressed video that contains the image, or 0 if unknown. Throws
-    /// Error if the size of the image differs from the camera file.
+    /// Locates an image. The image must remain valid until it has been drawn. `bits_per_px` is the
+    /// number of bits per pixel if the image is from a compressed video, or 0 if unknown. Throws
+    /// Error if the size of the image differs from the size in the camera file.
     Record operator()(const std::string& name, GreyImage& image, double bits_per_px) {
         if (arguments_.follower.is_inverted) invert(image);
         const auto start = steady_clock::now();
@@ -91,7 +91,7 @@ class ImageLocator {
         return record;
     }
 
-    /// Returns the record of an image that was rejected by its header, before its pixels were read.
+    /// Returns the record of an image whose size in the file header is too large.
     Record too_large(const std::string& name, const ImageTooLarge& image) const {
         Record record;
         record.file = name;
@@ -102,7 +102,7 @@ class ImageLocator {
         return record;
     }
 
-    /// Draws the newest image, if --draw was given. Throws Error.
+    /// Draws the newest image if --draw was given. Throws Error.
     void draw(const Record& record) {
         if (!pictures_) return;
         pictures_->add(record.file, follower_.image(), follower_.trace(),
@@ -138,7 +138,7 @@ class ImageLocator {
 
     const LocateArguments& arguments_;
     Follower follower_;
-    std::unique_ptr<LargeMemory> scratch_;  ///< memory for advice on images that were not located
+    std::unique_ptr<LargeMemory> scratch_;  ///< memory for advice on images without a fix
     std::optional<PictureFolder> pictures_;
 };
 
@@ -153,7 +153,7 @@ RunFiles files_of(const LocateArguments& arguments, const Sources& sources) {
     return files;
 }
 
-/// Locates all frames of a run. After a failure, the run continues with the next frame or source.
+/// Locates all frames of a run. After a failure, continues with the next frame or source.
 class LocateRun {
   public:
     LocateRun(const LocateArguments& arguments, Sources& sources)
@@ -168,8 +168,8 @@ class LocateRun {
           frames_(sources.open(options_of(arguments))),
           images_(sources.number_of_images()),
           progress_("locating", arguments.lines.out) {
-        // While the tool waits for a name from a pipe, a signal must end the tool immediately. No
-        // line is lost, because each line is flushed.
+        // While the tool waits for a name from a pipe, a signal must end it immediately. No line is
+        // lost, because each line is flushed.
         if (!sources.has_pipe()) catch_interrupts();
     }
 
@@ -195,19 +195,18 @@ class LocateRun {
     }
 
   private:
-    /// The record of an image, or the reason why the image has no record.
+    /// The record of an image, or the error if there is no record.
     using Outcome = std::variant<Record, Error>;
 
     capture::SourceOptions options_of(const LocateArguments& arguments) {
         return options_of(arguments, [this](Outcome outcome) { return take(outcome); });
     }
 
-    /// Returns the options of the source. `pass_on` receives the outcome of each image that cannot
-    /// be read.
+    /// Returns the options of the source. `pass_on` receives the outcome of each unreadable image.
     capture::SourceOptions options_of(const LocateArguments& arguments,
                                       std::function<bool(Outcome)> pass_on) {
         capture::SourceOptions options = arguments.sources.options;
-        // Large images are reduced, unless a camera file determines the image size.
+        // Reduces large images, unless a camera file determines the image size.
         if (!arguments.follower.camera.camera) options.max_pixels = kDefaultImagePixels;
         options.tell = tell;
         options.stop = interrupted;
@@ -264,8 +263,7 @@ class LocateRun {
         return exit_code_;
     }
 
-    /// Reads the next frame, and skips sources that cannot be read. Returns false after the last
-    /// frame.
+    /// Reads the next frame. Skips sources that cannot be read. Returns false after the last frame.
     bool next(capture::Frame& frame) {
         while (true) {
             try {
@@ -309,7 +307,7 @@ class LocateRun {
     const LocateArguments& arguments_;
     Sources& sources_;
     std::unique_ptr<capture::SourceList> frames_;
-    std::int64_t images_;  ///< number of frames of all sources; 0 if unknown
+    std::int64_t images_;  ///< number of images of all sources; 0 if unknown
     ProgressLine progress_;
     int exit_code_ = 0;
 };

@@ -21,7 +21,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Columns of the pose in the pattern frame, which the brief format contains only without sheets.
+/// Columns of the pose in the pattern frame. The brief format contains them only without a sheet
+/// file.
 constexpr std::array<std::string_view, 6> kPatternPose = {
     "x_mm", "y_mm", "theta_deg", "x_pattern_m", "y_pattern_m", "yaw_pattern_rad"};
 constexpr std::array<std::string_view, 18> kBriefColumns = {
@@ -33,12 +34,12 @@ double sigma(const Fix& fix, std::size_t axis) {
     return std::sqrt(static_cast<double>(fix.covariance[axis][axis]));
 }
 
-/// Converts a pose of the paper, whose y points down, into the frame of `units`.
+/// Converts a pose with y down, as on the paper, to the axes of `units`.
 std::optional<PlanePose> in_frame_of(Units units, const std::optional<PlanePose>& pose) {
     return pose && units == Units::ros ? std::optional(with_other_y(*pose)) : pose;
 }
 
-/// Returns the fields that `--sheets` adds. The sheet of a fix on no known sheet is null.
+/// Returns the fields that `--sheets` adds. The sheet is null if the fix is not on a known sheet.
 std::vector<Field> sheet_fields(const Record& record, Units units) {
     const std::optional<SheetPlace>& place = record.place;
     std::optional<PlanePose> pose;
@@ -127,7 +128,7 @@ std::vector<Field> code_fields(const Record& record, Units units) {
     };
 }
 
-/// Returns `text` if the fix is valid and has a covariance, otherwise an empty text.
+/// Returns `text` if the fix is valid and has a covariance, otherwise an empty string.
 std::string if_judged(const Fix& fix, std::string text) {
     return fix.status == Status::ok && fix.has_covariance() ? std::move(text) : std::string();
 }
@@ -145,7 +146,7 @@ Field evidence(bool is_known, const char* key, Value value) {
     return {key, is_known ? text : "", kIsName};
 }
 
-/// Returns the fields of the place in the code and of its evidence.
+/// Returns the fields of the place in the code and of the evidence for the place.
 std::vector<Field> evidence_fields(const Fix& fix) {
     const bool ok = fix.status == Status::ok;
     const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
@@ -171,7 +172,7 @@ std::vector<Field> deviation_fields(const Record& record) {
     };
 }
 
-/// Returns the fields of the velocity of the camera during the readout of a rolling shutter.
+/// Returns the fields of the camera's velocity during the readout of a rolling shutter.
 std::vector<Field> velocity_fields(const Record& record, Units units) {
     const auto text = [&](bool is_known, double per_s) {
         const double length = units == Units::ros ? 1e-3 : 1;
@@ -190,7 +191,7 @@ std::vector<Field> velocity_fields(const Record& record, Units units) {
             {"sigma_velocity_y_mm_s", text(is_known, std::sqrt(v.covariance[1][1]))}};
 }
 
-/// Returns the fields of the spacing in the image and of the time.
+/// Returns the fields of the spacing in the image and of the time taken.
 std::vector<Field> image_fields(const Record& record) {
     const Fix& fix = record.fix;
     const bool ok = fix.status == Status::ok;
@@ -200,7 +201,7 @@ std::vector<Field> image_fields(const Record& record) {
     };
 }
 
-/// Explains why there is no fix, without advice. Empty if there is a fix.
+/// Explains why there is no fix, without advice. Returns an empty string if there is a fix.
 std::string plain_reason(const Record& record) {
     const Fix& fix = record.fix;
     switch (fix.status) {

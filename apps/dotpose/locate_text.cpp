@@ -11,7 +11,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Formats a value and its standard deviation `sigma`. A `sigma` of 0 means unknown and is omitted.
+/// Formats a value and its standard deviation `sigma`. A `sigma` of 0 is unknown and is omitted.
 std::string with_deviation(double value, double sigma, int decimals, const std::string& unit) {
     const std::string deviation = sigma > 0 ? fmt::format(" ± {:.2g}", sigma) : std::string();
     return fmt::format("{}{} {}", decimal(value, decimals), deviation, unit);

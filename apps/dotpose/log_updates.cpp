@@ -15,9 +15,8 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// Column names of a pose and its covariance. `units` contains the conversion factors from the
-/// units of the columns to metres and radians. The factors of y and of the angle are negative if y
-/// points down.
+/// Column names of a pose and its covariance. `units` contains the factors that convert the columns
+/// to metres and radians. The factors of y and of the angle are negative if y points down.
 struct PoseColumns {
     const char* x;
     const char* y;
@@ -60,8 +59,8 @@ std::optional<ros::PlanarCovariance> covariance_in(const LogCells& row,
     return covariance;
 }
 
-/// Returns the pose and the velocities of a row. The log contains one standard deviation for both
-/// velocity axes and one for the turn rate.
+/// Returns the pose and the velocities of a row. The log contains a common standard deviation for
+/// both components of the velocity, and one for the turn rate.
 ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
                             const PoseColumns& columns) {
     const auto value = [&row](const char* column) { return row.number(column).value_or(0); };
@@ -91,7 +90,8 @@ std::int64_t time_ns_in(const LogCells& row) {
     if (!(t_s >= 0 && t_s <= double{std::numeric_limits<std::int32_t>::max()})) {
         throw Error(fmt::format("t_s {} is no time of a message, which is 0 to 2^31 - 1", t_s));
     }
-    // The log has whole microseconds; rounding recovers them exactly from the decimal text.
+    // The times in the log are whole microseconds. Rounding recovers them exactly from the decimal
+    // text.
     return std::llround(t_s * 1e6) * 1000;
 }
 
@@ -105,8 +105,8 @@ ros::RobotUpdate update_of(const LogCells& row) {
     const std::string_view plane = row.text("plane");
     ros::RobotUpdate update;
     update.time_ns = time_ns_in(row);
-    // A lost robot has no plane. Its fixes are in the world if they have x_m, which requires a
-    // sheet file with a world.
+    // There is no plane while the robot is lost. In this state, fixes are in the world if they have
+    // x_m, which requires a sheet file with world poses.
     const bool is_in_world = plane == "world" || (plane.empty() && row.number("x_m"));
     const PoseColumns& columns = is_in_world ? kInWorld : kInPattern;
     if (row.text("status") == "ok") {

@@ -5,7 +5,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the word in lower case (ASCII) and without leading hyphens.
+/// Returns the word in ASCII lower case and without leading hyphens.
 std::string bare(std::string_view word) {
     word.remove_prefix(std::min(word.find_first_not_of('-'), word.size()));
     std::string result(word);
@@ -31,7 +31,8 @@ std::string only_continuation(const std::string& word, const std::vector<std::st
 }  // namespace
 
 int edit_distance(std::string_view a, std::string_view b) {
-    // distance[i][j] is the distance between the first i characters of a and the first j of b.
+    // distance[i][j] is the distance between the first i characters of a and the first j characters
+    // of b.
     std::vector<std::vector<int>> distance(a.size() + 1, std::vector<int>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i)
         distance[i][0] = static_cast<int>(i);
@@ -53,7 +54,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
     const std::string asked = bare(word);
     std::string nearest;
-    // Longer words match no name, and their distance table would need much memory.
+    // Longer words do not match any name, and their distance table would need too much memory.
     constexpr std::size_t kMaxCharacters = 64;
     if (asked.size() > kMaxCharacters) return nearest;
     int min_distance = static_cast<int>(kMaxCharacters);

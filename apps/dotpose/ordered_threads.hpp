@@ -21,8 +21,8 @@ namespace dotpose::cli {
 template <typename Result>
 class OrderedThreads {
   public:
-    /// Passes on a result. Blocks while kMaxResults results of the thread are waiting. Returns
-    /// false if no more results are wanted, in which case the thread must end.
+    /// Emits a result. Blocks while kMaxResults results of the thread are waiting. If it returns
+    /// false, no more results are needed and the thread must end.
     using Emit = std::function<bool(Result)>;
     using Work = std::function<void(std::size_t thread, const Emit& emit)>;
 
@@ -42,7 +42,7 @@ class OrderedThreads {
         }
     }
 
-    /// Returns the next result, or none after the last one. Rethrows the exception of a thread.
+    /// Returns the next result, or none after the last result. Rethrows the exception of a thread.
     std::optional<Result> next() {
         Lane& lane = *lanes_[next_lane_++ % lanes_.size()];
         std::optional<Result> result = lane.take();
@@ -51,7 +51,7 @@ class OrderedThreads {
     }
 
   private:
-    /// A thread and its results that are waiting to be taken.
+    /// A thread and its queue of results.
     struct Lane {
         static constexpr std::size_t kMaxResults = 16;
 

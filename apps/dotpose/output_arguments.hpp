@@ -1,5 +1,5 @@
-/// Output options with the same names and values in all commands: --format, --units, --draw and -o,
-/// whose value "-" is standard output.
+/// Output options with the same names and values in all commands: --format, --units, --draw and -o.
+/// If the value of -o is "-", the output is standard output.
 #pragma once
 
 #include <cstdio>
@@ -14,23 +14,23 @@ namespace dotpose::cli {
 
 /// Options of commands that write a line for each frame or packet.
 struct LineArguments {
-    std::string out;  ///< file to write; empty or "-" for standard output
+    std::string out;  ///< output file; empty or "-" for standard output
     RecordFormat format = RecordFormat::json;
     Units units = Units::mm;
 };
 
-/// Adds --format json|csv, --units mm|ros and -o. With `has_text`, adds --format text. If the name
-/// of -o ends in .csv, the default format is csv.
+/// Adds --format json|csv, --units mm|ros and -o. If `has_text`, --format also accepts text. If the
+/// name given to -o ends in .csv, the default format is csv.
 void add_line_options(Command& command, LineArguments& arguments, bool has_text = false);
 
 /// Options of commands that write one report.
 struct ReportArguments {
-    std::string out;  ///< file to write; empty or "-" for standard output
+    std::string out;  ///< output file; empty or "-" for standard output
     bool as_json = false;
 };
 
-/// Adds --format text|json, and -o with the help `out_help`. If the name of -o ends in .json, the
-/// default format is json.
+/// Adds --format text|json, and -o with the help `out_help`. If the name given to -o ends in .json,
+/// the default format is json.
 void add_report_options(Command& command, ReportArguments& arguments,
                         const std::string& out_help = "File to write instead of standard output");
 
@@ -38,15 +38,14 @@ void add_report_options(Command& command, ReportArguments& arguments,
 /// coloured. Throws Error.
 void write_report(const ReportArguments& arguments, const std::string& report);
 
-/// Adds --draw FILE, an additional picture.
+/// Adds --draw FILE, which writes an additional picture.
 Option* add_draw_option(Command& command, std::string& path, const std::string& help);
 
-/// Destination of a document that the library can only write to a named file. If the output is
-/// standard output, the library writes a temporary file, which is copied to standard output at the
-/// end.
+/// Destination of a document that the library can only write to a named file. For standard output,
+/// the library writes a temporary file, which is copied to standard output at the end.
 class DocumentOutput {
   public:
-    /// `out` is the value of -o; `ending` is the file extension of the format, such as ".pdf".
+    /// `out` is the value of -o. `ending` is the file extension of the format, such as ".pdf".
     /// Throws Error if no temporary folder can be created.
     DocumentOutput(std::string out, const std::string& ending);
 

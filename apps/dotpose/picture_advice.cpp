@@ -19,8 +19,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the 90 % quantile of the grey levels. It is the level of the paper if the image shows
-/// any paper.
+/// Returns the 90 % quantile of the grey levels. If the image shows any paper, this is the grey
+/// level of the paper.
 int paper_level(ImageView image) {
     std::array<std::int64_t, 256> counts{};
     for (int v = 0; v < image.height_px; ++v) {
@@ -35,8 +35,8 @@ int paper_level(ImageView image) {
 }
 
 /// Resamples an image to `width_px` x `height_px` with bilinear interpolation. `in_image(u, v)`
-/// returns the point of the original image for pixel (u, v) of the result. Points outside of the
-/// image are moved to its border.
+/// returns the point of the original image for pixel (u, v) of the result. Points outside the image
+/// are moved to its border.
 template <typename InImage>
 GreyImage resampled(const ImageView& image, int width_px, int height_px, InImage in_image) {
     GreyImage result{{}, width_px, height_px};
@@ -55,8 +55,8 @@ GreyImage resampled(const ImageView& image, int width_px, int height_px, InImage
     return result;
 }
 
-/// Returns the centre of an image, at most `side_px` wide and high before it is enlarged by the
-/// factor `by`.
+/// Returns the centre of an image, enlarged by the factor `by`. The centre is at most `side_px`
+/// wide and high before the enlargement.
 GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
     const int width_px = std::min(image.width_px, side_px) - 1;
     const int height_px = std::min(image.height_px, side_px) - 1;
@@ -68,8 +68,7 @@ GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
     });
 }
 
-/// Returns the spacing of the dots in px if the pattern can be read only after the image is
-/// enlarged.
+/// Returns the spacing of the dots in px if the pattern can be read only in an enlarged image.
 std::optional<double> too_small_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr int kMiddle_px = 320;
@@ -87,13 +86,13 @@ std::optional<double> too_small_spacing_px(ImageView image, const DeviceOptions&
     return std::nullopt;
 }
 
-/// A stretch of the image along one direction, which compensates the foreshortening of a tilted
+/// Stretch of the image along one direction, which compensates for the foreshortening of a tilted
 /// sheet.
 struct Stretch {
     double angle_rad = 0;
     double by = 1;
 
-    /// Converts an offset from the centre of the stretched image into an offset from the centre of
+    /// Converts an offset from the centre of the stretched image to an offset from the centre of
     /// the original image, in px.
     PixelPoint in_image(PixelPoint step) const {
         const double c = std::cos(angle_rad);
@@ -103,8 +102,8 @@ struct Stretch {
     }
 };
 
-/// Returns the centre of the stretched image, a square of at most `side_px`. Its corners may be
-/// outside of the image.
+/// Returns the centre of the stretched image, a square with sides of at most `side_px`. Its corners
+/// may be outside the image.
 GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& stretch) {
     const int side = std::min({image.width_px, image.height_px, side_px});
     return resampled(image, side, side, [&](int u, int v) {
@@ -114,8 +113,7 @@ GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& s
     });
 }
 
-/// Returns the tilt of the sheet in degrees if the pattern can be read after the image is
-/// stretched.
+/// Returns the tilt of the sheet in degrees if the pattern can be read in a stretched image.
 std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& options,
                                          LargeMemory& scratch) {
     constexpr int kMiddle_px = 480;
@@ -129,7 +127,7 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
             const GreyImage straight = stretched_middle(image, kMiddle_px, stretch);
             const Fix fix = Locator(scratch, once).locate(straight.view());
             if (fix.status != Status::ok) continue;
-            // Map from px of the original image to cells: the stretch, then the fitted plane.
+            // Maps pixels of the original image to cells: first the stretch, then the fitted plane.
             const double c = std::cos(stretch.angle_rad);
             const double s = std::sin(stretch.angle_rad);
             const PlaneFromImage& plane = fix.pattern_from_image;
@@ -142,8 +140,8 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
             };
             const auto a = seen(1, 0);
             const auto b = seen(0, 1);
-            // The singular values of the matrix (a b) are the lengths of a pixel on the paper, in
-            // cells, along and across the tilt.
+            // The singular values of the matrix (a b) are the size of a pixel on the paper along
+            // and across the tilt, in cells.
             const double sum = a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1];
             const double area = std::abs(a[0] * b[1] - a[1] * b[0]);
             const double root = std::sqrt(std::max(sum * sum - 4 * area * area, 0.0));
@@ -155,8 +153,8 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
 }
 
 /// Returns the mean squared second difference of the grey levels: the difference between a pixel
-/// and the mean of the two pixels at `step_px` on opposite sides. Noise adds the same value at all
-/// distances; a linear brightness gradient adds nothing.
+/// and the mean of the two pixels at a distance of `step_px` on opposite sides. Noise contributes
+/// equally at all distances. A linear brightness gradient contributes nothing.
 double second_difference(ImageView image, int step_px) {
     std::int64_t squares = 0;
     for (int v = step_px; v + step_px < image.height_px; ++v) {
@@ -171,11 +169,11 @@ double second_difference(ImageView image, int step_px) {
     return static_cast<double>(squares) / (4 * samples);
 }
 
-/// Returns true if the image has details, but only large ones. Compares the second difference over
-/// 2 px with the larger of the second differences over 8 and 16 px, each minus the second
-/// difference over 1 px, which estimates the noise. The ratio is at least 1/6 in a picture in
-/// focus, even at a tilt of 70 degrees, and less than 1/20 if the dots are too blurred to be read.
-/// Returns false for images too small for this comparison.
+/// Returns true if the image contains only coarse details. Compares the second difference over 2 px
+/// with the larger of the second differences over 8 and 16 px. The second difference over 1 px, an
+/// estimate of the noise, is subtracted from each. The ratio is at least 1/6 in a picture in focus,
+/// even at a tilt of 70 degrees, and less than 1/20 if the dots are too blurred to be read. Returns
+/// false if the image is too small for this comparison.
 bool is_out_of_focus(ImageView image) {
     constexpr double kMinDetail = 0.4;
     constexpr double kFocused = 0.06;
@@ -187,7 +185,7 @@ bool is_out_of_focus(ImageView image) {
     return detail > kMinDetail && second_difference(image, 2) - noise < kFocused * detail;
 }
 
-/// Reduces the image by the factor `by`: each pixel is the mean of a square of pixels.
+/// Reduces the image by the factor `by`. Each pixel is the mean of a square of pixels.
 GreyImage reduced_by(ImageView image, int by) {
     GreyImage small{{}, image.width_px / by, image.height_px / by};
     for (int v = 0; v < small.height_px; ++v) {
@@ -201,12 +199,12 @@ GreyImage reduced_by(ImageView image, int by) {
     return small;
 }
 
-/// Returns the spacing of the dots in px if the dots of the reduced image form a grid and the
-/// spacing is too large.
+/// Returns the spacing of the dots in px if it is too large. The dots of the reduced image must
+/// form a grid.
 std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr double kMaxSpacing_px = 60;
-    // A camera that is too near shows only a few dots.
+    // If the camera is too near, only a few dots are visible.
     constexpr int kMinDots = 16;
     DeviceOptions blobs;
     blobs.code = options.code;
@@ -230,7 +228,7 @@ std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions&
     return std::nullopt;
 }
 
-/// Returns true if the dots are white on black: the inverted image is located.
+/// Returns true if the dots are white on black, which means that the inverted image can be located.
 bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     GreyImage inverted = reduced_by(image, 1);
     for (std::uint8_t& grey : inverted.pixels)
@@ -240,8 +238,8 @@ bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scr
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
-/// Advises on a position that is not certain only because the code is not given: without the places
-/// in the other codes, the position is certain.
+/// Returns advice if a position is not certain only because the code is not given. Such a position
+/// is certain if the places in the other codes are excluded.
 std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     for (const CodeVariant code :
          {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {
@@ -257,7 +255,7 @@ std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeM
     return {};
 }
 
-/// Advises on the distance of the camera from the sheet.
+/// Returns advice on the distance of the camera from the sheet.
 std::string advice_on_distance(ImageView image, const DeviceOptions& options,
                                LargeMemory& scratch) {
     if (const auto spacing_px = too_small_spacing_px(image, options, scratch)) {
@@ -276,14 +274,14 @@ std::string advice_on_distance(ImageView image, const DeviceOptions& options,
     return {};
 }
 
-/// Advises on tilt, compression and focus.
+/// Returns advice on tilt, compression and focus.
 std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeMemory& scratch) {
     if (const auto tilt_degrees = large_tilt_degrees(image, facts.options, scratch)) {
         return fmt::format(
             "the sheet is tilted too much, by about {:.0f} degrees: look straight down on it",
             *tilt_degrees);
     }
-    // In videos of sharp frames, H.264 and HEVC begin to lose dots at 0.1 bits per px
+    // In videos of sharp frames, H.264 and HEVC begin to lose dots at 0.1 bits per pixel
     // (docs/live.md).
     constexpr double kTooFewBits_per_px = 0.15;
     if (facts.bits_per_px > 0 && facts.bits_per_px < kTooFewBits_per_px) {
@@ -318,8 +316,8 @@ std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& s
     if (is_inverted(image, options, scratch)) {
         return "the dots are white on black: locate with --inverted";
     }
-    // Blur may reduce the contrast of dots to a quarter. The remaining contrast must be at least
-    // min_contrast.
+    // Blur may reduce the contrast of dots to a quarter. The remaining contrast must not be less
+    // than min_contrast.
     const int darkest_paper = 4 * options.threshold.min_contrast;
     if (const int level = paper_level(image); level < darkest_paper) {
         return fmt::format(

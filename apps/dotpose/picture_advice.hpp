@@ -1,4 +1,4 @@
-/// Diagnoses why a picture of a sheet could not be located, and suggests a remedy.
+/// Diagnoses why a picture of a sheet cannot be located, and suggests a remedy.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace dotpose::cli {
 
-/// The result for a picture, and the settings on which the advice depends.
+/// Result for a picture, and the settings on which the advice depends.
 struct PictureFacts {
     Status status = Status::ok;  ///< result of `locate` with `options`
     DeviceOptions options;
     bool code_is_given = true;  ///< true if only one code was tried
-    /// Bits per pixel of a compressed video (capture/frame_source.hpp); 0 if unknown.
+    /// Bits per pixel of a compressed video (capture/frame_source.hpp), or 0 if unknown.
     double bits_per_px = 0;
 };
 
-/// Returns advice as a sentence without a full stop, or an empty text if no reason is found.
+/// Returns advice as a sentence without a full stop, or an empty string if no reason is found.
 /// Overwrites `scratch`.
 std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& scratch);
 

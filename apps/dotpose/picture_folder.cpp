@@ -31,8 +31,8 @@ PictureFolder::PictureFolder(fs::path path, const RunFiles& files)
     : path_(std::move(path)), files_(files) {
     if (is_picture_name(path_)) return;
     std::error_code error;
-    // Creates only the last folder of the path. A missing parent folder means that the name is
-    // mistyped.
+    // Creates only the last folder of the path. If the parent folder is missing, the path is
+    // probably mistyped.
     fs::create_directory(path_, error);
     if (!fs::is_directory(path_)) {
         throw Error(fmt::format("cannot create the folder {}: {}", path_.string(),

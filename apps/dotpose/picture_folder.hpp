@@ -1,4 +1,4 @@
-/// Pictures of `--draw`: a folder with one picture per image, or NAME.svg for one image.
+/// Pictures written by `--draw`: a folder with one picture per image, or NAME.svg for one image.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace dotpose::cli {
 
-/// Returns true if a path is the name of a picture, NAME.svg, and not of a folder.
+/// Returns true if a path is the name of a picture, NAME.svg, rather than a folder.
 bool is_picture_name(const std::filesystem::path& path);
 
 class PictureFolder {
@@ -22,10 +22,10 @@ class PictureFolder {
     /// overwrites a file of the same run.
     PictureFolder(std::filesystem::path path, const RunFiles& files);
 
-    /// Writes the picture; in a folder, to STEM.svg. STEM is the name of the image without its file
-    /// extension, or drive-17 for the frame drive.mp4#17. If an earlier image had the same stem,
-    /// the name is STEM-2.svg and so on. The name of the image replaces the title of the options.
-    /// Throws Error if the picture cannot be written.
+    /// Writes a picture. In a folder, the name of the picture is STEM.svg. STEM is the name of the
+    /// image without its file extension, or drive-17 for the frame drive.mp4#17. If an earlier
+    /// image had the same stem, the name is STEM-2.svg and so on. The name of the image replaces
+    /// the title in the options. Throws Error if the picture cannot be written.
     void add(const std::string& image_name, ImageView image, const Trace& trace,
              DrawOptions options);
 

@@ -13,8 +13,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Formats an element of a covariance with significant digits, because the elements differ by many
-/// powers of ten. -0 becomes 0.
+/// Formats an element of a covariance with a fixed number of significant digits, because the
+/// elements differ by many powers of ten. Converts -0 to 0.
 std::string significant(double value) {
     return std::isfinite(value) ? fmt::format("{:.7g}", value + 0.0) : std::string();
 }
@@ -23,7 +23,7 @@ std::string radians(double angle_rad) {
     return decimal(angle_rad, 8);
 }
 
-/// Returns the nine fields of a covariance after multiplying each row and column by its factor.
+/// Returns the nine fields of a covariance whose rows and columns are multiplied by `factors`.
 std::vector<Field> scaled(const std::string& name, const PoseCovariance& covariance,
                           const std::array<double, 3>& factors, bool is_known) {
     std::vector<Field> fields;
@@ -52,7 +52,7 @@ PlanePose pattern_pose(const Fix& fix, double spacing_mm) {
 }
 
 PlanePose with_other_y(const PlanePose& pose) {
-    // An angle of pi is not negated: -pi is the same direction but outside of (-pi, pi].
+    // An angle of pi is not negated. -pi is the same direction but outside (-pi, pi].
     const double angle_rad =
         pose.theta_rad == std::numbers::pi ? std::numbers::pi : -pose.theta_rad;
     return {pose.x_mm, -pose.y_mm, angle_rad, world_covariance(pose.covariance, 0)};

@@ -1,4 +1,4 @@
-/// Poses as fields of output lines, in the units that the user chose.
+/// Poses as fields of output lines, in the selected units.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace dotpose::cli {
 
-/// Units and frames of poses in the output. World poses are always in metres and radians.
+/// Units and axes of poses in the output. World poses are always in metres and radians.
 enum class Units {
     mm,   ///< mm and degrees, y down and angles clockwise, as seen on the paper
     ros,  ///< metres and radians, y up, z out of the paper, counter-clockwise (ROS REP 103)
@@ -21,13 +21,13 @@ struct PlanePose {
     double x_mm = 0;
     double y_mm = 0;
     double theta_rad = 0;
-    PoseCovariance covariance{};  ///< of x, y and theta, in mm and rad; all 0 if unknown
+    PoseCovariance covariance{};  ///< covariance of x, y and theta, in mm and rad; all 0 if unknown
 };
 
 /// Returns the pose of a fix in the pattern frame. The fix must be ok.
 PlanePose pattern_pose(const Fix& fix, double spacing_mm);
 
-/// Returns the pose with y and angle negated, to convert between y down and y up.
+/// Returns the pose with y and angle negated. Converts between y down and y up.
 PlanePose with_other_y(const PlanePose& pose);
 
 /// Field names of a pose and its covariance, such as x_mm, y_mm, theta_deg and covariance_mm_deg.
@@ -38,14 +38,14 @@ struct PoseNames {
     std::string covariance;
 };
 
-/// Return the field names of poses in the pattern frame, in the sheet frame and of the track.
+/// Returns the field names of poses in the pattern frame, in the sheet frame or of the track.
 PoseNames pattern_names(Units units);
 PoseNames sheet_names(Units units);
 PoseNames track_names(Units units);
 
-/// Return the three fields of a pose, and the nine fields of its covariance in row-major order. All
-/// fields are empty without a pose; the covariance is also empty if it is unknown. Converts only
-/// the units, to mm and degrees or metres and radians, not the frame.
+/// Returns the three fields of a pose, or the nine fields of its covariance in row-major order. All
+/// fields are empty if there is no pose. The covariance is also empty if it is unknown. Converts
+/// units to mm and degrees or to metres and radians, but does not change the axes.
 std::vector<Field> pose_fields(const PoseNames& names, Units units,
                                const std::optional<PlanePose>& pose);
 std::vector<Field> covariance_fields(const PoseNames& names, Units units,

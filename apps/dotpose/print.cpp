@@ -25,7 +25,7 @@ namespace {
 
 struct PrintArguments {
     std::string out;
-    std::string ending;  ///< file extension of --format, such as ".pdf"; empty without --format
+    std::string ending;  ///< file extension of --format, such as ".pdf"; empty if not given
     std::string paper = "A4";
     bool landscape = false;
     SheetOptions sheet;
@@ -49,11 +49,11 @@ constexpr const char* kPrintExamples =
     "Print at 100 %, without \"fit to page\". Give each sheet its own origin, or let a sheet\n"
     "file do so: it is created if missing, and 'dotpose locate --sheets' reads it.\n";
 
-/// The formats, named after their file extensions.
+/// Formats, named by their file extensions.
 const std::vector<std::string> kFormats = {"pdf", "svg", "png", "tif", "txt"};
 
 /// Returns the format of the output. Throws BadArgument if the format is unknown or contradicts the
-/// name of the file.
+/// file name.
 PrintFormat format_of(const PrintArguments& arguments) {
     if (arguments.out == kStandardOutput) {
         if (arguments.ending.empty()) {
@@ -73,7 +73,7 @@ bool has_resolution(PrintFormat format) {
     return format != PrintFormat::text && format != PrintFormat::svg;
 }
 
-/// Returns the default margin in mm. The labels and rulers of a PDF need a wider margin than the
+/// Returns the default margin in mm. The labels and rulers of a PDF need a margin wider than the
 /// unprintable margin of a printer.
 double default_margin_mm(PrintFormat format, const Paper& paper) {
     constexpr double kWithLabels_mm = 10;
@@ -89,7 +89,7 @@ std::string title_of(const PrintArguments& arguments) {
     return std::filesystem::path(arguments.out).stem().string();
 }
 
-/// Returns the print settings of a page for its entry in the sheet file.
+/// Returns the print settings of a page, which are stored in its entry in the sheet file.
 SheetPrint print_of(const PrintArguments& arguments) {
     SheetPrint print;
     print.title = title_of(arguments);
@@ -101,7 +101,7 @@ SheetPrint print_of(const PrintArguments& arguments) {
     return print;
 }
 
-/// Runs `write`, shows its progress on the terminal and stops it after Ctrl-C.
+/// Runs `write` and shows its progress on the terminal. Ctrl-C stops `write`.
 template <typename Write>
 void with_progress(const PrintArguments& arguments, const Write& write) {
     catch_interrupts();

@@ -26,15 +26,16 @@ volatile std::sig_atomic_t signal_seen = 0;
 std::atomic<std::int64_t> signal_ns = 0;  ///< time of the first signal, on the monotonic clock
 std::atomic<bool> is_line_visible = false;
 
-/// Returns the time of the monotonic clock in ns. Safe to call from a signal handler.
+/// Returns the time on the monotonic clock in ns. Safe to call from a signal handler.
 std::int64_t now_ns() {
     timespec time{};
     clock_gettime(CLOCK_MONOTONIC, &time);
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
-/// Stores the first signal. A second signal ends the program immediately, unless it arrives within
-/// 500 ms: `timeout` sends its signal twice, to the program and to its process group.
+/// Stores the first signal. A second signal ends the program immediately if it arrives more than
+/// 500 ms later. An earlier repetition is ignored, because `timeout` signals both the program and
+/// its process group.
 void on_signal(int signal_number) {
     constexpr std::int64_t kTwice_ns = 500'000'000;
     if (signal_seen == 0) {

@@ -7,7 +7,7 @@
 
 namespace dotpose::cli {
 
-/// Ignores SIGPIPE: if the reader of an output closes it, the write fails but the program
+/// Ignores SIGPIPE. If the reader of an output closes it, the write fails but the program
 /// continues.
 void ignore_broken_pipes();
 
@@ -17,30 +17,30 @@ void ignore_broken_pipes();
 void catch_interrupts();
 bool interrupted();
 
-/// Returns true if Ctrl-C was pressed (SIGINT, no other signal), and resets `interrupted`. The next
-/// signal then counts as the first.
+/// Returns true if Ctrl-C was pressed (SIGINT only), and resets `interrupted`. The next signal then
+/// counts as the first signal.
 bool take_ctrl_c();
 
-/// Formats a duration with two units at most, such as "12 s", "3 min 05 s" or "2 h 10 min", rounded
+/// Formats a duration with at most two units, such as "12 s", "3 min 05 s" or "2 h 10 min". Rounds
 /// up.
 std::string duration_text(double seconds);
 
 /// A progress line on standard error, such as "printing sheet.png: 42 %, 12 s left". It appears if
-/// standard error is a terminal and the work takes more than a second, and is removed at the end. A
-/// message of `tell` hides the line until the next update. There is at most one progress line at a
-/// time.
+/// standard error is a terminal and the work takes more than a second, and it is removed at the
+/// end. A message written by `tell` hides the line until the next update. There can be only one
+/// progress line at a time.
 class ProgressLine {
   public:
-    /// `out` is the file to which the work writes lines; empty or "-" is standard output. If
-    /// standard output is a terminal, its lines show the progress, and the progress line is not
-    /// shown.
+    /// `out` is the file to which the work writes lines. Empty or "-" means standard output. If
+    /// standard output is a terminal, its lines already show the progress, so the progress line is
+    /// not shown.
     ProgressLine(std::string what, const std::string& out);
     explicit ProgressLine(std::string what);
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    /// Shows the number of finished items, and the percentage if `total` is known (not 0).
+    /// Shows the number of finished items, and the percentage unless `total` is 0 (unknown).
     void update(std::int64_t done, std::int64_t total);
 
   private:

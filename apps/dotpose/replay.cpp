@@ -37,7 +37,7 @@ struct ReplayArguments {
     ReportArguments report;
 };
 
-/// Returns true if -o names a recording and not a file for the report.
+/// Returns true if the file of -o is a recording rather than a report.
 bool is_recording(const std::string& out) {
     return print::lower_case(std::filesystem::path(out).extension().string()) == ".mcap";
 }
@@ -53,7 +53,7 @@ double share(std::int64_t part, std::int64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
-/// Describes the frames of the poses, with a remedy if the poses are not in the world.
+/// Describes the frames of reference of the poses. Adds a remedy if the poses are not in the world.
 std::string frames_of_poses(const RunStatistics& run) {
     std::string text;
     for (const std::string& plane : run.planes)
@@ -106,7 +106,7 @@ std::string json_report(const RunStatistics& run) {
            '\n';
 }
 
-/// Writes the messages that the robot would have sent.
+/// Writes the messages that the robot would have published.
 void record(const ReplayArguments& arguments) {
     LogReader log(arguments.log);
     ros::RobotMessenger messenger(arguments.robot, ros::with_prefix(arguments.frame_prefix));

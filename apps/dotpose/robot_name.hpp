@@ -1,4 +1,4 @@
-/// Options for the names of robots, which are part of the topics of brokers and ROS.
+/// Options for robot names, which are part of MQTT and ROS topics.
 #pragma once
 
 #include <string>

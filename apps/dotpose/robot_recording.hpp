@@ -9,7 +9,7 @@
 
 namespace dotpose::cli {
 
-/// The topics of one robot.
+/// Names of the topics of one robot.
 struct RobotTopics {
     explicit RobotTopics(const std::string& robot);
 
@@ -21,8 +21,8 @@ struct RobotTopics {
     static constexpr const char* kTfStatic = "/tf_static";
 };
 
-/// Converts the name of a robot into a valid name in ROS topics: letters, digits and underscores,
-/// not beginning with a digit.
+/// Converts the name of a robot to a valid name in ROS topics. The result consists of letters,
+/// digits and underscores, and does not begin with a digit.
 std::string ros_name(const std::string& robot);
 
 class RobotRecording {
@@ -32,11 +32,11 @@ class RobotRecording {
 
     /// Records the messages of a frame. Throws Error.
     void take(const ros::RobotMessages& messages, std::int64_t time_ns);
-    /// Record the mount of the camera, and an image.
+    /// Records the mount of the camera or an image.
     void take_mount(const ros::TransformStamped& mount, std::int64_t time_ns);
     void take_image(const ros::CompressedImage& image, std::int64_t time_ns);
 
-    /// Writes the rest of the file. Throws Error.
+    /// Writes the end of the file and closes it. Throws Error.
     void finish() { file_.finish(); }
 
   private:
@@ -46,7 +46,7 @@ class RobotRecording {
 
     McapFile file_;
     RobotTopics topics_;
-    // A channel is created with its first message.
+    // Each channel is created with its first message.
     std::optional<McapChannel> poses_;
     std::optional<McapChannel> odometry_;
     std::optional<McapChannel> tf_;

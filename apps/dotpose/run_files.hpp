@@ -1,5 +1,5 @@
-/// Checks the files of one run: an output must not be one of the inputs, and two outputs must not
-/// be the same file. Every command registers its files here before it opens one of them.
+/// Checks the files of one run. An output must not be one of the inputs, and two outputs must not
+/// be the same file. Every command registers its files before it opens any of them.
 ///
 ///     RunFiles files;
 ///     files.reads("--sheets", arguments.sheets);
@@ -19,14 +19,14 @@
 
 namespace dotpose::cli {
 
-/// The kind of data in an output file. With `own`, the file extension selects the format.
+/// Kind of data in an output file. If `own`, the file extension selects the format.
 enum class Content { json, csv, yaml, svg, packets, mcap, text, own };
 
 Content content_of(RecordFormat format);
 Content content_of(const ReportArguments& report);
 
-/// Identity of a file. Two names have equal identities if they refer to the same file, even through
-/// links and different folders. Names of new files that differ only in case have equal identities.
+/// Identity of a file. Two paths have equal identities if they refer to the same file, even through
+/// links or different folders. Names of new files that differ only in case have equal identities.
 struct FileIdentity {
     dev_t device = 0;
     ino_t inode = 0;       ///< inode of the file, or of the folder if the file does not exist yet
@@ -34,43 +34,43 @@ struct FileIdentity {
     auto operator<=>(const FileIdentity&) const = default;
 };
 
-/// Returns the identity of a file, or none for a device, a pipe or a name in a folder that does not
-/// exist.
+/// Returns the identity of a file, or none for a device, a pipe, or a name in a nonexistent folder.
 std::optional<FileIdentity> identity_of(const std::string& path);
 
-/// The files of one run. An empty name means that there is no file. If a file is rejected, the
-/// functions throw BadArgument, which names both options.
+/// The files of one run. An empty path means that there is no file. If a file is rejected, the
+/// functions throw BadArgument with the names of both options.
 class RunFiles {
   public:
-    /// Registers an input. `option` is its flag; it is empty for a positional argument. "-" is
-    /// standard input.
+    /// Registers an input. `option` is the flag, or empty for a positional argument. The path "-"
+    /// is standard input.
     void reads(const std::string& option, const std::string& path);
     void reads(const std::string& option, const std::vector<std::string>& paths);
 
-    /// Registers an output. Rejects a file extension of an image or video whose kind differs from
-    /// `content`: in `-o frames/*.png`, where the name of the output is missing, the first frame
-    /// would be overwritten. "-" is standard output for `-o` and is rejected for other options.
+    /// Registers an output. Rejects a file extension of an image or video that does not match
+    /// `content`. For example, in `-o frames/*.png` the name of the output is missing, and the
+    /// first frame would be overwritten. The path "-" is standard output for `-o` and is rejected
+    /// for other options.
     void writes(const std::string& option, const std::string& path, Content content);
 
-    /// Registers the output of lines: the file of `-o`, or standard output without `-o`.
+    /// Registers the output of lines: the file given by `-o`, or standard output if there is none.
     void writes_lines(const std::string& path, Content content);
 
-    /// Registers a file that is read, changed and written. The file is created if it does not
-    /// exist.
+    /// Registers a file that is read, changed and rewritten. A file that does not exist is created.
     void updates(const std::string& option, const std::string& path, Content content);
 
-    /// Checks an input like `reads` without storing its name, for runs with any number of inputs.
+    /// Checks an input like `reads`, but does not store its name, because a run may have any number
+    /// of inputs.
     void require_not_written(const std::string& path) const;
 
-    /// Checks an output like `writes` without storing its name, for generated names, which are all
-    /// different.
+    /// Checks an output like `writes`, but does not store its name. Used for generated names, which
+    /// are all different.
     void require_free(const std::string& option, const std::string& path) const;
 
   private:
     void add_output(const std::string& label, const std::string& path);
     void require_free(const std::string& label, const FileIdentity& identity) const;
 
-    std::map<FileIdentity, std::string> inputs_;  ///< names as given by the user
+    std::map<FileIdentity, std::string> inputs_;  ///< names as specified by the user
     std::map<FileIdentity, std::string> outputs_;
 };
 

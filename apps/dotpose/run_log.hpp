@@ -1,5 +1,5 @@
-/// Reads a log of `dotpose watch`: the CSV of `--log`, or its JSON lines. The log has one row for
-/// each frame, including frames without a fix.
+/// Reads a log of `dotpose watch`, in the CSV format of `--log` or as JSON lines. The log has one
+/// row for each frame, including frames without a fix.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace dotpose::cli {
 
-/// A row of a log. Its cells are looked up by the names in the header.
+/// A row of a log, with access to the cells by column name.
 class LogCells {
   public:
     /// Maps column names to indices in a row.
@@ -27,7 +27,7 @@ class LogCells {
     LogCells(const Columns& columns, std::vector<std::string> cells)
         : columns_(columns), cells_(std::move(cells)) {}
 
-    /// Returns the text of a cell; empty if the log has no such column.
+    /// Returns the text of a cell, or an empty string if the log has no such column.
     std::string_view text(std::string_view column) const;
     /// Returns the number in a cell, or none if the cell is empty or the log has no such column.
     /// Throws Error if the cell is not a number.
@@ -40,13 +40,13 @@ class LogCells {
 };
 
 /// Reads a log row by row. If the file is not a valid log, the functions throw Error with the line
-/// number. An incomplete last line, for example after a power failure, is ignored.
+/// number. An incomplete last line, which may be caused by a power failure, is ignored.
 class LogReader {
   public:
     explicit LogReader(const std::filesystem::path& path);
 
-    /// Returns `parse(next row)`, or none at the end of the file. The line number is added to
-    /// errors that `parse` throws.
+    /// Returns `parse(next row)`, or none at the end of the file. Adds the line number to errors
+    /// thrown by `parse`.
     template <typename Parse>
     auto next(Parse parse) -> std::optional<decltype(parse(std::declval<const LogCells&>()))> {
         try {
@@ -81,7 +81,8 @@ struct LogRow {
     std::string plane;  ///< pattern or world; empty while the robot is lost
     int dots_seen = 0;
     std::optional<double> p_wrong;
-    // Pose of the track in mm and degrees, and its speed in mm/s; none while the robot is lost.
+    // Pose of the track in mm and degrees, and its speed in mm/s. There is no pose while the robot
+    // is lost.
     std::optional<double> x_mm;
     std::optional<double> y_mm;
     double speed_mm_s = 0;
@@ -103,8 +104,8 @@ struct RunStatistics {
     std::int64_t gaps = 0;  ///< number of sequences of frames without a fix
     double longest_gap_s = 0;
     double stationary_s = 0;
-    double distance_mm = 0;      ///< length of the path, without jumps
-    double mean_speed_mm_s = 0;  ///< mean over the frames in which the robot moves
+    double distance_mm = 0;      ///< length of the path, excluding jumps
+    double mean_speed_mm_s = 0;  ///< mean over the frames in which the robot is moving
     double largest_speed_mm_s = 0;
     double largest_p_wrong = 0;
     std::set<std::string> planes;  ///< frames of reference of the poses: pattern, world
@@ -112,8 +113,8 @@ struct RunStatistics {
 
 RunStatistics statistics_of(const std::vector<LogRow>& rows);
 
-/// Draws the path, and plots of speed, dots and certainty over time in which gaps are marked, as
-/// SVG.
+/// Draws an SVG with the path, and with plots of speed, dots and certainty over time. The plots
+/// mark the gaps.
 std::string draw_run(const std::vector<LogRow>& rows, const std::string& title);
 
 }  // namespace dotpose::cli

@@ -25,7 +25,7 @@ bool jumps(const LogRow& row) {
            row.events.find("fix") != std::string::npos;
 }
 
-/// Returns the path. NaN points interrupt it where the robot was lost or was moved by hand.
+/// Returns the path. NaN points interrupt the path where the robot was lost or was moved by hand.
 std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     std::vector<Point> path;
     for (const LogRow& row : rows) {
@@ -35,9 +35,9 @@ std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     return path;
 }
 
-/// Returns the offset in mm to subtract from the coordinates of an axis. If the numbers on the axis
-/// would differ only in their last digits, for example in the pattern frame, the offset is the
-/// centre of the axis in whole mm, otherwise 0.
+/// Returns the offset in mm to subtract from the coordinates of an axis. If the labels of the axis
+/// would otherwise differ only in their last digits, as in the pattern frame, the offset is the
+/// centre of the axis in whole mm. Otherwise it is 0.
 double offset_mm(double middle_mm, double reach_mm) {
     constexpr double kMaxReaches = 1000;
     return std::abs(middle_mm) > kMaxReaches * reach_mm ? std::round(middle_mm) : 0;
@@ -74,7 +74,7 @@ void draw_path(Svg& svg, const std::vector<LogRow>& rows) {
     axes.curve(path, {.colour = draw::colour::kWindow, .has_marks = false});
 }
 
-/// Draws red stripes over the times without a fix.
+/// Marks the times without a fix with red stripes.
 void draw_gaps(const Axes& axes, const std::vector<LogRow>& rows, double low, double high) {
     for (std::size_t i = 0; i < rows.size();) {
         std::size_t end = i;

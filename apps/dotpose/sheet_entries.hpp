@@ -1,5 +1,5 @@
-/// The options --sheets FILE --name NAME --wait SECONDS of commands that print pages and enter them
-/// in a sheet file.
+/// The options --sheets FILE --name NAME --wait SECONDS of commands that print pages and add them
+/// to a sheet file.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace dotpose::cli {
 
 class SheetEntryArguments {
   public:
-    /// Adds the options. The option --origin of the command must be added first.
+    /// Adds the options. The command must already have the option --origin.
     void add_to(Command& command);
 
     /// Returns true if a sheet file was given. The functions below require a sheet file.
@@ -31,26 +31,27 @@ class SheetEntryArguments {
     /// Returns the name of a page in the file: NAME, or NAME-NUMBER if there are several pages.
     std::string page_name(Page page) const;
 
-    /// Reserves the regions of all pages that `enter_all` enters, before a page is written.
+    /// Reserves the regions of all pages before any page is written. `enter_all` must call `enter`
+    /// for each page.
     void reserve(const std::function<void(SheetFile&)>& enter_all,
                  std::optional<SheetReservation>& reservation) const;
 
-    /// Adds a page to the file, with its print settings. The page is placed in the next free
-    /// region, unless the user gave --origin. `print.command` must not contain --origin; it is
-    /// added. Returns the sheet with its new origin.
+    /// Adds a page to the file, with its print settings. If the user did not give --origin, the
+    /// page is placed in the next free region. `print.command` must not contain --origin, which
+    /// this function adds. Returns the sheet with its new origin.
     Sheet enter(SheetFile& file, const Sheet& sheet, Page page, SheetPrint print) const;
 
-    /// Appends --origin to `command`, for a command that prints the dots of one page.
+    /// Appends --origin to `command`. The result is a command that prints the dots of one page.
     static std::string with_origin(const std::string& command, Cell origin);
 
-    /// Returns the options that a command for printing the dots of a page again must not contain:
-    /// the page already has its region, and the sheet file would reject the name.
+    /// Returns the options that must be omitted from a command that reprints a page. The page
+    /// already has its region, and the sheet file would reject the name.
     static std::set<std::string> options_of_entering();
 
     /// Marks the reserved pages as written to `out`. Throws Error if the file cannot be changed.
     void confirm(SheetReservation& reservation, const std::string& out) const;
 
-    /// Returns ", sheet 'NAME' of FILE", or an empty text if there is no sheet file.
+    /// Returns ", sheet 'NAME' of FILE", or an empty string if there is no sheet file.
     std::string summary(Page page) const;
 
   private:

@@ -1,4 +1,4 @@
-/// Prints the page of a sheet again.
+/// Reprints the page of a sheet.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace dotpose::cli {
 
-/// Prints the page of a sheet again from its entry alone. Reports the print options that are
-/// missing in an entry of an earlier version. Throws Error if the dots were printed over a
-/// document, which the entry does not contain. Also throws like `write_sheet`.
+/// Reprints the page of a sheet from its entry alone. If the entry was written by an earlier
+/// version, reports the print options that it does not contain. Throws Error if the dots were
+/// printed over a document, which the entry does not contain. Also throws like `write_sheet`.
 void reprint_sheet(const SheetEntry& entry, const std::string& out);
 
 }  // namespace dotpose::cli

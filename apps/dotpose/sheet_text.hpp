@@ -1,4 +1,4 @@
-/// Describes the sheets of a sheet file as text that is safe to print on a terminal.
+/// Describes the sheets of a sheet file in text that is safe to print on a terminal.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,12 @@
 
 namespace dotpose::cli {
 
-/// Returns the entry with this name. `file` is the path of the sheet file. Throws BadArgument,
-/// which lists the names in the file, if there is no such entry.
+/// Returns the entry with this name. `file` is the path of the sheet file. If there is no such
+/// entry, throws BadArgument with a list of the names in the file.
 const SheetEntry& named_sheet(const std::vector<SheetEntry>& sheets, const std::string& name,
                               const std::string& file);
 
-/// Returns the code of all sheets, or none if they have different codes. `file` is the path of the
+/// Returns the common code of all sheets, or none if their codes differ. `file` is the path of the
 /// sheet file. Throws Error if there are no sheets.
 std::optional<CodeVariant> common_code(const std::string& file,
                                        const std::vector<SheetEntry>& sheets);

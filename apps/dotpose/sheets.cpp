@@ -1,4 +1,4 @@
-// `dotpose sheets`: shows and changes a sheet file.
+// `dotpose sheets`: shows and modifies a sheet file.
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -66,7 +66,7 @@ struct SheetsArguments {
     SheetFileWait wait() const { return {wait_s, tell, interrupted}; }
 };
 
-/// Throws Error if the sheet file does not exist, because changing it would create a new one.
+/// Throws Error if the sheet file does not exist, because a change would create a new file.
 void require_there(const SheetsArguments& arguments) {
     std::error_code error;
     if (std::filesystem::exists(arguments.sheets, error)) return;
@@ -81,8 +81,7 @@ std::vector<SheetEntry> sheets_of(const SheetsArguments& arguments) {
     return read_sheets(arguments.sheets);
 }
 
-/// Locks the sheet file, calls `change` with the entry of the sheet that the user named, and saves
-/// the file.
+/// Locks the sheet file, calls `change` with the entry of the given sheet, and saves the file.
 template <typename Change>
 void change_sheet(const SheetsArguments& arguments, const Change& change) {
     require_there(arguments);
@@ -170,7 +169,7 @@ void add_out_option(Command& command, const Arguments& arguments, const std::str
     command.add_option("-o,--out", arguments->out, help)->type_name("FILE")->required();
 }
 
-/// Adds a subcommand with the options that all subcommands have.
+/// Adds a subcommand with the options shared by all subcommands.
 Command& add_command(Command& sheets, const Arguments& arguments, const char* name,
                      const char* what, void (*run)(const SheetsArguments&)) {
     Command* command = sheets.add_subcommand(name, what)->group("Commands");
@@ -179,7 +178,7 @@ Command& add_command(Command& sheets, const Arguments& arguments, const char* na
     return *command;
 }
 
-/// Adds a subcommand for one sheet, which the user names.
+/// Adds a subcommand that operates on one sheet, given by name.
 Command& add_command_of_one(Command& sheets, const Arguments& arguments, const char* name,
                             const char* what, void (*run)(const SheetsArguments&)) {
     Command& command = add_command(sheets, arguments, name, what, run);

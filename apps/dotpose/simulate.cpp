@@ -39,7 +39,7 @@ constexpr const char* kSimulateExamples =
     "  dotpose simulate -o foreign --scene plain_grid\n"
     "  dotpose simulate -o drive.mp4 --drive --sheets sheets.json --speed 200 --size 320x240\n";
 
-// An imperfection that is a single number and has its own option.
+// A numeric imperfection with its own option.
 struct NumberOption {
     const char* flag;
     const char* unit;
@@ -66,7 +66,7 @@ constexpr NumberOption kNumberOptions[] = {
      &Imperfections::texture},
 };
 
-// Two numbers in one argument, "A,B".
+// Two numbers in a single argument, "A,B".
 struct Pair {
     std::vector<double> values;
     bool given() const { return values.size() == 2; }
@@ -99,7 +99,7 @@ Vec2 to_vec(const Pair& pair) {
     return {pair.values[0], pair.values[1]};
 }
 
-// Returns the shot of a frame. Values from the command line replace the random values.
+// Returns the shot of a frame. Values from the command line override the random values.
 Shot shot_of(const SimulateArguments& arguments, int index) {
     Shot shot = draw_shot(arguments.setup, static_cast<std::uint64_t>(index));
     Imperfections& seen = shot.imperfections;
@@ -142,7 +142,7 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
 
 /// True pose and pattern of a simulated frame.
 struct Truth {
-    std::optional<CameraPose> pose;  ///< none for scenes and the table, which have no pose
+    std::optional<CameraPose> pose;  ///< none for scenes and the table
     Pattern pattern;
 };
 
@@ -211,7 +211,7 @@ std::vector<MadeFrame> make_frames(const SimulateArguments& arguments,
 }
 
 /// Returns the drive over the sheets of the file, or none without --drive. All frames have the
-/// imperfections of one shot.
+/// imperfections of the first shot.
 std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_length) {
     if (!arguments.drives) return std::nullopt;
     const std::vector<SheetEntry> sheets = read_sheets(arguments.sheets);
@@ -248,7 +248,8 @@ void run(SimulateArguments& arguments, const Command& command, int& exit_code) {
     int done = 0;
     {
         ProgressLine line("simulating " + arguments.out);
-        // Batches are short, to react quickly to Ctrl-C and to keep the true poses up to date.
+        // Batches are short, so Ctrl-C takes effect quickly and the file of true poses is up to
+        // date.
         const int batch = 4 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
         while (done < arguments.frames && truth && !interrupted()) {
             const int end = std::min(arguments.frames, done + batch);
@@ -293,7 +294,7 @@ void add_camera_options(Command& command, CameraModel& camera) {
         ->capture_default_str();
 }
 
-// Adds options for all values that are random in each frame by default.
+// Adds options for all values that are otherwise random in each frame.
 void add_overrides(Command& command, SimulateArguments& arguments) {
     command.add_option("--angle", arguments.angle_deg, "Angle of the camera on the page")
         ->type_name("DEG");

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Removes the frames of an earlier run, because the true poses of this run do not list them.
+/// Removes the frames of an earlier run, because the file of true poses does not list them.
 void remove_old_frames(const fs::path& folder, const fs::path& truth) {
     std::vector<fs::path> frames;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {

@@ -31,7 +31,7 @@ class SimulateOutput {
 /// Returns true if `out` is the name of a video.
 bool is_video_name(const std::string& out);
 
-/// Opens a video or a folder. Creates the folder if it does not exist, and removes the frames of an
+/// Opens a video or a folder. Creates the folder if it does not exist, and removes frames of an
 /// earlier run from it. Throws Error if the folder contains frames from another source.
 std::unique_ptr<SimulateOutput> open_simulate_output(const std::string& out, double fps);
 

@@ -9,9 +9,9 @@ namespace {
 
 constexpr double kMm_per_m = 1000;
 constexpr double kExposure_s = 1e-4;
-constexpr int kSteps = 4096;  ///< number of steps of the phase of the path
+constexpr int kSteps = 4096;  ///< number of phase steps along the path
 
-/// Converts a point of the world into mm on a page, from its top left corner, y down.
+/// Converts a point of the world to a point on the page, in mm from the top left corner, y down.
 Vec2 on_page(const SheetEntry& entry, Vec2 world_mm) {
     const WorldPose& pose = *entry.world;
     const double x = world_mm.x - pose.x_m * kMm_per_m;
@@ -29,7 +29,7 @@ Vec2 in_world(const SheetEntry& entry, Vec2 page_mm) {
             pose.y_m * kMm_per_m + s * page_mm.x - c * page_mm.y};
 }
 
-/// Returns the distance of a point from the page in mm; 0 on the page.
+/// Returns the distance of a point from the page in mm. The distance is 0 on the page.
 double distance_mm(const Sheet& sheet, Vec2 page_mm) {
     return std::hypot(std::max({-page_mm.x, page_mm.x - sheet.width_mm, 0.0}),
                       std::max({-page_mm.y, page_mm.y - sheet.height_mm, 0.0}));
@@ -50,8 +50,7 @@ PageArea page_area(const SheetEntry& entry) {
             (last.x - first.x) / 2, (last.y - first.y) / 2, 0};
 }
 
-/// Returns the radius in mm of a circle around the image centre that contains the whole view of the
-/// camera.
+/// Returns the radius of a circle around the image centre that contains the whole view, in mm.
 double reach_mm(const CameraModel& camera) {
     return std::hypot(camera.width_px, camera.height_px) / 2 * camera.mm_per_px;
 }
@@ -161,7 +160,7 @@ GreyImage SimulatedDrive::image(int frame) const {
     for (const SheetEntry& entry : sheets_) {
         const Vec2 place = on_page(entry, {now.x_mm, now.y_mm});
         if (&entry == main.entry || distance_mm(entry.sheet, place) > reach_mm(camera_)) continue;
-        // Pixels that show another page are copied from the view of that page.
+        // Copies the pixels that show another page from the view of that page.
         const Vec2 offset = from_origin(entry, place);
         CameraPose its_pose = main.pose;
         its_pose.cell = entry.sheet.origin;

@@ -18,17 +18,17 @@ struct DriveOptions {
 /// Pose of the camera on a sheet.
 struct PoseOnSheet {
     const SheetEntry* entry = nullptr;
-    CameraPose pose;          ///< in the pattern frame of the sheet
+    CameraPose pose;          ///< pose in the pattern frame of the sheet
     bool is_on_page = false;  ///< false if the image centre shows the table
 };
 
-/// A robot that repeatedly drives a figure of eight at constant speed, with its camera aligned to
-/// the direction of travel. The figure fills the bounding rectangle of all sheets whose pose in the
-/// world is known, or the first sheet if there is none. Between the sheets there is a dark table.
-/// The frames are independent of each other and may be rendered in several threads.
+/// A robot that repeatedly drives a figure of eight at constant speed. Its camera is aligned with
+/// the direction of travel. The path fills the bounding rectangle of all sheets with a world pose.
+/// If no sheet has a world pose, the path fills the first sheet. The table between the sheets is
+/// dark. Frames are independent of each other and may be rendered in several threads.
 class SimulatedDrive {
   public:
-    /// `imperfections` apply to all frames; the motion blur is computed from the speed. Throws
+    /// `imperfections` applies to all frames. The motion blur is computed from the speed. Throws
     /// BadArgument if there are no sheets.
     SimulatedDrive(const std::vector<SheetEntry>& sheets, const DriveOptions& options,
                    const CameraModel& camera, const Imperfections& imperfections,
@@ -52,15 +52,15 @@ class SimulatedDrive {
     Waypoint waypoint(int frame) const;
     GreyImage view(const SheetEntry& entry, const CameraPose& pose, int frame) const;
 
-    std::vector<SheetEntry> sheets_;  ///< all sheets with a pose in the world
+    std::vector<SheetEntry> sheets_;  ///< all sheets with a world pose
     DriveOptions options_;
     CameraModel camera_;
     Imperfections imperfections_;
     std::uint64_t seed_;
     Vec2 centre_mm_;
     Vec2 amplitude_mm_;
-    bool is_upright_ = false;         ///< true if the figure of eight is higher than wide
-    std::vector<double> lengths_mm_;  ///< path length from the start to each step of the phase
+    bool is_upright_ = false;         ///< true if the path is higher than wide
+    std::vector<double> lengths_mm_;  ///< path length from the start to each phase step
 };
 
 }  // namespace dotpose::cli

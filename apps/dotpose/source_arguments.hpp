@@ -1,4 +1,4 @@
-/// Arguments that name the sources of frames, shared by all commands that read frames.
+/// Arguments for the sources of frames, shared by all commands that read frames.
 #pragma once
 
 #include <cstdint>
@@ -15,49 +15,48 @@
 
 namespace dotpose::cli {
 
-/// Help text of the argument for sources.
+/// Help text of the positional argument for sources.
 inline constexpr const char* kSourcesHelp =
     "Images, folders, globs ('*.png'), videos, cameras (0, /dev/video0, URL), or - for raw frames";
 
 struct SourceArguments {
     std::vector<std::string> names;
-    std::string list;  ///< file with additional names; "-" for standard input; empty for none
+    std::string list;  ///< file with additional names; "-" for standard input; none if empty
     capture::SourceOptions options;
 
     bool is_given() const { return !names.empty() || !list.empty(); }
 
-    /// Returns the number of times that standard input is named, as the list or for raw frames.
+    /// Returns how many times standard input is used, for the list or for raw frames.
     std::int64_t reads_of_standard_input() const;
 
-    /// Adds the sources, --list and the options of cameras, videos and raw frames.
+    /// Adds the sources, --list, and the options for cameras, videos and raw frames.
     void add_to(Command& command);
 
     /// Adds only --size, --fps, --exposure, --gain, --flip and --roi.
     void add_frame_options(Command& command);
 
-    /// Enables flipping if the camera file requires it, and clears the flag of `camera`, because
-    /// the frames are then delivered flipped.
+    /// Enables flipping if the camera file requires it. Clears the flag in `camera`, because the
+    /// source then delivers flipped frames.
     void flip_as(std::optional<Camera>& camera);
 
-    /// Calls `flip_as`. If --roi is given and the camera file describes whole frames, reduces
-    /// `camera` to the region and returns true. Throws BadArgument if the region exceeds the images
-    /// of the camera.
+    /// Calls `flip_as`. If --roi is given and the camera file describes whole frames, restricts
+    /// `camera` to the region and returns true. Throws BadArgument if the region exceeds the image.
     bool fit_to(std::optional<Camera>& camera);
 };
 
-/// The sources of one run.
+/// All sources of one run.
 class Sources {
   public:
     /// If this program cannot read one of the sources (a camera or a video), replaces this process
-    /// with dotpose-live (live_sources.hpp). Must therefore be called before an output is opened.
-    /// Throws BadArgument if no source is named, or if standard input is named twice. Throws Error
-    /// if the list, a folder or a glob cannot be read.
+    /// with dotpose-live (live_sources.hpp). No output may therefore be open. Throws BadArgument if
+    /// no source is given, or if standard input is given twice. Throws Error if the list, a folder
+    /// or a glob cannot be read.
     explicit Sources(const SourceArguments& arguments);
 
     /// Returns true if a pipe may still deliver names.
     bool has_pipe() const { return names_.has_pipe(); }
 
-    /// Registers the list file and all files that are known before reading.
+    /// Registers the list file and all input files whose names are already known.
     void add_files(RunFiles& files) const;
 
     /// Returns all names, including names from a pipe.

@@ -28,7 +28,7 @@ constexpr const char* kFirstSteps =
     "  dotpose locate photo.jpg     the position of a photo on the sheet\n"
     "  dotpose watch 0              the position of a camera on the sheet, live\n";
 
-/// Returns a text with the path of the documents, which are installed beside the tool.
+/// Returns text with the path of the documents, which are installed with the tool.
 std::string places_of_documents() {
     std::error_code failed;
     const auto tool = std::filesystem::read_symlink("/proc/self/exe", failed);
@@ -39,8 +39,8 @@ std::string places_of_documents() {
                        folder.string());
 }
 
-/// Adds the commands `help` and `version`. `help` stores the words that request the help, in
-/// reverse order, in `help_words`, which must outlive the app.
+/// Adds the commands `help` and `version`. The command `help` stores the words of the equivalent
+/// request for help in `help_words`, in reverse order. `help_words` must outlive the app.
 void add_help_and_version(Command& app, std::vector<std::string>& help_words) {
     std::vector<std::string> names;
     for (const Command* command : app.get_all_subcommands())

@@ -1,4 +1,4 @@
-/// The common part of `main` of dotpose and dotpose-live.
+/// Common part of the `main` functions of dotpose and dotpose-live.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@ namespace dotpose::cli {
 
 using AddCommands = std::function<void(Command& app, int& exit_code)>;
 
-/// Parses the command line with the subcommands that `add` registers, and runs the named
-/// subcommand. Converts exceptions into a message and an exit status.
+/// Parses the command line with the subcommands registered by `add`, and runs the given subcommand.
+/// Converts exceptions to a message and an exit status.
 int tool_main(int argc, char** argv, const AddCommands& add) noexcept;
 
 }  // namespace dotpose::cli

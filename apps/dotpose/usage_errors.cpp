@@ -15,7 +15,7 @@ bool is_option(std::string_view word) {
     return word.size() > 1 && word[0] == '-';
 }
 
-/// Returns the option without its value: "--format" of "--format=csv".
+/// Returns an option without its value. For example, returns "--format" for "--format=csv".
 std::string without_value(const std::string& word) {
     return word.substr(0, word.find('='));
 }
@@ -66,7 +66,7 @@ std::string parsed_commands(const Command& app) {
     return words;
 }
 
-/// Describes an unknown word before a command or in its place. `parent` is the program or a command
+/// Describes an unknown word before or in place of a command. `parent` is the program or a command
 /// with subcommands.
 std::string unknown_before_command(const Command& app, const Command& parent,
                                    const std::string& word) {

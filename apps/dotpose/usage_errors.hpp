@@ -1,4 +1,4 @@
-/// Error messages for wrong command lines, with suggestions.
+/// Error messages for invalid command lines, with suggestions.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@ namespace dotpose::cli {
 /// Name of the command that prints the help of another command.
 inline constexpr const char* kHelpCommand = "help";
 
-/// Returns the message for an error that `app` threw while parsing. Unknown words are reported
-/// first. Otherwise a misspelt `--out` would be reported as "--out is required".
+/// Returns the message for an error that `app` threw while parsing. Reports unknown words first,
+/// because a misspelt `--out` would otherwise be reported as "--out is required".
 std::string usage_error(const Command& app, const UsageError& error);
 
-/// Throws UsageError if an option that has a short form is written with one hyphen, for example
-/// `-out sheet.pdf`. Otherwise the parser would accept `-out` as `-o` with the file name "ut".
-/// `argc` and `argv` are the arguments of `main`.
+/// Throws UsageError if an option that has a short form is written with a single hyphen, for
+/// example `-out sheet.pdf`. The parser would accept `-out` as `-o` with the file name "ut". `argc`
+/// and `argv` are the arguments of `main`.
 void require_two_hyphens(const Command& command, int argc, const char* const* argv);
 
-/// Returns "dotpose COMMAND --help" for the parsed command, or "dotpose --help".
+/// Returns "dotpose COMMAND --help" for the parsed command, or "dotpose --help" if there is none.
 std::string help_command(const Command& app);
 
 }  // namespace dotpose::cli

@@ -1,10 +1,9 @@
-// Reviewed only, neither compiled nor run. Port for a Raspberry Pi Pico (RP2040) with the Pico SDK
-// and an OV7670 camera module without FIFO.
+// Port for a Raspberry Pi Pico (RP2040) with the Pico SDK and an OV7670 camera module without FIFO.
+// The port was reviewed, but neither compiled nor run.
 //
-// A PIO state machine samples the bytes of the camera, every second of which is a grey value
-// (YUYV). Two DMA channels write the grey values to two row buffers in turn. Link with pico_stdlib
-// hardware_pio hardware_dma hardware_i2c. The lens must be turned to about 27 mm
-// (docs/hardware.md).
+// A PIO state machine samples the bytes of the camera. Every second byte is a grey value (YUYV).
+// Two DMA channels write the grey values to two row buffers in turn. Link with pico_stdlib
+// hardware_pio hardware_dma hardware_i2c. Turn the lens to about 27 mm (docs/hardware.md).
 //
 //     camera   D0..D7      PCLK  HREF  VSYNC  XCLK  SIOD  SIOC  RESET  PWDN   line   TX
 //     Pico     GP6..GP13   GP14  GP15  GP16   GP21  GP4   GP5   3V3    GND           GP0
@@ -46,13 +45,13 @@ struct Setting {
     std::uint8_t value;
 };
 
-// QVGA as YUYV, 15 frames per second at 12.5 MHz (OV7670 implementation guide, "QVGA"), with a
-// short, fixed exposure.
+// Settings for QVGA as YUYV with 15 frames per second at 12.5 MHz (OV7670 implementation guide,
+// "QVGA"), and for a short, fixed exposure.
 constexpr Setting kSettings[] = {
     {0x12, 0x10},                                            // COM7: QVGA, YUV
     {0x0C, 0x04}, {0x3E, 0x19}, {0x70, 0x3A}, {0x71, 0x35},  // scaling by 2, also of PCLK
     {0x72, 0x11}, {0x73, 0xF1}, {0xA2, 0x02}, {0x17, 0x16}, {0x18, 0x04}, {0x32, 0x80},  // window
-    {0x19, 0x02}, {0x1A, 0x7A}, {0x03, 0x0A}, {0x13, 0x84},  // COM8: automatic gain, not exposure
+    {0x19, 0x02}, {0x1A, 0x7A}, {0x03, 0x0A}, {0x13, 0x84},  // COM8: automatic gain, fixed exposure
     {0x10, 0x08}, {0x07, 0x00},                              // exposure, in rows times 4
 };
 
@@ -76,7 +75,8 @@ void set_up_camera() {
     sleep_ms(300);
 }
 
-/// The state machine writes each grey byte to the FIFO and drops the colour byte after it.
+/// Sets up a state machine that writes each grey byte to the FIFO and drops the following colour
+/// byte.
 void set_up_pio() {
     static std::uint16_t instructions[] = {
         static_cast<std::uint16_t>(pio_encode_wait_gpio(true, kHref)),
@@ -101,11 +101,13 @@ void set_up_pio() {
     pio_sm_init(pio0, machine, program, &config);
 }
 
-/// Channel 0 fills row 0 and then starts channel 1, and vice versa.
+/// Sets up the two DMA channels. Channel 0 fills row buffer 0 and then starts channel 1, and vice
+/// versa.
 void set_up_dma() {
     for (int& channel : channels)
         channel = dma_claim_unused_channel(true);
-    // The byte is shifted to the right, so it is the most significant byte of the FIFO word.
+    // The state machine shifts to the right, so the byte is the most significant byte of the FIFO
+    // word.
     const volatile void* source = reinterpret_cast<volatile std::uint8_t*>(&pio0->rxf[machine]) + 3;
     for (int i = 0; i < 2; ++i) {
         const auto channel = static_cast<uint>(channels[i]);
@@ -129,11 +131,11 @@ void set_up() {
     set_up_dma();
 }
 
-/// Stops the transfer of the rest of the previous frame.
+/// Stops the previous frame and discards the rest of its data.
 void stop() {
     pio_sm_set_enabled(pio0, machine, false);
-    // An aborted channel could start the other channel. The two channels are therefore aborted
-    // together, and twice.
+    // Aborting one channel may start the other channel. Therefore aborts both channels together,
+    // and twice.
     const std::uint32_t both = 1U << channels[0] | 1U << channels[1];
     for (int i = 0; i < 2; ++i) {
         dma_hw->abort = both;
@@ -168,8 +170,8 @@ Frame start_frame(std::int64_t not_before_us) {
     pio_sm_set_enabled(pio0, machine, true);
     for (int row = 0; row < kTop; ++row)
         next_row();
-    // A row arrives at about the end of its exposure. The middle row of the frame therefore arrives
-    // half the height of the frame later.
+    // A row arrives at about the end of its exposure. The middle of the exposure of the frame is
+    // therefore about half the frame's rows later.
     constexpr std::int64_t kRow_us = 66'667 / 510;
     return {kWidth_px, kHeight_px,
             static_cast<std::int64_t>(time_us_64()) + kRow_us * kHeight_px / 2};
@@ -178,7 +180,8 @@ Frame start_frame(std::int64_t not_before_us) {
 const std::uint8_t* next_row() {
     const auto channel = static_cast<uint>(channels[newest]);
     dma_channel_wait_for_finish_blocking(channel);
-    // Rewinds the channel for its next use, after the other row buffer is full.
+    // Resets the write address of the channel. The channel is used again when the other row buffer
+    // is full.
     dma_channel_set_write_addr(channel, rows[newest], false);
     const std::uint8_t* row = rows[newest] + kLeft;
     newest = 1 - newest;

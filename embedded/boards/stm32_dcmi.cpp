@@ -1,12 +1,12 @@
-// Reviewed only, neither compiled nor run. Port for STM32F4 with DCMI and the HAL of STM32Cube, and
-// a monochrome 8-bit camera such as the MT9V034 or OV9281. Other code must have configured the
-// camera by I2C.
+// Port for STM32F4 with DCMI and the STM32Cube HAL, and a monochrome 8-bit camera such as the
+// MT9V034 or OV9281. The port was reviewed, but neither compiled nor run. Other code must have
+// configured the camera by I2C.
 //
 // DCMI crops the frame to its central part and writes it by DMA to two row buffers in turn.
 // Settings in CubeMX: DCMI with 8 bits and its interrupt enabled; circular DMA of DCMI, words to
-// words; TIM2 running, counting microseconds with 32 bits; USART2 at 115200 baud. Call run_device()
-// in place of the main loop of the generated program, and compile main.cpp with -Dmain=run_device.
-// Chips with a data cache (F7, H7) need `rows` in memory that is not cached.
+// words; TIM2 running and counting microseconds with 32 bits; USART2 at 115200 baud. Call
+// run_device() in place of the main loop of the generated program, and compile main.cpp with
+// -Dmain=run_device. On chips with a data cache (F7, H7), `rows` must be in uncached memory.
 #include "board.hpp"
 
 extern "C" {
@@ -23,17 +23,17 @@ constexpr std::uint32_t kCameraWidth_px = 376;
 constexpr std::uint32_t kCameraHeight_px = 240;
 constexpr std::uint32_t kWidth_px = board::kMaxWidth_px;
 constexpr std::uint32_t kHeight_px = board::kMaxHeight_px;
-/// Time from the end of VSYNC to the middle of the exposure. Negative for global shutters, which
-/// are read out after the exposure.
+/// Time from the end of VSYNC to the middle of the exposure. It is negative for global shutters,
+/// because they are read out after the exposure.
 constexpr std::int64_t kMiddleOfExposure_us = -500;
 
 alignas(4) std::uint8_t rows[2][kWidth_px];
-volatile std::uint32_t rows_filled = 0;  // rows of the frame, counted by the interrupt
+volatile std::uint32_t rows_filled = 0;  // number of rows filled so far, counted by the interrupt
 volatile bool has_begun = false;
 std::uint32_t rows_read = 0;
 
-/// Returns a 64-bit clock in µs. TIM2 wraps after 71 minutes, so the clock must be read more
-/// frequently.
+/// Returns the time on a 64-bit clock in µs. Must be called at least every 71 minutes, before TIM2
+/// wraps.
 std::int64_t now_us() {
     static std::uint32_t last = 0;
     static std::int64_t total_us = 0;

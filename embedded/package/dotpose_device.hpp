@@ -1,13 +1,14 @@
-/// Everything in dotpose that a microcontroller needs, for C++20: locating frames row by row,
+/// All parts of dotpose that a microcontroller needs, for C++20: locating frames row by row,
 /// tracking, packets and pacing. `dotpose.h` is the equivalent for C.
 ///
 ///     static dotpose::DeviceMemory memory;
 ///     static dotpose::DeviceLocator locator(memory);
 ///
-/// `DeviceMemory` is for frames of 188 x 120 px. For other frame sizes, use
-/// DeviceMemoryFor<160, 120> or DeviceMemoryFor<320, 240>.
+/// `DeviceMemory` is for frames of 188 x 120 px. For other frame sizes, use DeviceMemoryFor<160,
+/// 120> or DeviceMemoryFor<320, 240>.
 ///
-/// Include this header before any other header of dotpose: Arduino finds the library by its name.
+/// Include this header before all other dotpose headers, because Arduino finds the library by the
+/// name of this header.
 #pragma once
 
 #include "dotpose/frame_pacer.hpp"

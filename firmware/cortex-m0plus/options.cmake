@@ -1,4 +1,4 @@
-# Functions that run once per frame are optimized for size, to fit the flash memory.
+# Functions that run once per frame are optimized for size, to fit into the flash memory.
 compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp device/locate.cpp core/row_locator.cpp core/math/plane.cpp
              device/attempt.cpp device/tracked.cpp core/steps.cpp
              core/integrity/confidence.cpp core/integrity/likelihood_ratios.cpp core/decode/orientation.cpp

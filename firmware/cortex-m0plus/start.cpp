@@ -1,5 +1,5 @@
-// Start-up code of all Cortex-M. After a reset, it runs the program, and then returns to the
-// emulator.
+// Start-up code for all Cortex-M targets. After a reset, it runs the program and then returns to
+// the emulator.
 #include <array>
 #include <cstdint>
 
@@ -18,15 +18,14 @@ namespace {
 
 extern "C" [[noreturn]] void reset() {
 #ifdef __ARM_FP
-    // Enables the FPU: code compiled for an FPU may use its registers even for integers.
+    // Enables the FPU. Code compiled for an FPU may use its registers even for integers.
     *reinterpret_cast<volatile std::uint32_t*>(0xE000ED88) |= 0xFU << 20;
     asm volatile("dsb\n isb" ::: "memory");
 #endif
     start_program();
 }
 
-/// The vector table at the start of the flash memory (ARMv6-M Architecture Reference Manual,
-/// B1.5.3).
+/// Vector table at the start of the flash memory (ARMv6-M Architecture Reference Manual, B1.5.3).
 struct Vectors {
     const void* initial_stack;
     std::array<void (*)(), 15> handlers;

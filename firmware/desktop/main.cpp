@@ -1,5 +1,5 @@
-// Runs the firmware program on a desktop; devices must print the same lines. With --predict, adds
-// predictions to a file of frames, for the tracked attempt of the devices.
+// Runs the firmware program on a desktop. Devices must print the same lines. With --predict, adds
+// predictions to a file of frames, for the tracked attempt on the devices.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -37,13 +37,13 @@ void print(const char* text) {
 
 namespace {
 
-/// Locates frames without a prediction, and writes the located frames with predictions.
+/// Locates frames without a prediction, and writes each located frame after a prediction for it.
 class Predictor {
   public:
     explicit Predictor(std::uint64_t seed) : rng_(seed) {}
 
-    /// Locates `image`. If this succeeds, writes a prediction whose error is up to half a spacing
-    /// and 4 degrees, and then the image.
+    /// Locates `image`. On success, writes a prediction with an error of up to half a spacing and 4
+    /// degrees, followed by the image.
     void write(const dotpose::GreyImage& image) {
         using namespace dotpose;
         const DeviceOptions options;

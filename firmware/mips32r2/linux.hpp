@@ -1,5 +1,5 @@
-/// Linux system calls with the ABI o32, which QEMU's user mode provides in place of the devices of
-/// a board.
+/// Linux system calls with the o32 ABI. QEMU's user mode provides them in place of the devices of a
+/// board.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@ namespace linux_o32 {
 
 enum class Call : int { exit = 4001, read = 4003, write = 4004, open = 4005 };
 
-/// Makes a system call. Returns its result, or -1 if it fails.
+/// Makes a system call. Returns the result, or -1 on failure.
 inline int call(Call number, int a, const void* b, std::size_t c) {
     register int v0 asm("$2") = static_cast<int>(number);
     register int a0 asm("$4") = a;

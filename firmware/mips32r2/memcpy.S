@@ -1,4 +1,4 @@
-# memcpy that copies two words with each instruction; compilers take one.
+# memcpy that copies two words with each instruction. Compilers generate code that copies one word.
     .set micromips
     .set noreorder
     .macro copy_eight_words offset
@@ -31,7 +31,7 @@ memcpy:
     addiu   $a1, $a1, 64
     bgez    $a2, .Lblocks
     addiu   $a0, $a0, 64
-.Lafter_blocks:                     # the lower bits of $a2 are still those of the size
+.Lafter_blocks:                     # the lower bits of $a2 are still the lower bits of the size
     andi    $v1, $a2, 32
     beqzc   $v1, .Lafter_eight_words
     copy_eight_words 0

@@ -10,13 +10,13 @@ compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp device/locate.cp
              core/pose/subgrid.cpp device/tracked_pose.cpp)
 # -Os saves 32 bytes in each of these short functions.
 compile_core(-Os device/near_dot.cpp device/coded_cells.cpp)
-# -Os saves 128 bytes here and costs 1,200 instructions per tracked frame.
+# In this file, -Os saves 128 bytes and costs 1,200 instructions per tracked frame.
 compile_core(-Os code/rolls.cpp)
-# With -fivopts, GCC would use one pointer per array instead of one index for all arrays, which
-# takes 48 bytes more.
+# With -fivopts, GCC would use one pointer per array instead of one index for all arrays. This would take 48
+# bytes more.
 compile_core("-Os;-fno-ivopts" core/decode/search.cpp)
 compile_core(-O3 core/decode/correlation.cpp core/detect/blobs.cpp core/detect/runs.cpp)
 # -fno-tree-pre keeps constants in registers.
 compile_core(-fno-tree-pre device/read_dots.cpp core/detect/tiles.cpp)
-# -fno-tree-pre keeps GCC from computing expressions early, which takes 32 bytes more.
+# -fno-tree-pre keeps GCC from computing expressions early, which would take 32 bytes more.
 compile_core(-fno-tree-pre device/grow.cpp)

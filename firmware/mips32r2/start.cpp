@@ -3,13 +3,13 @@
 #include "program.hpp"
 #include "stack.hpp"
 
-// These symbols are defined in memory.ld.
+// Symbols defined in memory.ld.
 extern "C" {
 extern void (*const init_array_begin[])();
 extern void (*const init_array_end[])();
 }
 
-/// The contents of the stack at the start of a process.
+/// Contents of the stack at the start of a process.
 struct KernelStack {
     int argument_count;
     const char* arguments[2];

@@ -1,7 +1,8 @@
-# The assembler reads this file before the compiler's output (cmake/mips32r2.cmake). It replaces swm, which
-# stores several registers, by swp for every two and sw for the rest, because swm in QEMU 7.2 stores only 16
-# bits of each. The processor takes the same number of cycles; the code grows by 1.1 KB. Compiler caches do
-# not see this file: give it another name when it changes.
+# The assembler reads this file before the output of the compiler (cmake/mips32r2.cmake). The macros replace
+# swm, which stores several registers, with swp for each pair of registers and sw for the remaining register,
+# because swm in QEMU 7.2 stores only 16 bits of each register. The processor takes the same number of cycles,
+# but the code grows by 1.1 KB. Compiler caches do not detect changes to this file, so it must be renamed when
+# the macros change.
 
 # In "swm $16-$18,$31,24($sp)", `first` is $16-$18, `more` is $31 and `memory` is 24($sp).
     .macro store_each memory, first, more:vararg

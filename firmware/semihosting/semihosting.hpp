@@ -15,8 +15,8 @@ enum class Call : std::uint32_t {
     exit = 0x20,
 };
 
-/// File modes, with the same meaning as the modes of fopen. The file ":tt" is the console: standard
-/// output if opened for writing, standard error if opened for appending.
+/// File modes, with the same meaning as in fopen. The file ":tt" is the console: standard output if
+/// opened for writing, standard error if opened for appending.
 inline constexpr std::uint32_t kRead = 1;
 inline constexpr std::uint32_t kWrite = 4;
 inline constexpr std::uint32_t kAppend = 8;
@@ -26,8 +26,8 @@ inline constexpr std::uint32_t kAppend = 8;
 inline std::int32_t call(Call number, const void* arguments) {
     register auto a0 asm("a0") = static_cast<std::int32_t>(number);
     register const void* a1 asm("a1") = arguments;
-    // The instructions around the breakpoint mark it as a semihosting call. The alignment keeps all
-    // three in one page.
+    // The instructions before and after the breakpoint mark it as a semihosting call. The alignment
+    // keeps the three instructions in one page.
     asm volatile(
         ".balign 16\n .option push\n .option norvc\n"
         "slli x0, x0, 0x1f\n ebreak\n srai x0, x0, 7\n .option pop"
@@ -60,8 +60,8 @@ inline std::int32_t transfer(Call number, std::int32_t file, const void* bytes, 
     return call(number, arguments);
 }
 
-/// Copies the arguments of the option `-semihosting-config` to `text`. Returns false if `text` is
-/// too small.
+/// Copies the arguments of the QEMU option `-semihosting-config` to `text`. Returns false if `text`
+/// is too small.
 inline bool command_line(char* text, std::size_t size) {
     const std::uint32_t arguments[] = {word(text), size};
     return call(Call::command_line, arguments) == 0;

@@ -8,7 +8,7 @@
 #include "semihosting.hpp"
 #include "stack.hpp"
 
-// These symbols are defined in memory.ld.
+// Symbols defined in memory.ld.
 extern "C" {
 extern std::uint32_t data_begin[], data_end[], data_load[], bss_begin[], bss_end[];
 extern void (*const init_array_begin[])();
@@ -27,8 +27,8 @@ inline void clear(volatile std::uint32_t* from, const std::uint32_t* end) {
         *from++ = 0;
 }
 
-/// Returns the last word of the command line, which is the path of the file of frames. Empty if the
-/// command line is too long.
+/// Returns the last word of the command line, which is the path of the file of frames. Returns an
+/// empty string if the command line is too long.
 inline const char* path_of_frames() {
     static std::array<char, 256> line;
     if (!semihosting::command_line(line.data(), line.size())) return "";

@@ -1,4 +1,5 @@
-/// Position code: the symbol at each grid intersection, and the position of a window of symbols.
+/// Position code: returns the symbol at each grid intersection, and decodes the position of a
+/// window of symbols.
 ///
 /// Paper section II-A. Every column of the pattern is the cyclic *main* sequence, read downwards
 /// from an offset, its *roll*. The rolls of adjacent columns differ by 5 to 58, modulo 63. Each
@@ -20,13 +21,13 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Number of positions per axis: 236 * 233 * 31 * 241, the common period of the four sequences of
-/// digits.
+/// Number of positions per axis: 236 * 233 * 31 * 241, the common period of the four digit
+/// sequences.
 inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
 /// Length of the main sequence, which is the number of sections per axis.
 inline constexpr int kSections = 63;
 
-/// The code variant of a sheet, which is its sequence a4.
+/// Variant of the position code. Variants differ only in the sequence a4.
 enum class CodeVariant : std::uint8_t {
     /// a4 as restored in the paper. Unambiguous on the whole plane. The default for printing.
     anoto,
@@ -46,8 +47,8 @@ struct Cell {
     friend constexpr bool operator==(const Cell&, const Cell&) = default;
 };
 
-/// The rolls of column 0 (u) and of row 0 (v), each in [0, 63). The paper calls a section a
-/// "sector".
+/// Section of the code: the rolls of column 0 (u) and of row 0 (v), each in [0, 63). The paper
+/// calls a section a "sector".
 struct Section {
     std::uint8_t u = 0;
     std::uint8_t v = 0;
@@ -89,8 +90,8 @@ constexpr char letter(Symbol symbol) {
 int delta(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns, in O(1), the roll of column (or row) p in section 0: the offset, in [0, 63), at which
-/// the main sequence starts. `p` may exceed kPositionsPerAxis. The rolls do not repeat there: the
-/// roll of p + kPositionsPerAxis differs from the roll of p.
+/// the main sequence starts. `p` may exceed kPositionsPerAxis. Rolls are not periodic: the roll of
+/// p + kPositionsPerAxis differs from the roll of p.
 int roll(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns one bit of the cyclic main sequence. Any index is valid.
@@ -107,7 +108,8 @@ struct SymbolWindow {
     int rows = 0;
 };
 
-/// A place in the code: a cell in a section. The place of a window is that of its top left symbol.
+/// A place in the code: a cell in a section. The place of a window is the place of its top left
+/// symbol.
 struct Place {
     Cell cell;
     Section section;
@@ -115,18 +117,19 @@ struct Place {
 };
 
 /// Returns the place that is (dx, dy) intersections away from `place`. |dx| and |dy| must be less
-/// than kPositionsPerAxis. Beyond either end of an axis, the pattern and the result continue at the
-/// other end in another section.
+/// than kPositionsPerAxis. If the result is beyond either end of an axis, it wraps around to the
+/// other end, where the pattern continues in another section.
 Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noexcept;
 
-/// Decodes an upright window without wrong symbols. Sets `place` only if the code contains exactly
-/// this window at `place` and nowhere else. Errors: bad_window (not 6 to 32 columns and rows, or
-/// fewer than columns * rows symbols), not_in_code, ambiguous (only for `libdots`, where windows
-/// below 8 x 8 may occur at several places).
+/// Decodes an upright window that contains no wrong symbols. Sets `place` only if the window occurs
+/// exactly once in the code. Errors: bad_window (not 6 to 32 columns and rows, or fewer than
+/// columns * rows symbols), not_in_code, ambiguous (only for `libdots`, where windows below 8 x 8
+/// may occur at several places).
 Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexcept;
 
 /// Finds the position of the first column (or row) from the rolls of 6 to 32 consecutive columns
-/// (rows), each in [0, 63) and all read from the same row (column). Errors as in `decode`.
+/// (rows), each in [0, 63) and all read from the same row (column). Returns the same errors as
+/// `decode`.
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 

@@ -1,7 +1,7 @@
 /// Code evidence: the probability of each code variant of a sheet, given frames of the sheet. The
 /// code variants agree on most of the plane. A frame can therefore often be read in several code
 /// variants, usually at the same place, sometimes at distant places. If one frame is ambiguous,
-/// further frames of the sheet decide:
+/// further frames of the sheet resolve the ambiguity:
 ///
 ///     CodeEvidence evidence;
 ///     for (;;) {
@@ -9,7 +9,7 @@
 ///         evidence = reading.evidence;
 ///     }
 ///
-/// docs/integrity.md derives the odds.
+/// For the derivation of the odds, see docs/integrity.md.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ namespace dotpose {
 
 /// The odds of each code variant of one sheet, given all frames so far. Consecutive frames at one
 /// place show the same dots with the same defects, so together they count as a single frame: they
-/// reduce the odds of a code variant by the mean of their individual factors. Frames are at one
-/// place if, along both axes, they are less than 64 cells from the first frame at this place.
+/// reduce the odds of a code variant by the mean of their individual factors. Frames are at the
+/// same place if, along both axes, they are less than 64 cells from the first frame at this place.
 class CodeEvidence {
   public:
     /// log2 of the likelihood or the odds of each code variant, in units of 2^-8.
@@ -51,7 +51,7 @@ class CodeEvidence {
     /// Returns log2 of the odds of a code variant relative to the likeliest code variant, in units
     /// of 2^-8, at most 0.
     std::int32_t log2_q8(CodeVariant code) const;
-    /// Returns the probability that the sheet does not have this code variant, in [0, 1].
+    /// Returns the probability, in [0, 1], that `code` is not the code variant of the sheet.
     float p_wrong(CodeVariant code) const;
 
     /// Adds the evidence of a frame located at `cell`. `log2_q8` is log2 of the likelihood of the
@@ -62,7 +62,7 @@ class CodeEvidence {
     LogOdds sum() const;
 
     LogOdds before_log2_q8_{};  ///< log2 of the odds from all places except the newest
-    /// For each code variant: sum, over the frames at the newest place, of the factor by which the
+    /// Sum, for each code variant over the frames at the newest place, of the factor by which a
     /// frame reduces the odds of the variant relative to the likeliest variant. `sum()` uses the
     /// mean of these factors.
     std::array<float, kCodeVariantCount> factors_here_{};
@@ -77,12 +77,13 @@ struct CodeReading {
     CodeVariant code = CodeVariant::anoto;  ///< code variant of `fix`
     CodeEvidence evidence;                  ///< evidence with this frame added
     /// True if a place in another code variant explains the frame about equally well.
-    /// `locate_in_any_code` sets this member only if the status is ambiguous_code.
-    /// Locator::locate_in_code lists the cases in which that function sets this member. If the fix
-    /// is ok, `p_wrong_log2` does not include the odds of the other place.
+    /// `Locator::locate_in_any_code` sets this member only if the status is ambiguous_code. See
+    /// `Locator::locate_in_code` for the cases in which it sets this member. If the fix is ok,
+    /// `p_wrong_log2` does not include the odds of the other place.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
-    Cell other_cell{};  ///< as Fix::cell; fractions and angle are the same as in `fix`
+    Cell other_cell{};  ///< cell of the other place, as in Fix; fractions and angle are the same as
+                        ///< in `fix`
     Section other_section{};
 };
 
@@ -96,7 +97,7 @@ class CodeReader {
     /// so far.
     explicit CodeReader(std::optional<CodeVariant> given = std::nullopt) : given_(given) {}
 
-    /// Locates an image, and sets the code variant in the options of `locator` to the code variant
+    /// Locates an image. Also sets the code variant in the options of `locator` to the code variant
     /// of the fix. The status of the fix reports errors, as in Locator::locate.
     Fix locate(const ImageView& image, Locator& locator);
 

@@ -1,6 +1,6 @@
 /// Device options: the options of a DeviceLocator, in fixed point. A Locator accepts them, too.
-/// LocatorOptions provides the options that desktop programs need, in millimetres, pixels and
-/// ratios. Ranges are in [brackets]. If a value is outside its range, every frame gets
+/// Desktop programs usually use LocatorOptions, with values in millimetres, pixels and ratios.
+/// Ranges are in [brackets]. If a value is outside its range, every frame gets
 /// Status::bad_argument.
 #pragma once
 
@@ -31,26 +31,27 @@ struct FixedLens {
 };
 
 /// Options of the thresholds between paper and dots (paper section II-B.1). Used by devices and by
-/// the second attempt, which reduces them because it filters the image first.
+/// the second attempt. The second attempt reduces the thresholds, because it filters the image
+/// first.
 struct ThresholdOptions {
-    /// Low threshold: minimum contrast of every pixel of a blob to the paper, as a fraction of the
-    /// local contrast, in 1/256. Smaller values merge neighbouring dots. Larger values lose blurred
-    /// dots. [1 to 256]
+    /// Low threshold: minimum contrast between the paper and every pixel of a blob, as a fraction
+    /// of the local contrast, in 1/256. Smaller values merge neighbouring dots. Larger values lose
+    /// blurred dots. [1 to 256]
     int low_q8 = 120;
-    /// High threshold: minimum contrast of the darkest pixel of a blob to the paper, as a fraction
-    /// of the local contrast, in 1/256. Larger values reject more noise. [1 to 256]
+    /// High threshold: minimum contrast between the paper and the darkest pixel of a blob, as a
+    /// fraction of the local contrast, in 1/256. Larger values reject more noise. [1 to 256]
     int high_q8 = 155;
     /// Contrast, in grey levels, below which an area counts as blank. If a sixth of the largest
-    /// contrast in the frame so far is larger, that value is used, but at most twice this option.
-    /// On devices, `DeviceOptions::min_contrast` replaces a smaller value of this option. [1 to
-    /// 255]
+    /// contrast in the frame so far is larger, the sixth is used instead, up to twice this option.
+    /// On devices, `DeviceOptions::min_contrast` is used instead if it is larger. [1 to 255]
     int min_contrast = 8;
 };
 
 /// Options of the selection of dots among dark blobs (paper section II-B.1). Used by devices and by
 /// the second attempt.
 struct BlobOptions {
-    /// Minimum number of pixels of a dot. With 1, salt-and-pepper noise is not removed. [0 to 2^20]
+    /// Minimum number of pixels of a dot. A value of 1 does not remove salt-and-pepper noise. [0 to
+    /// 2^20]
     int min_area_px = 2;
     /// Minimum mass (summed darkness) of a dot, as a fraction of the upper quartile of the masses
     /// of all blobs, in 1/256. Paler blobs are noise. [0 to 256]
@@ -84,7 +85,7 @@ struct IntegrityOptions {
 
 /// The attempts that `locate` makes.
 enum class Effort : std::uint8_t {
-    device,  ///< one attempt in integers, as made by a DeviceLocator
+    device,  ///< one attempt in integer arithmetic, as on a DeviceLocator
     once,    ///< like `twice`, but without the second attempt
     twice,  ///< a frame that the first attempt does not locate, or locates with large residuals, is
             ///< filtered and read again
@@ -92,8 +93,8 @@ enum class Effort : std::uint8_t {
 
 /// Dots from which the position is read.
 enum class Decoder : std::uint8_t {
-    /// The clearest window of 8 x 8 symbols, as in the paper; for comparison. `locate` then omits
-    /// the first attempt, and makes the second attempt with every Effort except `device`.
+    /// The clearest window of 8 x 8 symbols, as in the paper. Intended for comparison. `locate`
+    /// omits the first attempt, and makes the second attempt with every Effort except `device`.
     window,
     all,  ///< all dots in view
 };
@@ -109,15 +110,15 @@ struct DeviceOptions {
     LatticeOptions lattice;
     IntegrityOptions integrity;
 
-    /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast is
-    /// refused with the status no_contrast, or not_tracked if a DeviceLocator only tracks the
-    /// frame. Default 0: any contrast that can be read. [0 to 255]
+    /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast gets the
+    /// status no_contrast, or not_tracked if a DeviceLocator only tracks the frame. Default 0: any
+    /// contrast that can be read. [0 to 255]
     int min_contrast = 0;
 
     /// Maximum number of dots to which the first and the tracked attempt fit the pose, spread
-    /// evenly over the frame. The error is proportional to 1 / sqrt(max_dots), the time to
-    /// max_dots. The default suffices for all dots of a VGA frame at 9 px per spacing. [any;
-    /// clamped to the range from 64 to the capacity of the memory]
+    /// evenly over the frame. The error is proportional to 1 / sqrt(max_dots), and the time is
+    /// proportional to max_dots. The default includes all dots of a VGA frame at 9 px per spacing.
+    /// [any; clamped to the range from 64 to the capacity of the memory]
     int max_dots = 4096;
 
     /// Spacing of the printed grid in nm, which converts a fix to millimetres. Default: 0.508 mm,

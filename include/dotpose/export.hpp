@@ -1,5 +1,6 @@
-/// Macros around the declarations whose names the shared libraries of dotpose export. All other
-/// names are hidden. For Windows the macros are empty: Mingw-w64 exports all names of a library.
+/// Macros that enclose the declarations exported by the shared libraries of dotpose. All other
+/// names are hidden. On Windows, the macros are empty, because Mingw-w64 exports all names of a
+/// library.
 #pragma once
 
 #if defined(__GNUC__) && !defined(_WIN32)

@@ -25,7 +25,7 @@ enum class Attempt : std::uint8_t {
 /// Returns the identifier, such as "tracked".
 const char* name(Attempt attempt) noexcept;
 
-/// Flatness of the paper in view, as determined from the dots.
+/// Flatness of the visible paper, as determined from the dots.
 enum class Surface : std::uint8_t {
     even,     ///< one plane explains all dots
     divided,  ///< a part of the paper is displaced; the pose is that of the part that contains the
@@ -36,7 +36,7 @@ enum class Surface : std::uint8_t {
 /// Returns the identifier, such as "divided".
 const char* name(Surface surface) noexcept;
 
-/// The places that counted as possible when the probability of a wrong fix was computed.
+/// The places considered possible when the probability of a wrong fix was computed.
 enum class Prior : std::uint8_t {
     plane,        ///< all places of the code
     sheets,       ///< places on known sheets; the bits make any other sheet improbable
@@ -57,7 +57,8 @@ struct Fix {
     Surface surface = Surface::even;  ///< always `even` from a DeviceLocator
     Prior prior = Prior::plane;       ///< see Locator::set_known
 
-    Cell cell;                         ///< intersection to the upper left of the reference point
+    Cell cell;                         ///< nearest intersection to the upper left of the reference
+                                       ///< point
     std::uint16_t fraction_x_q16 = 0;  ///< distance from `cell` to the right, in 1/65536 spacing
     std::uint16_t fraction_y_q16 = 0;  ///< distance from `cell` downwards, in 1/65536 spacing
     std::int32_t theta_bam = 0;        ///< binary angle: 2^31 is half a turn, in [-2^31, 2^31)
@@ -71,7 +72,7 @@ struct Fix {
     int frames = 1;
     int dots_seen = 0;  ///< number of blobs of the size of a dot
     int dots_used = 0;  ///< number of dots to which the pose was fitted
-    /// Number of bits that contradict the position. Each cell read has two bits.
+    /// Number of bits that contradict the position. Each cell contributes two bits.
     int bit_errors = 0;
     /// log2 of an upper bound on the probability that the position is wrong.
     int p_wrong_log2 = 0;
@@ -79,13 +80,13 @@ struct Fix {
     float residual_px = 0;
 
     /// The map from the image to the pattern, in spacings relative to `place`. The pose is the
-    /// value and the direction of this map at the reference point. `Prediction` uses this map.
+    /// value and the orientation of this map at the reference point. `Prediction` uses this map.
     PlaneFromImage pattern_from_image;
     Place place;                        ///< origin of `pattern_from_image`
     std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
                                         ///< 2^-16 spacing
 
-    /// Covariance of (x, y, theta). x and y are in spacings, theta is in radians.
+    /// Covariance of (x, y, theta). x and y are in spacings, and theta is in radians.
     float covariance[3][3] = {};
     /// Returns true if the covariance is known. A DeviceLocator computes neither covariance nor
     /// residual.
@@ -94,8 +95,7 @@ struct Fix {
     /// Returns true if the frame was located.
     explicit operator bool() const { return status == Status::ok; }
 
-    // Double precision is used only in these functions, which are not part of the core's object
-    // code.
+    // Only these functions use double precision. They are not part of the core's object code.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }
     double y_grid() const { return cell.y + fraction_y_q16 / 65536.0; }
     /// Position in the pattern frame, in mm, or NaN if the spacing of the printed grid is not

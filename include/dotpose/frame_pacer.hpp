@@ -20,11 +20,11 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Criteria for movement, and the periods of frames.
+/// Criteria for movement, and frame periods.
 struct PacerOptions {
     /// Time without movement after which the device counts as stationary. A longer time costs
-    /// energy. With a shorter time, short stops also count as stationary, and the next movement is
-    /// detected later.
+    /// energy. With a shorter time, short stops also count as stationary, which delays the
+    /// detection of the next movement.
     std::int64_t stationary_after_us = 5'000'000;
     /// Period of frames while stationary. A longer period saves energy and delays the detection of
     /// movement.
@@ -46,7 +46,7 @@ struct PacerOptions {
 /// State of motion of the device, as determined from the frames so far.
 enum class Motion : std::uint8_t { moving, stationary };
 
-/// Schedules the frames. Takes them less often while the device is stationary.
+/// Schedules frames. The frame rate is reduced while the device is stationary.
 class FramePacer {
   public:
     explicit FramePacer(const PacerOptions& options = {}) : options_(options) {}
@@ -64,8 +64,8 @@ class FramePacer {
     PacerOptions options_;
     Motion motion_ = Motion::moving;
     bool has_begun_ = false;
-    /// Fix of the newest frame that counted as movement, as the first frame does. Later movement is
-    /// measured from this fix. Its status is not ok if that frame had no fix.
+    /// Fix of the newest frame that counted as movement. The first frame always counts as movement.
+    /// Later movement is measured from this fix. The status is not ok if the frame had no fix.
     Fix rest_;
     std::int64_t rest_since_us_ = 0;  ///< time of the frame of `rest_`
 };

@@ -24,7 +24,7 @@ struct FixedVec {
 ///
 ///     plane = at_centre + (du x + dv y) / (1 + perspective . (x, y) + lens (x^2 + y^2)),
 ///
-/// which is exact for a tilted camera, for the lens of eq. 2, and for a tilted camera with this
+/// This map is exact for a tilted camera, for the lens of eq. 2, and for a tilted camera with this
 /// lens.
 struct PlaneFromImage {
     FixedVec centre_q8;         ///< image point of (x, y) = (0, 0), in 2^-8 px

@@ -25,13 +25,13 @@ struct KnownRegion {
     std::uint32_t rows = 0;
 };
 
-/// With known regions, the minimum number of dots is the smaller of `min_dots` in the options and
-/// this value. The smallest views that can be certain have about 25 dots.
+/// Minimum number of dots with known regions, unless `min_dots` in the options is smaller. The
+/// smallest views that can be certain have about 25 dots.
 inline constexpr int kMinKnownDots = 16;
 
 /// Whether sheets other than the known ones may be in view.
 enum class OtherSheets : std::uint8_t {
-    possible,    ///< other sheets are also located, but need more dots in view
+    possible,    ///< other sheets are also located, but only if more dots are in view
     impossible,  ///< only places on known sheets are possible
 };
 

@@ -1,5 +1,5 @@
-/// Checks that the compiler uses the C++ version that all headers need. With an older version, the
-/// first compiler error is a clear message.
+/// Checks that the compiler uses the C++ version that all headers require, so an older version
+/// fails with a clear error message.
 #pragma once
 
 // Microsoft's compiler sets __cplusplus to the version only with the option /Zc:__cplusplus.

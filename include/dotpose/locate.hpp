@@ -1,4 +1,4 @@
-/// Locator: finds the pose of an image.
+/// Locator: finds the pose of a camera from an image of the pattern.
 ///
 ///     dotpose::Locator locator;
 ///     if (const dotpose::Fix fix = locator.locate(image)) use(fix.x_mm(), fix.y_mm());
@@ -12,7 +12,7 @@
 ///
 /// Memory: the constructor of a Locator allocates all memory, unless the caller provides it.
 /// Locating a frame does not allocate, print or throw. There are no globals. Different locators may
-/// be used at the same time.
+/// be used concurrently.
 #pragma once
 
 #include <concepts>
@@ -39,8 +39,8 @@ namespace core {
 struct Workspace;
 }  // namespace core
 
-/// Base class of Locator and DeviceLocator: options, memory, and the state of a frame that is
-/// pushed row by row.
+/// Base class of Locator and DeviceLocator. Contains the options, the memory, and the state of a
+/// frame that is pushed row by row.
 class RowLocator {
   public:
     RowLocator(const RowLocator&) = delete;
@@ -97,7 +97,7 @@ class Locator : public RowLocator {
         detects_code_ = !options.code;
     }
     // Overloads for fixed-point options, in which the code is always given. The overloads are
-    // templates to make `Locator(memory, {...})` select LocatorOptions.
+    // templates because `Locator(memory, {...})` must select LocatorOptions.
     template <std::same_as<DeviceOptions> Fixed>
     explicit Locator(const Fixed& options) : Locator(new LargeMemory, options) {}
     template <std::same_as<DeviceOptions> Fixed>
@@ -107,7 +107,7 @@ class Locator : public RowLocator {
     ~Locator() { delete owned_; }
 
     /// Sets the options of the following frames. Drops a frame that was begun but not finished.
-    /// Restarts the detection of the code, unless the code is given.
+    /// Unless the code is given, restarts the detection of the code.
     void set_options(const LocatorOptions& options) {
         set_fixed_options(options);
         detects_code_ = !options.code;
@@ -117,11 +117,11 @@ class Locator : public RowLocator {
         set_fixed_options(options);
     }
 
-    /// Sets the regions of the code plane on the sheets that may be in view. Views of about 30 dots
-    /// then suffice. `regions` must remain valid while the locator uses it. An empty span makes all
-    /// places possible again. Returns bad_argument, and keeps the previous regions, if a region is
-    /// empty or not inside the plane, or if its code or section does not exist. Effort::device does
-    /// not use the regions.
+    /// Sets the regions of the code plane that are printed on the sheets that may be in view. With
+    /// known regions, views of about 30 dots suffice. `regions` must remain valid while the locator
+    /// uses it. An empty span makes all places possible again. Returns bad_argument, and keeps the
+    /// previous regions, if a region is empty or not inside the plane, or if its code or section
+    /// does not exist. Effort::device does not use the regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
@@ -144,10 +144,10 @@ class Locator : public RowLocator {
     /// motion is not usable, the image is located alone.
     Fix locate(const ImageView& image, const MeasuredMotion& since_last);
 
-    /// Locates an image whose code variant is not known. Places in all code variants are
-    /// alternatives, weighted with the odds in `evidence`. If places of two code variants explain
-    /// the frame about equally well, the status is ambiguous_code. Afterwards `options().code` is
-    /// the code variant of the result, `CodeReading::code`.
+    /// Locates an image whose code variant is not known. Considers places in all code variants,
+    /// weighted with the odds in `evidence`. If places of two code variants explain the frame about
+    /// equally well, the status is ambiguous_code. Afterwards `options().code` is the code variant
+    /// of the result, `CodeReading::code`.
     CodeReading locate_in_any_code(const ImageView& image, const CodeEvidence& evidence);
 
     /// Locates an image whose code variant is not known, and tries the predicted place first. The
@@ -202,11 +202,11 @@ class Locator : public RowLocator {
     CodeEvidence evidence_;  ///< evidence of all images so far, if the code is detected
 };
 
-/// A locator for microcontrollers, for a camera that looks straight at the paper. Uses integers
-/// only and takes a short, bounded time. The options `effort` and `decoder` have no effect.
-/// Provides neither covariance nor residual. Refuses a position as not_certain if a quickly
-/// computed upper bound on the probability that the position is wrong exceeds the limit. A program
-/// that uses only this class links none of the desktop attempts.
+/// A locator for microcontrollers with a camera that looks straight at the paper. Uses only integer
+/// arithmetic and takes a short, bounded time. The options `effort` and `decoder` have no effect.
+/// Provides neither covariance nor residual. Computes only a fast upper bound on the probability
+/// that a position is wrong, and refuses the position as not_certain if this bound exceeds the
+/// limit. A program that uses only this class does not link the desktop attempts.
 class DeviceLocator : public RowLocator {
   public:
     /// The rules for memory and options are the same as for Locator.

@@ -91,7 +91,7 @@ inline const char* bad_option(const LocatorOptions& options) {
     return nullptr;
 }
 
-// Double precision is used only in headers, which are not part of the core's object code.
+// Double precision is used only in headers, because they are not part of the core's object code.
 inline LocatorOptions::operator DeviceOptions() const {
     DeviceOptions fixed;
     if (bad_option(*this) != nullptr) {

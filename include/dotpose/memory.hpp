@@ -1,6 +1,6 @@
 /// Memory of a Locator or DeviceLocator. The memory has a fixed size. It belongs to the caller,
-/// unless a Locator allocates it. It serves any number of frames, one at a time. The memory may be
-/// static, on the heap or, if small enough, on the stack. Its content is private to the core.
+/// unless a Locator allocates it. It is reused for each frame. The memory may be static, on the
+/// heap or, if small enough, on the stack. Its content is private to the core.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ class AnyDeviceMemory {
 
 /// Memory of a DeviceLocator on a small microcontroller, with a sensor of Width x Height px. The
 /// end of this header lists the supported sizes. Frames may be smaller. The memories for a width of
-/// 160 or 188 px also support frames that are higher than Height.
+/// 160 or 188 px also support frames that are taller than Height.
 template <int Width, int Height>
 class DeviceMemoryFor : public AnyDeviceMemory {
   public:

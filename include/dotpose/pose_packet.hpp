@@ -1,5 +1,5 @@
-/// Pose packets: encodes and decodes the results that a device sends over a serial line or radio,
-/// one packet per frame (docs/pose-packet.md).
+/// Pose packets: the results that a device sends over a serial line or radio, one packet per frame
+/// (docs/pose-packet.md).
 ///
 ///     const PacketBytes bytes = encode(make_packet(fix, options.code, sequence++, time_us));
 ///     send(bytes.data(), bytes.size());
@@ -9,7 +9,7 @@
 ///
 /// The reader always refuses packets with one to four wrong bits. It accepts about 1 in 65536
 /// packets with five or more wrong bits. After a damaged packet, reading continues with the next
-/// packet. No heap, no double, no globals. Different objects may be used at the same time.
+/// packet. No heap, no double, no globals. Different objects may be used concurrently.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ namespace dotpose {
 inline constexpr int kPacketVersion = 1;
 
 /// The part of a frame's result that a packet contains. Unless `status` is ok, only the members
-/// above `cell` are valid. `make_packet` then leaves the other members at their defaults, 0.
+/// above `cell` are valid, and `make_packet` leaves the other members at their default, 0.
 struct PosePacket {
     std::uint16_t sequence = 0;  ///< number of the frame; a gap in the numbers means lost packets
     std::uint32_t time_us = 0;   ///< time of the frame on the sender's clock; wraps every 71.6
@@ -40,7 +40,8 @@ struct PosePacket {
     Cell cell;  ///< as in Fix
     std::uint16_t fraction_x_q16 = 0;
     std::uint16_t fraction_y_q16 = 0;
-    std::int16_t theta_bam16 = 0;  ///< 2^15 is half a turn: steps of 0.0055 degrees
+    std::int16_t theta_bam16 = 0;  ///< binary angle: 2^15 is half a turn, and one step is 0.0055
+                                   ///< degrees
     Section section;
     /// -log2 of an upper bound on the probability that the position is wrong. 255 means 255 or
     /// more.
@@ -49,8 +50,7 @@ struct PosePacket {
     /// 255 means 255 or more, or not known.
     std::uint8_t deviation_q12 = 0;
 
-    // Double precision is used only in these functions, which are not part of the embedded object
-    // code.
+    // Only these functions use double precision. They are not part of the embedded object code.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }
     double y_grid() const { return cell.y + fraction_y_q16 / 65536.0; }
     /// Angle of the image x axis in the pattern frame, in [-pi, pi).
@@ -59,7 +59,7 @@ struct PosePacket {
     friend constexpr bool operator==(const PosePacket&, const PosePacket&) = default;
 };
 
-/// Returns the packet of a fix. `sequence` is the number of the frame, `time_us` its time.
+/// Returns the packet of a fix. `sequence` is the number of the frame, and `time_us` is its time.
 PosePacket make_packet(const Fix& fix, CodeVariant code, std::uint16_t sequence,
                        std::uint32_t time_us);
 
@@ -84,7 +84,7 @@ class PacketReader {
 
   private:
     std::array<std::uint8_t, 31> bytes_{};  ///< bytes since the last end mark
-    /// Number of bytes since the last end mark; 32 if there are more than in a packet.
+    /// Number of bytes since the last end mark. 32 means more bytes than a packet contains.
     std::size_t count_ = 0;
     std::uint32_t damaged_ = 0;
     PosePacket packet_;

@@ -1,5 +1,5 @@
 /// Prediction: the expected place of the pattern in the next frame. With a prediction, a Locator
-/// finds the next fix in a fraction of the time: it measures the dots at their expected places and
+/// finds the next fix in a fraction of the time. It measures the dots at their expected places and
 /// compares their bits with the code. A prediction never makes a fix less certain. A frame that
 /// does not confirm the prediction is located without the prediction.
 ///

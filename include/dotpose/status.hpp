@@ -16,38 +16,38 @@ namespace dotpose {
 /// C, the other languages and the documents.
 enum class [[nodiscard]] Status : std::uint8_t{
     ok,  ///< located
-    // Faults of the arguments.
+    // Invalid arguments.
     bad_argument,     ///< an option is out of its range, or the image view has no pixels
     image_too_small,  ///< the image is too small to show 8 x 8 dots
     image_too_large,  ///< the image is larger than the memory supports
-    // Found in src/core/detect.
+    // Set by src/core/detect.
     no_contrast,   ///< the image has no dark marks on a lighter background
     too_few_dots,  ///< too few dots
-    // Found in src/core/lattice.
+    // Set by src/core/lattice.
     no_grid,          ///< the dots do not form a regular grid
     no_displacement,  ///< the dots are on the grid intersections and carry no symbols
-    // Found in src/core/decode.
+    // Set by src/core/decode.
     grid_too_small,  ///< fewer than 8 x 8 dots of one grid are in view
     // State before a frame is located.
     not_run,  ///< no frame has been located yet
-    // Found in src/core/decode.
+    // Set by src/core/decode.
     mirrored,  ///< the pattern is mirrored
-    // Found in src/code.
+    // Set by src/code.
     bad_window,   ///< a window must have 6 to 32 columns and rows
     not_in_code,  ///< the position code does not contain the symbols
     ambiguous,    ///< the position code contains the symbols at several places
-    // Found in src/core/integrity.
+    // Set by src/core/integrity.
     not_certain,  ///< a position was found, but it may be wrong with more than the allowed
                   ///< probability
-    // Found in src/device and src/locate.
+    // Set by src/device and src/locate.
     not_tracked,     ///< the pattern is not where it was predicted
     ambiguous_code,  ///< places of two codes explain the dots about equally well; name the code, or
                      ///< show more dots
-    // Read from packets.
+    // Read only from packets.
     other = 255,  ///< a newer version of dotpose has added this status
 };
 
-/// Number of values of Status, without `other`.
+/// Number of values of Status, excluding `other`.
 inline constexpr int kStatusCount = static_cast<int>(Status::ambiguous_code) + 1;
 
 /// Returns the identifier of a status, as in output lines, for example "too_few_dots". Returns

@@ -102,11 +102,12 @@ struct GridRegion {
 struct Decoding {
     GridRegion window;  ///< the clearest window of 8 x 8 cells
     GridRegion region;  ///< all decoded cells: at most kMaxLines x kMaxLines
-    /// Agreement with the main sequence of the lines that vote on the turn, at the likeliest turn.
+    /// Agreement, at the likeliest turn, between the main sequence and the lines that vote on the
+    /// turn.
     std::int32_t agreement = 0;
     QuarterTurn pattern_from_grid;
     Place place;  ///< place in the code of grid cell (0, 0); the cell may be out of view
-    /// True if the workspace contains the scores of the lines of the region, rotated by
+    /// True if the workspace contains the line scores of the region, rotated by
     /// `pattern_from_grid`.
     bool lines_are_scored = false;
     int bits = 0;  ///< number of bits compared with the code at `place`, two per dot

@@ -1,6 +1,6 @@
-/// Tracker: the state of a robot from frame to frame. An adaptive filter estimates position, angle
-/// and velocities, with their covariance. The tracker reports the events `fix`, `lost`,
-/// `kidnapped`, `stationary` and `moving`. docs/tracking.md explains filter, events and weak fixes.
+/// Tracker: follows a robot from frame to frame. An adaptive filter estimates position, angle and
+/// velocities, with their covariance. The tracker reports the events `fix`, `lost`, `kidnapped`,
+/// `stationary` and `moving`. docs/tracking.md explains filter, events and weak fixes.
 ///
 ///     Tracker tracker;
 ///     for (;;) {
@@ -18,7 +18,7 @@
 /// integers in nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary, from
 /// +x towards +y; 2^31 is half a turn. Velocities: mm/s along x and y, rad/s.
 ///
-/// No heap, no double, no globals. Different trackers may be used at the same time.
+/// No heap, no double, no globals. Different trackers may be used concurrently.
 #pragma once
 
 #include <array>
@@ -38,13 +38,13 @@ namespace dotpose {
 /// Covariance of (x, y, theta, their velocities), in mm, rad and seconds.
 using Covariance6 = std::array<std::array<float, 6>, 6>;
 
-/// Position and angle of the robot from one frame.
+/// Position and angle of the robot measured in one frame.
 struct Sighting {
     std::int64_t time_us = 0;  ///< middle of the exposure, on any clock
     std::int64_t x_nm = 0;
     std::int64_t y_nm = 0;
     std::int32_t theta_bam = 0;
-    /// Number of the plane to which the pose belongs. Poses in different planes are unrelated.
+    /// ID of the plane that contains the pose. Poses in different planes are unrelated.
     std::uint32_t plane = 0;
     std::array<std::array<float, 3>, 3> covariance{};  ///< covariance of x, y and theta, in mm and
                                                        ///< rad
@@ -57,8 +57,8 @@ struct Sighting {
     bool is_y_up = false;
 };
 
-/// Returns the sighting of a fix in the pattern frame. The plane is the section of the fix. The fix
-/// must be ok, and its spacing must be known and at most 20 mm.
+/// Returns the sighting of a fix in the pattern frame. The plane ID is the section of the fix. The
+/// fix must be ok, and its spacing must be known and at most 20 mm.
 Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
 /// Limits of the robot's motion, and criteria for accepting sightings.
@@ -124,8 +124,7 @@ struct TrackedPose {
     float turn_rad_s = 0;
     Covariance6 covariance{};
 
-    // Double precision is used only in these functions, which are not part of the embedded object
-    // code.
+    // Only these functions use double precision. They are not part of the embedded object code.
     double x_mm() const { return static_cast<double>(x_nm) * 1e-6; }
     double y_mm() const { return static_cast<double>(y_nm) * 1e-6; }
     /// Angle in [-pi, pi).
@@ -136,8 +135,9 @@ struct TrackedPose {
 enum class Verdict : std::uint8_t {
     none,  ///< there was no sighting
     /// Sufficiently certain without the prior, and either at a possible place or confirmed by
-    /// consistent sightings. A place is possible if it is inside the gate or, if the robot is lost,
-    /// if the robot can have reached it. The first sighting is always at a possible place.
+    /// consistent sightings. A place is possible if it is inside the gate. While the robot is lost,
+    /// a place is possible if the robot can have reached it. The first sighting is always at a
+    /// possible place.
     accepted,
     /// Weak, but accepted because it is sufficiently certain together with the prior.
     with_prior,
@@ -155,7 +155,7 @@ const char* name(Verdict verdict) noexcept;
 
 /// The events of a frame. Several events may occur together.
 struct TrackEvents {
-    bool fix = false;  ///< the robot was lost, as it is at the start, and has been found
+    bool fix = false;  ///< the robot was lost, which is also the initial state, and has been found
     /// The robot is now lost: no sighting was accepted for TrackOptions::lost_after_us.
     bool lost = false;
     /// Confirmed sightings are at a place that the robot cannot have reached by driving from its
@@ -209,8 +209,7 @@ class Tracker {
     explicit Tracker(const TrackOptions& options = {}) : options_(options) {}
 
     /// Updates the state with a frame, given by its time and its sighting. The sighting is null if
-    /// there is no fix. A frame that is not newer than the previous frame is ignored; it only
-    /// clears the events.
+    /// there is no fix. A frame that is not newer than the previous frame only clears the events.
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
     /// Updates the state with a frame and with the motion since the previous update, from odometry.
@@ -222,22 +221,22 @@ class Tracker {
     /// Returns the state after the newest frame.
     const Track& track() const { return track_; }
 
-    /// Predicts the place of the pattern in the frame at `time_us`: moves the map of `newest`, an
+    /// Predicts the place of the pattern in the frame at `time_us`. Moves the map of `newest`, an
     /// ok fix with the sighting `seen`, to the pose that the filter expects, and adds the
-    /// uncertainty of this pose. A prediction from a sighting that is not accepted yet uses the
-    /// sightings that agree with it. Returns Prediction::like(newest) if there is no usable pose:
-    /// if the filter has not followed `seen`, if the robot will be lost at `time_us`, if `time_us`
-    /// is not after `seen`, if the spacing is not known, or if the predicted motion is 2048
-    /// spacings or more along x or y. `options` are the options of the Locator.
+    /// uncertainty of this pose. If `seen` is not accepted yet, the prediction uses the sightings
+    /// that agree with it. Returns Prediction::like(newest) if there is no usable pose: if the
+    /// filter has not followed `seen`, if the robot will be lost at `time_us`, if `time_us` is not
+    /// after `seen`, if the spacing is not known, or if the predicted motion is 2048 spacings or
+    /// more along x or y. `options` are the options of the Locator.
     Prediction predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
                        const DeviceOptions& options) const;
 
-    /// Returns true if a weak sighting of the next frame could be accepted. It is then worthwhile
-    /// to locate the frame with a relaxed IntegrityOptions::max_p_wrong_log2.
+    /// Returns true if a weak sighting of the next frame could be accepted. In this case, the frame
+    /// can be located with a relaxed IntegrityOptions::max_p_wrong_log2.
     bool has_prior() const { return !track_.is_lost; }
 
   private:
-    /// Returns the motion with `seen` as its newest sighting, or null if there is none.
+    /// Returns the motion with `seen` as its newest sighting, or null if there is no such motion.
     const track::MotionEstimate* following(const Sighting& seen) const;
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion* motion);
@@ -251,8 +250,8 @@ class Tracker {
 
     TrackOptions options_;
     Track track_;
-    bool was_seen_ = false;       ///< true if a sighting was accepted
-    bool has_frame_ = false;      ///< true if there was a frame
+    bool was_seen_ = false;       ///< true if any sighting has been accepted
+    bool has_frame_ = false;      ///< true if there has been a frame
     bool is_y_up_ = false;        ///< direction of the y axis in the newest sighting
     std::int64_t newest_us_ = 0;  ///< time of the newest frame
     /// State at the last accepted sighting, or at the last motion after this sighting.

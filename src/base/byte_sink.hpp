@@ -6,7 +6,7 @@
 
 #include "dotpose/export.hpp"
 
-// Exported, because the tools library derives from this class.
+// This class is exported because the tools library derives from it.
 DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
@@ -15,8 +15,8 @@ class ByteSink {
   public:
     virtual ~ByteSink() = default;
 
-    /// Appends bytes. Never throws, because C libraries call this function. The first failure is
-    /// stored for `require_good`, and all later bytes are dropped.
+    /// Appends bytes. Never throws, because C libraries call this function. Stores the first
+    /// failure for `require_good` and drops all later bytes.
     virtual void write(const void* data, std::size_t size_bytes) noexcept = 0;
     void write(std::string_view text) noexcept { write(text.data(), text.size()); }
 

@@ -28,8 +28,8 @@ OutputFile::OutputFile(const fs::path& target) : target_(without_links(target)) 
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         throw Error(fmt::format("cannot write {}: it is not a regular file", target_.string()));
     }
-    // Renaming onto a file does not require write permission for that file, so without this check
-    // it would replace a write-protected file.
+    // Renaming a file does not require write permission for the file that it replaces. Without this
+    // check, `commit` would replace a write-protected file.
     if (fs::exists(status) && access(target_.c_str(), W_OK) != 0) {
         throw_system("write", target_, errno);
     }
@@ -50,7 +50,8 @@ void OutputFile::open_temporary() {
         temporary_ = target_;
         temporary_.replace_filename(
             fmt::format(".{:.200}.{:08x}.tmp", target_.filename().string(), random()));
-        // open instead of mkstemp, because its mode follows the user's umask.
+        // Uses open instead of mkstemp, because open applies the user's umask to the mode of the
+        // file.
         descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor < 0 && errno != EEXIST) break;
     }

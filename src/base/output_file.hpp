@@ -1,5 +1,5 @@
-/// Writes a file piece by piece. The file appears completely or not at all. write_file.hpp is for
-/// texts.
+/// Writes a file piece by piece. Either the complete file appears under its name, or no file does.
+/// For whole texts, use write_file.hpp.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,18 @@
 #include "base/byte_sink.hpp"
 #include "dotpose/export.hpp"
 
-// Exported, because the tools library uses these declarations.
+// These declarations are exported because the tools library uses them.
 DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
 
-/// Writes to a temporary file beside the target. `commit` renames it to the target. The destructor
-/// removes an uncommitted file. Symbolic links are followed, and an existing target keeps its mode.
+/// Writes to a temporary file beside the target. `commit` renames the temporary file to the target.
+/// The destructor removes an uncommitted file. Follows symbolic links and keeps the mode of an
+/// existing target.
 class OutputFile : public ByteSink {
   public:
-    /// Throws Error if the target is not a regular file or the temporary file cannot be created.
+    /// Creates the temporary file. Throws Error if this fails or if the target is not a regular
+    /// file.
     explicit OutputFile(const std::filesystem::path& target);
     ~OutputFile() override;
     OutputFile(const OutputFile&) = delete;

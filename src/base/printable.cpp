@@ -12,7 +12,8 @@ constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
 struct Character {
     std::uint32_t code = 0;
-    std::size_t bytes = 0;  ///< length in UTF-8; 0 if the text does not start with valid UTF-8
+    /// Length of the UTF-8 encoding. 0 if the text does not start with a valid UTF-8 sequence.
+    std::size_t bytes = 0;
 };
 
 /// Decodes the first character of a text, which must not be empty. Accepts the sequences of table
@@ -45,8 +46,8 @@ bool acts_on_terminals(std::uint32_t code) {
     return code < 0x20 || is_del_or_c1(code) || breaks_line || turns_direction;
 }
 
-/// Replaces every character by the result of `shown`. Invalid bytes are passed to `shown` one at a
-/// time.
+/// Returns the text with every character replaced. `shown` appends the replacement of one character
+/// to the result. Invalid bytes are passed to `shown` one at a time.
 template <typename Shown>
 std::string rewritten(std::string_view text, Shown shown) {
     std::string result;

@@ -6,18 +6,19 @@
 
 #include "dotpose/export.hpp"
 
-// Exported, because the tools library uses these functions.
+// These functions are exported because the tools library uses them.
 DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
 
-/// Returns the text with U+FFFD in place of every byte that is not UTF-8 and of every character
-/// that moves the cursor, starts a terminal command, breaks the line or changes the writing
-/// direction. The result can neither control a terminal nor imitate another line of output.
+/// Returns the text with U+FFFD in place of every byte that is not valid UTF-8, and of every
+/// character that moves the cursor, starts a terminal command, breaks the line or changes the
+/// writing direction. The result can neither control a terminal nor imitate another line of output.
 std::string printable(std::string_view text);
 
-/// Returns JSON text with the control characters U+007F to U+009F, which JSON allows unescaped, as
-/// \u escapes. The JSON value does not change, and a terminal does not interpret the escapes.
+/// Returns JSON text in which \u escapes replace the control characters U+007F to U+009F. JSON
+/// allows these characters unescaped, but a terminal may interpret them. The JSON value does not
+/// change.
 std::string with_escaped_controls(std::string_view json);
 
 }  // namespace dotpose::base

@@ -6,13 +6,13 @@
 #include "dotpose/export.hpp"
 #include "dotpose/files/sheet.hpp"
 
-// Exported, because the tools library uses these functions.
+// These functions are exported because the tools library uses them.
 DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
 
-/// Tolerance of comparisons. Decimal lengths are not exact in binary. A tenth of a nanometre is far
-/// below the accuracy of any printer.
+/// Tolerance for comparing lengths. Decimal lengths are not exact in binary. A tenth of a nanometre
+/// is far below the accuracy of any printer.
 inline constexpr double kTolerance_mm = 1e-7;
 
 /// Throws BadArgument unless each side of a page is in (0, kMaxPage_mm].
@@ -21,8 +21,8 @@ void validate_paper(double width_mm, double height_mm);
 /// Throws BadArgument for lengths of 0 or less, touching dots, or an invalid section.
 void validate_pattern(const Pattern& pattern);
 
-/// Throws BadArgument unless `count` rows or columns can be read and are inside the code plane.
-/// `what` names the rows or columns in messages, and `first` is the first cell on the axis. The
+/// Throws BadArgument unless `count` rows or columns, beginning with `first`, are enough for a
+/// sheet and lie inside the code plane. `what` and `axis` name the rows or columns in messages. The
 /// count is a double because it is checked before the conversion to an integer.
 void validate_region(const char* what, char axis, std::uint32_t first, double count);
 

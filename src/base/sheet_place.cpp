@@ -8,7 +8,7 @@ namespace dotpose {
 namespace {
 
 /// Returns the signed number of cells from `first` to `cell` along one axis, in the shorter
-/// direction: the code plane is cyclic, so its last column is to the left of its first column.
+/// direction. The code plane is cyclic: its last column is the left neighbour of its first column.
 std::int32_t steps(std::uint32_t first, std::uint32_t cell) {
     constexpr std::int64_t kPositions = kPositionsPerAxis;
     std::int64_t difference = std::int64_t{cell} - first;
@@ -23,7 +23,8 @@ struct Offset {
     double y = 0;
 };
 
-/// Returns the position of a fix relative to a sheet, or none if the section of the fix differs.
+/// Returns the position of a fix relative to a sheet. Returns an empty optional if their sections
+/// differ.
 std::optional<Offset> offset_on(const Sheet& sheet, const Fix& fix) {
     const std::int32_t dx = steps(sheet.origin.x, fix.cell.x);
     const std::int32_t dy = steps(sheet.origin.y, fix.cell.y);
@@ -44,7 +45,7 @@ double wrapped(double angle_rad) {
     return angle <= -std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
 }
 
-/// Returns the covariance after multiplication of each coordinate by its factor.
+/// Returns the covariance after each coordinate is multiplied by its factor.
 PoseCovariance scaled(const auto& covariance, const std::array<double, 3>& factors) {
     PoseCovariance result{};
     for (std::size_t i = 0; i < 3; ++i) {

@@ -9,8 +9,8 @@
 
 namespace dotpose::base {
 
-/// Throws Error with the text "cannot ACTION PATH: REASON". The reason is the system's message for
-/// a value of errno.
+/// Throws Error with the text "cannot ACTION PATH: REASON". REASON is the system's message for
+/// `error_number`, a value of errno.
 [[noreturn]] inline void throw_system(const std::string& action, const std::filesystem::path& path,
                                       int error_number) {
     throw Error("cannot " + action + " " + path.string() + ": " +

@@ -9,9 +9,9 @@ namespace dotpose::calibrate {
 namespace {
 
 /// Maximum distance of a dot from its expected place: kReach_sigmas standard deviations of the fit,
-/// clamped to [kMinReach, kMaxReach] spacings. The limit exceeds all errors of print and fit, so
-/// the next fit decides which dots are outliers. All other dots are at least 2/3 of a spacing from
-/// the expected place.
+/// clamped to [kMinReach, kMaxReach] spacings. The limit exceeds the errors of print and fit, so
+/// only the next fit rejects outliers. All other dots are at least 2/3 of a spacing from the
+/// expected place.
 constexpr double kReach_sigmas = 6;
 constexpr double kMinReach = 0.1;
 constexpr double kMaxReach = 1.0 / 3;
@@ -21,8 +21,8 @@ struct Candidate {
     LocatedDot dot;
 };
 
-/// Returns the blob at `pixel` as the dot of the nearest intersection. (`x`, `y`) is the place of
-/// the blob on the paper, in spacings from `start`.
+/// Returns the candidate that assigns the blob at `pixel` to the nearest intersection. (`x`, `y`)
+/// is the place of the blob on the paper, in spacings from `start`.
 Candidate candidate(PixelPoint pixel, const Place& start, double x, double y, double displacement,
                     CodeVariant code) {
     const FixedVec step{static_cast<std::int32_t>(std::lround(x)),
@@ -53,8 +53,7 @@ void take_all_dots(const LensFit& fit, const FitSetting& setting, CodeVariant co
                 nearest.try_emplace({found.dot.step.x, found.dot.step.y}, found);
             if (!is_new && found.off < entry->second.off) entry->second = found;
         }
-        // If the number of dots found is less than half of the number of dots that were read, the
-        // frame keeps the dots that were read.
+        // Keeps the dots that were read if fewer than half as many dots were found.
         if (2 * nearest.size() < frame.dots.size()) continue;
         frame.dots.clear();
         for (const auto& [step, found] : nearest)

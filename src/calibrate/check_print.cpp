@@ -29,7 +29,7 @@ constexpr double kMaxSpacingRatio = 2;
 constexpr std::size_t kMinFieldDots = 30;
 
 /// Reports progress. The amount of work is not known in advance, so the reported total is always
-/// the number of completed steps plus kHalf.
+/// kHalf steps more than the number of completed steps.
 class Work {
   public:
     explicit Work(const CheckPrintOptions& options) : options_(options) {}
@@ -70,7 +70,7 @@ void validate(const CheckPrintOptions& options) {
     }
 }
 
-/// Returns the index of the sheet whose region contains a cell, or an empty optional.
+/// Returns the index of the sheet whose region contains the cell, or an empty optional.
 std::optional<std::size_t> sheet_at(const CheckPrintOptions& options, Section section, Cell cell) {
     Sheet place;
     place.pattern.code = options.pattern.code;
@@ -97,7 +97,8 @@ void identify(const Field& field, const CheckPrintOptions& options, PrintField& 
         result.sheet = sheet_at(options, field.code.section, cell);
         if (patch) result.pattern = *patch;
         if (result.sheet) result.pattern = options.sheets[*result.sheet].pattern;
-        // The centre of a tile may be on the margin of the page, so all tiles are tried in turn.
+        // The centre of a tile may be on the margin of the page, so the loop tries all tiles in
+        // turn.
         if (patch || result.sheet) break;
     }
     result.pattern.code = options.pattern.code;
@@ -178,8 +179,8 @@ double PrintField::bad_share() const {
 
 namespace {
 
-/// If bits contradict the given code variant, checks whether the page has another variant, and
-/// reports it.
+/// If the bits contradict the given code variant, checks whether the page has another variant.
+/// Reports the variant that it finds.
 void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;
@@ -194,7 +195,7 @@ void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintChe
                                           name(code), name(check.code), name(code))});
 }
 
-/// A field with all its cells, and its result.
+/// A field, its cells and its measurements.
 struct CollectedField {
     Field field;
     CellGrid grid;

@@ -8,8 +8,8 @@
 
 namespace dotpose::calibrate {
 
-/// Equation of one dot along one axis: row . parameters = wanted. A fit with fewer than 7
-/// parameters ignores the last coefficients.
+/// Equation of one dot along one axis: row . parameters = wanted. In a fit with fewer than 7
+/// parameters, the last coefficients are ignored.
 struct AxisEquation {
     std::array<double, 7> row{};
     double wanted = 0;

@@ -1,5 +1,5 @@
-// Least squares: normal equations, and operations on covariances. least_squares.cpp contains all
-// decompositions and products of matrices of this layer, because they are slow to compile.
+// Least squares: normal equations, and operations on covariances. All matrix decompositions and
+// products of this layer are in least_squares.cpp, because they are slow to compile.
 #pragma once
 
 #include <span>
@@ -21,9 +21,9 @@ class NormalEquations {
 
     /// Returns the parameters with the smallest sum of squared residuals.
     std::vector<double> solution() const;
-    /// Returns the decrease of the sum of squared residuals from all parameters 0 to the solution.
+    /// Returns the sum of squared residuals with all parameters 0, minus the sum at the solution.
     double explained_squares() const;
-    /// Returns the covariance of the solution for wanted values of variance 1.
+    /// Returns the covariance of the solution if the wanted values have variance 1.
     Eigen::MatrixXd unit_covariance() const;
 
   private:

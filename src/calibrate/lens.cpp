@@ -1,6 +1,6 @@
-// Calibrates a lens in three rounds: locates the frames and fits a first lens; locates the frames
-// again with this lens; and adds all dots that the second fit predicts. Then sets the camera and
-// the verdict.
+// Calibrates a lens in three rounds. The first round locates the frames and fits a lens. The second
+// round locates the frames again with this lens. The third round adds all dots that the second fit
+// predicts. Then sets the camera and the verdict.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,13 +29,15 @@ using namespace dotpose::calibrate;
 /// views of the same dots.
 constexpr double kSamePlace = 1.5;
 
-/// Reads the frames given to `calibrate_lens`, and detects different sizes and duplicates.
+/// Reads the frames given to `calibrate_lens`. Rejects frames of different sizes and detects
+/// duplicates.
 class Series {
   public:
     Series(int frames, const FrameAt& frame_at, const CalibrateOptions& options)
         : frame_at_(frame_at), options_(options), total_(2 * frames) {}
 
-    /// Returns the frame for the first reading, or an empty optional if it equals an earlier frame.
+    /// Returns the frame for the first round, or an empty optional if an earlier frame is
+    /// identical.
     std::optional<GreyImage> new_frame(int index) {
         GreyImage image = frame_at_(index);
         if (width_px == 0) {
@@ -74,9 +76,9 @@ class Series {
     std::vector<std::uint64_t> hashes_;
 };
 
-/// Returns the decrease of the squared residuals of one frame, in units of their variance, if the
-/// frame is fitted with its own scale, shear and perspective. The expected decrease by chance is 5,
-/// the number of these parameters.
+/// Returns the decrease of the sum of squared residuals of one frame, divided by their variance, if
+/// the frame is fitted with its own scale, shear and perspective. The decrease expected by chance
+/// is 5, the number of these parameters.
 double gain_of_own_view(const LocatedFrame& frame,
                         const std::vector<std::array<double, 2>>& residuals,
                         const std::vector<char>& is_outlier, const FitSetting& setting,
@@ -311,7 +313,7 @@ LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
         places.push_back(frame.place);
     result.spacing_mm = printed_spacing_mm(options, reader.code(), places);
     const FitSetting setting{series.width_px, series.height_px, result.spacing_mm};
-    // Dots in the corners are found only if the lens is known.
+    // The reader finds dots in the corners only with a known lens.
     reader.use_lens(lens_of(camera_of(fit_all(first, setting).after, setting)));
     auto located = read_again(first, series, reader);
     take_all_dots(fit_all(located, setting).after, setting, reader.code(), located);

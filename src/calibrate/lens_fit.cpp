@@ -17,22 +17,22 @@ constexpr double kOutlier_sigmas = 4;
 constexpr double kFirstSigma_px = 0.3;
 /// Prior standard deviations of the camera. The distortion centre is within about 5 % of the image
 /// diagonal from the image centre, the field of view is about 55 degrees, and pixels are square to
-/// 2 %. The priors only matter for parameters that the frames do not determine: the centre of a
-/// lens without distortion, the focal length without tilt, and the shape of the pixels if the tilt
-/// never changes.
+/// within 2 %. The priors only matter for parameters that the frames do not determine: the centre
+/// of a lens without distortion, the focal length without tilt, and the shape of the pixels if the
+/// tilt never changes.
 constexpr double kCentrePrior = 0.1;  // in reaches (half diagonals)
 constexpr double kReachPerFocal = 0.5;
 constexpr double kReachPerFocalPrior = 0.5;
 constexpr double kSquarePrior = 0.02;
 
-/// One dot, as input of the residuals.
+/// A measured dot and the constants of its residual.
 struct Seen {
-    double u;  ///< in reaches, from the image centre
+    double u;  ///< position relative to the image centre, in reaches
     double v;
     double reach_px;
-    double nominal_x;  ///< mm, without the displacement
+    double nominal_x;  ///< nominal position in mm, without the displacement
     double nominal_y;
-    double displaced_x;  ///< mm per unit of displacement
+    double displaced_x;  ///< offset of the dot in mm per unit of displacement
     double displaced_y;
     double mm_per_px;  ///< approximate scale
 
@@ -82,7 +82,7 @@ struct MountedResidual {
 };
 
 /// Residual of a hand-held camera: the difference between the measured and the printed position of
-/// a dot, in px. The camera model is that of simulate.hpp, extended by pixels that are not square.
+/// a dot, in px. The camera model is the model of simulate.hpp, extended by non-square pixels.
 struct HandheldResidual {
     Seen seen;
 
@@ -153,8 +153,8 @@ Seen seen_of(const LocatedDot& dot, const LocatedFrame& frame, const FitSetting&
             mm / frame.spacing_px};
 }
 
-/// Returns the pose of the best-fitting similarity from undistorted px to mm: place, rotation, mm
-/// per px, and two tilts of 0.
+/// Returns the initial pose of a frame: the best-fitting similarity transform from undistorted px
+/// to mm. The elements are place, rotation, mm per px, and two tilts of 0.
 std::array<double, 6> first_pose(const LocatedFrame& frame, const FitSetting& setting,
                                  const SharedModel& camera) {
     using Complex = std::complex<double>;

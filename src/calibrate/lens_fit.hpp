@@ -10,7 +10,7 @@
 
 namespace dotpose::calibrate {
 
-/// How the camera was held over the paper.
+/// How the camera is held over the paper.
 enum class Stand {
     ideal,    ///< camera perpendicular to the paper, at one height, without lens distortion
     mounted,  ///< same height and tilt in all frames
@@ -18,7 +18,7 @@ enum class Stand {
 };
 
 /// Parameters that all frames share. The stand determines which parameters are fitted. Lengths in
-/// the image are in px from the image centre; `reach` is half the diagonal of the image.
+/// the image are in px from the image centre. `reach` is half the diagonal of the image.
 struct SharedModel {
     std::array<double, 3> lens{};  ///< k reach^2, and the distortion centre in px
     /// Members of PaperScale, with the perspective multiplied by `reach`.
@@ -34,9 +34,8 @@ struct LensFit {
     SharedModel sigma;  ///< standard deviations of `camera`
     /// Covariance of `camera.lens` and `camera.paper`. Set only if the camera is mounted.
     Eigen::MatrixXd mounted_covariance;
-    /// Pose of each frame: x and y in mm from the intersection where the steps of the frame start,
-    /// and the rotation in radians. If the camera is held by hand, also mm per px, and the two
-    /// tilts in radians.
+    /// Pose of each frame: x and y in mm from `LocatedFrame::place`, and the rotation in radians.
+    /// For a hand-held camera, also mm per px and the two tilts in radians.
     std::vector<std::array<double, 6>> poses;
     /// Residual of each dot of each frame.
     std::vector<std::vector<std::array<double, 2>>> residuals_px;
@@ -56,13 +55,13 @@ struct FitSetting {
     double reach_px() const;
 };
 
-/// Fits camera and poses, beginning with `start` if it is given. Dots with residuals above four
-/// standard deviations are excluded.
+/// Fits the camera and the poses. Starts from `start` unless it is null. Excludes dots with
+/// residuals above four standard deviations.
 LensFit fit_lens(const std::vector<LocatedFrame>& frames, const FitSetting& setting, Stand stand,
                  const LensFit* start = nullptr);
 
-/// Returns the place on the paper that the fit assigns to a pixel of a frame, in mm from the
-/// intersection where the steps of the frame start.
+/// Returns the place on the paper that the fit assigns to a pixel of a frame, in mm from
+/// `LocatedFrame::place`.
 std::array<double, 2> place_on_paper(const LensFit& fit, std::size_t frame, PixelPoint pixel,
                                      const FitSetting& setting);
 

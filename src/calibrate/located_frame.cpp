@@ -7,14 +7,15 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Lenses that are tried if the lens is not known, as k r^2 in the corner of the image.
+/// Lenses to try if the lens is not known, as values of k r^2 in the corner of the image.
 constexpr std::array kCornerStretches = {0.0, -0.06, -0.12, -0.18, -0.25, 0.06, 0.12};
 
-/// Returns the distance from the centre, in spacings, at which the mean radial profile of all dots
-/// has half of its darkness.
+/// Returns the radius, in spacings, at which the mean radial profile of all dots falls to half of
+/// its darkness.
 double half_width(const ImageView& image, const std::vector<LocatedDot>& dots, double spacing_px) {
     constexpr int kBins = 10;
-    // Maximum distance from the centre, in spacings. The next dot is at least 2/3 away.
+    // Maximum distance from the centre, in spacings. The next dot is at least 2/3 of a spacing
+    // away.
     constexpr double kReach = 0.35;
     std::array<double, kBins> sums{};
     std::array<double, kBins> counts{};
@@ -98,7 +99,7 @@ bool FrameReader::locate_with(const ImageView& image, const FixedLens& lens) {
 LocatedFrame FrameReader::read_trace(const ImageView& image) const {
     const Trace trace = locator_.trace();
     const FixedLens& lens = trace.options.lens;
-    // The lens of `locate`, including its rounding to fixed point.
+    // Same lens as in `locate`, including the rounding to fixed point.
     Camera used;
     used.k_per_px2 = lens.k_q40 * 0x1p-40;
     used.centre_px = {(image.width_px - 1) / 2.0 + lens.centre_dx_q8 / 256.0,

@@ -1,4 +1,4 @@
-// Located frames: the dots of each frame as pixels, with their places in the code.
+// Located frames: the dots of each frame, with their pixels and their places in the code.
 #pragma once
 
 #include <cmath>
@@ -14,8 +14,8 @@
 
 namespace dotpose::calibrate {
 
-/// Returns the number of steps from one cell to another along an axis, in the shorter direction
-/// around the plane.
+/// Returns the number of steps from one cell to another along an axis of the cyclic code plane, in
+/// the shorter direction.
 inline double steps(std::uint32_t from, std::uint32_t to) {
     return std::remainder(double(to) - double(from), double(kPositionsPerAxis));
 }
@@ -31,7 +31,7 @@ struct LocatedDot {
 /// `trace.decoding.place`.
 std::vector<LocatedDot> dots_read(const Trace& trace);
 
-/// The dots of one frame. Pixels refer to the image, without correction of distortion.
+/// Dots of one frame. Pixel positions are not corrected for distortion.
 struct LocatedFrame {
     int index = 0;                  ///< index of the frame in the series
     Place place;                    ///< place of step (0, 0)
@@ -47,7 +47,7 @@ class FrameReader {
     /// If `code` is empty, the reader detects the code variant from the frames.
     explicit FrameReader(std::optional<CodeVariant> code);
 
-    /// Sets the lens for all following frames. No other lens is tried afterwards.
+    /// Sets the lens for all following frames. The reader tries no other lens afterwards.
     void use_lens(const FixedLens& lens) {
         lens_ = lens;
         is_known_ = true;

@@ -1,5 +1,5 @@
-// Finds the position and direction of a camera on a robot, from a turn on the spot and from a
-// straight drive.
+// Finds the position and direction of a camera on a robot. A turn on the spot determines the
+// position, and a straight drive determines the direction.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,8 +27,8 @@ using Eigen::Vector2d;
 constexpr int kMinSpinFrames = 3;
 constexpr double kMinTurn_rad = std::numbers::pi / 6;
 constexpr double kMinDrive_mm = 5;
-/// Maximum angle, in a straight drive, by which the robot may turn or by which its path may deviate
-/// from the mean line.
+/// Maximum angle by which the robot may turn, and by which its path may deviate from the mean line,
+/// in a straight drive.
 constexpr double kMaxSwerve_rad = std::numbers::pi / 36;
 /// Probability that noise is mistaken for a drift if the robot stays on the spot.
 constexpr double kFalseDrift = 1e-3;
@@ -136,7 +136,7 @@ double arc_of(const std::vector<Station>& stations) {
 }
 
 /// Returns the undistorted pixel of a point. `offset_mm` is relative to the point under the image
-/// centre, along the image axes there.
+/// centre, along the image axes at that point.
 PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
     if (!stations.camera.paper) {
         const PixelPoint centre = image_centre(stations.camera);
@@ -146,8 +146,9 @@ PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
     return pixel_from_image_centre(stations.camera, {offset_mm.x(), offset_mm.y()});
 }
 
-/// Returns the standard deviation of a point, per axis, due to the calibration of the lens: the
-/// errors of place and direction of the image centre. `offset_mm` is relative to the image centre.
+/// Returns the standard deviation of the position of a point, per axis, due to the lens
+/// calibration. It includes the errors of the place and direction of the image centre. `offset_mm`
+/// is relative to the image centre.
 double sigma_of_lens_mm(const Camera& camera, const Vector2d& offset_mm) {
     const auto sigma = [&](const char* key) {
         const auto found = camera.sigma.find(key);
@@ -210,9 +211,9 @@ SpotTurn fit_turn(const std::vector<Station>& stations, bool has_drift) {
     return result;
 }
 
-/// Returns the error of the offset, per axis, that a drift of the robot causes; 0 if noise explains
-/// the drift. The drift has two parameters, so the p-value of the F test with 2 and m = 2 n - 6
-/// degrees of freedom is (squares with drift / squares without drift) ^ (m / 2).
+/// Returns the error of the offset, per axis, that a drift of the robot causes. Returns 0 if noise
+/// explains the drift. The drift has two parameters, so the p-value of the F test with 2 and m = 2
+/// n - 6 degrees of freedom is (squares with drift / squares without drift) ^ (m / 2).
 double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on_the_spot) {
     if (stations.size() < kMinDriftFrames) return 0;
     const SpotTurn drifting = fit_turn(stations, true);
@@ -222,7 +223,7 @@ double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on
     return (drifting.offset - on_the_spot.offset).norm() / std::numbers::sqrt2;
 }
 
-/// Throws Error unless the centre of rotation is accurate enough compared with the spacing. If the
+/// Throws Error if the centre of rotation is not accurate enough, relative to the spacing. If the
 /// residual is above one spacing, the centre left its cell and was not at rest. If the uncertainty
 /// is above half a spacing, the cell under the centre is not known.
 void require_spin(const SpinCalibration& spin, double spacing_mm) {
@@ -260,8 +261,8 @@ Vector2d direction_of_line(const std::vector<Station>& stations, const Vector2d&
 }
 
 /// Throws Error unless the frames are in the order of the drive and all places are close to the
-/// line. The maximum distance is that of a robot that turned by kMaxSwerve_rad in the middle of the
-/// drive.
+/// line. The maximum distance is the distance that a robot reaches if it turns by kMaxSwerve_rad in
+/// the middle of the drive.
 void require_straight(const std::vector<Vector2d>& on_line, double length_mm) {
     const double max_mm = std::tan(kMaxSwerve_rad) * length_mm / 2;
     double farthest_mm = on_line.front().x();

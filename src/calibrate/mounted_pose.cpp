@@ -22,12 +22,13 @@ using namespace dotpose::calibrate;
 
 constexpr std::size_t kMinPoseDots = 12;
 
-/// Numbers of parameters of the equation of a dot: printed + displacement * displaced = place + (c,
-/// -s; s, c) (x, y) + t v. (x, y) is in mm from `middle`. All other lengths are in spacings,
-/// corrected for the print scale. The parameters are place, c, s, the displacement, which ink and
-/// blur change, and, only for a rolling shutter, v, the motion of the camera during the readout. t,
-/// from -1/2 to 1/2, is the time at which the row of the dot is read, relative to the middle of the
-/// readout, as a fraction of the readout time.
+/// Number of parameters in the equation of a dot:
+/// printed + displacement * displaced = place + (c, -s; s, c) (x, y) + t v.
+/// (x, y) is in mm from `middle`. All other lengths are in spacings, corrected for the print scale.
+/// The parameters are place, c, s and the displacement. The displacement is fitted because ink and
+/// blur change it. For a rolling shutter, v is also fitted. v is the motion of the camera during
+/// the readout. t is the time at which the row of the dot is read, relative to the middle of the
+/// readout, as a fraction of the readout time, from -1/2 to 1/2.
 constexpr int kParameters = 5;
 constexpr int kRollingParameters = 7;
 
@@ -79,8 +80,8 @@ void write_place(double x, double y, CodeVariant code, const Place& place, Fix& 
     fix.fraction_y_q16 = static_cast<std::uint16_t>(y_q16 & 65535);
 }
 
-/// Sets the covariance at the reference point (`x`, `y`), in mm from the middle of the dots. The
-/// variance of the angle on the paper is used for the nominal angle, because the two variances are
+/// Sets the covariance at the reference point (`x`, `y`), in mm from the middle of the dots. Uses
+/// the variance of the angle on the paper for the nominal angle, because the two variances are
 /// nearly equal.
 void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& print, Fix& out) {
     const double c = fit.parameters[2];

@@ -12,14 +12,14 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// The elements of J^T J in the columns of one parameter block that is not shared.
+/// Elements of J^T J in the columns of one unshared parameter block.
 struct UnsharedBlock {
     Index begin;           ///< first column of the block
     MatrixXd with_shared;  ///< products with the shared columns
     MatrixXd squares;      ///< products within the block
 };
 
-/// J^T J. The products of two different blocks that are not shared are 0 and not stored.
+/// The matrix J^T J. The products of two different unshared blocks are 0 and not stored.
 struct Normal {
     ceres::CRSMatrix jacobian;  ///< columns of the shared blocks come first
     MatrixXd shared;
@@ -79,7 +79,7 @@ Normal normal_of(ceres::Problem& problem, const std::vector<double*>& shared) {
     return normal;
 }
 
-/// Returns the negated derivative of the best values of a block with respect to the shared
+/// Returns the negated derivative of the optimal values of a block with respect to the shared
 /// parameters.
 MatrixXd negated_gain(const UnsharedBlock& block) {
     return inverse_of(block.squares) * block.with_shared;

@@ -1,4 +1,4 @@
-// Normal inverse: covariances for problems with a few parameters that many poses share.
+// Normal inverse: covariances for problems in which many poses share a few parameters.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,12 @@
 namespace dotpose::calibrate {
 
 /// Returns the block of (J^T J)^-1 for the shared parameter blocks, in the order of `shared`. A
-/// residual may depend on at most one block that is not shared. ceres::Covariance is not used
-/// because it needs about a minute for such problems.
+/// residual may depend on at most one unshared block. ceres::Covariance is not used because it
+/// takes about a minute for these problems.
 Eigen::MatrixXd normal_inverse(ceres::Problem& problem, const std::vector<double*>& shared);
 
 /// Returns the derivative of the solution for the shared blocks with respect to the residuals, in
-/// the order in which the residuals were added. This matrix times its transpose is
+/// the order in which the residuals were added. The product of this matrix and its transpose is
 /// `normal_inverse`.
 Eigen::MatrixXd normal_gain(ceres::Problem& problem, const std::vector<double*>& shared);
 

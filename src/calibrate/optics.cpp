@@ -11,7 +11,7 @@ namespace dotpose {
 namespace {
 
 constexpr double kRadPerS_per_rpm = 2 * std::numbers::pi / 60;
-/// Spacings in images that `locate` reads: the minimum, the recommended minimum, and the maximum.
+/// Limits of the spacing in images for `locate`: minimum, recommended minimum, and maximum.
 constexpr double kMinSpacing_px = 6;
 constexpr double kGoodSpacing_px = 8;
 constexpr double kMaxSpacing_px = 60;
@@ -59,7 +59,8 @@ void set_block(const Optics& o, OpticsReport& r) {
 }
 
 /// Computes the limits of motion (paper III-A.2). Blur is measured along the image axes. In a turn
-/// about the image centre, the middle of the farthest edge moves fastest along an axis.
+/// about the image centre, the middle of the farthest edge of the image moves fastest along an
+/// axis.
 void set_motion(const Optics& o, OpticsReport& r) {
     const double blur_mm = o.largest_blur_px * r.mm_per_px;
     const double radius_mm = std::max(r.field_width_mm, r.field_height_mm) / 2;
@@ -70,7 +71,8 @@ void set_motion(const Optics& o, OpticsReport& r) {
     r.blur_px = motion_mm_s * o.exposure_s / r.mm_per_px;
 }
 
-/// Computes the distances at which the blur of a point is one pixel wide on the sensor.
+/// Computes the limits of the depth of field: the distances at which the blur of a point is one
+/// pixel wide on the sensor.
 void set_depth(const Optics& o, OpticsReport& r) {
     const double squared = o.focal_mm * o.focal_mm;
     const double spread = o.f_number * o.pixel_um / 1000 * (o.distance_mm - o.focal_mm);

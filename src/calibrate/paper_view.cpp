@@ -17,8 +17,8 @@ namespace {
 /// Maximum relative standard deviation of a reported focal length.
 constexpr double kMaxFocalError = 0.15;
 
-/// Difference between a measured view (PaperScale, with the perspective multiplied by reach) and
-/// the view of a tilted camera with square pixels.
+/// Difference between a measured view and the view of a tilted camera with square pixels. A view
+/// consists of the members of PaperScale, with the perspective multiplied by reach.
 struct TiltResidual {
     std::array<double, 5> seen;
     Eigen::MatrixXd whitening;
@@ -33,18 +33,18 @@ struct TiltResidual {
         const T sx = sin(tilt[1]);
         const T cy = cos(tilt[2]);
         const T sy = sin(tilt[2]);
-        // The axes of the paper are those of simulate.hpp: s = (cy, sx sy, -cx sy) and t = (0, cx,
-        // sx). At the centre, one px to the right is (s, t) = mm per px * (1, -sx sy / cx) / cy,
-        // and one px down is mm per px * (0, 1 / cx). The x axis of the paper is then rotated onto
-        // the first vector.
+        // The axes of the paper are the axes of simulate.hpp: s = (cy, sx sy, -cx sy) and t = (0,
+        // cx, sx). At the centre, one px to the right is (s, t) = mm per px * (1, -sx sy / cx) /
+        // cy, and one px down is mm per px * (0, 1 / cx). The x axis of the paper is then rotated
+        // onto the first vector.
         const T right_s = 1.0 / cy;
         const T right_t = -sx * sy / (cx * cy);
         const T down_t = 1.0 / cx;
         const T length = sqrt(right_s * right_s + right_t * right_t);
         const T down_along = down_t * right_t / length;
         const T down_across = down_t * right_s / length;
-        // The depth is 1 + (z_s s + z_t t) / distance. The divisor of the view is its inverse, so
-        // the perspective has the opposite sign.
+        // The depth is 1 + (z_s s + z_t t) / distance. The divisor of the view is the inverse of
+        // the depth, so the perspective has the opposite sign.
         const T per_px_u = tilt[3] * (-cx * sy * right_s + sx * right_t);
         const T per_px_v = tilt[3] * (sx * down_t);
         const T view[5] = {tilt[0] * length, tilt[0] * down_across, down_along / length, -per_px_u,
@@ -62,8 +62,8 @@ struct TiltResidual {
 using CentrePose = std::array<double, 3>;
 
 /// Returns the pose of the image centre of `camera` relative to the view of `other`. Like
-/// `with_camera`, aligns the view of `camera` with the view of `other` in the same pixels by place,
-/// angle and scale.
+/// `with_camera`, aligns the view of `camera` with the view of `other` by the place, angle and
+/// scale that fit best at the same pixels.
 CentrePose centre_pose(const Camera& camera, const Camera& other) {
     using Point = std::complex<double>;
     const auto seen = [](const Camera& by, PixelPoint straight) {
@@ -127,8 +127,8 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
 
     const auto residual =
         new TiltResidual{paper, whitening_of(fit.mounted_covariance.bottomRightCorner(5, 5))};
-    // Start: the perspective is the tilt divided by the focal length, and half a reach per focal
-    // length is typical of lenses.
+    // Initial values. The perspective is approximately the tilt divided by the focal length. A
+    // typical ratio of reach and focal length is 0.5.
     std::array tilt{std::sqrt(paper[0] * paper[1]), -2 * paper[4], 2 * paper[3], 0.5};
     ceres::Problem problem;
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<TiltResidual, 5, 4>(residual), nullptr,

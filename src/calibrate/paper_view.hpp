@@ -5,8 +5,8 @@
 
 namespace dotpose::calibrate {
 
-/// Sets `camera.paper`. If the camera is significantly tilted, also sets tilt and focal length of
-/// the camera with square pixels that has this view of the paper.
+/// Sets `camera.paper`. If the tilt of the camera is significant, also sets the tilt and the focal
+/// length, assuming square pixels.
 void describe_mounted(const LensFit& fit, double reach_px, Camera& camera);
 
 /// Sets the standard deviations of the place and the direction of the image centre relative to the

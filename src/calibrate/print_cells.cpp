@@ -10,19 +10,20 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Minimum number of correct dots of an outer line of a field, as a fraction of its cells.
+/// Minimum number of correct dots in an outer line of a field, as a fraction of the cells of the
+/// line.
 constexpr double kMinLineShare = 0.5;
-/// Minimum number of correct dots of an outer line, as a fraction of the correct dots of the
-/// longest line (exclusive).
+/// An outer line must have more correct dots than this fraction of the correct dots in the longest
+/// line.
 constexpr double kMinLength = 0.15;
 
-/// Minimum number of correct dots of an outer line, as a fraction of its dots. By chance, a quarter
-/// of the dots are correct. In another region of the code, half of the dots are correct if the
-/// columns happen to agree.
+/// Minimum number of correct dots in an outer line, as a fraction of the dots of the line. By
+/// chance, a quarter of the dots are correct. In another region of the code, half of the dots are
+/// correct if the columns happen to agree.
 constexpr double kMinRightShare = 0.7;
 
-/// Returns the located tiles whose maps predict the cells of a tile: the tile itself or, if it has
-/// no fix, its neighbours. A tile that shows only the edge of a field has no fix.
+/// Returns the located tiles whose maps predict the cells of a tile. This is the tile itself or, if
+/// it has no fix, its neighbours. A tile that shows only the edge of a field has no fix.
 std::vector<const LocatedTile*> views_of(int tile, const Tiling& tiling, const Field& field) {
     if (const auto& own = field.tiles[static_cast<std::size_t>(tile)]) return {&*own};
     std::vector<const LocatedTile*> views;
@@ -81,7 +82,7 @@ CellGrid empty_grid(const Tiling& tiling, const Field& field) {
     return grid;
 }
 
-/// Counts of the cells of a column or row: measured cells, cells with a dot, and correct dots.
+/// Numbers of measured cells, cells with a dot, and correct dots in a column or row.
 struct Coverage {
     int seen = 0;
     int dots = 0;
@@ -116,8 +117,8 @@ class Trimmer {
     }
 
   private:
-    /// Removes the worst of the four outer lines that do not belong to the field. Returns false if
-    /// all four belong to the field. Only one line is removed at a time, because a column of the
+    /// Removes the worst outer line that does not belong to the field. Returns false if all four
+    /// outer lines belong to the field. Removes only one line at a time, because a column of the
     /// field has many wrong dots as long as it includes rows beside the field.
     bool remove_worst_line() {
         struct Outer {
@@ -134,7 +135,8 @@ class Trimmer {
         double worst_share = 1;
         for (const Outer& one : outer) {
             if (is_enough(one.line, one.longest)) continue;
-            // The fraction of correct dots of a short line is not significant.
+            // Counts short lines as worst, because their fraction of correct dots is not
+            // significant.
             const double share =
                 is_long(one.line, one.longest) ? double(one.line.right) / one.line.seen : 0;
             if (worst != nullptr && share >= worst_share) continue;
@@ -169,8 +171,8 @@ class Trimmer {
     static bool is_long(const Coverage& line, int longest) {
         return line.right > kMinLength * longest;
     }
-    /// Returns true if a line belongs to the field. A few correct cells of a cropped line or of
-    /// other print do not suffice.
+    /// Returns true if a line belongs to the field. A few correct cells in a cropped line or in
+    /// other print are not enough.
     static bool is_enough(const Coverage& line, int longest) {
         return line.right >= kMinLineShare * line.seen &&
                line.right >= kMinRightShare * line.dots && is_long(line, longest);

@@ -20,8 +20,8 @@ struct CellGrid {
     }
 };
 
-/// Measures all cells of a field. Outer columns and rows are removed until the outermost lines
-/// belong to the field. If nothing remains, the grid has no columns.
+/// Measures all cells of a field. Removes outer columns and rows until the outermost lines belong
+/// to the field. If no line remains, the grid has no columns.
 CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field& field);
 
 }  // namespace dotpose::calibrate

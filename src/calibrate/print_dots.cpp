@@ -15,14 +15,15 @@ constexpr std::array kSymbols = {Symbol::up, Symbol::left, Symbol::right, Symbol
 constexpr double kMaxOffset = 0.42;
 /// Minimum darkness of a dot, relative to a typical dot.
 constexpr double kMinShare = 0.35;
-/// Level, relative to the darkness of a dot, that is subtracted before the centroid is computed. It
-/// removes noise and JPEG ringing.
+/// Level, relative to the darkness of a dot, that is subtracted before the centroid is computed.
+/// This suppresses noise and JPEG ringing.
 constexpr double kFloorShare = 0.15;
-/// Radius of the sums over a dot, in spacings: half the distance to the nearest possible dot.
+/// Radius for sums over the pixels of a dot, in spacings: half the distance to the nearest possible
+/// dot.
 constexpr double kReach = 1.0 / 3;
-/// Minimum darkness of other print, such as text or pictures, on the border of a cell: relative to
-/// the darkness of a dot, and in standard deviations of blank paper. The larger limit applies, but
-/// it is at most the darkness of a dot.
+/// Minimum darkness of other print, such as text or pictures, on the border of a cell. The first
+/// limit is relative to the darkness of a dot, the second is in standard deviations of blank paper.
+/// The larger limit applies. The second limit is at most the darkness of a dot.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
 /// Displacement for the measurement of levels, in spacings. It need not be exact.
@@ -39,9 +40,9 @@ double median(std::vector<double>& values) {
 }
 
 /// Removes the levels of grey areas beside the paper from the sorted levels at the corners of
-/// cells. Assumes that at least a quarter of the levels are paper. Estimates their standard
-/// deviation from the quantiles of 75 % and 95 %, and removes levels more than kSigmas standard
-/// deviations below the quantile of 75 %.
+/// cells. Assumes that at least a quarter of the levels are paper. Estimates the standard deviation
+/// of paper from the 75 % and 95 % quantiles. Removes levels more than kSigmas standard deviations
+/// below the 75 % quantile.
 void keep_paper(std::vector<double>& levels) {
     constexpr double kSigmas = 3.6;
     constexpr double kSigmasPerRange = 1.6449 - 0.6745;
@@ -103,7 +104,7 @@ CellRange cells_in(const PixelRect& rect, const TileMap& map) {
     return {first(low.x()), end(high.x()), first(low.y()), end(high.y())};
 }
 
-/// Measures the dots in one tile, relative to the paper of the tile.
+/// Measures the dots in one tile. Darkness is relative to the paper of the tile.
 class Meter {
   public:
     Meter(const ImageView& scan, const TileMap& map, double displacement, double paper)
@@ -156,10 +157,10 @@ class Meter {
         return offset;
     }
 
-    /// Returns true if the border of a cell is not blank: if its darkness differs from paper by
-    /// more than `min_darkness` in either direction. A border is lighter than `paper_` if most of
-    /// the tile is filled with grey. The middles of the four sides are not checked, because swollen
-    /// dots may merge there.
+    /// Returns true if the border of a cell is not blank. This is the case if its darkness differs
+    /// from paper by more than `min_darkness` in either direction. A border is lighter than
+    /// `paper_` if most of the tile is filled with grey. The middles of the four sides are not
+    /// checked, because swollen dots may merge there.
     bool is_covered(const Vector2d& intersection_px, double min_darkness) const {
         const Vector2d x = map_.px_per_cell.col(0);
         const Vector2d y = map_.px_per_cell.col(1);
@@ -229,7 +230,7 @@ class Meter {
     const TileMap& map_;
     double displacement_;
     double reach_px_;
-    /// Pixels between these squared distances from the point have partial weight.
+    /// Squared distances from the point between which pixels have partial weight.
     double inner_px2_;
     double outer_px2_;
     double sample_px_;
@@ -243,9 +244,9 @@ Symbol nearest_symbol(const Vector2d& offset) {
     return offset.y() > 0 ? Symbol::down : Symbol::up;
 }
 
-/// Reads the symbols of the dots from their offsets in spacings. Subtracts the mean error of the
-/// offsets (without large errors): a renderer or scanner that rounds dots to whole pixels displaces
-/// all dots equally, and the map of a fix does not include this displacement.
+/// Reads the symbols of the dots from their offsets in spacings. First subtracts the mean error of
+/// the offsets, ignoring large errors. A renderer or scanner that rounds dots to whole pixels
+/// displaces all dots equally, and the map of a fix does not include this displacement.
 void read_symbols(const std::vector<Vector2d>& offsets, double displacement,
                   std::vector<SeenCell>& cells) {
     constexpr double kMaxError = 0.25;
@@ -285,7 +286,8 @@ PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
     std::vector<double> levels;
     std::vector<double> strengths;
     for (const Vector2d& dot_px : dots_px) {
-        // Dots do not reach the corners of cells.
+        // Takes the level of the paper at a corner of the cell, because dots do not reach the
+        // corners.
         const Vector2d cell = map.cell(dot_px);
         const double level =
             level_at(scan, map.pixel({std::round(cell.x()) + 0.5, std::round(cell.y()) + 0.5}));

@@ -27,12 +27,13 @@ struct SeenCell {
     Symbol nominal = Symbol::up;
     /// True if other print crosses the border of the cell, which dots do not reach.
     bool is_covered = false;
-    /// Symbol that was read; this and all members below except `strength` are valid if `has_dot`.
+    /// Symbol that was read. This member and all members below except `strength` are valid only if
+    /// `has_dot` is true.
     Symbol read = Symbol::up;
     bool has_dot = false;
     float u_px = 0;  ///< centre of the dot in the scan
     float v_px = 0;
-    /// Mean darkness of the dot relative to the expected darkness; always valid.
+    /// Mean darkness of the dot relative to the expected darkness. Always valid.
     float strength = 0;
     float mass_px2 = 0;  ///< integral of the darkness over the dot
     float peak = 0;      ///< darkness at the centre of the dot

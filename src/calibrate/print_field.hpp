@@ -16,7 +16,7 @@ struct Field {
     double paper = 0;                               ///< median grey level of the paper
 };
 
-/// Joins neighbouring tiles with consistent maps to fields. The field with the most tiles comes
+/// Joins neighbouring tiles with consistent maps into fields. The field with the most tiles comes
 /// first.
 std::vector<Field> join_tiles(const LocatedTiles& tiles);
 

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 
-/// Limits of the deviation of the mean scale from 1. Only a printer driver causes a deviation above
-/// kDriverScale, because printers and paper deviate less. Deviations above kNotableScale are
-/// reported.
+/// Limits of the deviation of the mean scale from 1. A deviation above kDriverScale is attributed
+/// to the printer driver, because printers and paper deviate less. Deviations above kNotableScale
+/// are reported.
 constexpr double kDriverScale = 0.015;
 constexpr double kNotableScale = 0.002;
 constexpr double kUnevenScale = 0.002;
@@ -25,7 +25,7 @@ constexpr double kImplausibleScale = 0.25;
 constexpr double kNotableRotation_rad = 0.2 * kDegree_rad;
 constexpr double kNotableSkew_rad = 0.1 * kDegree_rad;
 constexpr double kNotableDistortion_mm = 0.1;
-/// Limits of the relative growth of the dot diameter; a growth outside them is a fault. Usual
+/// Limits of the relative growth of the dot diameter. Growth outside these limits is a fault. Most
 /// printers stay within the limits.
 constexpr double kSwollenGain = 0.5;
 constexpr double kThinGain = -0.3;
@@ -49,7 +49,7 @@ bool is_fault(const Finding& finding) {
     return finding.is_fault;
 }
 
-/// Writes the findings about a print.
+/// Derives the findings from the measurements of a print.
 class Findings {
   public:
     Findings(const CheckPrintOptions& options, const PrintCheck& check,
@@ -100,7 +100,7 @@ class Findings {
         }
     }
 
-    /// Reports cells that are repeated on the page, and fields that are on none of the given
+    /// Reports cells that are repeated on the page, and fields that belong to none of the given
     /// sheets.
     void judge_place(const PrintField& field) {
         const auto is_part = [this](const RepeatedCells& cells) {
@@ -250,7 +250,7 @@ class Findings {
                           percent(std::abs(ratio), 2), percent(field.scale_ratio->uncertainty, 2)));
     }
 
-    /// Adds a remark if the photo does not show some properties of the dots.
+    /// Adds a remark if the photo is too coarse to show the sizes or the faults of dots.
     void remark_unresolved(const PrintField& field, bool are_dots_told) {
         if (field.are_sizes_told && are_dots_told) return;
         const double dot_px = field.dot_mm * field.spacing_px / field.pattern.spacing_mm;
@@ -280,8 +280,8 @@ class Findings {
                               "of {:.3f} mm; choose a larger --dot, and switch off toner saving",
                               field.dot_mm, field.pattern.dot_mm));
         }
-        // If pixels are as large as dots, the contrast of all dots is low. `dot_mm` detects pale
-        // dots in this case.
+        // If pixels are as large as dots, all dots have a low contrast. In this case, pale dots are
+        // detected from `dot_mm`.
         if (field.spacing_px >= kCoarse_px && field.contrast < kMinContrast) {
             fault(FindingKind::pale,
                   fmt::format("the dots are only {} darker than the paper: print in black, "
@@ -344,8 +344,8 @@ double dot_error(const PrintField& field) {
 }
 
 /// For each spacing, chooses the readable patch whose printed dots are closest to a sixth of the
-/// spacing. The best patch of all is the one with the finest spacing, because it has the most dots
-/// in view.
+/// spacing. The best patch overall is the chosen patch with the finest spacing, because it has the
+/// most dots in view.
 void choose_best(PrintCheck& check) {
     std::map<double, std::size_t> best;
     for (std::size_t i = 0; i < check.fields.size(); ++i) {

@@ -28,7 +28,7 @@ struct Reach {
     double seen = 0;
 };
 
-/// Optional parameters that are fitted.
+/// Optional parameters to fit.
 struct Free {
     bool perspective = false;
     bool lens = false;
@@ -119,7 +119,8 @@ PlaneFit fit_plane(const std::vector<Match>& matches, ViewModel model,
     }
     double limit = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kPrintRounds; ++round) {
-        // The first steps exclude perspective and lens, which need an approximate start.
+        // The first steps do not fit perspective and lens, because these parameters need
+        // approximate initial values.
         for (int i = 0; i < kSteps; ++i) {
             const bool has_start = round > 0 || i > 0;
             const Free free{has_start && model != ViewModel::flat,

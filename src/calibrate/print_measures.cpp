@@ -19,7 +19,7 @@ constexpr double kInch_mm = 25.4;
 constexpr double kMergedShare = 0.6;
 /// Minimum number of dots in a part of the page for which distortion is reported.
 constexpr int kMinBinDots = 60;
-/// Quantile of the darkness of the dots that is used as the darkness of ink if it exceeds the
+/// Quantile of the darkness of the dots. It is used as the darkness of ink if it exceeds the
 /// expected darkness.
 constexpr double kDarkest = 0.98;
 constexpr double kSigmaPerDeviation = 1.4826;
@@ -43,8 +43,8 @@ struct Units {
     Vector2d to_px(const Vector2d& value) const { return value.cwiseQuotient(per_px); }
 };
 
-/// Returns the nominal position of the dot of a cell in mm. It is relative to the first cell of the
-/// region to keep the numbers small.
+/// Returns the nominal position of the dot of a cell, in mm from the first cell of the region. The
+/// relative position keeps the numbers small.
 Vector2d nominal_mm(const CellGrid& grid, const Field& field, const Pattern& pattern,
                     const SeenCell& cell) {
     const Vector2d origin(grid.origin.x, grid.origin.y);
@@ -83,8 +83,8 @@ struct Fitted {
     }
 };
 
-/// Returns the scatter of single dots, from the differences between neighbouring dots. Distortion
-/// displaces neighbours equally and cancels.
+/// Returns the scatter of individual dots, computed from the differences between neighbouring dots.
+/// Distortion displaces neighbours equally, so it cancels in the differences.
 double measure_scatter_mm(const Measuring& m, const Fitted& fitted, const Pattern& pattern) {
     std::vector<double> steps_mm;
     const auto off_mm = [&](const SeenCell& cell) {
@@ -195,14 +195,14 @@ void measure_dots(const Measuring& m, const Fitted& fitted, PrintField& result) 
     result.dot_sigma_mm = kSigmaPerDeviation * quantile(diameters_mm, 0.5);
 }
 
-/// Sets whether sizes and faults of dots in a photo are reliable despite noise, blur and the tone
-/// curve of the camera.
+/// Sets whether the measured sizes and faults of dots in a photo are reliable. Noise, blur and the
+/// tone curve of the camera affect the measurements.
 void judge_photo_of_dots(const Measuring& m, PrintField& result) {
     // Minimum diameter of a dot whose size can be measured. The edge of a dot has an uncertainty of
     // about one pixel.
     constexpr double kMinDot_px = 6;
-    // Maximum relative scatter of the darkness at which a cell without a dot can be distinguished
-    // from a dot with a third of the usual darkness.
+    // Maximum relative scatter of the darkness of dots. With more scatter, a cell without a dot
+    // cannot be distinguished from a dot with a third of the usual darkness.
     constexpr double kMaxSpread = 0.12;
     const double mm_per_px = result.pattern.spacing_mm / result.spacing_px;
     result.are_sizes_told = result.dot_mm / mm_per_px >= kMinDot_px;

@@ -12,9 +12,9 @@ constexpr double kTileCells = 24;
 constexpr int kMaxTile_px = 2048;
 /// Spacing below which tiles are magnified, because `locate` needs a spacing of at least 6 px.
 constexpr double kSmallSpacing_px = 9;
-/// Number of crops that determine the spacing, or the code, accurately enough.
+/// Number of crops that suffices to determine the spacing or the code.
 constexpr std::size_t kEnoughProbes = 40;
-/// Total number of pixels of the first crops of each size, which are spread over the page.
+/// Total number of pixels in the sample of crops of one size. The sample is spread over the page.
 constexpr int kSample_px = 8'000'000;
 
 /// Side and magnification of a crop. A crop must contain at least 8 x 8 cells.
@@ -68,7 +68,7 @@ std::optional<LocatedTile> TileLocator::locate_whole() {
     return locate_in({0, 0, scan_.width_px, scan_.height_px});
 }
 
-/// Returns the spacing of the pattern in crops of the scan; 0 if no crop shows the pattern.
+/// Returns the spacing of the pattern in crops of the scan. Returns 0 if no crop shows the pattern.
 double TileLocator::find_spacing_px() {
     for (const bool thorough : {true, false}) {
         // First, some crops are located with `Effort::twice`. If none of them has a fix, all crops
@@ -87,8 +87,8 @@ double TileLocator::find_spacing_px() {
     return 0;
 }
 
-/// Returns the median spacing in every `step`-th tile that shows the pattern; 0 if no tile shows
-/// the pattern.
+/// Returns the median spacing in every `step`-th tile that shows the pattern. Returns 0 if no tile
+/// shows the pattern.
 double TileLocator::probe_spacing_px(const Tiling& tiling, int step) {
     std::vector<double> spacings_px;
     for (int tile = 0; tile < tiling.count() && spacings_px.size() < kEnoughProbes; tile += step) {

@@ -9,8 +9,8 @@
 
 namespace dotpose::calibrate {
 
-/// Returns perspective and lens distortion if they are larger than a scanner can cause, otherwise
-/// an empty optional.
+/// Returns the perspective and the lens distortion if they are larger than a scanner can cause.
+/// Otherwise returns an empty optional.
 std::optional<CameraSigns> signs_of_camera(const std::vector<Match>& matches,
                                            const Eigen::Vector2d& middle_px);
 

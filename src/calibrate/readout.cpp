@@ -29,8 +29,8 @@ struct Moving {
     Vector2d motion;  ///< motion of the camera during the readout
 };
 
-/// Locates the frames of the drive. Returns one element for each frame, in their order. The element
-/// of a frame without a fix is empty.
+/// Locates the frames of the drive. Returns one element per frame, in the order of the frames. The
+/// element is empty if the frame has no fix.
 std::vector<std::optional<Moving>> locate_drive(int frames, const FrameAt& frame_at,
                                                 const Camera& camera,
                                                 const CalibrateOptions& options) {
@@ -56,8 +56,8 @@ std::vector<std::optional<Moving>> locate_drive(int frames, const FrameAt& frame
     return drive;
 }
 
-/// Returns the motion from one frame to another, in spacings, or none if either frame has no fix,
-/// or if the frames are in different sections or more than kMaxCells apart.
+/// Returns the motion from one frame to another, in spacings. Returns an empty optional if either
+/// frame has no fix, or if the frames are in different sections or more than kMaxCells apart.
 std::optional<Vector2d> motion_between(const std::optional<Moving>& from,
                                        const std::optional<Moving>& to) {
     if (!from || !to || from->section != to->section) return {};

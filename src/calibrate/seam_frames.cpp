@@ -18,9 +18,9 @@ constexpr double kBeyondPage_mm = 400;
 /// Minimum number of dots of a view. With fewer dots, its scales along the axes are not reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// Minimum number of fields, out of 64, in which dots of located sheets must be found. Once this
-/// number is reached, no more parts of the frame are located. The number of dots in a fix is not
-/// suitable, because a fix includes only one sheet.
+/// Minimum number of fields, out of 64, that must show dots of located sheets. Once this number is
+/// reached, no more parts of the frame are located. The number of dots in a fix is not a suitable
+/// criterion, because a fix includes only one sheet.
 constexpr int kNearlyAllFields = 58;
 
 /// Part of the image along one axis: begin and length, as fractions of the side.
@@ -87,8 +87,8 @@ std::optional<NominalPlace> place_beyond(const SheetEntry& entry, CodeVariant co
                         place->theta_rad};
 }
 
-/// Sets the view of a camera with a known view of the paper: fits an affine map to the dots.
-/// `first` is the place where the steps start.
+/// Sets the view of a camera whose file contains a view of the paper, by fitting an affine map to
+/// the dots. `first` is the place of step (0, 0).
 void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
                     const Eigen::Vector2d& first, double spacing_mm, SheetView& view) {
     std::vector<Eigen::Vector2d> points;
@@ -115,8 +115,8 @@ void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
     view.rows = 6;
 }
 
-/// Sets the view of a camera without a known view of the paper from the fix: the place of the image
-/// centre, and the direction of the x axis.
+/// Sets the view of a camera whose file contains no view of the paper. The fix gives the place of
+/// the image centre and the direction of the x axis.
 void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacing_mm,
                        SheetView& view) {
     const double c = std::cos(centre.theta_rad);
@@ -133,8 +133,8 @@ void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacin
     }
     const Eigen::MatrixXd whitening = whitening_of(covariance);
     for (Eigen::Index i = 0; i < 3; ++i) {
-        // The place, and the component of the x axis across its direction, which is the sine of the
-        // turn.
+        // Only the errors of the place and of the x axis are known. An error of the angle moves the
+        // x axis along (-s, c), perpendicular to its direction.
         view.whitening.row(i) << whitening(i, 0), whitening(i, 1), -s * whitening(i, 2),
             c * whitening(i, 2), 0, 0;
     }

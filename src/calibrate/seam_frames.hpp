@@ -13,11 +13,11 @@
 
 namespace dotpose::calibrate {
 
-/// The pose of the camera relative to one sheet, in one image. Maps a point q of the camera's
+/// Pose of the camera relative to one sheet, in one image. Maps a point q of the camera's
 /// coordinate frame to the point p = place + axes (q - middle) of the sheet, in nominal mm from the
-/// first intersection. If the camera file contains the view, q is in mm. Otherwise only the
-/// direction of the x axis and the place of the image centre are known, and `middle` is the image
-/// centre.
+/// first intersection. If the camera file contains a view of the paper, q is in mm. Otherwise only
+/// the direction of the x axis and the place of the image centre are known, and `middle` is the
+/// image centre.
 struct SheetView {
     std::size_t sheet = 0;  ///< index of the sheet
     int frame = 0;
@@ -42,8 +42,9 @@ class SeamLocator {
   public:
     SeamLocator(const std::vector<SheetEntry>& sheets, const std::optional<Camera>& camera);
 
-    /// Returns a view for each sheet in the frame, from the part that shows most of its dots.
-    /// Throws Error if the image does not have the size of the camera's images.
+    /// Returns a view for each sheet in the frame, from the part of the image that shows the most
+    /// dots of the sheet. Throws Error if the size of the image is not the image size of the
+    /// camera.
     std::vector<SheetView> views(const GreyImage& image);
 
     /// Rectangle of the image, in px.

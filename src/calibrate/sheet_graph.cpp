@@ -113,8 +113,9 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// Returns the pose of a point of the camera's coordinate frame, with the direction of its x axis,
-/// on the page of the sheet of a view.
+/// Returns a pose on the page of the sheet of a view. Its position is the position of the point
+/// `in_camera`, given in the camera's coordinate frame. Its direction is the direction of the x
+/// axis of this coordinate frame.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
@@ -122,8 +123,8 @@ PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const
             std::atan2(scale.y * view.axes(1, 0), scale.x * view.axes(0, 0))};
 }
 
-/// Returns the relative standard deviation of a value of the camera file; 0 if the file does not
-/// contain it.
+/// Returns the relative standard deviation of a value of the camera file. Returns 0 if the file
+/// contains no standard deviation for this value.
 double relative_sigma(const Camera& camera, const char* key, double value) {
     const auto found = camera.sigma.find(key);
     return found == camera.sigma.end() ? 0 : found->second / value;
@@ -187,7 +188,7 @@ bool SheetGraph::has_scale() const {
     return std::ranges::any_of(views_, &SheetView::has_scale);
 }
 
-/// Returns the image centre in the camera's coordinate frame, as used by a view.
+/// Returns the image centre in the camera's coordinate frame that the view uses.
 Eigen::Vector2d SheetGraph::centre_in_camera(const SheetView& view) const {
     if (!view.has_scale()) return {0, 0};
     const CameraPoint point =
@@ -205,7 +206,8 @@ PlanePose SheetGraph::image_centre(const SheetView& view) const {
 }
 
 /// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. Each pose comes
-/// from the frame with the most dots of both sheets: the smaller of the two numbers counts.
+/// from the frame that shows the most dots of both sheets, measured by the smaller of the two
+/// numbers.
 void SheetGraph::spread_from_fixed() {
     const auto start = [this](std::size_t sheet, const PlanePose& pose) {
         const AxisScale scale = sheets_[sheet].print_scale();
@@ -293,7 +295,7 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
         }
         if (i == fixed_ && !has_scale()) {
             // The views from parts of frames would determine the aspect, but all these views have
-            // the same error.
+            // the same error. Therefore the aspect is fixed to its value in the sheet file.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }
         if (i == fixed_ && reference_.by == By::fixed_sheet) {
@@ -325,14 +327,14 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
 }
 
 /// Returns the DotShare of each dot, for an affine map fitted to all dots. The derivatives are
-/// scaled to whitened residuals of standard deviation 1 for dots with errors of standard deviation
-/// 1.
+/// scaled such that errors of the dots with standard deviation 1 cause whitened residuals with
+/// standard deviation 1.
 std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) const {
     const Pattern& pattern = sheets_[view.sheet].sheet.pattern;
     const Cell first = sheets_[view.sheet].sheet.origin;
     const Eigen::Matrix2d camera_from_sheet = view.axes.inverse();
     std::vector<std::array<double, 3>> places;  // 1, x, y in the camera frame
-    NormalEquations equations(3);               // map along one axis
+    NormalEquations equations(3);               // affine map along one axis
     for (const std::uint64_t dot : view.dots) {
         const Eigen::Vector2d steps(static_cast<double>((dot >> 32) - first.x),
                                     static_cast<double>((dot & 0xffffffff) - first.y));
@@ -360,8 +362,8 @@ std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) 
     return shares;
 }
 
-/// Returns the variances of the shared parameters due to printing. A dot has the same printing
-/// error in all frames that show it.
+/// Returns the variances of the shared parameters due to printing errors. A dot has the same
+/// printing error in all frames that show it.
 Eigen::VectorXd SheetGraph::print_variances(const Eigen::MatrixXd& gain) const {
     std::map<std::pair<std::size_t, std::uint64_t>, Eigen::MatrixX2d> of_dots;
     Eigen::Index row = 0;

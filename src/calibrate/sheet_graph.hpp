@@ -20,7 +20,7 @@ struct PlanePose {
     double y = 0;
     double turn = 0;
 
-    /// Returns the pose of `inner`, which is relative to this pose.
+    /// Returns the composition of two poses. `inner` is relative to this pose.
     PlanePose operator*(const PlanePose& inner) const;
     PlanePose inverse() const;
 };
@@ -43,9 +43,10 @@ class SheetGraph {
     double sigma_mm(std::size_t sheet) const;
     double sigma_rad(std::size_t sheet) const;
     AxisScale sigma_scale(std::size_t sheet) const;
-    /// Return the position of the image centre according to one view: on the sheet, in nominal mm
-    /// from its first intersection; and as a pose in the coordinate frame of the fixed sheet.
+    /// Returns the position of the image centre on the sheet according to one view, in nominal mm
+    /// from the first intersection of the sheet.
     Eigen::Vector2d centre_on_sheet(const SheetView& view) const;
+    /// Returns the pose of the image centre according to one view, relative to the fixed sheet.
     PlanePose image_centre(const SheetView& view) const;
 
   private:
@@ -77,7 +78,7 @@ class SheetGraph {
 
     std::vector<std::optional<Node>> nodes_;  ///< empty for sheets that are not connected
     std::vector<Node> variances_;
-    /// Poses of the camera's coordinate frame, by the number of the image.
+    /// Poses of the camera's coordinate frame, by frame number.
     std::map<int, FramePose> frames_;
     /// Scale of the camera relative to the fixed sheet: logarithm of the mean scale, aspect, skew.
     std::array<double, 3> camera_scale_{};

@@ -1,5 +1,5 @@
-// Stitching: computes the relative poses and print scales of sheets from frames that show two of
-// them.
+// Stitching: computes the relative poses and print scales of sheets from frames that show two or
+// more of the sheets.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -48,7 +48,7 @@ std::vector<SheetView> views_of(int frames, const FrameAt& frame_at,
     return all;
 }
 
-/// Compares each view of a frame with the view that shows the most dots.
+/// Compares each view of a frame with the view that shows the most dots in the same frame.
 void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph,
                     Stitching& result) {
     struct Sums {
@@ -65,7 +65,8 @@ void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph
         });
         for (; first != last; ++first) {
             if (first == best || !graph.is_connected(first->sheet)) continue;
-            // The order of the two sheets is always the same, to make disagreements comparable.
+            // Orders the two sheets by index, because the disagreements are summed per ordered
+            // pair.
             const bool is_lower = first->sheet < best->sheet;
             const SheetView& a = is_lower ? *first : *best;
             const SheetView& b = is_lower ? *best : *first;
@@ -88,9 +89,9 @@ void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph
     }
 }
 
-/// Returns the index of the fixed sheet. The fixed sheet is the first sheet with a world pose among
-/// the sheets seen beside another sheet, or the first of these sheets if no sheet has a world pose.
-/// Throws Error if only other sheets have a world pose.
+/// Returns the index of the fixed sheet. Candidates are the sheets that a frame shows beside
+/// another sheet. The fixed sheet is the first candidate with a world pose, or the first candidate
+/// if no sheet has a world pose. Throws Error if only other sheets have a world pose.
 std::size_t fixed_sheet(const std::vector<SheetEntry>& sheets,
                         const std::vector<SheetView>& views) {
     std::set<std::size_t> joined;
@@ -129,8 +130,8 @@ void require_reference(const ScaleReference& reference, const std::vector<SheetE
     }
 }
 
-/// Throws Error if the camera file gives a print scale that no printer produces. In that case the
-/// view in the camera file or the spacing in the sheet file is wrong.
+/// Throws Error if a print scale is not plausible for any printer. In this case, the view in the
+/// camera file or the spacing in the sheet file is wrong.
 void require_plausible(const AxisScale& scale, const SheetEntry& entry) {
     constexpr double kMaxScaleError = 0.25;
     const double mean = std::sqrt(scale.x * scale.y);

@@ -17,7 +17,7 @@
 namespace dotpose::capture {
 
 struct Frame {
-    GreyImage image;           ///< empty if the camera delivers no frames
+    GreyImage image;           ///< empty while the camera delivers no frames
     std::int64_t time_us = 0;  ///< time on the clock of the source; increases from frame to frame
     std::int64_t index = 0;    ///< number of the frame from 0, including dropped frames
     std::string file;          ///< path of an image; empty for other sources
@@ -44,14 +44,14 @@ class FrameSource {
     /// Returns the number of frames that were captured but not returned by `next`.
     virtual std::int64_t dropped() const { return 0; }
 
-    /// Returns the frame rate reported by the source, in frames per second; 0 if unknown.
+    /// Returns the frame rate reported by the source, in frames per second, or 0 if unknown.
     virtual double rate() const { return 0; }
 
-    /// Returns the mean number of bits per pixel of the compressed frames so far; 0 if unknown or
-    /// lossless.
+    /// Returns the mean number of bits per pixel of the compressed frames so far. Returns 0 if the
+    /// number is unknown or the compression is lossless.
     virtual double bits_per_px() const { return 0; }
 
-    /// Returns the number of frames reported by the source; 0 if unknown.
+    /// Returns the number of frames reported by the source, or 0 if unknown.
     virtual std::int64_t length() const { return 0; }
 };
 
@@ -59,26 +59,27 @@ struct SourceOptions {
     /// Size of raw frames (required), or size requested from a camera; 0 if not given.
     int width_px = 0;
     int height_px = 0;
-    /// Frame rate requested from a camera. For other sources, the frame rate from which times are
-    /// computed; it overrides the times in a video file.
+    /// Frame rate requested from a camera. For other sources, the frame rate from which the times
+    /// of frames are computed. This rate overrides the times in a video file.
     std::optional<double> fps;
     std::optional<double> exposure;  ///< in the unit of the driver
     std::optional<double> gain;      ///< in the unit of the driver
-    /// True to flip frames left to right, before `region` is applied.
+    /// True to flip frames left to right. The flip precedes the crop to `region`.
     bool flip = false;
-    std::optional<Region> region;  ///< part of each frame that is kept; none: all
-    /// Required size of whole frames, if `region` refers to the images of a camera file.
+    std::optional<Region> region;  ///< part of each frame to keep; the whole frame if empty
+    /// Required size of frames before cropping. Set if `region` refers to the images of a camera
+    /// file.
     std::optional<std::pair<int, int>> whole_size_px;
     /// Maximum number of pixels. A larger image throws ImageTooLarge before it is decoded.
     int max_pixels = kMaxFrameSide_px * kMaxFrameSide_px;
-    /// Called periodically. The source ends if it returns true.
+    /// Called periodically. The source ends if the function returns true.
     std::function<bool()> stop = [] { return false; };
     /// Called with messages for the user, for example if a camera was unplugged. The source
-    /// continues.
+    /// continues afterwards.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
     /// Called with the path of each image or video before it is opened. May throw Error.
     std::function<void(const std::string&)> before_reading = [](const std::string&) {};
-    /// Called for an image that cannot be read. The source continues with the next image.
+    /// Called for each image that cannot be read. The source continues with the next image.
     std::function<void(const std::string& file, const Error&)> on_unreadable =
         [](const std::string&, const Error&) {};
     /// Opens cameras and video files (video/module.hpp), or throws Error.
@@ -90,7 +91,7 @@ struct SourceOptions {
 GreyImage cropped(const GreyImage& image, const Region& region);
 
 /// Flips and crops a frame according to the options. Throws BadArgument if the region extends
-/// beyond the frame. Throws Error, which contains `name`, if the frame does not have the size
+/// beyond the frame. Throws Error, with `name` in the message, if the size of the frame is not
 /// `whole_size_px`.
 void prepare(const SourceOptions& options, const std::string& name, GreyImage& image);
 
@@ -101,7 +102,7 @@ std::int64_t time_of(std::int64_t index, double fps);
 /// their size.
 std::unique_ptr<FrameSource> open_raw(const SourceOptions& options);
 
-/// Opens the images at the paths that `next_path` returns, until it returns none.
+/// Opens the images at the paths that `next_path` returns, until it returns an empty optional.
 std::unique_ptr<FrameSource> open_images(std::function<std::optional<std::string>()> next_path,
                                          const SourceOptions& options);
 

@@ -41,7 +41,8 @@ class ImageSource : public FrameSource {
 
   private:
     void tell_of_pages(const std::string& path) const {
-        // Only TIFF has several pages. Other files are not read twice.
+        // Only TIFF files can have several pages. Other files are skipped, to avoid reading them
+        // twice.
         const std::string ending = std::filesystem::path(path).extension().string();
         if (!ending.starts_with(".t") && !ending.starts_with(".T")) return;
         const int pages = count_pages(path);

@@ -39,8 +39,8 @@ bool has_ending(const fs::path& path, const Endings& endings) {
     return std::ranges::find(endings, ending_of(path)) != endings.end();
 }
 
-/// Returns true if the file has the signature of MP4, Matroska or AVI. Pipes are not examined,
-/// because this would consume bytes.
+/// Returns true if the file has the signature of MP4, Matroska or AVI. Does not examine pipes,
+/// because reading would consume their bytes.
 bool begins_like_video(const std::string& name) {
     std::error_code failed;
     if (!fs::is_regular_file(name, failed)) return false;

@@ -26,8 +26,8 @@ bool needs_video_libraries(SourceKind kind);
 /// cannot be read or there are no images.
 std::vector<std::string> images_at(const std::string& name);
 
-/// Returns the files of a source: images, a video, or "-". Empty for a camera. Throws Error like
-/// `images_at`.
+/// Returns the files of a source: images, a video, or "-". Returns an empty list for a camera.
+/// Throws Error like `images_at`.
 std::vector<std::string> files_of(const std::string& name);
 
 }  // namespace dotpose::capture

@@ -14,7 +14,8 @@ namespace dotpose::capture {
 /// Concatenates sources. The numbers and times of frames continue from one source to the next.
 class SourceList : public FrameSource {
   public:
-    /// `next_name` returns the name of the next source (source_kind.hpp), or none after the last.
+    /// `next_name` returns the name of the next source (source_kind.hpp), or an empty optional
+    /// after the last source.
     SourceList(std::function<std::optional<std::string>()> next_name, SourceOptions options);
 
     /// Opens the first source, to make its rate available before the first frame. Without this
@@ -23,14 +24,14 @@ class SourceList : public FrameSource {
     /// missing.
     bool open();
 
-    /// Gets the next frame of all sources. Throws Error if a source fails; the following call
+    /// Gets the next frame of all sources. Throws Error if a source fails. The following call then
     /// continues with the next source. Throws BadArgument if the region extends beyond the frame.
     bool next(Frame& frame) override;
     std::int64_t dropped() const override;
     double rate() const override { return source_ ? source_->rate() : 0; }
     double bits_per_px() const override { return bits_per_px_; }
 
-    /// Returns the number of frames of the open source; 0 if unknown.
+    /// Returns the number of frames of the open source, or 0 if unknown.
     std::int64_t length() const override { return source_ ? source_->length() : 0; }
 
     /// Returns the name of the newest frame: the path of an image, or SOURCE#N for frame N of
@@ -50,7 +51,7 @@ class SourceList : public FrameSource {
     std::size_t next_image_ = 0;
     std::unique_ptr<FrameSource> source_;
     std::string name_;        ///< name of the open source
-    Frame newest_;            ///< newest frame without its image; `index` counts in its source
+    Frame newest_;            ///< newest frame without its image; `index` is relative to its source
     double bits_per_px_ = 0;  ///< value of the newest source that returned a frame
     std::int64_t dropped_before_ = 0;
     std::int64_t next_index_ = 0;

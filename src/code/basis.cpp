@@ -13,8 +13,8 @@ consteval std::uint32_t inverse(std::uint32_t a, std::uint32_t m) {
 
 }  // namespace
 
-// Solves the Chinese remainder problem in Garner's mixed-radix form. All intermediate values fit in
-// 32 bits.
+// Solves the Chinese remainder problem with Garner's mixed-radix algorithm. All intermediate values
+// fit in 32 bits.
 std::uint32_t position_at(const Basis& basis, const std::array<std::uint32_t, 4>& places) {
     constexpr std::uint32_t kM1 = 236, kM2 = 233, kM3 = 31, kM4 = 241;
     static_assert(kM1 * kM2 * kM3 * kM4 == kPositionsPerAxis);

@@ -16,14 +16,14 @@ using Rolls = std::array<std::uint8_t, kMaxWindow>;
 using Deltas = std::array<std::uint8_t, kMaxWindow - 1>;
 
 /// The places in one secondary sequence at which its digits match the corresponding digits of all
-/// differences of a window. Contains only the first of these places and their number.
+/// differences of a window. Only the first place and the number of places are stored.
 struct Places {
     std::uint32_t first = 0;
     int count = 0;
 };
 
-/// Returns true if the digits of sequence `a` from `place` on (cyclically) equal digit number
-/// `digit` of each of `deltas`.
+/// Returns true if the digits of the cyclic sequence `a`, from `place` on, equal digit `digit` of
+/// each of `deltas`.
 bool matches_at(const code::Secondary& a, std::size_t digit, std::span<const std::uint8_t> deltas,
                 std::uint32_t place) {
     for (const std::uint8_t d : deltas) {

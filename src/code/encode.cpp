@@ -63,7 +63,7 @@ struct AxisPlace {
         return place;
     }
     // A full period along x adds the roll of the period to the rolls of the columns. The position
-    // then starts at 0 again, so the length of the period is added to the section of the rows.
+    // then wraps around to 0, so the length of the period is added to the section of the rows.
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);
         return static_cast<std::uint8_t>(sum % kSections);

@@ -19,7 +19,7 @@ int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place);
 
 /// Sets rolls[i] to the roll of line `position` + i. `first_roll` is the roll of line `position`.
-/// Lines may be beyond the last position, because the differences repeat after it.
+/// Lines may be beyond the last position, because the differences between rolls are periodic.
 void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls);
 

@@ -70,8 +70,8 @@ constexpr std::size_t row_of(Status status) {
     return std::min<std::size_t>(static_cast<std::size_t>(status), kStatusCount);
 }
 
-/// The names without the messages. The linker then omits the messages from programs for devices
-/// that print only names.
+/// The names, stored separately from the messages. The linker then omits the messages from device
+/// programs that print only names.
 constexpr auto kNames = [] {
     std::array<std::array<char, 16>, kTexts.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) {

@@ -37,7 +37,8 @@ constexpr std::uint32_t modulo_sections(std::uint32_t n) {
     return short_modulo_sections((n & 63) + (n >> 6));
 }
 
-/// A secondary sequence with its tables. The type is the same for all lengths and bases.
+/// A secondary sequence with its tables. All sequences have this type, regardless of length and
+/// base.
 struct Secondary {
     const std::uint8_t* digits;  ///< `length` digits
     /// For each place, the sum of the weighted digits before this place, modulo 63: the
@@ -47,9 +48,9 @@ struct Secondary {
     /// First place of each string of 5 digits, indexed by its key, or kAbsent if the string does
     /// not occur.
     const std::uint8_t* first_place_of;
-    /// One bit set per digit: bit i is set if the digit occurs at place i. The sequence is repeated
-    /// cyclically up to 256 + kLinesAhead bits. Bit 0 is the least significant bit of the first
-    /// word.
+    /// A bit set for each digit: bit i is set if the digit occurs at place i. The sequence is
+    /// repeated cyclically up to 256 + kLinesAhead bits. Bit 0 is the least significant bit of the
+    /// first word.
     const std::uint32_t* const* places_of;
     std::uint32_t reciprocal;     ///< 2^20 / length
     std::uint16_t rest_of_65536;  ///< 65536 modulo length

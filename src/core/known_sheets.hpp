@@ -8,9 +8,9 @@
 
 namespace dotpose::core {
 
-/// The positions, along one axis, at which the first of `lines` adjacent lines can be if at least
-/// one of the lines is on a region. `region_first` and `region_size` are the first position and the
-/// number of positions of the region along the axis.
+/// Range of positions along one axis. Contains the positions of the first of `lines` adjacent lines
+/// for which at least one of these lines is on a region. `region_first` and `region_size` are the
+/// first position and the number of positions of the region along the axis.
 struct PositionRange {
     std::uint32_t first;
     std::uint32_t count;

@@ -1,5 +1,6 @@
-// Ranges of the options. Within these ranges, no stage can overflow. Options that are safe with any
-// value have no range, for example k of the lens (see bend_q48).
+// Option ranges: the valid range of each option. If all options are in range, no stage can
+// overflow. Options that are safe with any value have no range. An example is the lens coefficient
+// k (see bend_q48).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Other codes: agreement of the bits of a frame with code variants other than the variant read. The
-// attempts compute the agreement, and `Locator` evaluates it.
+// Other codes: agreement of the bits of a frame with the code variants other than the variant that
+// was read. The attempts compute the agreement, and `Locator` evaluates it.
 #pragma once
 
 #include <array>
@@ -9,15 +9,15 @@
 
 namespace dotpose::core {
 
-/// Likelihood ratios of another code variant along one axis, relative to the place read. A ratio of
-/// 1 means equally likely.
+/// Likelihood ratios of the places in another code variant along one axis, relative to the place
+/// that was read. A place with the ratio 1 is as likely as the place that was read.
 struct OtherAxis {
-    float here = 1;  ///< likelihood ratio of the place of the reading in the other variant
+    float here = 1;  ///< likelihood ratio of the same place in the other variant
     /// Upper bound on the sum of the likelihood ratios of all other places in that variant.
     float elsewhere = 0;
-    float best = 0;  ///< largest likelihood ratio of another place, among the places examined
+    float best = 0;              ///< largest likelihood ratio among the other places examined
     std::uint32_t position = 0;  ///< position of the first line at the place of `best`
-    std::uint8_t roll = 0;       ///< roll of the first line at that place minus the roll read
+    std::uint8_t roll = 0;       ///< roll offset of the first line at that place
 };
 
 /// Likelihood ratios of one other code variant along both axes.
@@ -25,10 +25,10 @@ struct OtherCode {
     OtherAxis x;
     OtherAxis y;
 
-    /// Returns the likelihood ratio of the place of the reading, over both axes.
+    /// Returns the likelihood ratio of the same place, for both axes together.
     float here() const { return x.here * y.here; }
-    /// Returns an upper bound on the sum of the likelihood ratios of all other places, over both
-    /// axes.
+    /// Returns an upper bound on the sum of the likelihood ratios of all other places, for both
+    /// axes together.
     float elsewhere() const { return x.here * y.elsewhere + x.elsewhere * (y.here + y.elsewhere); }
 };
 
@@ -38,12 +38,13 @@ struct OtherCodes {
     /// Value of `log2_in_question_q8` if the code variant is given.
     static constexpr int kNoneInQuestion = -1;
     /// Upper bound on log2 of the number of possible code variants, each weighted by its odds
-    /// relative to the variant read, in units of 2^-8.
+    /// relative to the variant that was read, in units of 2^-8.
     int log2_in_question_q8 = 0;
-    /// First compared column and row, as positions in the code variant that was read.
+    /// Positions of the first compared column and of the first compared row, in the code variant
+    /// that was read.
     Cell first;
     std::array<OtherCode, kCodeVariantCount>
-        of;  ///< by code variant; the entry of the variant read is not used
+        of;  ///< indexed by code variant; the entry of the variant that was read is unused
 };
 
 }  // namespace dotpose::core

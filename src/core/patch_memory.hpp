@@ -1,5 +1,5 @@
-// Patch memory: a part of the image with its dots, and the measured dots of a frame, for the
-// desktop attempts.
+// Patch memory: the memory in which the desktop attempts store a part of the image with its dots,
+// and the measured dots of a frame.
 #pragma once
 
 #include <array>
@@ -8,18 +8,18 @@
 
 namespace dotpose::core {
 
-/// Dots in a patch, in image px relative to the middle of the patch, or to the origin that
-/// `move_origin_to_densest` chooses.
+/// Dots in a patch. Coordinates are in px of the image, relative to the middle of the patch or to
+/// the origin that `move_origin_to_densest` chooses.
 struct PatchDots {
     static constexpr int kMax = 2048;
     int count = 0;
-    // Capacities are rounded up to whole vectors. The unused elements of the last vector are far
-    // outside the patch.
+    // The capacities are rounded up to a whole number of vectors. The unused elements of the last
+    // vector are far outside the patch.
     alignas(64) std::array<float, kMax + 16> x;
     alignas(64) std::array<float, kMax + 16> y;
 };
 
-/// A part of an image, reduced by the factor `scale`, with a margin on all sides.
+/// A part of an image, downscaled by the factor `scale`, with a margin on all sides.
 struct Patch {
     static constexpr int kMaxWidth_px = 256;
     static constexpr int kMaxHeight_px = 192;
@@ -37,14 +37,14 @@ struct Patch {
     static constexpr int kMinSide_px = 48;
 
     int min_side_px = kMinSide_px;
-    int left_px = 0;  ///< in px of the image
+    int left_px = 0;  ///< left edge of the patch, in px of the image
     int top_px = 0;
     int scale = 1;  ///< side of a patch pixel, in px of the image
     int width_px = 0;
     int height_px = 0;
     int stride = 0;
     int dot_contrast_q8 =
-        0;  ///< darkness of a typical dot relative to paper in the smoothed patch, in 1/256
+        0;  ///< darkness of a typical dot in the smoothed patch, in 1/256 of the paper level
     alignas(64) std::array<std::uint8_t, kMaxPixels> pixels;
     alignas(64) std::array<std::uint8_t, kMaxPixels> smoothed;
     alignas(64) std::array<std::uint8_t, kTiles> brightest;
@@ -57,25 +57,27 @@ struct Patch {
     }
 };
 
-/// Measured dots with their cells of the pattern, in whole vectors. After a measurement, `x` is
-/// kNoDot_px in the unused elements of the last vector.
+/// Measured dots and their cells in the pattern. The arrays consist of whole vectors. After a
+/// measurement, `x` is kNoDot_px in the unused elements of the last vector.
 struct MeasuredDots {
     int count = 0;
     std::span<float> column;  ///< column of the cell, in the coordinates of the current plane
     std::span<float> row;
-    /// Bits of the code in the cell: the x bit plus 2 times the y bit.
+    /// Bits of the cell in the code: the x bit plus twice the y bit.
     std::span<std::int32_t> bits;
     /// Middle of the window, in px relative to the first pixel of the image.
     std::span<std::int32_t> window_u;
     std::span<std::int32_t> window_v;
-    /// Sum of the darkness in the window, or contrast of a dot that is sampled directly.
+    /// Sum of the darkness in the window. For a dot that is sampled directly, its contrast.
     std::span<std::int32_t> mass;
-    /// Sum of the darkness times the distance along u, in px, from the middle of the window.
+    /// First moment along u: sum of the darkness times the distance from the middle of the window,
+    /// in px.
     std::span<std::int32_t> sum_u;
-    std::span<std::int32_t> sum_v;  ///< the same sum with the distance along v
+    std::span<std::int32_t> sum_v;  ///< first moment along v
     std::span<std::int32_t> paper;  ///< grey level of the paper around the dot
-    /// Measured centre, undistorted, in px relative to the centre of the plane. `x` is kNoDot_px if
-    /// there is no dot. Before the measurement, `x` and `y` contain the predicted image point.
+    /// Measured centre after undistortion, in px relative to the centre of the plane. `x` is
+    /// kNoDot_px if there is no dot. Before the measurement, `x` and `y` contain the predicted
+    /// image point.
     std::span<float> x;
     std::span<float> y;
 

@@ -1,4 +1,4 @@
-// The parts that Locator and DeviceLocator have in common.
+// Row locator: the functions that Locator and DeviceLocator share.
 #include <span>
 
 #include "core/steps.hpp"

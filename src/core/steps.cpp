@@ -27,7 +27,7 @@ bool are_valid(const DeviceOptions& options) {
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w) {
     if (!are_valid(options)) return Status::bad_argument;
     // True if the locator makes a first or a tracked attempt. Only these attempts locate images
-    // below kMinFrameSide_px.
+    // that are smaller than kMinFrameSide_px.
     const bool may_be_small = options.effort != Effort::device && options.decoder == Decoder::all;
     if (std::min(width_px, height_px) < (may_be_small ? w.min_side_px : kMinFrameSide_px))
         return Status::image_too_small;
@@ -76,8 +76,8 @@ void threshold_bands(int ready, const DeviceOptions& options, Workspace& w) {
     for (int band = newest - ready + (is_last ? 1 : 0); ready > 0; --ready, ++band) {
         const int before = w.threshold.max_contrast;
         measure_levels(band, threshold, w.threshold);
-        // The contrast of all bands above is below the new minimum, so the dots found there are
-        // noise.
+        // The contrast of all earlier bands is below the new minimum, so the dots found in these
+        // bands are noise.
         if (before < min_tile_contrast(threshold, w.threshold)) w.dot_count = 0;
         for (int v = band_begin(w.threshold, band); v < band_end(w.threshold, band); ++v) {
             grow_blobs(v, w.threshold, w.open, dot_list(w));
@@ -95,7 +95,8 @@ Status find_dots(const DeviceOptions& options, Workspace& w) {
     sift_dots(options.blobs, dot_list(w));
     w.fix.dots_seen = w.dot_count;
     if (!w.threshold.has_contrast) return Status::no_contrast;
-    // min_dots may be 0, but the following stages compute means over the dots, which need a dot.
+    // Requires at least one dot even if min_dots is 0, because later stages compute means over the
+    // dots.
     if (w.dot_count < std::max(options.lattice.min_dots, 1)) return Status::too_few_dots;
     undistort(options.lens, image_centre_q8(w.threshold), first(w.dots, w.dot_count));  // eq. 1-2
     return Status::ok;

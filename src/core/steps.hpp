@@ -1,5 +1,5 @@
-// Processing steps shared by desktops and devices, in integer arithmetic. Each step is part of Fig.
-// 1 of the paper.
+// Steps: the processing steps that desktops and devices share, in integer arithmetic. Fig. 1 of the
+// paper contains each of these steps.
 #pragma once
 
 #include "core/detect/adaptive_threshold.hpp"
@@ -20,13 +20,14 @@ FixedVec image_centre_q8(const AdaptiveThreshold& threshold);
 /// Returns the image point whose pose is reported. `centre_q8` is the image centre.
 FixedVec reference_q8(FixedVec centre_q8, const DeviceOptions& options);
 
-/// Returns ok if a frame of this size can be started, or if the image can be located. Otherwise
-/// returns the reason for the refusal.
+/// Returns ok if the options are valid and the workspace accepts frames of this size. Otherwise,
+/// returns the reason for the refusal. The overload for an image also checks that the image has
+/// pixels.
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w);
 Status check(const ImageView& image, const DeviceOptions& options, const Workspace& w);
 
-/// Refuses a frame before any stage: clears the results of the previous frame, and sets and returns
-/// the fix with the status `reason`.
+/// Refuses a frame before the first stage. Clears the results of the previous frame, sets the
+/// status of the fix to `reason`, and returns the fix.
 const Fix& refuse(Status reason, Workspace& w);
 
 /// Clears the results of the previous frame.
@@ -39,7 +40,7 @@ void begin_frame(int width_px, int height_px, Workspace& w);
 void threshold_bands(int ready, const DeviceOptions& options, Workspace& w);  // II-B.1
 
 /// Processes the next row of pixels, and detects the blobs of the bands that the row completes.
-/// Most rows complete no band.
+/// Most rows do not complete a band.
 inline void detect_row(const std::uint8_t* pixels, const DeviceOptions& options, Workspace& w) {
     const int ready = take_row(pixels, w.threshold);
     if (ready > 0) threshold_bands(ready, options, w);
@@ -51,15 +52,15 @@ void detect_image(const ImageView& image, const DeviceOptions& options, Workspac
 /// Selects the dots among the blobs and undistorts them. Errors: no_contrast, too_few_dots.
 Status find_dots(const DeviceOptions& options, Workspace& w);
 
-/// Finds the directions and spacings of the grid from connections between the dots nearest to a
-/// point. Error: no_grid.
+/// Finds the directions and spacings of the grid from connections between neighbouring dots. Uses
+/// at most `max_seeds` dots, in a square around `start_q8`. Error: no_grid.
 Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w);
 
-/// Chooses the region of the grid that is decoded. The size of the region is limited by the memory
-/// for lines.
+/// Chooses the region of the grid that is decoded. The memory for lines limits the size of the
+/// region.
 void choose_region(Workspace& w);
 
-/// Returns `mirrored` if the bits agree with a mirrored pattern. Otherwise returns `reason`.
+/// Returns `mirrored` if the bits agree with a mirrored pattern. Otherwise, returns `reason`.
 Status refused(Status reason, const Workspace& w);
 
 }  // namespace dotpose::core

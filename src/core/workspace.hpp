@@ -1,6 +1,6 @@
-// Workspace: the memory of a locator, which contains the results of the stages after a frame.
-// Capacities are fixed. The workspace is constructed in the DeviceMemory, SmallMemory or
-// LargeMemory of the caller and is reused for each frame.
+// Workspace: the memory of a locator. After a frame, the workspace contains the results of the
+// stages. All capacities are fixed. The caller provides the memory as a DeviceMemory, SmallMemory
+// or LargeMemory. The workspace is constructed in this memory and reused for each frame.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct Workspace {
     // detect
     AdaptiveThreshold threshold;
     OpenBlobs open;
-    std::span<DetectedDot> dots;  ///< size is the capacity
+    std::span<DetectedDot> dots;  ///< the size of the span is the capacity
     int dot_count = 0;
     /// Distance from the image centre, along each axis, within which dots are kept. The distance
     /// decreases when `dots` is full.
@@ -38,7 +38,7 @@ struct Workspace {
     std::span<std::uint16_t> seeds;  ///< indices of dots
     int seed_count = 0;
     std::span<BucketedSeed> buckets;  ///< size: number of seeds plus 1
-    /// Indices of the four nearest seeds of each seed.
+    /// For each seed, the indices of the four nearest seeds.
     std::span<std::array<std::int16_t, 4>> neighbours;
     std::span<SeedEdge> edges;  ///< size: two per seed
     int edge_count = 0;
@@ -59,7 +59,7 @@ struct Workspace {
     }
 };
 
-/// Constructs a workspace in the bytes of a memory of the caller.
+/// Constructs a workspace in memory that the caller provides.
 template <typename Space, std::size_t Bytes>
 Space* make_workspace(std::array<std::byte, Bytes>& bytes) {
     static_assert(sizeof(Space) <= Bytes, "Memory::kBytes is too small");

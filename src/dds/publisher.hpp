@@ -12,8 +12,8 @@ namespace dotpose::dds {
 
 struct PublisherOptions {
     int domain = 0;  ///< ROS_DOMAIN_ID
-    /// True to send lost poses again. A subscriber that requests reliable delivery (the default of
-    /// ROS) receives nothing from a best-effort publisher.
+    /// True to resend poses that a subscriber did not receive. A subscriber that requests reliable
+    /// delivery (the default of ROS) receives nothing from a best-effort publisher.
     bool is_reliable = false;
     /// True to limit discovery to this computer, like ROS with
     /// ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST.
@@ -25,21 +25,22 @@ class Publisher {
     /// `robot` must be a valid name in ROS topics. Throws BadArgument if this program was built
     /// without DDS, and Error if DDS cannot be set up.
     Publisher(const std::string& robot, const PublisherOptions& options);
-    /// Waits a short time for reliable readers.
+    /// Waits a short time for reliable readers to receive all messages.
     ~Publisher();
     Publisher(const Publisher&) = delete;
     Publisher& operator=(const Publisher&) = delete;
 
-    /// Publishes the messages of a frame. If `waits`, waits up to 10 s for slow subscribers of
-    /// reliable messages. Otherwise, the newest 100 messages of a topic are kept for slow
+    /// Publishes the messages of a frame. If `waits` is true, waits up to 10 s for slow subscribers
+    /// of reliable messages. Otherwise, keeps the newest 100 messages of a topic for slow
     /// subscribers.
     void publish(const ros::RobotMessages& messages, bool waits);
-    /// Publishes the mount of the camera. Later subscribers receive it, too.
+    /// Publishes the mount of the camera. Subscribers that connect later also receive the mount.
     void publish(const ros::TransformStamped& mount);
 
-    /// Number of messages that were passed to DDS, and number of messages that were lost: DDS had
-    /// no space for them, or a subscriber did not receive them within 10 s.
+    /// Returns the number of messages that were passed to DDS.
     std::int64_t sent() const;
+    /// Returns the number of messages that were lost, because DDS had no space for them or a
+    /// subscriber did not receive them within 10 s.
     std::int64_t dropped() const;
 
   private:

@@ -35,12 +35,13 @@ class AffineFitInt32 {
                    const Products<std::int32_t>& sums)
         : changes_(count), p_(p), target_(target), recent_(sums) {}
 
-    /// Adds an image point p and its target. p is in 1/8 px relative to the plane's centre, within
-    /// 2048 px. The target is in units of 2^-bits cells (see `solve`), within 2^15.
+    /// Adds an image point p and its target. p is in units of 1/8 px, relative to the centre of the
+    /// plane, and within 2048 px. The target is in units of 2^-bits cells (see `solve`), within
+    /// 2^15.
     [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& target) {
         change(p, p, target);
     }
-    /// Adds a point with weight 1, or removes a point with weight -1.
+    /// Adds a point if `weight` is 1, or removes a point if `weight` is -1.
     [[gnu::always_inline]] void count(const FixedVec& p, const FixedVec& target, int weight) {
         unused_ += 1 - weight;
         change(p, FixedVec{weight * p.x, weight * p.y},
@@ -72,7 +73,7 @@ class AffineFitInt32 {
     /// Adds the recent 32-bit sums to the 64-bit sums.
     void carry_over();
     /// Returns n^2 times the covariance of two coordinates of n points. `products` is the sum of
-    /// the products of the coordinates, a and b are the sums of the coordinates.
+    /// the products of the coordinates, and a and b are the sums of the coordinates.
     std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const;
 
     std::int32_t changes_ = 0;

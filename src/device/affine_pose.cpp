@@ -32,8 +32,8 @@ std::int32_t squared_q16(FixedVec a_q16) {
     return (a_q16.x >> 8) * (a_q16.x >> 8) + (a_q16.y >> 8) * (a_q16.y >> 8);
 }
 
-/// Adds one point. Not inlined, because small processors have too few registers for the inlined
-/// code.
+/// Adds one point. Not inlined, because the inlined code needs more registers than small processors
+/// have.
 [[gnu::noinline]] void add(AffineFitInt32& fit, FixedVec p, FixedVec target) {
     fit.add(p, target);
 }
@@ -70,7 +70,7 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
         return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
     // The squared distances of a Gaussian in the plane have a median of 1.39 sigma^2. The limit of
-    // 12 medians is therefore 4.1 sigma. By chance, 1 dot in 4,000 exceeds the limit.
+    // 12 medians is therefore 4.1 sigma. One in 4,000 dots exceeds the limit by chance.
     const std::int32_t limit_q16 = 12 * sampled_median([&](const Offset& offset) {
                                        return squared_residual_q16(offset.q16, offset.symbol);
                                    }) +

@@ -1,5 +1,5 @@
-// Affine pose: fits the pose to all dots, in integers, for a camera that looks straight at the
-// paper. The lens must have no distortion, or its distortion must be corrected.
+// Affine pose: fits the pose to all dots, in integer arithmetic, for a camera that looks straight
+// at the paper. The lens must have no distortion, or its distortion must be corrected.
 #pragma once
 
 #include "core/pose/observations.hpp"
@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Fits the map from the centres of the dots to their printed places. Leaves out dots with large
+/// Fits the map from the centres of the dots to their printed places. Excludes dots with large
 /// residuals. Sets `displacement_q16` to the distance of a typical dot from its intersection, in
 /// units of 2^-16 spacings. Returns the number of dots used. Returns 0, with an unchanged map, if
 /// the dots do not determine the map.

@@ -51,8 +51,8 @@ Status find_grid(const DeviceOptions& options, Workspace& w) {
 
 /// Finds the position in the code from the bits.
 Status read_position(const DeviceOptions& options, Workspace& w) {
-    // The decoder does not need the 8 x 8 window of the method of the paper. The window is computed
-    // for display only.
+    // The decoder does not need the 8 x 8 window of the paper. The window is computed only for
+    // display.
     if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
     choose_region(w);
     const Status status =

@@ -1,5 +1,5 @@
 // Device attempt: locates a frame from the blobs that were detected while its rows arrived, in
-// integers and in bounded time.
+// integer arithmetic and in bounded time.
 #pragma once
 
 #include "core/workspace.hpp"

@@ -55,7 +55,7 @@ Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
     // Cells within reach that are not farther away than the farthest dot so far. Most dots are in
-    // these cells and need no other test.
+    // these cells and need no further test.
     Square common = cells_within(0);
     for (const DetectedDot& dot : dots) {
         const FixedVec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));

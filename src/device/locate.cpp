@@ -1,5 +1,5 @@
-// Implements DeviceLocator. This file does not use the attempts of desktops, which
-// scripts/export-device leaves out.
+// Implements DeviceLocator. This file does not use the desktop attempts, because
+// scripts/export-device omits them.
 #include "device/locate.hpp"
 
 #include "core/steps.hpp"

@@ -1,4 +1,5 @@
-// Locate: locates a frame in integers, with given memory and options. Implements `DeviceLocator`.
+// Locate: locates a frame in integer arithmetic, with the given memory and options. Implements
+// `DeviceLocator`.
 #pragma once
 
 #include "device/workspace.hpp"

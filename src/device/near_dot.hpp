@@ -1,5 +1,5 @@
-// Near dot: measures the dot near an intersection at a known place in the image. The code does not
-// influence the measurement, so a measurement can confirm or contradict the code. Most functions
+// Near dot: measures the dot near an intersection whose place in the image is known. The
+// measurement does not depend on the code, so it can confirm or contradict the code. Most functions
 // are inline, because calls would take a third of the time per dot on small processors.
 #pragma once
 
@@ -67,8 +67,8 @@ class ReadSymbol {
 };
 
 /// Reads the symbol of the dot at an intersection, from the darkest of its four places. Requires
-/// that the square around the intersection and a border of one pixel are stored. Not inlined, so
-/// small processors have enough registers.
+/// that the square around the intersection and a border of one pixel are stored. Not inlined,
+/// because small processors would otherwise not have enough registers.
 DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
                                                const FixedVec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;

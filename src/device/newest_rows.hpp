@@ -10,14 +10,14 @@ constexpr int stride_of(int width_px) {
     return (width_px + 3) & ~3;
 }
 
-/// Stores a row. Requires room for the row.
+/// Stores a row. The memory must have room for the row.
 void keep_row(const std::uint8_t* pixels, Tracking& tracking);
 
 /// Discards all rows except the newest `Tracking::rows_needed` rows, unless there is room for
 /// `rows` more rows.
 void make_room(int rows, Tracking& tracking);
 
-/// Returns a stored row. The next rows follow this row in memory, at intervals of the stride.
+/// Returns a stored row. The following rows are stored after this row, at intervals of the stride.
 inline const std::uint8_t* kept_row(const Tracking& tracking, int v) {
     return tracking.rows.data() + (v - tracking.first_kept) * tracking.stride_px;
 }

@@ -5,8 +5,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum distance, along each axis, between `near_q8` and the cells whose dots are used. Farther
-/// away, the error of the first grid may be a third of a cell.
+/// Maximum distance, along each axis, between `near_q8` and the cells whose dots are used. At
+/// larger distances, the error of the first grid may reach a third of a cell.
 constexpr int kReach_cells = 4;
 
 /// Circular mean of the offsets of dots from their intersections, along one axis: the angle of a

@@ -1,7 +1,7 @@
 // Origin: finds the origin of the first grid. Paper section II-B.2. differs: the paper uses a dot
-// that is connected to all its eight neighbours. Displaced and missing dots leave few such dots.
-// Here, the origin is computed from the mean phase of all dots near the centre, as in a Fourier
-// transform.
+// that is connected to all its eight neighbours. If dots are displaced or missing, few dots meet
+// this condition. This implementation computes the origin from the mean phase of all dots near the
+// centre, as in a Fourier transform.
 #pragma once
 
 #include "dotpose/trace.hpp"

@@ -8,15 +8,15 @@
 namespace dotpose::core {
 namespace {
 
-/// Range of spacings in the image that can be tracked. In this range, dots fit into the squares
-/// that are read.
+/// Range of grid spacings, in px, that can be tracked. In this range, dots fit in the squares that
+/// are read.
 constexpr int kFinest_px = 7;
 constexpr int kCoarsest_px = 13;
 /// Range of displacements that can be tracked: a twelfth to a third of the spacing.
 constexpr std::int32_t kMinDisplacement_q16 = 65536 / 12;
 constexpr std::int32_t kMaxDisplacement_q16 = 65536 / 3;
 
-/// Returns true if the values of the prediction are in range, so no stage overflows.
+/// Returns true if the values of the prediction are in the range in which no stage overflows.
 bool is_sane(const Prediction& prediction) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
@@ -62,7 +62,7 @@ bool invert(const PlaneFromImage& plane, FixedVec at_q16, CellMap& cells) {
     return true;
 }
 
-/// Leaves out the edges of a frame that contains too many cells for the memory. Returns the maximum
+/// Crops the edges of a frame that contains too many cells for the memory. Returns the maximum
 /// distance of a cell from the middle of the remaining part, in cells.
 int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
     int width_px = tracking.width_px;
@@ -101,8 +101,8 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 
-/// Returns the maximum error of the prediction that the search covers, in the middle of the image,
-/// in px: three standard deviations, at most 3/5 of the spacing.
+/// Returns the maximum error of the prediction, in px in the middle of the image, that the search
+/// covers: three standard deviations, but at most 3/5 of the spacing.
 int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
     const auto shift_q16 =

@@ -107,8 +107,8 @@ DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& r
     };
     const FixedVec offset_q8{sums.x * 256 - mass * in_pixel_q8(place_q16.x),
                              sums.y * 256 - mass * in_pixel_q8(place_q16.y)};
-    // Printers and lenses rarely move a dot by more than an eighth of the spacing. Larger offsets
-    // are due to dirt.
+    // Printers and lenses rarely displace a dot by more than an eighth of the spacing. Larger
+    // offsets are due to dirt.
     if (!is_within(offset_q8, mass * (tracking.spacing_q8 >> 3))) return;
     ++tracking.dots_measured;
     FixedVec& of_symbol = tracking.offset_q8[symbol];
@@ -135,8 +135,8 @@ bool begin_reading(Tracking& tracking) {
 void read_ready_dots(Tracking& tracking) {
     const RowDirection direction = row_direction(tracking);
     // The pixels of a dot may extend one row below the square around its intersection, so one more
-    // row must be stored. After the last row of the image, no further row is needed: all pixels of
-    // dots in view are inside the image.
+    // row must be stored. After the last row of the image, no further row is needed, because all
+    // pixels of dots in view are inside the image.
     const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
     const std::int32_t ready_q16 = (tracking.rows_taken - ahead - kHalf_px) * 65536 + 32767;
     TrackedRow* row = &tracking.grid_rows[static_cast<std::size_t>(tracking.first_cell)];

@@ -12,7 +12,7 @@ namespace dotpose::core {
 
 Shifts::Shifts(const Tracking& tracking) {
     // Only dots within two spacings of the middle column are used. A rotation relative to the
-    // prediction hardly blurs the sums over these dots.
+    // prediction has little effect on the sums over these dots.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
     // A rotation of 4 degrees (18/256 rad) about the image centre moves the first rows sideways.
@@ -94,7 +94,8 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum divisor. A mean over fewer dots is unreliable, so the larger divisor reduces it.
+    // Minimum divisor. A mean over fewer dots is unreliable, so it is reduced by this larger
+    // divisor.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);

@@ -17,12 +17,12 @@ class Shifts {
     explicit Shifts(const Tracking& tracking);
 
     /// Sets `shift_q8` to the darkest shift that is more than two steps away, along at least one
-    /// axis, from each shift returned before. Returns false if there is none.
+    /// axis, from each previously returned shift. Returns false if there is no such shift.
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }
-    /// Returns the contrast between the paper and the middle of a dot, in grey levels, at the shift
-    /// returned last.
+    /// Returns the contrast between the paper and the middle of a dot, in grey levels, at the most
+    /// recently returned shift.
     int depth() const { return depth_; }
 
   private:
@@ -45,7 +45,7 @@ class Shifts {
     int left_ = 0;
     int right_ = 0;
     int rows_ = 0;
-    FixedVec steps_;  ///< number of steps to each side, along u and v
+    FixedVec steps_;  ///< number of steps in each direction, along u and v
     int paper_ = 0;
     int cut_ = 0;
     int depth_ = 0;

@@ -56,7 +56,7 @@ Status read_rows(DeviceWorkspace& w) {
     return Status::ok;
 }
 
-/// Verifies the place by the bits of the dots, and fits the pose. Error: not_tracked.
+/// Verifies the place with the bits of the dots, and fits the pose. Error: not_tracked.
 Status confirm(const DeviceOptions& options, DeviceWorkspace& w) {
     Tracking& t = w.tracking;
     if (t.status != Status::ok) return t.status;
@@ -86,7 +86,7 @@ Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& op
     t.min_contrast = static_cast<std::uint8_t>(options.min_contrast);
     t.dots_measured = 0;
     t.offset_q8 = {};
-    // Frames with lens distortion are not tracked, but located without the prediction.
+    // Frames with lens distortion are not tracked. They are located without the prediction.
     t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.code, t)
                                        : Status::not_tracked;
     // Locators with memory for every stage have time to locate the whole frame without the

@@ -1,5 +1,5 @@
 // Tracked: the tracked attempt of devices. Measures dots at predicted places while the rows arrive,
-// in integers and without a frame buffer.
+// in integer arithmetic and without a frame buffer.
 #pragma once
 
 #include "device/workspace.hpp"

@@ -13,7 +13,7 @@
 namespace dotpose::core {
 
 /// Map from the cells of a grid to the image: cell (i, j) is at origin + i along_x + j along_y.
-/// Unlike a Lattice, the map belongs to the upright pattern.
+/// Unlike a Lattice, the map refers to the upright pattern.
 struct CellMap {
     FixedVec origin_q16;  ///< in 2^-16 px
     FixedVec along_x_q16;

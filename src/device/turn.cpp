@@ -61,8 +61,8 @@ class SimilarityFit {
     std::int32_t across_ = 0;
 };
 
-/// Returns the change of v when it is scaled and rotated. Not inlined, because 64-bit products need
-/// much code.
+/// Returns the change of v due to a similarity. Not inlined, because 64-bit products need a lot of
+/// code.
 [[gnu::noinline]] FixedVec change(const SimilarityFit::Similarity& s, FixedVec v) {
     const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
     return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),

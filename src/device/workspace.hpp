@@ -12,7 +12,7 @@
 
 namespace dotpose::core {
 
-/// Memory and results of the stages that desktops and devices share, and of a tracked frame.
+/// Memory and results of a tracked frame, and of the stages that desktops and devices share.
 struct DeviceWorkspace : Workspace {
     bool is_tracking = false;  ///< true if the rows of the current frame are tracked
     Tracking tracking;
@@ -26,8 +26,8 @@ struct DeviceCapacity {
     int height_px = kMaxFrameSide_px;
     int dots = 0;
     int grid_side = 0;
-    // Runs and blobs of one row. The capacities far exceed the number of dots in a row. Runs and
-    // blobs beyond the capacities are noise or graphics.
+    // Maximum numbers of runs and blobs of one row. Both far exceed the number of dots in a row.
+    // Any further runs and blobs are noise or graphics.
     int runs = 0;
     int blobs = 0;
     // Maximum number of runs of a whole frame, which bounds the time. The dots of a frame of 188 x
@@ -35,7 +35,7 @@ struct DeviceCapacity {
     int max_runs = 0;
 };
 
-/// Capacities by size of frame, for a spacing of about 11 px. Each size is also listed in
+/// Capacities for each frame size, for a spacing of about 11 px. Each size is also listed in
 /// dotpose/memory.hpp.
 template <int Width, int Height>
 inline constexpr DeviceCapacity kDeviceCapacity{};

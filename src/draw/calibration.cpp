@@ -19,8 +19,8 @@ constexpr double kHead = 74;
 constexpr double kMaxSide = 520;
 /// Number of parts along the longer side of the image. Each part has one arrow.
 constexpr int kParts = 22;
-/// Minimum of the residual that an arrow of maximum length represents. Residuals of pure noise
-/// therefore have short arrows.
+/// Minimum residual that an arrow of maximum length represents. With this minimum, residuals of
+/// pure noise have short arrows.
 constexpr double kMinFullScale_px = 0.05;
 
 struct Part {

@@ -16,7 +16,7 @@ constexpr double kSmallSize = 36;
 constexpr double kSecondRow_y = 190;
 constexpr double kSheetRow_y = 292;
 
-/// A value of the caption. Its name is drawn above it.
+/// A value of the caption, with a label above it.
 struct Entry {
     std::string label;
     std::string value;
@@ -69,9 +69,9 @@ std::string with_minus(std::string text) {
     return text;
 }
 
-/// The pose in large numbers, with its standard deviations.
+/// Texts of the pose and its standard deviations, which the caption shows in large letters.
 struct Shown {
-    /// Name of the coordinate frame, used as the suffix of the names of the coordinates.
+    /// Name of the coordinate frame, used as a suffix in the labels of the coordinates.
     const char* frame;
     std::string x;
     std::string y;
@@ -119,7 +119,7 @@ Shown on_sheet(const SheetPlace& place) {
                  place.covariance, 1e3);
 }
 
-/// Describes the pose in the coordinate frames that the large numbers do not use.
+/// Describes the pose in all coordinate frames except the frame of the large numbers.
 std::string other_frames(const Fix& fix, const DrawOptions& options) {
     const SheetPlace& place = *options.place;
     std::string text = "on sheet " + place.entry->name;
@@ -171,7 +171,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t max_bytes)
     return lines;
 }
 
-/// Returns the message of the status with its counts.
+/// Returns the message of the status, with the counts that explain it.
 std::string message_of(const Fix& fix, const DeviceOptions& options) {
     std::string text = fmt::format("{}; dots seen: {}", message(fix.status), fix.dots_seen);
     if (fix.status == Status::too_few_dots) {

@@ -1,4 +1,4 @@
-// Encodes a grey image as a data URI, which makes a drawing with an image a single file.
+// Encodes a grey image as a data URI. With the image embedded, the drawing is a single file.
 #pragma once
 
 #include <string>

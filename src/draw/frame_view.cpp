@@ -112,7 +112,7 @@ double FrameView::estimate_spacing_px() const {
     if (areas_px.empty()) return 10;
     const auto middle = areas_px.begin() + static_cast<std::ptrdiff_t>(areas_px.size() / 2);
     std::nth_element(areas_px.begin(), middle, areas_px.end());
-    // Without a grid, the spacing is estimated as three times the diameter of a typical dot.
+    // Without a grid, estimates the spacing as three times the diameter of a typical dot.
     return 3 * std::sqrt(*middle * 4 / std::numbers::pi);
 }
 
@@ -126,7 +126,7 @@ Point FrameView::image_from_ideal(Point ideal_px) const {
 
 Point FrameView::at(Point ideal_px) const {
     const Point image_px = image_from_ideal(ideal_px);
-    // Half a pixel is added because pixel (0, 0) covers the drawing from 0 to `scale_`.
+    // Adds half a pixel, because pixel (0, 0) covers the drawing from 0 to `scale_`.
     return scale_ * (image_px + Point{0.5, 0.5});
 }
 

@@ -6,7 +6,7 @@
 
 namespace dotpose::draw {
 
-/// Results that the trace contains after `locate`.
+/// Stages of `locate` whose results the trace contains.
 struct Reached {
     bool undistorted = false;  ///< dot centres, corrected for lens distortion
     bool edges = false;        ///< edges between neighbouring dots
@@ -40,7 +40,7 @@ class Plane {
     double area_;  ///< area of a pixel, in squared spacings
 };
 
-/// Maps pixels to the drawing. *Image* pixels are the pixels of the image; *ideal* pixels are the
+/// Maps pixels to the drawing. *Image* pixels are the pixels of the image. *Ideal* pixels are the
 /// pixels of a camera without lens distortion.
 class FrameView {
   public:
@@ -55,10 +55,10 @@ class FrameView {
     /// Returns true if the dots are too close together on the drawing for legible letters and
     /// rings.
     bool is_dense() const;
-    /// Returns the factor for the width of strokes: 1 if the grid spacing is at least 70 units on
-    /// the drawing, less for a smaller spacing.
+    /// Returns the factor for the width of strokes. The factor is 1 if the grid spacing is at least
+    /// 70 units on the drawing, and smaller for a smaller spacing.
     double stroke() const { return stroke_; }
-    /// Returns the grid spacing on the drawing. It is estimated from the dots if no grid was found.
+    /// Returns the grid spacing on the drawing, estimated from the dots if no grid was found.
     double spacing() const { return spacing_px_ * scale_; }
 
     /// Returns the point of the drawing that shows an ideal pixel.
@@ -89,8 +89,8 @@ class FrameView {
     Point reference_px_;
 };
 
-/// Returns the grid cell of the top left symbol of the window on the pattern. Requires
-/// `Reached::place`.
+/// Returns the grid cell of the symbol at the top left of the window, as seen in the orientation of
+/// the pattern. Requires `Reached::place`.
 FixedVec window_corner(const Trace& trace);
 /// Returns the position of a grid cell in the code. Requires `Reached::place`.
 Place place_of(const Trace& trace, FixedVec grid_cell);

@@ -20,8 +20,8 @@ constexpr double kMaxMapSide = 1000;
 /// The smaller maximum applies.
 constexpr double kMaxArrow = 45;
 constexpr double kMaxStep = 0.95;
-/// Minimum of the distortion that an arrow of maximum length represents. Mere noise therefore has
-/// short arrows.
+/// Minimum distortion that an arrow of maximum length represents. With this minimum, noise alone
+/// has short arrows.
 constexpr double kMinMapScale_mm = 0.01;
 
 /// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `value`.

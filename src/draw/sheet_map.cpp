@@ -1,5 +1,5 @@
-// Draws the sheets of a file: on the left the sheets in the world, and on the right the sheets
-// without a known pose, each as large as possible.
+// Draws the sheets of a file. The left part is a map of the sheets in the world. The right part
+// shows the sheets without a known pose, each as large as possible.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,8 +26,8 @@ constexpr double kBox = 190;  // longest side of a sheet without a pose
 constexpr double kBoxPitch_x = 230;
 constexpr double kBoxPitch_y = 300;
 constexpr std::size_t kBoxRows = 3;
-/// Maximum extent of the map. In a larger map, a page would be smaller than the rounding of the
-/// numbers in the drawing.
+/// Maximum extent of the map. In a larger map, pages would be smaller than the rounding errors of
+/// the numbers in the drawing.
 constexpr double kMaxExtent_m = 1e7;
 constexpr const char* kCentred = R"(text-anchor="middle" fill="#17202a")";
 constexpr const char* kCentredQuiet = R"(text-anchor="middle" fill="#6b7885")";

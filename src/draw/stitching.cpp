@@ -1,5 +1,5 @@
-// Draws sheets side by side before and after stitching, with the difference between the two
-// positions of each frame over a seam.
+// Draws the sheets before and after stitching, in two panels. Arrows show the difference between
+// the two positions of each frame over a seam.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,8 +19,8 @@ namespace {
 using namespace dotpose::draw;
 
 constexpr double kMaxArrow = 70;
-/// Minimum of the difference that an arrow of maximum length represents. Mere noise therefore has
-/// short arrows.
+/// Minimum difference that an arrow of maximum length represents. With this minimum, noise alone
+/// has short arrows.
 constexpr double kMinArrowScale_mm = 0.002;
 
 /// Image centre of one frame, in world mm with y DOWN, and the difference between its positions on

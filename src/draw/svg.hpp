@@ -73,11 +73,11 @@ class Svg {
     std::string text_;
 };
 
-/// Returns text for use between tags or in an attribute: escaped, without control characters, and
-/// with a replacement character for each byte that is not UTF-8.
+/// Returns text for use between tags or in an attribute. The text is escaped and has no control
+/// characters. A replacement character replaces each byte that is not valid UTF-8.
 std::string escaped(std::string_view text);
 
-/// Writes a file with a function that writes to a stream. Throws Error if the file cannot be
+/// Creates a file. `write` writes the contents to a stream. Throws Error if the file cannot be
 /// written.
 void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 

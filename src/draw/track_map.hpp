@@ -19,11 +19,11 @@ struct MapSheet {
 
 struct MapRobot {
     std::string name;
-    /// Path of the robot; a jump starts a new stroke.
+    /// Path of the robot. A jump starts a new stroke.
     std::vector<std::vector<Point>> strokes_mm;
     /// The last known position.
     Point place_mm;
-    std::optional<double> heading_rad;  ///< from +x towards +y of the plane; none if not known
+    std::optional<double> heading_rad;  ///< from +x towards +y of the plane; empty if unknown
     bool is_lost = false;
 };
 

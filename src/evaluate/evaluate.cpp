@@ -16,7 +16,7 @@ namespace {
 
 using Outcomes = std::vector<std::vector<Outcome>>;
 
-/// Locates frames in several threads. A free thread takes the next frame.
+/// Locates frames in several threads. Each thread takes the next frame as soon as it is free.
 class Crew {
   public:
     Crew(const FrameRun& run, Outcomes& outcomes)
@@ -88,8 +88,8 @@ std::vector<std::vector<Outcome>> evaluate(const FrameRun& run) {
                       std::vector<Outcome>(static_cast<std::size_t>(run.frames)));
     Crew crew(run, outcomes);
     const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    // Use at most one thread per frame. With more threads, this thread, which reports the progress,
-    // might not get a frame.
+    // Uses at most one thread per frame. With more threads, this thread, which reports the
+    // progress, might not get a frame.
     const int threads = std::min(run.threads > 0 ? run.threads : cores, run.frames);
     {
         std::vector<std::jthread> others;

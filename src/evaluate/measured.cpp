@@ -19,13 +19,13 @@ namespace {
 using evaluate_detail::spread_of;
 using Complex = std::complex<double>;
 
-/// A found and a true place in mm, as complex numbers x + iy.
+/// The found and the true place of a frame in mm, as complex numbers x + iy.
 struct Pair {
     Complex found;
     Complex truth;
 };
 
-/// A similarity: truth = offset + factor * found.
+/// A similarity transform: truth = offset + factor * found.
 struct Map {
     Complex factor = 1;
     Complex offset = 0;
@@ -38,8 +38,8 @@ double wrapped(double angle_rad) {
     return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
 
-/// Returns true if both places of the frame are known and, if the sheet of the true place is known,
-/// on the same sheet.
+/// Returns true if the found place of a frame can be compared with its true place. Both places must
+/// be known. If the sheet of the true place is known, both places must be on this sheet.
 bool is_comparable(const MeasuredFrame& frame) {
     return frame.truth && frame.found &&
            (frame.truth->sheet.empty() || frame.truth->sheet == frame.found->sheet);
@@ -53,7 +53,7 @@ double median_of(std::vector<double> values) {
     return quantiles_of(std::move(values)).median;
 }
 
-/// Fits a similarity by least squares. If all true places coincide, fits only the offset.
+/// Fits a similarity transform by least squares. If all true places coincide, fits only the offset.
 Map fit(std::span<const Pair> pairs) {
     constexpr double kMinSpread_mm = 1e-6;
     const auto count = static_cast<double>(pairs.size());
@@ -90,9 +90,9 @@ double near_limit(std::span<const Pair> pairs, const Map& map) {
     return kNear_medians * median_residual(pairs, map) + 1e-9;
 }
 
-/// Fits a similarity to the pairs without outliers. Starts with the map that has the smallest
-/// median residual among the fit to all pairs and the maps through two pairs. Then repeatedly fits
-/// all pairs within the outlier limit.
+/// Fits a similarity transform to the pairs without outliers. Candidates for the initial map are
+/// the fit to all pairs and maps through two pairs. Starts with the candidate that has the smallest
+/// median residual. Then repeatedly fits all pairs within the outlier limit.
 Map fit_most(std::span<const Pair> pairs) {
     constexpr std::size_t kTries = 500;
     constexpr int kRounds = 5;
@@ -202,7 +202,7 @@ Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Simil
         if (frame.truth) result.is_in_world = frame.truth->is_in_world;
         result.errors.push_back(frame.found ? std::optional(error_of(frame, alignment))
                                             : std::nullopt);
-        // A fix without a place in the frame of the true places counts as wrong.
+        // A fix without a place in the coordinate frame of the true places counts as wrong.
         if (frame.status == Status::ok && !frame.found) ++result.wrong;
     }
     mark_wrong(frames, result.errors);

@@ -1,4 +1,4 @@
-// Writes the results of a comparison with measured places: report, errors per frame, figures.
+// Writes the results of a comparison with measured places: report, errors per frame, and figures.
 #include <cmath>
 #include <functional>
 #include <map>
@@ -27,7 +27,7 @@ std::string numbers(const Quantiles& quantiles, int decimals) {
                        number(quantiles.p95, decimals), number(quantiles.max, decimals));
 }
 
-/// The errors of all frames of one station.
+/// Errors of all frames of one station.
 struct Samples {
     Station station;
     std::vector<double> x_mm;

@@ -50,7 +50,7 @@ double Scale::at(double value) const {
 std::vector<double> Scale::ticks(int min_count) const {
     std::vector<double> result;
     if (!is_log) {
-        // `last` may be below `first`, for example for y on a page, which points down.
+        // `last` may be below `first`, for example if y points down as on a page.
         const auto [low, high] = std::minmax(first, last);
         const double step = tick_step(high - low, min_count);
         for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)

@@ -1,4 +1,4 @@
-/// Draws axes with ticks in a rectangle of a drawing, and curves in their coordinates.
+/// Draws axes with ticks in a rectangle of a drawing, and curves in the coordinates of the axes.
 #pragma once
 
 #include <span>
@@ -44,7 +44,8 @@ struct Scale {
     std::vector<double> ticks(int min_count) const;
 };
 
-/// Returns a logarithmic scale from `min` to `max`, extended by at least 10 % to round numbers.
+/// Returns a logarithmic scale that contains `min` and `max` with a margin of at least 10 %. Its
+/// ends are round numbers.
 Scale log_scale(double min, double max);
 
 /// A rectangle with an x axis below and a y axis to the left.

@@ -13,7 +13,7 @@ namespace dotpose::evaluate_detail {
 inline constexpr int kPositionsPerSide = 11;
 inline constexpr int kAngles = 36;
 
-/// Column and row of a position relative to the centre; y points down.
+/// Column and row of a position relative to the centre. y points down.
 struct Step {
     int x = 0;
     int y = 0;

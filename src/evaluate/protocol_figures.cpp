@@ -21,14 +21,15 @@ constexpr double kLeft = 80;
 constexpr double kTop = 150;
 constexpr double kHeight = kTop + kPanel + 150;
 
-/// One page of a figure, with the spread of its stations in the unit of the figure.
+/// One page of a figure: its name, its stations, and the number of decimals of its values.
 struct FigurePage {
     std::string name;
     std::span<const Station> stations;
     int decimals;
 };
 
-/// Selects the spread of a station, in the unit of the figure.
+/// Coordinate that a figure shows. `spread` returns the spread of a station in this coordinate, in
+/// the unit of the figure.
 struct Coordinate {
     int figure;
     const char* name;
@@ -44,7 +45,7 @@ struct Labels {
     bool is_y_up = false;
 };
 
-/// Bounds of the square region of the page in a panel.
+/// Square region of the page that a panel shows.
 struct Extent {
     Vec2 middle_mm;
     double side_mm = 1;
@@ -111,7 +112,7 @@ double mark_radius(double bias, double scale) {
     return std::max(1.2, kMaxMark * std::sqrt(std::abs(bias) / scale));
 }
 
-/// The axes of a page. The y axis has the direction of the coordinates on the page.
+/// Scales of the axes of a page. The y axis has the direction of the y coordinate of the page.
 struct PageScale {
     Scale x;
     Scale y;

@@ -75,7 +75,7 @@ void draw_head(Svg& svg, const Sweep& sweep) {
     legend_entry(svg, {x, 39}, {style::kWindow, false, false, true}, "8 x 8 window (paper)");
 }
 
-/// Marks values with wrong fixes by a red disc and the number of wrong fixes.
+/// Marks values that have wrong fixes with a red disc and the number of wrong fixes.
 void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder) {
     for (const SweepPoint& point : sweep.points) {
         const Score& score = decoder == Decoder::window ? point.window : point.all;

@@ -58,7 +58,7 @@ class TruthReader {
             cells_ = trimmed_cells_of(line);
             if (cells_.size() > 1 || !cells_[0].empty()) return true;
         }
-        // Opening a directory succeeds; reading it fails.
+        // Opening a directory succeeds, but reading from it fails.
         if (!stream_.eof()) throw Error("cannot read " + name_);
         return false;
     }
@@ -130,7 +130,7 @@ class TruthReader {
         return value;
     }
 
-    /// Returns the pose on a sheet or in the world, or none if its cells are empty.
+    /// Returns the pose on a sheet or in the world, or an empty optional if its cells are empty.
     std::optional<TruePlace> place() const {
         TruePlace place;
         place.is_in_world = in_world_;

@@ -82,7 +82,8 @@ Camera camera_of(const YamlMap& file, const std::string& name) {
     return camera;
 }
 
-/// Formats a number with 10 significant digits, a rounding far below any standard deviation.
+/// Formats a number with 10 significant digits. The rounding error is far below any standard
+/// deviation.
 std::string text_of(double value) {
     return fmt::format("{:.10g}", value);
 }

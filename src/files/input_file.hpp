@@ -11,14 +11,14 @@
 
 #include "dotpose/export.hpp"
 
-// Exported, because the tools library uses these functions.
+// These functions are exported because the tools library uses them.
 DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::files {
 
-/// Returns the text of a file or pipe, or none if the file does not exist. Throws Error if the file
-/// cannot be read or has more than `max_bytes` bytes. Reading stops at the limit, because a pipe or
-/// device may be endless.
+/// Returns the text of a file or pipe, or an empty optional if the file does not exist. Throws
+/// Error if the file cannot be read or has more than `max_bytes` bytes. Stops reading at the limit,
+/// because a pipe or device may be endless.
 std::optional<std::string> text_of(const std::filesystem::path& path, std::size_t max_bytes);
 
 /// Reads the next line without its line break. Returns false at the end of the file. Throws Error
@@ -29,7 +29,7 @@ bool next_line(std::istream& stream, std::string& line);
 /// functions do not overflow the stack at this depth.
 inline constexpr int kMaxJsonDepth = 64;
 
-/// Parses JSON. Throws Error, with the position of the fault, if the text is not JSON or is nested
+/// Parses JSON. Throws Error, with the position of the error, if the text is not JSON or is nested
 /// too deeply.
 nlohmann::json parse_json(const std::string& text);
 

@@ -21,15 +21,16 @@ constexpr double kMaxMisfit_px = 0.5;
 constexpr double kMaxPx = 1e6;
 constexpr double kMaxDistortion = 1e3;
 
-/// Returns the list under a key. camera_calibration_parsers writes the key `nested`; printed
-/// messages have the keys `lower` and `upper`.
+/// Returns the list under a key. Files of camera_calibration_parsers have the key `nested`. Printed
+/// messages have the key `lower` or `upper`.
 std::vector<double> coefficients(const YamlMap& file, const char* nested, const char* lower,
                                  const char* upper, std::size_t count) {
     if (file.has(nested)) return file.map(nested).numbers("data", count);
     return file.numbers(file.has(lower) ? lower : file.has(upper) ? upper : nested, count);
 }
 
-/// The model plumb_bob with a divisor (k4 to k6). Some drivers report this model for every camera.
+/// The plumb_bob model extended by a divisor (k4 to k6). Some drivers report this model for every
+/// camera.
 constexpr const char* kRational = "rational_polynomial";
 
 /// Returns the plumb_bob coefficients of a rational polynomial. Throws Error unless the other

@@ -93,8 +93,8 @@ SheetFile::Lock::Lock(const fs::path& path, const SheetFileWait& wait) : path_(p
             close(descriptor_);
             throw;
         }
-        // The previous owner of the lock removes the file at the end. A lock on a removed file has
-        // no effect, so the lock must be taken again on a new file.
+        // The previous owner of the lock removes the lock file when it finishes. A lock on a
+        // removed file has no effect, so the loop takes the lock again on a new file.
         struct stat held {};
         struct stat named {};
         if (fstat(descriptor_, &held) == 0 && stat(path_.c_str(), &named) == 0 &&
@@ -110,7 +110,7 @@ SheetFile::Lock::~Lock() {
     close(descriptor_);
 }
 
-// Symbolic links are resolved first, because all names of a file must use the same lock.
+// Symbolic links are resolved first, because all paths to a file must use the same lock.
 SheetFile::SheetFile(const fs::path& path, const SheetFileWait& wait)
     : path_(without_links(path)), lock_(path_, wait), text_(text_of(path_)) {
     if (text_) sheets_ = files::sheets_from_json(*text_, path_.string());

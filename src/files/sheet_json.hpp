@@ -11,7 +11,7 @@
 namespace dotpose::files {
 
 /// Parses the text of a sheet file. `file` is the name of the file in error messages. Throws Error
-/// as `read_sheets`.
+/// like `read_sheets`.
 std::vector<SheetEntry> sheets_from_json(const std::string& text, const std::string& file);
 
 /// Returns the text of a sheet file. Keeps the unknown keys of `old_text`, a valid sheet file.

@@ -51,7 +51,8 @@ void validate_name(const std::string& name) {
     }
 }
 
-/// Returns the leftmost column at which `columns` columns are free in the given rows, or none.
+/// Returns the leftmost column at which `columns` columns are free in the given rows, or an empty
+/// optional.
 std::optional<std::uint32_t> free_column(const std::vector<SheetEntry>& sheets, Range rows,
                                          int columns) {
     std::vector<Range> taken;

@@ -8,15 +8,15 @@
 namespace dotpose::files {
 
 /// Throws BadArgument if `entry` is invalid, or if one of `sheets` except `ignored` has the same
-/// name or a common cell.
+/// name or a cell in common.
 void check_beside(const SheetEntry& entry, const std::vector<SheetEntry>& sheets,
                   const SheetEntry* ignored = nullptr);
 
-/// Appends `entry` to `sheets`. Throws BadArgument as `check_beside`.
+/// Appends `entry` to `sheets`. Throws BadArgument like `check_beside`.
 void append(const SheetEntry& entry, std::vector<SheetEntry>& sheets);
 
-/// Returns the top left cell of a free region of the given size, chosen as by SheetFile::allocate.
-/// Throws BadArgument if there is no free region.
+/// Returns the top left cell of a free region of the given size, chosen like in
+/// SheetFile::allocate. Throws BadArgument if there is no free region.
 Cell free_origin(const std::vector<SheetEntry>& sheets, int columns, int rows);
 
 }  // namespace dotpose::files

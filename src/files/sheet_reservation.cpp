@@ -59,13 +59,13 @@ SheetReservation::~SheetReservation() {
 }
 
 void SheetReservation::confirm() {
-    // If the removal fails, the entries remain in the file with their mark, and their regions are
-    // not assigned to other sheets.
+    // Without entries, the destructor releases nothing. If this function fails, the entries remain
+    // in the file, marked as reserved, and their regions are not assigned to other sheets.
     const std::vector<SheetEntry> entries = std::move(entries_);
     entries_.clear();
     SheetFile file(path_, wait_);
     for (SheetEntry entry : entries) {
-        // The entry is read again, because a world pose may have been added in the meantime.
+        // Reads the entry again, because a world pose may have been added in the meantime.
         const SheetEntry* now = find(file, entry.name);
         if (now != nullptr && !is_same_region(now->sheet, entry.sheet)) {
             throw Error(

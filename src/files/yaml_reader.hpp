@@ -31,7 +31,7 @@ class YamlMap {
 
     /// Throws Error if the mapping contains a key that is not in `keys`.
     void allow_only(std::initializer_list<const char*> keys) const;
-    /// Throws Error with the names of the file and the key.
+    /// Throws Error with the names of the file and the key, followed by `what`.
     [[noreturn]] void fail(const std::string& key, const std::string& what) const;
 
   private:

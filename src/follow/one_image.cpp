@@ -10,7 +10,7 @@ using namespace follow_detail;
 Located Follower::locate(const GreyImage& image) {
     use_options_for(image.width_px, image.height_px);
     image_ = as_located(image.view());
-    // A camera file requires images of its size, so images are not reduced if there is one.
+    // A camera file requires images of its size, so images are reduced only without a camera file.
     const int by = options_.camera ? 1 : reduction_of(image.width_px, image.height_px);
     if (by > 1) {
         used_ = reduced(used_, image_, by);
@@ -23,8 +23,9 @@ Located Follower::locate(const GreyImage& image) {
     return result;
 }
 
-/// Returns the first fix on a sheet with the code variant of the fix. Otherwise returns the first
-/// fix or, without any fix, the result for the first code variant.
+/// Tries the code variants in turn. Returns the first fix that is on a sheet of its code variant.
+/// If there is none, returns the first fix. Without any fix, returns the result for the first code
+/// variant.
 Follower::Found Follower::read() {
     if (codes_.empty()) {
         const CodeReading reading = locator(used_).locate_in_any_code(image_, evidence_);
@@ -44,7 +45,7 @@ Follower::Found Follower::read() {
         }
     }
     // The trace must belong to the fix. The image is therefore located again in the best variant,
-    // unless this variant was tried last.
+    // unless the best variant was tried last.
     return used_.code == best ? found : read_in(best);
 }
 
@@ -56,9 +57,10 @@ Follower::Found Follower::read_in(CodeVariant code) {
     return by_camera_file(seen, place, reading);
 }
 
-/// If bits contradict a fix on a known sheet, locates the image again after masking the area beside
-/// the dots of the sheet, because labels and the table are not evidence against the fix. Returns
-/// the new fix if fewer bits contradict it and it uses nearly as many dots, otherwise `fix`.
+/// If bits contradict a fix on a known sheet, masks the area beside the dots of the sheet and
+/// locates the image again. Labels and the table in this area are not evidence against the fix.
+/// Returns the new fix if fewer bits contradict it and it uses nearly as many dots. Otherwise
+/// returns `fix`.
 Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
     if (fix.bit_errors == 0) return fix;
     const auto cut = cut_to_dots(image_, used_, fix, place.entry->sheet);
@@ -74,7 +76,7 @@ Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
         return fix;
     }
     if (again.attempt == Attempt::tracked) again.attempt = fix.attempt;
-    // The bound of the first fix is kept, because it includes all codes.
+    // Keeps the bound of the first fix, because this bound takes all codes into account.
     again.p_wrong_log2 = fix.p_wrong_log2;
     return again;
 }

@@ -53,8 +53,8 @@ std::uint8_t brightness_of(ImageView image) {
     return static_cast<std::uint8_t>(grey);
 }
 
-/// Returns the image with all pixels outside `region` set to the grey level of the paper, or none
-/// if `region` contains all corners of the image.
+/// Returns the image with all pixels outside `region` set to the grey level of the paper. Returns
+/// an empty optional if `region` contains all corners of the image.
 template <typename Region>
 std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
     const int right = image.width_px - 1;
@@ -74,7 +74,7 @@ std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
     return cut;
 }
 
-/// Maps pixels to the cells of a sheet, with the map of the fix.
+/// Maps pixels to the cells of a sheet, using the map of the fix.
 class PixelsAmongDots {
   public:
     PixelsAmongDots(ImageView image, const DeviceOptions& options, const Fix& fix,
@@ -109,8 +109,7 @@ class PixelsAmongDots {
 
   private:
     /// Returns the signed distance from a cell to the edge of the region, in cells, in the shorter
-    /// direction around the cyclic plane. The edge is half a cell before the first cell of the
-    /// region.
+    /// direction on the cyclic plane. The edge is half a cell before the first cell of the region.
     static double cells(std::uint32_t from, std::uint32_t first) {
         return std::remainder(double(first) - double(from), kPositionsPerAxis) - 0.5;
     }

@@ -16,8 +16,8 @@ int reduction_of(int width_px, int height_px);
 /// pixels at the right and bottom edges are dropped.
 GreyImage reduced(ImageView image, int by);
 
-/// Converts options for `image` to options for the image reduced by `by`. Lens and reference point
-/// refer to the same points of the scene.
+/// Converts options for `image` to options for the image reduced by `by`. The distortion centre and
+/// the reference point remain at the same points of the scene.
 DeviceOptions reduced(const DeviceOptions& options, ImageView image, int by);
 
 /// Converts the fix of an image reduced by `by` to pixels of the original image.

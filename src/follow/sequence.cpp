@@ -28,8 +28,8 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     Found found = find(options_.track.max_p_wrong_log2, predict(time_us));
     const Fix strict = found.fix;
     if (strict.status == Status::not_certain && tracker_.has_prior()) {
-        // The image is located without a prediction. The tracker then applies its prior to the
-        // result, which must not already depend on the prior.
+        // Locates the image without a prediction. The tracker then applies its prior to the result,
+        // which must not already depend on the prior.
         found = find(options_.track.max_weak_p_wrong_log2, {});
     }
     const auto sighting = sighting_of(found, time_us);
@@ -66,8 +66,9 @@ std::optional<Prediction> Follower::predict(std::int64_t time_us) const {
     return tracker_.predict(time_us, seen_->fix, *seen_->sighting, used_);
 }
 
-/// Returns the first fix on a sheet with the code variant of the fix. Otherwise returns the first
-/// fix or, without any fix, the result for the last code variant.
+/// Tries the code variants in turn. Returns the first fix that is on a sheet of its code variant.
+/// If there is none, returns the first fix. Without any fix, returns the result for the last code
+/// variant.
 Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Prediction>& expected) {
     used_.integrity.max_p_wrong_log2 = max_p_wrong_log2;
     if (codes_.empty()) return look_in_any_code(expected);
@@ -85,15 +86,16 @@ Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Predict
 
 Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
                                const std::optional<Prediction>& expected) {
-    // The given code may be wrong. Without a prediction, the other codes are therefore tried as
-    // well, which allows a warning.
+    // The given code may be wrong. Without a prediction, the other codes are therefore also tried,
+    // to warn if another code is in view.
     if (!expected && options_.sheets.empty()) {
         const CodeReading reading = locator(options).locate_in_code(image);
         return by_camera_file(reading.fix, {}, reading);
     }
     Fix fix = expected ? locator(options).locate(image, *expected) : locator(options).locate(image);
     auto place = find_sheet(options_.sheets, options.code, fix);
-    // The image centre of a tracked image that has left the page may be on another page.
+    // If the image centre of a tracked image has left the page, it may be on another page.
+    // Therefore the image is located again without the prediction.
     if (fix.status == Status::ok && fix.attempt == Attempt::tracked && !place &&
         !options_.sheets.empty()) {
         fix = locator(options).locate(image);
@@ -115,7 +117,7 @@ Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expe
 Follower::Found Follower::without_neighbours(const Found& found) {
     Found guess = found;
     if (found.seen.status == Status::not_certain) {
-        // If the image shows two patterns, a fix on the clearer pattern suffices here, because this
+        // If the image shows two patterns, a fix on the clearer pattern is sufficient, because this
         // fix only determines the edge of the page.
         DeviceOptions any = used_;
         any.integrity = {.max_p_wrong_log2 = 0, .max_bit_error_q8 = 128};

@@ -50,7 +50,7 @@ struct BmpHeader {
         masks;  ///< bits of red, green, blue and opacity, with 16 or 32 bits per pixel; 0 if none
 };
 
-/// Reads an unsigned little-endian integer; `bytes` must be long enough.
+/// Reads an unsigned little-endian integer. `bytes` must be long enough.
 std::uint32_t integer(Bytes bytes, std::size_t offset, std::size_t size) {
     std::uint32_t value = 0;
     for (std::size_t i = size; i > 0; --i)

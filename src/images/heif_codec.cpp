@@ -84,7 +84,7 @@ class HeifReader {
         return to_grey(std::move(samples));
     }
 
-    /// Returns the EXIF data, starting at their TIFF header; empty if there are none.
+    /// Returns the EXIF data, starting at the TIFF header, or an empty vector if there are none.
     std::vector<std::uint8_t> exif() const {
         heif_item_id id = 0;
         if (heif_image_handle_get_list_of_metadata_block_IDs(handle_.get(), "Exif", &id, 1) == 0)

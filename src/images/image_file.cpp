@@ -59,7 +59,8 @@ struct Content {
     Bytes bytes;
 };
 
-/// Returns advice for a known type of file that is not an image, or an empty string.
+/// Returns advice for the user if the file is not an image but has a known type. Otherwise returns
+/// an empty string.
 std::string advice_for(const Bytes& bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with("%PDF"))
@@ -144,7 +145,8 @@ void require_page(const Content& content, int page) {
                 ", and no page " + std::to_string(page));
 }
 
-/// Returns true for default resolutions of cameras and programs, which do not describe the page.
+/// Returns true for 72 and 96 dpi, the defaults of cameras and programs. These values do not
+/// describe the page.
 bool is_of_screen(const Resolution& resolution) {
     // PNG and BMP store whole pixels per metre, so the comparison needs a tolerance.
     const auto is = [&](double dpi) {

@@ -1,5 +1,5 @@
 /// The formats of image files: how a file is recognized and decoded. image_file.hpp describes the
-/// conversions and limits. These functions throw Error with only the reason; the caller adds the
+/// conversions and limits. These functions throw Error with only the reason. The caller adds the
 /// name of the file.
 #pragma once
 
@@ -28,19 +28,19 @@ struct ImageInput {
 struct ImageFormat {
     /// Returns true if `head`, the first bytes of a file, is the signature of this format.
     bool (*matches)(std::string_view head);
-    /// Decodes an image. `note` is set as in `read_image`, without the name of the file.
+    /// Decodes an image. Sets `note` like `read_image`, but without the name of the file.
     GreyImage (*decode)(const ImageInput& input, std::string& note);
     /// Returns the origin and the resolution in the file, without decoding the pixels. The
     /// resolution may be a default of the program that wrote the file.
     ImageOrigin (*origin)(const ImageInput& input);
-    /// Returns the number of pages; null for formats with one page.
+    /// Returns the number of pages. Null for formats with a single page.
     int (*count_pages)(Bytes file) = nullptr;
 };
 
 /// Number of bytes at the beginning of a file that identify its format.
 inline constexpr std::size_t kMagicBytes = 12;
 
-/// Detects the format from the first bytes of a file. Returns null for unknown bytes.
+/// Detects the format from the first bytes of a file. Returns null for unknown formats.
 const ImageFormat* format_of(Bytes head);
 
 /// A known format that this build cannot read.
@@ -53,7 +53,7 @@ struct OtherFormat {
 /// for other files.
 const OtherFormat* other_format_of(Bytes head);
 
-// One source for each format.
+// Each format is implemented in its own source file.
 GreyImage decode_bmp(const ImageInput& input, std::string& note);
 ImageOrigin bmp_origin(const ImageInput& input);
 GreyImage decode_heif(const ImageInput& input, std::string& note);
@@ -69,7 +69,8 @@ int tiff_pages(Bytes file);
 GreyImage decode_webp(const ImageInput& input, std::string& note);
 ImageOrigin webp_origin(const ImageInput& input);
 
-/// Encodes an image, which must not be empty, as grey JPEG with a quality of 95, or as binary PGM.
+/// Encode an image as grey JPEG with a quality of 95, or as binary PGM. The image must not be
+/// empty.
 std::vector<std::uint8_t> encode_jpeg(ImageView image);
 std::vector<std::uint8_t> encode_pgm(ImageView image);
 
@@ -79,8 +80,8 @@ void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixel
 inline constexpr double kMetresPerInch = 0.0254;
 inline constexpr double kCentimetresPerInch = 2.54;
 
-/// Converts a resolution to dots per inch. Returns none for values of 0 or less, which mean an
-/// unknown resolution.
+/// Converts a resolution to dots per inch. Returns an empty optional for values of 0 or less, which
+/// mean that the resolution is unknown.
 std::optional<Resolution> resolution_from(double x, double y, double units_per_inch);
 
 /// EXIF tags of cameras, which scanners do not write: exposure time, f-number, sensitivity, focal

@@ -22,9 +22,9 @@ constexpr int kExifMarker = JPEG_APP0 + 1;
 // pixels, so without a limit a small file could occupy the decoder for hours.
 constexpr int kMaxScans = 100;
 
-/// Collects the messages of libjpeg. Its error handler must not return, so it jumps to `leave`.
-/// Each call that may fail is therefore preceded by setjmp(leave), and no objects with destructors
-/// may be created in between.
+/// Collects the messages of libjpeg. The error handler must not return to libjpeg, so it jumps to
+/// `leave`. Each call that may fail is therefore preceded by setjmp(leave), and no objects with
+/// destructors may be created in between.
 struct Report : jpeg_error_mgr {
     std::jmp_buf leave;
     std::array<char, JMSG_LENGTH_MAX> message{};
@@ -109,7 +109,7 @@ class JpegReader {
                                jpeg_.density_unit == kPerCentimetre ? kCentimetresPerInch : 1);
     }
 
-    /// Returns the EXIF data; empty if there are none.
+    /// Returns the EXIF data, or an empty span if there are none.
     Bytes exif() const {
         constexpr std::string_view kName = "Exif";
         for (auto* marker = jpeg_.marker_list; marker != nullptr; marker = marker->next) {

@@ -31,7 +31,7 @@ class PngReader {
         if (info_ == nullptr) throw std::bad_alloc();
         png_set_read_fn(png_, this, on_read);
         guarded([&] {
-            // Raises the limits of libpng, so that `require_size` can report the size.
+            // Raises the limits of libpng to let `require_size` report the size.
             png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
             png_read_info(png_, info_);
         });
@@ -46,7 +46,7 @@ class PngReader {
         return resolution_from(x_per_metre, y_per_metre, kMetresPerInch);
     }
 
-    /// Returns the EXIF data before the pixels; empty if there are none.
+    /// Returns the EXIF data before the pixels, or an empty span if there are none.
     Bytes exif() const {
         png_uint_32 size_bytes = 0;
         png_bytep bytes = nullptr;

@@ -46,8 +46,8 @@ class Reader {
         return character;
     }
 
-    /// Reads a decimal number and the required white space after it. Without white space, digits of
-    /// the number may be missing.
+    /// Reads a decimal number and the required white space after it. A number without white space
+    /// after it may be incomplete.
     std::uint32_t number() {
         std::uint32_t value = 0;
         char character = symbol();
@@ -63,7 +63,7 @@ class Reader {
     }
 
     /// Skips the line feed at the end of a header whose lines end with a carriage return and a line
-    /// feed. In this case, one byte more than `pixel_bytes` is left.
+    /// feed. The line feed is present if more than `pixel_bytes` bytes are left.
     void finish_line_break(std::size_t pixel_bytes) {
         if (ended_by_return_ && rest_.size() > pixel_bytes && rest_.front() == '\n') byte();
     }

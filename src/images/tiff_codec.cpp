@@ -150,8 +150,8 @@ class TiffReader {
 
     int colours() const { return tag(TIFFTAG_PHOTOMETRIC) == PHOTOMETRIC_RGB ? 3 : 1; }
 
-    /// Returns true if the samples are interleaved grey or RGB with 8 or 16 bits. Other formats are
-    /// converted to 8-bit RGB by libtiff.
+    /// Returns true if the samples are interleaved grey or RGB samples of 8 or 16 bits. libtiff
+    /// converts other formats to 8-bit RGB.
     bool has_plain_samples() const {
         const std::uint16_t bits = tag(TIFFTAG_BITSPERSAMPLE);
         std::uint16_t photometric = PHOTOMETRIC_PALETTE;
@@ -238,8 +238,8 @@ class TiffReader {
         return samples;
     }
 
-    /// Reads formats that libtiff converts: palettes, fewer than 8 bits, fax, YCbCr, CMYK and
-    /// planes.
+    /// Reads the formats that libtiff converts: palettes, fewer than 8 bits, fax compression,
+    /// YCbCr, CMYK and separate planes.
     GreyImage read_rgba() {
         std::array<char, 1024> reason{};
         TIFFRGBAImage image{};

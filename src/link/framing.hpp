@@ -1,6 +1,6 @@
 // Encodes a fixed number of arbitrary bytes as bytes without zeros, protected by a CRC. The CRC
-// covers the encoded bytes, not the plain bytes, because an error in a code byte of COBS shifts all
-// following bytes, which a CRC of the plain bytes would not always detect.
+// covers the encoded bytes, not the plain bytes. An error in a code byte of COBS shifts all
+// following bytes, and a CRC of the plain bytes would not always detect this error.
 #pragma once
 
 #include <array>

@@ -20,8 +20,8 @@ bool is_near(std::uint32_t a, std::uint32_t b) {
     return std::min(apart, kPositionsPerAxis - apart) < kSamePlace_cells;
 }
 
-/// Returns all log odds minus those of the likeliest code, clamped to at least -`max_log2` bits.
-/// Log odds are log2 in units of 2^-8 bits.
+/// Returns all log odds minus the log odds of the likeliest code, clamped to at least -`max_log2`
+/// bits. Log odds are log2 in units of 2^-8 bits.
 CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int32_t max_log2) {
     const std::int32_t likeliest = *std::max_element(log2_q8.begin(), log2_q8.end());
     for (std::int32_t& log2 : log2_q8)

@@ -246,7 +246,7 @@ void write_fix(const ImageView& image, const DeviceOptions& options, const Hypot
 
 /// Returns true if the fitted plane differs from the plane before the fit by more than kFar
 /// spacings along either axis, at a corner of the part of the image within `reach_px` of the image
-/// centre. The small centroid windows then missed a part of the offsets.
+/// centre. In this case, the small centroid windows did not capture the full offsets.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
@@ -307,7 +307,7 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane) {
 namespace {
 
 /// Corrects biases, tests for uneven paper, and writes the fix. Returns implausible if the fitted
-/// plane is not plausible, and uncertain if the fit explains the frame badly.
+/// plane is not plausible, and uncertain if the fit does not explain the frame well.
 Confirmation finish(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                     const DotReader& reader, const CellsInView& view, const BitsRead& bits,
                     Hypothesis& hypothesis, PoseFit& fit, DesktopWorkspace& w) {
@@ -353,8 +353,8 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
             return Confirmation::implausible;
         if (!is_clean(bits)) {
             if (hypothesis.is_exact) return Confirmation::implausible;
-            // In the deciding round, reads the bits again through a plane that is fitted to all
-            // dots, which reduces the number of misread bits.
+            // In the deciding round, reads the bits again with a plane that is fitted to all dots.
+            // This plane reduces the number of misread bits.
             if (decides && !fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
                 return Confirmation::implausible;
             if (decides) bits = reader.read_again(hypothesis, block);
@@ -393,7 +393,7 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Devic
             return Confirmation::ok;
         hypothesis.is_exact = false;
         if (codes != nullptr)
-            *codes = before;  // a rejected attempt gives no evidence about other codes
+            *codes = before;  // a rejected attempt provides no evidence about other codes
     }
     return measure_and_compare(kernels, image, options, hypothesis, w);
 }

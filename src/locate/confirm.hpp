@@ -18,7 +18,8 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane);
 /// Result of `confirm`.
 enum class Confirmation : std::uint8_t {
     ok,
-    implausible,  ///< the plane, the dots or their bits do not fit the hypothesis
+    implausible,  ///< the plane is not plausible, or the dots or their bits contradict the
+                  ///< hypothesis
     uncertain,    ///< the hypothesis is plausible, but its position is not certain
 };
 

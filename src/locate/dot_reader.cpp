@@ -13,8 +13,9 @@ namespace {
 
 namespace tuned = tuning::confirm;
 
-/// Prefetches the pixels in view if they have kMinFetched_bytes to kMaxFetched_bytes. A new camera
-/// image is not in the cache, and the order in which dots are read defeats hardware prefetching.
+/// Prefetches the pixels in view if their size is kMinFetched_bytes to kMaxFetched_bytes. A new
+/// camera image is not in the cache, and the order in which dots are read defeats hardware
+/// prefetching.
 void fetch_pixels(const ImageView& image, const CellsInView& view) {
     constexpr std::ptrdiff_t kLine_bytes = 64;
     const auto range = [&](float centre, int size_px) {
@@ -34,7 +35,7 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
     }
 }
 
-/// Drops windows that are much darker than paper. Such windows are on the table beyond the sheet,
+/// Drops windows that are much darker than paper. These windows are on the table beyond the sheet,
 /// where noise is as dark as dots. `paper` is the mean level around dots. The first call, with
 /// `paper` = 0, sets this level and drops no windows.
 void drop_table(MeasuredDots& dots, float& paper) {
@@ -129,7 +130,8 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
         FloatPlane& plane = hypothesis.pattern_from_image;
         const auto points = static_cast<float>(found.points);
         bits.right = found.points;
-        // The plane converts the offsets from px to spacings. The offsets change the displacement.
+        // Converts the offsets from px to spacings with the plane, and adds them to the
+        // displacement.
         bits.projected = points * hypothesis.displacement + plane.du_x * found.of_x[0] +
                          plane.dv_x * found.of_x[1] + plane.du_y * found.of_y[0] +
                          plane.dv_y * found.of_y[1];

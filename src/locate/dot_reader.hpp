@@ -8,15 +8,15 @@
 
 namespace dotpose::core {
 
-/// Returns true if the dots of a predicted hypothesis can be sampled directly. Each bit is then
-/// read from one sample at each of the four places of the cell, and each centre is measured in a
-/// small centroid window.
+/// Returns true if the dots of a predicted hypothesis can be sampled directly. Direct sampling
+/// reads the bits of a cell from one sample at each of its four places, and measures each centre in
+/// a small centroid window.
 bool can_sample_directly(const Hypothesis& hypothesis);
 
 /// Returns true if the pixel bias matters. This is the case if all dots of a row or of a column
 /// have nearly the same sub-pixel phase, so the bias does not average out, and if the other errors
-/// of the dots are small. `variance_px2` is the variance of the mean of all centres along one axis,
-/// `side_px` the longer side of the image.
+/// of the dots are small. `variance_px2` is the variance of the mean of all centres along one axis.
+/// `side_px` is the longer side of the image.
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px);
 
 /// Reads and measures the listed dots. Samples at the four places of each cell if the hypothesis is
@@ -29,23 +29,23 @@ class DotReader {
     /// Reads the bits of the listed dots. If `block` is not null, stores the bits in this block,
     /// which must be empty. Sets `typical_mass` of the hypothesis, unless the hypothesis is exact.
     BitsRead read(const CellsInView& view, Hypothesis& hypothesis, BitBlock* block);
-    /// Reads the bits of the measured dots again, through the new plane of the hypothesis.
-    /// Overwrites the block.
+    /// Reads the bits of the measured dots again, with the new plane of the hypothesis. Overwrites
+    /// the block.
     BitsRead read_again(const Hypothesis& hypothesis, BitBlock& block) const;
     /// Measures the centres of the dots in centroid windows. If the hypothesis is exact, moves its
-    /// plane to the centres and updates the displacement and the residuals in `bits`. `bits.right`
-    /// is then the number of dots found, or 0 if fewer than kMinFound dots are found. If the
-    /// hypothesis is not exact, measures the centres only if `is_last` is true.
+    /// plane to the centres and updates the displacement and the residuals in `bits`. Also sets
+    /// `bits.right` to the number of dots found, or to 0 if fewer than kMinFound dots are found. If
+    /// the hypothesis is not exact, measures the centres only if `is_last` is true.
     void find_centres(const CellsInView& view, Hypothesis& hypothesis, bool is_last,
                       BitsRead& bits) const;
     /// If the pixel bias matters (see `may_be_biased`), measures the centres again and subtracts
     /// the bias. The plane must have been fitted to the current centres, and must be fitted again
-    /// afterwards. Sets the remaining variance of the mean of the centres, in px^2. Returns false,
-    /// without a change, if the bias does not matter.
+    /// afterwards. Sets the remaining variance of the mean of the centres, in px^2. Returns false
+    /// without any change if the bias does not matter.
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
     /// Corrects the bias of facing dots if the centroid windows reach the neighbouring dot. The
-    /// plane must be fitted again afterwards. Returns false, without a change, if there is no such
+    /// plane must be fitted again afterwards. Returns false without any change if there is no such
     /// bias.
     bool correct_neighbour_bias(const Hypothesis& hypothesis, const PoseFit& fit) const;
     const MeasuredDots& dots() const { return dots_; }

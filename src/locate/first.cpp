@@ -23,7 +23,7 @@ namespace tuned = tuning::first;
 constexpr int kPatchWidth_px = tuned::kPatchWidth_px;
 constexpr int kPatchHeight_px = tuned::kPatchHeight_px;
 
-/// Moves the dots to their places in a camera without distortion.
+/// Moves the dots to their undistorted image points.
 void undistort(const FixedLens& lens, FloatVec middle, PatchDots& dots) {
     const FloatLens l = float_lens(lens);
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
@@ -48,8 +48,8 @@ bool place_patch(const ImageView& image, FixedVec around_px, int scale, DesktopW
                        kPatchHeight_px * scale, scale, *w.patch);
 }
 
-/// Finds the dots of the patch, and sets the status that remains if no patch contains a grid.
-/// Returns false, without setting the status, if the patch has no contrast.
+/// Finds the dots of the patch, and sets the status of the fix for the case that no patch contains
+/// a grid. Returns false, without setting the status, if the patch has no contrast.
 bool find_patch_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -121,8 +121,8 @@ bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const
 }
 
 /// Sets `is_mirrored` of the workspace if the dots of a patch around the image centre show the
-/// mirrored code. The code counts as mirrored only if adjacent lines have no wrong bits. Leaves the
-/// dots of the patch mirrored.
+/// mirrored code. The code counts as mirrored only if adjacent lines have no wrong bits. Mirrors
+/// the dots of the patch and does not restore them.
 void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, DesktopWorkspace& w) {
     if (w.is_mirrored) return;
     Patch& patch = *w.patch;
@@ -138,9 +138,9 @@ void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, Des
         find_place_exactly(options.code, turned(likeliest_turn(kernels, block), block), place);
 }
 
-/// Returns true if the grid of the patch predicts all dots of the image to a fraction of a pixel.
-/// This is the case if the patch is the whole image, because the grid was then fitted to all dots,
-/// and if the spacing is at least kMinSpacingForPrediction_px.
+/// Returns true if the grid of the patch predicts all dots of the image to within a fraction of a
+/// pixel. The patch must be the whole image, so the grid was fitted to all dots, and the spacing
+/// must be at least kMinSpacingForPrediction_px.
 bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px &&
            spacing_px(plane) >= tuned::kMinSpacingForPrediction_px;
@@ -165,7 +165,7 @@ Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
     return confirm(kernels, image, options, hypothesis, w);
 }
 
-/// Searches the patch at the image centre for a square grid. If this search gives no plausible
+/// Searches the patch at the image centre for a square grid. If this search yields no plausible
 /// hypothesis, searches the patch for a grid of any parallelograms, because a rolling shutter
 /// shears and stretches the image of a moving scene.
 Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
@@ -179,7 +179,7 @@ Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
 }
 
 /// Finds a hypothesis in a patch around a point of the image, in px. Sets `densest_px`, the origin
-/// of the hypothesis, to the point where the dots are densest. Returns false if the patch gives no
+/// of the hypothesis, to the point where the dots are densest. Returns false if the patch yields no
 /// hypothesis. Leaves `densest_px` unchanged if the patch is too small, or has no contrast or too
 /// few dots.
 bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
@@ -211,7 +211,7 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
     return false;
 }
 
-/// Searches a patch around a point of the image. If the patch gives no hypothesis, and its dots are
+/// Searches a patch around a point of the image. If the patch yields no hypothesis and its dots are
 /// densest far from its middle, also searches a patch around the densest point. `tries_left` is the
 /// number of hypotheses that may still turn out to be uncertain before the search ends. Each
 /// uncertain hypothesis increases the probability of a wrong fix.

@@ -10,7 +10,7 @@
 namespace dotpose::core {
 
 /// Finds the grid in a part of the image, then measures the dots of the whole image. Returns true
-/// if a fix was found. The workspace then contains the fix, and otherwise one of the statuses
+/// if a fix was found. Stores the fix in the workspace or, if there is none, one of the statuses
 /// no_contrast, too_few_dots, no_grid and not_certain.
 bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                   DesktopWorkspace& w);

@@ -1,5 +1,5 @@
-// Hypothesis: a plane and a place in the code that an attempt tries, and the cells in view for this
-// hypothesis.
+// Hypothesis: a plane and a place in the code that an attempt tests. Also determines the cells in
+// view for a hypothesis.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -10,21 +10,22 @@
 
 namespace dotpose::core {
 
-/// A plane and a place that an attempt tries before the bits confirm them.
+/// A plane and a place that the bits have not confirmed yet.
 struct Hypothesis {
     FloatPlane pattern_from_image;  ///< upright pattern; px relative to `from_centre`
     FloatVec from_centre;           ///< origin of the plane, in px relative to the image centre
     Place place;                    ///< place of cell (0, 0) of the plane
     float displacement = 0;     ///< distance of a typical dot from its intersection, in spacings
     bool is_certain = false;    ///< true if the place needs no confirmation
-    bool is_predicted = false;  ///< true if the plane predicts each dot to a fraction of a pixel
+    bool is_predicted = false;  ///< true if the plane predicts each dot to within a fraction of a
+                                ///< pixel
     /// True if each dot is closer to its predicted place than to any other place of its cell. In
     /// this case, the dots are sampled directly.
     bool is_exact = false;
     /// True if the pattern may cover only a part of the image, around `from_centre`.
     bool is_partial_view = false;
-    /// Contrast of a typical dot in the image smoothed by 1-2-1 along both axes, in 1/256 of the
-    /// paper level.
+    /// Contrast of a typical dot in the image smoothed with a 1-2-1 filter along both axes, in
+    /// 1/256 of the paper level.
     int depth_q8 = 0;
     /// Mass of a typical dot: the darkness beyond the threshold, relative to the paper level,
     /// summed over the pixels of the dot. 0 if the mass is not known yet.
@@ -32,7 +33,7 @@ struct Hypothesis {
 };
 
 /// Threshold of windows, in 1/256 of the contrast of a typical dot. A pixel belongs to a dot if its
-/// contrast to the paper exceeds the threshold.
+/// contrast with the paper exceeds the threshold.
 inline constexpr int kCutOfDepth_q8 = 160;
 
 /// Returns the centre of an image, in px relative to its first pixel.

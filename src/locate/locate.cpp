@@ -1,5 +1,5 @@
-// Selects the attempts for a frame on a desktop and the codes in which the attempts are made, and
-// decides when a fix is accepted.
+// Selects the attempts for a frame on a desktop, and the codes in which these attempts are made.
+// Decides whether a fix is accepted.
 //
 //   tracked    measures the dots where a prediction expects them    locate/tracked.hpp
 //   first      finds the grid in a part of the image                locate/first.hpp
@@ -57,7 +57,7 @@ class Cascade {
           w_(w),
           second_(image, w) {}
 
-    /// Returns the fix. The workspace then contains the results that belong to this fix.
+    /// Returns the fix. On return, the workspace contains the results for this fix.
     CodeReading locate(const Prediction* prediction) {
         if (options_.effort == Effort::device) return make({Step::device});
         prediction_ = prediction;
@@ -115,22 +115,22 @@ class Cascade {
     }
 
     /// Returns the codes in which a step is tried, the likeliest code first. If several codes are
-    /// possible, `resampled` is tried only in the code in which the result of `second` was not
-    /// certain and had the fewest bit errors, if any.
+    /// possible, `resampled` is tried in at most one code: among the codes in which the result of
+    /// `second` was not certain, the code with the fewest bit errors.
     std::span<const CodeVariant> worth_trying(Step step) const {
         if (step == Step::resampled && !codes_.is_known())
             return {&worth_resampling_, min_errors_ == kMaxErrors ? 0U : 1U};
         return codes_.in_order();
     }
 
-    /// Runs one step in one code. Returns true if there is a fix. The workspace then contains the
-    /// fix and the odds of the other codes.
+    /// Runs one step in one code. Returns true if there is a fix. In this case, the workspace
+    /// contains the fix and the odds of the other codes.
     bool attempt(Step step, CodeVariant code) {
         options_.code = code;
         OtherCodes& others = w_.other_codes;
         others.of = {};
-        // All codes have the same number of hypotheses that do not depend on the place read. With
-        // several possible codes, these hypotheses are counted once for each code.
+        // Every code has the same number of hypotheses that do not depend on the decoded place. If
+        // several codes are possible, these hypotheses are counted once for each code.
         if (!codes_.is_known()) others.log2_in_question_q8 = log2_of_odds_q8(codes_.number(code));
         switch (step) {
             case Step::tracked:
@@ -235,13 +235,13 @@ class Cascade {
     int min_errors_ = kMaxErrors;
 };
 
-/// Locates a frame with valid arguments.
+/// Locates a frame. The arguments must be valid.
 CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
                            const Prediction* prediction, const PossibleCodes& codes,
                            const CodeEvidence& evidence, DesktopWorkspace& w) {
     w.is_mirrored = false;
     CodeReading reading = Cascade(image, options, codes, evidence, w).locate(prediction);
-    // An earlier attempt may have found the mirrored code. A later attempt may then have failed for
+    // An earlier attempt may have found the mirrored code, and a later attempt may have failed for
     // another reason.
     if (reading.fix.status != Status::ok && w.is_mirrored)
         reading.fix.status = w.fix.status = Status::mirrored;

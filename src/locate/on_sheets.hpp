@@ -24,9 +24,9 @@ std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const Dev
 bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                           const BitBlock& block, const KnownSheets& known, Fix& fix);
 
-/// Finds the position of the grid on the known sheets. Returns true if the position is certain
-/// there, and then sets the decoding and `prior` of the fix. If any position is found, sets
-/// `bit_errors` and `p_wrong_log2` of the fix.
+/// Finds the position of the grid on the known sheets. If any position is found, sets `bit_errors`
+/// and `p_wrong_log2` of the fix. If this position is certain, also sets the decoding and `prior`
+/// of the fix, and returns true.
 bool read_on_sheets(const DeviceOptions& options, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

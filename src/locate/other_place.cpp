@@ -22,7 +22,7 @@ struct Line {
     int roll;
 };
 
-/// Returns the line at the same position as the line read, with its roll in the other code.
+/// Returns the line at the same position as the decoded line, with its roll in the other code.
 Line here(CodeVariant read, CodeVariant other, std::uint32_t position, int roll_read) {
     return {position, roll_read + roll(other, position) - roll(read, position)};
 }

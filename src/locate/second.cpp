@@ -87,8 +87,8 @@ Status read_position(const DeviceOptions& options, DesktopWorkspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Reads the bits again through a grid that is fitted to the dots of the doubtful position. If the
-/// position is correct, more bits are then clear.
+/// Reads the bits again with a grid that is fitted to the dots of the doubtful position. If the
+/// position is correct, the new grid makes more bits clear.
 Status resample(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     PoseFit fit;
     if (!fit_pattern(options, image, w, fit)) return Status::not_certain;
@@ -98,7 +98,7 @@ Status resample(const ImageView& image, const DeviceOptions& options, DesktopWor
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }
 
-/// If the pixel bias matters, measures the dots again as the first attempt does, to correct the
+/// If the pixel bias matters, measures the dots again as the first attempt does, which corrects the
 /// bias.
 void measure_again_if_biased(const ImageView& image, const DeviceOptions& options,
                              DesktopWorkspace& w) {

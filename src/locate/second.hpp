@@ -9,24 +9,25 @@
 namespace dotpose::core {
 
 /// Runs second attempts on one image in several codes. The filtered image, its dots and its grid do
-/// not depend on the code. They are computed once, and again only after an attempt has overwritten
-/// them.
+/// not depend on the code. They are computed once, and computed again only after an attempt has
+/// overwritten them.
 class SecondAttempt {
   public:
     enum class Resampling : std::uint8_t { never, if_doubtful };
 
     SecondAttempt(const ImageView& image, DesktopWorkspace& w) : image_(image), w_(w) {}
 
-    /// Locates the image in the code of the options. Returns true if there is a fix. The workspace
-    /// then contains the fix, and otherwise the status. With `Resampling::if_doubtful`, if the
-    /// position is not certain, reads it again through a grid that is fitted to its dots.
+    /// Locates the image in the code of the options. Returns true if there is a fix. Stores the fix
+    /// in the workspace or, if there is none, the status. With `Resampling::if_doubtful`, a
+    /// position that is not certain is read again with a grid that is fitted to its dots.
     bool read(const DeviceOptions& options, Resampling resampling);
 
   private:
     const ImageView& image_;
     DesktopWorkspace& w_;
     bool is_seen_ = false;  ///< true if the workspace contains dots and cells of the filtered image
-    Fix seen_;              ///< the fix after the bits were read and before they were decoded
+    Fix seen_;              ///< copy of the fix, made after the bits were read and before they were
+                            ///< decoded
 };
 
 }  // namespace dotpose::core

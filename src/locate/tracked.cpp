@@ -47,7 +47,7 @@ int max_shift_px(const Prediction& prediction, float spacing_px) {
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
-/// Corrects the plane by the centroids of the listed dots. Returns false unless at least kMinNear
+/// Corrects the plane with the centroids of the listed dots. Returns false unless at least kMinNear
 /// dots, and at least three quarters of the listed dots, have offsets of at most kMaxOffset_px.
 bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsInView view,
                           FloatPlane& plane, MeasuredDots& dots) {
@@ -70,7 +70,7 @@ bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsI
     return true;
 }
 
-/// Corrects the hypothesis by the dots near its `from_centre`. Returns false if the dots are not
+/// Corrects the hypothesis with the dots near its `from_centre`. Returns false if the dots are not
 /// found.
 bool correct_by_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
@@ -111,7 +111,7 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Devic
            fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kSecondOff, plane);
 }
 
-/// Corrects the hypothesis by the dots near the point `from`, in px relative to the image centre.
+/// Corrects the hypothesis with the dots near the point `from`, in px relative to the image centre.
 /// Returns false if the dots are not found.
 bool correct(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
              FloatVec from, int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
@@ -155,8 +155,8 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Im
     return hypothesis;
 }
 
-/// For several points of the image in turn, corrects the hypothesis by the dots near the point,
-/// until the bits confirm a corrected hypothesis. Returns false if none is confirmed.
+/// Corrects the hypothesis with the dots near one point of the image after another, until the bits
+/// confirm a corrected hypothesis. Returns false if no corrected hypothesis is confirmed.
 bool confirm_corrected(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                        const Hypothesis& hypothesis, int max_px, DesktopWorkspace& w) {
     for (const FloatVec fraction : tuned::kPoints) {

@@ -9,8 +9,8 @@
 
 namespace dotpose::core {
 
-/// Measures the dots at their predicted places. Returns true if their bits confirm the prediction.
-/// The workspace then contains the fix.
+/// Measures the dots at their predicted places. Returns true, and sets the fix of the workspace, if
+/// their bits confirm the prediction.
 bool locate_tracked(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                     const Prediction& prediction, DesktopWorkspace& w);
 

@@ -1,6 +1,6 @@
 // Tuning: empirical constants of the attempts, with their purpose and, where known, the measurement
-// of their effect. The constants of the second attempt were determined on the hard frames that
-// decode/tuning.hpp names.
+// of their effect. The constants of the second attempt were determined on the hard frames listed in
+// decode/tuning.hpp.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -19,28 +19,29 @@ inline constexpr float kMinSpacingForPrediction_px = 9.5F;
 /// Maximum number of uncertain hypotheses away from the image centre. Each uncertain hypothesis
 /// increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
-/// For patches away from the image centre: numbers of central dots in which waves are searched, and
-/// factors of the estimated spacing. The search tries all combinations. If large displacements
-/// weaken the waves, only some combinations find the grid.
+/// Numbers of central dots in which waves are searched, and factors applied to the estimated
+/// spacing, for patches away from the image centre. The search tries all combinations. If large
+/// displacements weaken the waves, only some combinations find the grid.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
-/// Factors of the spacing if sheets are known. A strip of three rows may then be certain, but its
-/// spacing is overestimated, because the estimate uses the number of dots around a dot.
+/// Factors of the spacing if sheets are known. On known sheets, a strip of three rows may be
+/// certain. Its spacing is overestimated, because the estimate uses the number of dots around a
+/// dot.
 inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
 }  // namespace first
 
 /// Constants of the tracked attempt (locate/tracked).
 namespace tracked {
 /// Reach along each axis, in spacings, around the point at which a prediction is corrected. The
-/// dots within this reach determine the error of the prediction there. The reach is small enough
-/// that an angular error of the prediction does not match a dot to the wrong intersection.
+/// dots within this reach determine the error of the prediction at this point. The reach is small
+/// enough that an angular error of the prediction does not match a dot to the wrong intersection.
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots that determine a correction of the prediction.
 inline constexpr int kMinNear = 10;
 /// Maximum error of a prediction that the search covers, in spacings. A larger maximum would be
 /// useless, because beyond half a spacing a neighbouring dot is closer than the correct dot.
 inline constexpr float kMaxOff = 0.6F;
-/// Range of spacings that can be tracked.
+/// Range of spacings, in px, that can be tracked.
 inline constexpr float kFinest_px = 5;
 inline constexpr float kCoarsest_px = 80;
 /// Range of the displacements that are plausible in a prediction, in spacings.
@@ -91,14 +92,14 @@ inline constexpr int kDotsPerWrong = 200;
 /// deviations of one coordinate.
 inline constexpr float kOutlier = 8.3F;
 /// Maximum distance, in spacings, between the planes before and after a fit, in a corner of the
-/// measured part. Above this distance, small centroid windows miss a part of the offsets, so the
-/// dots are measured again.
+/// measured part. Above this distance, small centroid windows do not capture the full offsets, so
+/// the dots are measured again.
 inline constexpr float kFar = 0.055F;
 /// Number of measurements of the dots after which an exact hypothesis counts as implausible if its
 /// plane still changes by more than kFar. docs/accuracy.md, "Dots with the same sub-pixel phase",
 /// lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
-/// Fraction of the paper level below which windows are dropped. Such windows are on the table
+/// Fraction of the paper level below which windows are dropped. These windows are on the table
 /// beyond the sheet, where noise is as dark as dots.
 inline constexpr float kTable = 0.4F;
 /// Range of spacings for direct sampling. Below kMaxSpacingForSmallWindow_px, a dot fits in a small
@@ -114,9 +115,9 @@ inline constexpr float kMinWindowRadius_px = 3.3F;
 /// Radius of a centroid window above which facing dots bias each other, as a fraction of the
 /// distance between these dots.
 inline constexpr float kFacing = 0.55F;
-/// Maximum deviation of a grid step from whole pixels at which the dots of a row or column have
-/// about the same sub-pixel phase. At a larger deviation, the phases of the dots in view are evenly
-/// distributed.
+/// Maximum deviation of a grid step from a whole number of pixels at which the dots of a row or
+/// column have about the same sub-pixel phase. At a larger deviation, the phases of the dots in
+/// view are evenly distributed.
 inline constexpr float kDrift_px = 0.05F;
 /// Maximum drift of the sub-pixel phase across the view, in px, at which the pixel bias is
 /// corrected. The correction takes several times as long as the rest of the frame.
@@ -132,11 +133,11 @@ inline constexpr int kMinFound = 8;
 /// Maximum distance of a predicted dot from its place, in px.
 inline constexpr float kMaxOff_px = 1;
 /// Maximum of the sum of two terms: the scatter of the dots relative to their displacement, and the
-/// fraction of contradicting bits. A position with a larger sum explains the frame badly.
-/// docs/integrity.md has the numbers.
+/// fraction of contradicting bits. A position with a larger sum does not explain the frame well.
+/// For the numbers, see docs/integrity.md.
 inline constexpr float kMaxImplausible = 0.57F;
 /// Minimum residual at which a second attempt may be better: the larger of kRough_px and kRough
-/// spacings. Residuals due to noise are constant in px, residuals due to bad printing are constant
+/// spacings. Residuals due to noise are constant in px. Residuals due to bad printing are constant
 /// in spacings.
 inline constexpr float kRough_px = 0.30F;
 inline constexpr float kRough = 0.027F;
@@ -146,7 +147,7 @@ inline constexpr float kRough = 0.027F;
 namespace known {
 /// Shorter side of an image, in spacings, below which dots are read up to kMargin_px from the
 /// border. Of 300 views of 36 x 36 px at 6 px per spacing, 88 % are located with the usual margin
-/// of 1.7 px, 97 % with 1.0 px; the errors are equal (`dotpose_tables known`).
+/// of 1.7 px, and 97 % with a margin of 1.0 px. The errors are equal (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
 /// Minimum weight, in 1/127, of both bits of a cell that the second attempt reads.
@@ -173,18 +174,19 @@ inline constexpr float kMaxReach = 24;
 
 /// Constants of the second attempt (locate/second).
 namespace second {
-/// Factors of the thresholds for the filtered image, in which noise is a third of the original
-/// noise, and dots are paler and wider. Of frames with dirt over 5 % of the area (docs/limits.md,
-/// 200 frames), 93 % were located with these factors and 80 % with the thresholds of the options.
+/// Factors applied to the thresholds for the filtered image. In this image, noise is a third of the
+/// original noise, and dots are paler and wider. If dirt covers 5 % of the area (docs/limits.md,
+/// 200 frames), 93 % of the frames are located with these factors, and 80 % with the original
+/// thresholds.
 inline constexpr int kLow_3rds = 2;
 inline constexpr int kHigh_10ths = 9;
-/// Divisor of the minimum contrast for a second detection in an image with too few dots, because
-/// the noise of a filtered image is a third of the original noise. The second detection finds dots
-/// that are 6 grey levels darker than paper (`dotpose_tables alike --spacings 8 --dots 0.10 --blurs
-/// 1.5`).
+/// Divisor of the minimum contrast for a second detection in an image with too few dots. The
+/// contrast can be reduced, because the noise of a filtered image is a third of the original noise.
+/// The second detection finds dots that are 6 grey levels darker than paper (`dotpose_tables alike
+/// --spacings 8 --dots 0.10 --blurs 1.5`).
 inline constexpr int kPaleParts = 3;
 /// Maximum turns of the periodogram search relative to the first estimate, in degrees, tried in
-/// order. Printed text can turn the first estimate by 26 degrees.
+/// order. Printed text can rotate the first estimate by 26 degrees.
 inline constexpr int kMaxTurns_deg[] = {12, 45};
 }  // namespace second
 
@@ -193,8 +195,9 @@ namespace cascade {
 /// Minimum odds of another code, relative to the code of the fix, at which a frame is read again in
 /// that code.
 inline constexpr float kBetterOdds = 2;
-/// Minimum number of dots per contradicting bit at which a reading in another code is reported. At
-/// most one bit in a hundred then contradicts the reading, which misread bits explain.
+/// Minimum number of dots per contradicting bit at which a reading in another code is reported.
+/// With this limit, at most one bit in a hundred contradicts the reading, which can be due to
+/// misread bits.
 inline constexpr int kBitsPerError = 50;
 /// Minimum odds of a different place in another code, relative to the fix, at which the place is
 /// reported next to a certain fix.

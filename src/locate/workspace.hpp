@@ -68,7 +68,7 @@ struct DesktopWorkspace : DeviceWorkspace {
     PushedImage pushed;
     bool is_mirrored = false;  ///< true if an attempt found the mirrored code
 
-    /// Sets the known sheets. Smaller images and patches can then be located.
+    /// Sets the known sheets. On known sheets, smaller images and patches can be located.
     void set_known(const KnownSheets& sheets) {
         known = sheets;
         min_side_px =

@@ -16,9 +16,10 @@ using namespace mcap;
 
 namespace {
 
-/// Returns the list of QoS profiles that rosbag2 stores with a channel, as YAML. The policies are
-/// the numbers of rmw, which all versions of rosbag2 can read: history 1 is keep last, reliability
-/// 1 is reliable, durability 1 is transient local and 2 is volatile, liveliness 1 is automatic.
+/// Returns the list of QoS profiles that rosbag2 stores with a channel, as YAML. Policies are
+/// written as the numbers of rmw, which all versions of rosbag2 can read: history 1 is keep last,
+/// reliability 1 is reliable, durability 1 is transient local and 2 is volatile, liveliness 1 is
+/// automatic.
 std::string offered_profiles(const McapQuality& quality) {
     const std::string durability = quality.is_transient_local ? "1" : "2";
     const std::string forever = "\n    sec: 9223372036\n    nsec: 854775807\n";
@@ -114,7 +115,7 @@ class McapFile::Writer {
     }
 
     /// Writes `bytes` over the end of the file, followed by a new end, in one write. The file never
-    /// becomes shorter, because the new end contains the contents of the old one.
+    /// becomes shorter, because the new end contains the contents of the old end.
     void write_at_end(Bytes bytes) {
         const std::size_t data_bytes = bytes.size();
         data_.add(bytes);

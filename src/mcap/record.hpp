@@ -1,5 +1,5 @@
-// Records of an MCAP file: a type byte, the length of the rest, and the members, little endian
-// without padding.
+// Records of an MCAP file. A record contains a type byte, the length of the rest, and the members,
+// in little-endian order without padding.
 #pragma once
 
 #include <concepts>
@@ -14,7 +14,7 @@ namespace dotpose::mcap {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Type of a record, its first byte.
+/// Type of a record, stored in its first byte.
 enum class Op : std::uint8_t {
     header = 0x01,
     footer = 0x02,

@@ -10,7 +10,7 @@
 #include "dotpose/export.hpp"
 #include "dotpose/image.hpp"
 
-// Exported, because the other tools libraries call these functions.
+// These functions are exported because the other tools libraries call them.
 DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::png {
@@ -18,8 +18,8 @@ namespace dotpose::png {
 struct Header {
     int width_px = 0;
     int height_px = 0;
-    int bits_per_px = 8;  ///< 8: 0 is black; 1: 1 is black, with 8 pixels per byte
-    double dpi = 0;       ///< resolution in dots per inch; 0 if not known
+    int bits_per_px = 8;  ///< 8 (0 is black), or 1 (1 is black, 8 pixels per byte)
+    double dpi = 0;       ///< resolution in dots per inch; 0 if unknown
 };
 
 /// Receives one row of pixels.
@@ -30,8 +30,8 @@ using RowSource = std::function<void(const RowSink&)>;
 /// Writes an image. Throws Error if libpng fails or the file cannot be written.
 void write(const Header& header, const RowSource& rows, base::ByteSink& file);
 
-/// Returns an image, which must not be empty, as the bytes of a PNG file. Equal images give equal
-/// bytes. Throws Error.
+/// Returns an image as the bytes of a PNG file. The image must not be empty. Equal images give
+/// equal bytes. Throws Error if libpng fails.
 std::vector<std::uint8_t> encode(ImageView image);
 
 }  // namespace dotpose::png

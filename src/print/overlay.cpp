@@ -28,7 +28,7 @@ namespace dotpose {
 namespace fs = std::filesystem;
 namespace {
 
-/// Returns true if "%PDF-" is in the first 1024 bytes, where readers search for it.
+/// Returns true if "%PDF-" is in the first 1024 bytes, where PDF readers search for it.
 bool begins_like_pdf(const fs::path& path) {
     std::string head(1024, '\0');
     std::ifstream file(path, std::ios::binary);
@@ -49,8 +49,9 @@ bool begins_like_pdf(const fs::path& path) {
     throw Error(fmt::format("{}: its objects are nested too deeply", path.string()));
 }
 
-/// Returns the warnings of qpdf about repaired faults, which the new file does not contain. Throws
-/// Error for faults that qpdf does not repair: it would copy such content unchanged.
+/// Returns the warnings of qpdf about faults that it repaired. The new file does not contain these
+/// faults. Throws Error for faults in content or stream data, because qpdf would copy these faults
+/// unchanged.
 std::set<std::string> repaired_faults(QPDF& pdf, const fs::path& path) {
     std::set<std::string> faults;
     for (const QPDFExc& warning : pdf.getWarnings()) {
@@ -114,8 +115,8 @@ auto with_damage_errors(const fs::path& path, const Work& work) {
     }
 }
 
-/// Throws Error if the page would need more than kMaxDots dots. A page of a document may have any
-/// size, with /UserUnit even kilometres.
+/// Throws Error if the page would need more than kMaxDots dots. Pages of a document may have any
+/// size. With /UserUnit, a side may even be kilometres long.
 void require_few_dots(const Sheet& sheet) {
     constexpr double kMaxDots = 5e7;
     const double dots = double{1} * sheet.columns * sheet.rows;
@@ -237,8 +238,9 @@ class Overlay {
         }
     }
 
-    /// Draws the dots over or under the page's own content, whose streams do not change. The
-    /// operators q and Q around the content restore the initial graphics state of the page.
+    /// Draws the dots over or under the page's own content without changing the streams of this
+    /// content. The operators q and Q around the content restore the initial graphics state of the
+    /// page.
     void draw(const OverlaidPage& laid_out) {
         const auto& [number, sheet, document_page] = laid_out;
         validate(sheet);
@@ -256,8 +258,8 @@ class Overlay {
         drawn.addPageContents(QPDFObjectHandle::newStream(&pdf_, after), false);
     }
 
-    /// Returns the XObject dictionary of a page, after replacing it and the resources by copies.
-    /// The originals may be shared with other pages.
+    /// Replaces the resources and the XObject dictionary of a page by copies, because other pages
+    /// may share the originals. Returns the copy of the XObject dictionary.
     static QPDFObjectHandle own_objects(QPDFPageObjectHelper drawn) {
         const auto copy = [](QPDFObjectHandle shared) {
             return shared.isDictionary() ? shared.shallowCopy() : QPDFObjectHandle::newDictionary();

@@ -17,7 +17,7 @@ struct NamedPaper {
     Paper paper;
 };
 
-// Sizes in portrait, from ISO 216 and ANSI/ASME Y14.1.
+// Sizes in portrait orientation, according to ISO 216 and ANSI/ASME Y14.1.
 constexpr std::array<NamedPaper, 10> kPapers = {{
     {"a0", {841, 1189}},
     {"a1", {594, 841}},

@@ -13,7 +13,7 @@ namespace dotpose::print {
 /// Grid of cards, centred on a page. Adjacent cards touch. The margin around the grid has space for
 /// cut marks.
 struct CardGrid {
-    Paper paper;  ///< turned by 90 degrees if more cards fit that way
+    Paper paper;  ///< turned by 90 degrees if more cards fit on the turned paper
     Paper card;
     int columns = 0;
     int rows = 0;
@@ -27,14 +27,14 @@ struct CardGrid {
 CardGrid card_grid(Paper paper, Paper card);
 
 /// Returns the sheet of a card in the coordinate frame of the page. `slot` is the index of the card
-/// on the page, row by row. The position of the card is adjusted by less than a pixel at 300 dpi.
-/// Its dots are then aligned with the pixels of the printer as on a separate page.
+/// on the page, row by row. The card is moved by less than a pixel at 300 dpi to align its dots
+/// with the pixels of the printer, as on a separate page.
 Sheet on_page(const CardGrid& grid, int slot, Sheet card);
 
 /// Returns the cut marks as PDF content, in points from the bottom left corner of the page.
 std::string cut_marks(const CardGrid& grid);
 
-/// Returns a page, as viewers show it, as a form XObject.
+/// Returns the displayed part of a page as a form XObject.
 QPDFObjectHandle card_form(QPDFPageObjectHelper page);
 
 /// Returns the content that draws a form returned by `card_form` as a card. `page` is the page of
@@ -45,8 +45,8 @@ std::string place_card(QPDFPageObjectHelper page, const CardGrid& grid, int slot
 /// Adds an empty page to a document.
 QPDFPageObjectHelper add_card_page(QPDF& pdf, const CardGrid& grid);
 
-/// Removes all pages of a document and everything that refers to them: outlines, destinations, form
-/// fields.
+/// Removes all pages of a document and everything that refers to them, such as outlines,
+/// destinations and form fields.
 void remove_pages(QPDF& pdf);
 
 }  // namespace dotpose::print

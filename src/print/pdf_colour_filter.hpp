@@ -13,9 +13,9 @@ namespace dotpose::print {
 
 class ColourFilter : public QPDFObjectHandle::TokenFilter {
   public:
-    /// `spaces` maps the colour space names that the operator `cs` may select to their kinds. If
-    /// `starts_black` is true, as for pages, the content begins with an operator that sets the
-    /// converted black. Other content inherits its colour.
+    /// `spaces` maps the names of colour spaces that the operator `cs` may select to the kinds of
+    /// these colour spaces. If `starts_black` is true, as for pages, the filter first writes an
+    /// operator that sets the converted black. Other content inherits the current colour.
     ColourFilter(InkChange change, std::map<std::string, ColourKind> spaces, bool starts_black);
 
     void handleToken(QPDFTokenizer::Token const& token) override;

@@ -148,7 +148,7 @@ void ColourConverter::convert(QPDFPageObjectHelper page) {
     QPDFObjectHandle dict = page.getObjectHandle();
     QPDFObjectHandle original = page.getAttribute("/Resources", false);
     QPDFObjectHandle contents = dict.getKey("/Contents");
-    // This page gets a copy of the stream, because other pages may share the original.
+    // Gives this page a copy of the stream, because other pages may share the original.
     if (contents.isStream()) dict.replaceKey("/Contents", contents.copyStream());
     if (!page.getPageContents().empty()) {
         page.addContentTokenFilter(

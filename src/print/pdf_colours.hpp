@@ -1,4 +1,5 @@
-/// Rewrites the colours of a page: its content, and copies of all objects that the content draws.
+/// Rewrites the colours in the content of a page, and in copies of all objects that the content
+/// draws.
 #pragma once
 
 #include <map>
@@ -24,7 +25,7 @@ class ColourConverter {
     /// Converts a page. Throws Error if its resources are nested too deeply.
     void convert(QPDFPageObjectHelper page);
 
-    /// Returns the kinds of content that were found but not converted, in words, for example
+    /// Returns the names of the kinds of content that were found but not converted, for example
     /// "shadings".
     const std::set<std::string>& unconverted() const { return unconverted_; }
 

@@ -33,8 +33,8 @@ class CrossReferences {
     }
 
     void count() {
-        // Number of bytes at the beginning, and at the end, in which the start and the end of the
-        // document are searched for. Some files contain other data before and after the document.
+        // Number of bytes to search for the header at the beginning of the file, and for
+        // `startxref` at its end. Some files contain other data before and after the document.
         constexpr qpdf_offset_t kNear = 1100;
         const std::string begin = text(0, kNear);
         std::smatch header;
@@ -104,7 +104,8 @@ class CrossReferences {
         unpacked_.count(stream);
     }
 
-    /// Reads the dictionary at the current position. Returns none if there is no dictionary.
+    /// Reads the dictionary at the current position. Returns an empty optional if there is no
+    /// dictionary.
     std::optional<QPDFObjectHandle> read_dictionary() {
         const qpdf_offset_t begin = file_->tell();
         int level = 0;

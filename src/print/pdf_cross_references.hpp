@@ -8,9 +8,9 @@
 namespace dotpose::print {
 
 /// Counts the unpacked bytes of the cross-reference streams of a document. Must be called before
-/// qpdf opens the document, because qpdf then unpacks the streams without a limit. Ignores invalid
-/// references, which qpdf rejects later. Throws Error as `UnpackedBytes::count`, and the exceptions
-/// of `FileInputSource`.
+/// qpdf opens the document, because qpdf unpacks these streams without a limit. Ignores invalid
+/// references, which qpdf rejects later. Throws Error like `UnpackedBytes::count`. Also throws the
+/// exceptions of `FileInputSource`.
 void count_cross_references(const std::filesystem::path& path, UnpackedBytes& unpacked);
 
 }  // namespace dotpose::print

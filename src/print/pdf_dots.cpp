@@ -25,8 +25,7 @@ constexpr int kDotsPerStream = 250'000;
 /// whole number and the text advances without rounding errors.
 constexpr double kUnitsPerEm = 1000;
 
-/// Returns a circle as four Bezier curves. With the factor 0.5523, the error of the radius is 0.03
-/// %.
+/// Returns a circle as four Bezier curves. The factor 0.5523 gives a radius error of 0.03 %.
 std::string circle(double x, double y, double r) {
     const double k = 0.5522847498 * r;
     return fmt::format(
@@ -91,7 +90,7 @@ void write_glyph_rows(const Sheet& sheet, double dpi, int first_row, int end_row
     const double first_mm = top_mm + shift_mm(top_mm, sheet.height_mm);
 
     SymbolRows symbols(sheet);
-    // With an empty ActualText, viewers do not find or copy the glyphs as letters.
+    // An empty ActualText prevents viewers from finding or copying the glyphs as letters.
     std::string line = fmt::format("/Span <</ActualText ()>> BDC BT 0 0 0 1 k /Dots {:.9f} Tf\n",
                                    sheet.pattern.spacing_mm * kPointsPerMm);
     for (int j = first_row; j < end_row; ++j) {
@@ -110,8 +109,8 @@ void write_glyph_rows(const Sheet& sheet, double dpi, int first_row, int end_row
 
 // --- strokes ------------------------------------------------------------------------------------
 
-/// Unit of length that divides spacing and displacement without a remainder. Renderers read
-/// integers without rounding, and short numbers make small files.
+/// Unit of length that divides spacing and displacement without a remainder. Integers are not
+/// rounded by renderers, and short numbers keep files small.
 struct WholeUnits {
     int spacing = 0;
     int displacement = 0;
@@ -132,11 +131,11 @@ WholeUnits whole_units(const Pattern& pattern) {
     return units;
 }
 
-// Number of columns of a tile. Deflate compresses small, identically written tiles well, because it
-// finds their dots in earlier rows.
+// Number of columns of a tile. Deflate compresses small tiles well if equal tiles are written
+// identically, because it finds their dots in earlier rows.
 constexpr int kTileColumns = 8;
-// Number of columns after which the absolute position is written again, because a renderer's
-// rounding errors accumulate from tile to tile.
+// Number of columns after which the absolute position is written again. Without this, the rounding
+// errors of a renderer would accumulate from tile to tile.
 constexpr int kRunColumns = 16 * kTileColumns;
 
 /// Operators that draw each of the four symbols in each column of a tile.
@@ -190,7 +189,7 @@ void write_stroke_rows(const Sheet& sheet, int first_row, int end_row, RowCount&
 
 // ------------------------------------------------------------------------------------------------
 
-/// Provides the data of one content stream on request of qpdf.
+/// Provides the data of one content stream when qpdf requests it.
 class DotRows : public QPDFObjectHandle::StreamDataProvider {
   public:
     DotRows(const Sheet& sheet, DotDrawing drawing, double dpi, int first_row, int end_row,

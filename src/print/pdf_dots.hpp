@@ -32,7 +32,8 @@ struct RowCount {
     std::exception_ptr stopped;
 };
 
-/// Returns true if glyphs show the pattern exactly: spacing, displacement and dot are whole pixels.
+/// Returns true if glyphs show the pattern exactly, that is, if spacing, displacement and dot
+/// diameter are whole numbers of pixels.
 bool is_whole_pixels(const Pattern& pattern, double dpi);
 
 /// Replaces `DotDrawing::automatic` by the best choice for this pattern. Throws BadArgument if
@@ -41,14 +42,14 @@ DotDrawing resolve_drawing(DotDrawing asked, const Pattern& pattern, double dpi)
 
 /// Makes content streams with the dots of sheets, one stream per band of rows. The data of a stream
 /// is computed only while the file is written. qpdf keeps one compressed stream at a time in
-/// memory, so the memory does not grow with the page.
+/// memory, so memory usage does not depend on the size of the page.
 class DotContent {
   public:
     /// `pdf` must outlive this object. `rows` counts the rows that all streams write.
     DotContent(QPDF& pdf, double dpi, DotDrawing asked, std::shared_ptr<RowCount> rows);
 
     /// Returns the dots of the sheet as content streams, which may be drawn independently of each
-    /// other. Throws BadArgument as `resolve_drawing`.
+    /// other. Throws BadArgument like `resolve_drawing`.
     std::vector<QPDFObjectHandle> streams(const Sheet& sheet);
 
     /// Returns the resource dictionary of the content streams. It may be empty.

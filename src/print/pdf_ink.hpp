@@ -19,15 +19,15 @@ enum class ColourKind : std::uint8_t {
     other,  ///< colours that cannot be converted: patterns, spot colours, Lab, Indexed
 };
 
-/// Returns the number of components of a colour of this kind; 0 for `ColourKind::other`.
+/// Returns the number of components of a colour of this kind, or 0 for `ColourKind::other`.
 std::size_t components(ColourKind kind);
 
 /// Returns the kind of a colour space. `space` is the name of a device space or an array such as
 /// [/ICCBased stream]. Other names are resolved by the resources `spaces`, which may be null.
 ColourKind kind_of_space(QPDFObjectHandle space, QPDFObjectHandle spaces);
 
-/// Returns the amount of black ink, 0 to 1, with which a colour is printed. For grey and RGB, it is
-/// the amount that a printer computes.
+/// Returns the amount of black ink, 0 to 1, with which a colour is printed. For grey and RGB, this
+/// is the amount that a printer computes.
 double black_of(ColourKind kind, std::span<const double> colour);
 
 /// Conversions of colours according to `OverlayOptions`.

@@ -18,8 +18,8 @@
 namespace dotpose::print {
 namespace {
 
-constexpr double kGap_mm = 0.8;   // between ink of the pattern and a label
-constexpr double kEdge_mm = 0.3;  // between a label and the edge of the page
+constexpr double kGap_mm = 0.8;   // distance between the ink of the pattern and a label
+constexpr double kEdge_mm = 0.3;  // distance between a label and the edge of the page
 constexpr double kText_pt = 6;
 constexpr double kLine_mm = 2.5;
 constexpr std::size_t kMaxNameCharacters = 60;
@@ -71,7 +71,7 @@ std::string beginning(const std::string& utf8, std::size_t max_characters) {
     return utf8.substr(0, end);
 }
 
-/// Returns the text in the encoding of Helvetica, or none if Helvetica lacks one of the letters.
+/// Returns the text in the encoding of Helvetica, or an empty optional if Helvetica lacks a letter.
 std::optional<std::string> in_helvetica(const std::string& utf8) {
     std::string text;
     if (QUtil::utf8_to_win_ansi(utf8, text)) return text;
@@ -106,7 +106,7 @@ std::vector<std::string> wrap(const std::string& text, const Fits& fits) {
     return lines;
 }
 
-/// Sides of the dots with a ruler.
+/// Sides of the area of dots that can have a ruler.
 enum class Side { top, left };
 double free_margin_mm(const Sheet& sheet, Side side) {
     return (side == Side::top ? sheet.origin_y_mm : sheet.origin_x_mm) - reach_mm(sheet.pattern);
@@ -124,7 +124,7 @@ struct Arrows {
     double y_end_mm() const { return y_of_x_arrow_mm + kArrow_mm; }
 };
 
-/// Returns the positions of the arrows, or none if they do not fit.
+/// Returns the positions of the arrows, or an empty optional if the arrows do not fit.
 std::optional<Arrows> arrows_of(const Sheet& sheet) {
     const double x_mm = free_margin_mm(sheet, Side::left) - kRulerRoom_mm - kArrowGap_mm;
     const double y_mm = free_margin_mm(sheet, Side::top) - kRulerRoom_mm - kArrowGap_mm;
@@ -132,8 +132,8 @@ std::optional<Arrows> arrows_of(const Sheet& sheet) {
     return Arrows{x_mm, y_mm};
 }
 
-/// Returns the pattern coordinates of the top left corner of the page, the origin of the sheet
-/// frame.
+/// Returns the pattern coordinates of the top left corner of the page. This corner is the origin of
+/// the coordinate frame of the sheet.
 std::string corner_text(const Sheet& sheet) {
     const double spacing_mm = sheet.pattern.spacing_mm;
     return fmt::format("x_mm {:.3f}, y_mm {:.3f}", sheet.origin.x * spacing_mm - sheet.origin_x_mm,
@@ -201,8 +201,8 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     for (const std::string& line : lines) {
         bottom_mm -= kLine_mm;
         const double x_pt = (sheet.origin_x_mm - reach) * kPointsPerMm;
-        // The baseline is a quarter of the line height above the bottom, which leaves room for
-        // descenders.
+        // The baseline is a quarter of the line height above the bottom of the line, which leaves
+        // room for descenders.
         const double y_pt = (bottom_mm + kLine_mm / 4) * kPointsPerMm;
         if (const auto plain = in_helvetica(line)) {
             fmt::format_to(std::back_inserter(content), "1 0 0 1 {:.3f} {:.3f} Tm {} Tj\n", x_pt,
@@ -220,15 +220,15 @@ std::string point(const Sheet& sheet, double x_mm, double y_mm) {
                        (sheet.height_mm - y_mm) * kPointsPerMm);
 }
 
-/// Returns the PDF content of a ruler. The ruler has a tick for every millimetre and a number for
-/// every ten millimetres, from the edge of the paper, which is zero, to the last intersection.
-/// Ticks that would cross the other ruler or its arrow are omitted.
+/// Returns the PDF content of a ruler. The ruler begins with zero at the edge of the paper and ends
+/// at the last intersection. It has a tick for every millimetre and a number for every ten
+/// millimetres. Ticks that would cross the other ruler or its arrow are omitted.
 std::string ruler_content(const Sheet& sheet, Side side) {
     if (!has_ruler(sheet, side)) return {};
     const bool is_top = side == Side::top;
     const double away_from_mm = free_margin_mm(sheet, side);
-    // Returns the point at a position along the ruler and a distance from the dots. The left ruler
-    // runs downwards.
+    // Returns the point at the position `along_mm` on the ruler and at the distance `away_mm` from
+    // the dots. The left ruler runs downwards.
     const auto at = [&](double along_mm, double away_mm) {
         return is_top ? point(sheet, along_mm, away_from_mm - away_mm)
                       : point(sheet, away_from_mm - away_mm, along_mm);
@@ -241,8 +241,8 @@ std::string ruler_content(const Sheet& sheet, Side side) {
             (is_top ? arrows->x_of_y_arrow_mm : arrows->y_of_x_arrow_mm) - kArrowGap_mm / 2;
     }
     const double dots_begin_mm = has_ruler(sheet, other) ? free_margin_mm(sheet, other) : 0;
-    // Returns true if a tick or number would cross the other ruler, whose marks are at least
-    // `nearest_mm` from the dots.
+    // Returns true if a tick or number would cross the other ruler. All marks of the other ruler
+    // are at least `nearest_mm` from the dots.
     const auto is_crossed = [&](double from_mm, double to_mm, double nearest_mm) {
         return to_mm > crossing_mm && from_mm < dots_begin_mm - nearest_mm;
     };
@@ -262,7 +262,7 @@ std::string ruler_content(const Sheet& sheet, Side side) {
         const double length_mm = width_mm(number, kNumber_pt);
         const double from_mm = mm == 0 ? kEdge_mm : mm - length_mm / 2;
         if (is_crossed(from_mm, from_mm + length_mm, kNumberAway_mm)) continue;
-        // Numbers of the left ruler run upwards, with their tops facing away from the dots.
+        // Numbers of the left ruler read upwards, with their tops facing away from the dots.
         numbers +=
             fmt::format("{} {} Tm {} Tj\n", is_top ? "1 0 0 1" : "0 1 -1 0",
                         at(is_top ? from_mm : from_mm + length_mm, kNumberAway_mm), shown(number));
@@ -286,8 +286,8 @@ std::string label_at(const Sheet& sheet, double x_mm, double baseline_mm, const 
     return fmt::format("1 0 0 1 {} Tm {} Tj\n", point(sheet, x_mm, baseline_mm), shown(text));
 }
 
-/// Returns the PDF content of the x arrow and the y arrow at the corner of the page, with the note
-/// if it fits beside the x arrow.
+/// Returns the PDF content of the x arrow and the y arrow at the corner of the page. Includes the
+/// note about the corner if it fits beside the x arrow.
 std::string origin_content(const Sheet& sheet) {
     const auto arrows = arrows_of(sheet);
     if (!arrows) return {};

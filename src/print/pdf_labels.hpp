@@ -16,9 +16,9 @@ struct PageNumber {
 };
 
 /// Returns the labels as PDF content, in points from the bottom left corner of the page. The
-/// content requires the font resource /Label, which is Helvetica, and the forms of `script`, which
-/// draws lines with letters that Helvetica lacks. Labels that do not fit into the margins are
-/// omitted, the command first, so no label touches a dot.
+/// content requires the font resource /Label, which is Helvetica, and the forms of `script`.
+/// `script` draws the lines with letters that Helvetica lacks. Labels that do not fit into the
+/// margins are omitted, beginning with the command. Therefore no label touches a dot.
 std::string label_content(const Sheet& sheet, PageNumber page, const PrintOptions& options,
                           ScriptText& script);
 

@@ -63,8 +63,8 @@ class ByteCount : public Pipeline {
     std::uint64_t bytes_ = 0;
 };
 
-/// Returns the number of bytes that the predictor of a compression filter allocates for a row; 0
-/// without a predictor.
+/// Returns the number of bytes that the predictor of a compression filter allocates for a row.
+/// Returns 0 without a predictor.
 double predictor_row_bytes(QPDFObjectHandle parameters) {
     if (!parameters.isDictionary()) return 0;
     double bytes = 1.0 / 8;
@@ -75,8 +75,9 @@ double predictor_row_bytes(QPDFObjectHandle parameters) {
     return bytes;
 }
 
-/// Throws Error if a stream has more than kMaxFilters filters, because each filter can multiply the
-/// size of the data, or if the rows of a predictor need more than kMaxRowBytes of memory.
+/// Throws Error if a stream has more than kMaxFilters filters, or if the rows of a predictor need
+/// more than kMaxRowBytes of memory. The number of filters is limited because each filter can
+/// multiply the size of the data.
 void require_few_filters(QPDFObjectHandle dict) {
     constexpr int kMaxFilters = 8;
     constexpr double kMaxRowBytes = 1 << 24;
@@ -99,7 +100,7 @@ void require_few_filters(QPDFObjectHandle dict) {
     }
 }
 
-/// Returns the root of the page tree: follows /Parent from the node in the document catalogue.
+/// Returns the root of the page tree. Follows /Parent from the node in the document catalogue.
 QPDFObjectHandle page_tree(QPDF& pdf) {
     QPDFObjectHandle node = pdf.getRoot().getKey("/Pages");
     std::set<QPDFObjGen> seen;

@@ -16,8 +16,8 @@ namespace dotpose::print {
 /// functions do not overflow the stack at this depth.
 inline constexpr int kMaxPdfLevels = 100;
 
-/// Throws Error, with the message that `what` is nested too deeply, if `level` (from 1) exceeds
-/// kMaxPdfLevels.
+/// Throws Error if `level` (from 1) exceeds kMaxPdfLevels. The message states that `what` is nested
+/// too deeply.
 void require_pdf_level(const char* what, int level);
 
 /// Throws Error if the page tree is nested too deeply.
@@ -25,11 +25,11 @@ void require_shallow_page_tree(QPDF& pdf);
 
 /// Opens a PDF such that reading it cannot overflow the stack. qpdf reads recursively: the length
 /// of a stream may be stored in another stream, whose length is stored in a third stream, and so
-/// on. A read with too much of the stack in use throws an exception. qpdf converts the exception to
-/// a warning, which `is_too_deep` recognizes. Throws Error for pipes and devices.
+/// on. A read throws an exception if too much of the stack is in use. qpdf converts the exception
+/// to a warning, which `is_too_deep` recognizes. Throws Error for pipes and devices.
 std::shared_ptr<InputSource> open_pdf(const std::filesystem::path& path);
 
-/// Returns true if a warning of qpdf is due to a read with too much of the stack in use.
+/// Returns true if the cause of a warning of qpdf is a read with too much of the stack in use.
 bool is_too_deep(const std::string& warning);
 
 /// Counts the bytes of unpacked streams before they are stored in memory. The limit is `max_mb`

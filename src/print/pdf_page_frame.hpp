@@ -20,8 +20,8 @@ struct PageFrame {
 };
 
 /// Computes the frame from /Rotate, /UserUnit and the boxes, which may be inherited. Throws Error
-/// if the area of the page is 0, or if its rotation is not a multiple of 90 degrees, which viewers
-/// show in different ways.
+/// if the area of the page is 0, or if its rotation is not a multiple of 90 degrees. Viewers show
+/// other rotations in different ways.
 PageFrame page_frame(QPDFPageObjectHelper page);
 
 /// Replaces a /Rotate that is a real number, such as 90.0, by an integer, because some viewers

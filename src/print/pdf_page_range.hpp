@@ -8,7 +8,7 @@
 namespace dotpose::print {
 
 /// Parses page numbers such as "1-3,7". "z" is the last of `count` pages. An empty text means all
-/// pages. Throws BadArgument.
+/// pages. Throws BadArgument if the text is invalid.
 std::set<int> page_numbers(const std::string& range, int count);
 
 /// Returns a list of page numbers such as "pages 1, 2, 5". Long lists are shortened.

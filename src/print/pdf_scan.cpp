@@ -32,7 +32,7 @@ struct Colours {
     Colour stroke;
 };
 
-/// State that is common to the scans of a page and of its forms.
+/// State shared by the scans of a page and of its forms.
 struct PageScan {
     UnpackedBytes& unpacked;
     std::set<QPDFObjGen> seen;

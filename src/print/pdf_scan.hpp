@@ -15,10 +15,10 @@ struct PageContent {
     bool paints_images = false;  ///< true for images, whose colours are not examined
     /// True for filled shapes, shadings or images, which cover the dots below them.
     bool paints_areas = false;
-    int unclosed_saves = 0;  ///< number of operators q without Q at the end
+    int unclosed_saves = 0;  ///< number of operators q without a matching Q
     int extra_restores = 0;  ///< number of operators Q without a preceding q
 
-    /// Return the operators that enclose the content in a separate graphics state.
+    /// Return the operators before and after the content that give it a separate graphics state.
     std::string before() const;
     std::string after() const;
 };
@@ -28,7 +28,7 @@ struct PageContent {
 /// show dots after the damaged part.
 PageContent scan_page(QPDFPageObjectHelper page, UnpackedBytes& unpacked);
 
-/// Returns true if dotpose printed the document, or added dots to the page earlier.
+/// Returns true if dotpose printed the document, or has already added dots to the page.
 bool has_dots(QPDF& pdf, QPDFPageObjectHelper page);
 
 }  // namespace dotpose::print

@@ -14,7 +14,8 @@
 namespace dotpose::print {
 namespace {
 
-/// Space above and below the baseline, relative to the font size. It includes stacked marks.
+/// Space above and below the baseline, relative to the font size. Leaves room for stacked
+/// diacritics.
 constexpr double kAscent = 1.5;
 constexpr double kDescent = 0.8;
 

@@ -1,5 +1,5 @@
-/// Text in any script for the labels of a PDF page, set in fonts of the computer. Helvetica, which
-/// is not embedded, has only Latin letters.
+/// Text in any script for the labels of a PDF page, set in fonts that are installed on the
+/// computer. Helvetica, which is not embedded, has only Latin letters.
 #pragma once
 
 #include <map>
@@ -19,11 +19,11 @@ class ScriptText {
     /// `pdf` must outlive this object, and this object must exist until `pdf` has been written.
     explicit ScriptText(QPDF& pdf) : pdf_(pdf) {}
 
-    /// Returns the width of a line, in points. Throws Error if the line cannot be set.
+    /// Returns the width of a line, in points. Throws Error if the line cannot be typeset.
     double width_pt(const std::string& utf8, double size_pt);
 
     /// Returns the content that draws a line with its baseline at (x_pt, y_pt). Throws Error if the
-    /// line cannot be set.
+    /// line cannot be typeset.
     std::string draw(const std::string& utf8, double size_pt, double x_pt, double y_pt);
 
     /// Adds the lines drawn since the last call to the resources of their page.

@@ -23,9 +23,9 @@ int diameter_px(const Sheet& sheet, double dpi) {
     return std::max(1, static_cast<int>(std::lround(sheet.pattern.dot_mm * dpi / kInch_mm)));
 }
 
-/// Returns the first pixel of a dot whose centre is nearest to `centre_mm`. Pixel k extends from k
-/// to k + 1. If rounding would move the dot beyond the edge of the page, the dot is moved back by
-/// one pixel.
+/// Returns the first pixel of the dot position whose centre is nearest to `centre_mm`. Pixel k
+/// extends from k to k + 1. If rounding would move the dot beyond the edge of the page, moves the
+/// dot back by one pixel.
 int first_px(double centre_mm, double dpi, int dot_px, int page_px) {
     const double first = centre_mm * dpi / kInch_mm - 0.5 * dot_px;
     return std::clamp(static_cast<int>(std::floor(first + 0.5 + kTie_px)), 0, page_px - dot_px);
@@ -54,7 +54,7 @@ std::vector<Run> disc(int dot_px) {
     return runs;
 }
 
-/// The pixel rows that one row of dots can cover.
+/// Pixel rows that a row of dots can cover.
 class Band {
   public:
     Band(const Sheet& sheet, double dpi, RasterSize size)

@@ -1,4 +1,4 @@
-/// Allocates regions of the code plane that share no cell.
+/// Allocates disjoint regions of the code plane.
 #pragma once
 
 #include <cstdint>

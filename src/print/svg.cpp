@@ -12,9 +12,9 @@
 namespace dotpose::print {
 namespace {
 
-// Drawing units per mm. Coordinates are integers in units of 0.1 µm, which are short and finer than
-// any printer. Positions are rounded before their differences are computed, so rounding errors do
-// not accumulate.
+// Drawing units per mm. Coordinates are integers in units of 0.1 µm. These integers are short, and
+// the unit is finer than the resolution of any printer. Positions are rounded before their
+// differences are computed, so rounding errors do not accumulate.
 constexpr double kUnitsPer_mm = 10'000;
 
 std::int64_t to_units(double mm) {

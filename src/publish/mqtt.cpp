@@ -21,8 +21,8 @@ constexpr auto kPatience = 3s;
 /// Time between attempts to reach a broker that does not answer.
 constexpr auto kBetweenAttempts = 500ms;
 /// Maximum number of messages that libmosquitto has not sent (QoS 0) or the broker has not
-/// acknowledged (QoS 1). The number is small, because the newest messages are sent first, but
-/// libmosquitto sends its messages in order.
+/// acknowledged (QoS 1). libmosquitto sends its messages in order, but the newest messages must be
+/// sent first. The number is therefore small.
 constexpr std::size_t kMaxUnderWay = 20;
 /// Quality of service of presence messages: at least once.
 constexpr int kPresenceQos = 1;
@@ -162,8 +162,7 @@ void MqttClient::start() {
     mosquitto_disconnect_callback_set(mosquitto_, Callbacks::on_disconnect);
     mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
     mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
-    // One more than the number of messages that `publish` uses, because presence messages must not
-    // wait.
+    // Reserves one more place than `publish` uses, because presence messages must not wait.
     mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMaxUnderWay + 1));
     // Messages are published by threads other than the thread of `run`.
     mosquitto_threaded_set(mosquitto_, true);
@@ -207,7 +206,8 @@ int MqttClient::work() {
     return mosquitto_loop(mosquitto_, kWait_ms, 1);
 }
 
-// Replaces the thread of libmosquitto, which ends if the first connection fails.
+// Runs the network loop. The thread of libmosquitto is not used, because it ends if the first
+// connection fails.
 void MqttClient::run() {
     for (;;) {
         int code = is_connected() ? work() : mosquitto_loop(mosquitto_, kWait_ms, 1);
@@ -400,8 +400,8 @@ void MqttSubscriber::on_message(std::string_view topic, std::string_view payload
     handle_(topic, payload);
 }
 
-// mosquitto_loop processes one message with eight system calls. Processing all available messages
-// together needs fewer system calls and combines the acknowledgements.
+// Processes all available messages together. mosquitto_loop needs eight system calls to process one
+// message. Processing several messages needs fewer system calls and combines the acknowledgements.
 int MqttSubscriber::work() {
     const int socket = mosquitto_socket(handle());
     const bool has_answers = mosquitto_want_write(handle());
@@ -427,8 +427,8 @@ int MqttSubscriber::receive_all() {
     return MOSQ_ERR_SUCCESS;
 }
 
-// Sends the acknowledgements. If `socket` is not -1, several of them are combined in one network
-// packet.
+// Sends the acknowledgements. If `socket` is not -1, combines several acknowledgements in one
+// network packet.
 int MqttSubscriber::send_all(int socket) {
     if (!mosquitto_want_write(handle())) return MOSQ_ERR_SUCCESS;
     const auto hold_back = [socket](int yes) {

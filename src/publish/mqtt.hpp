@@ -38,13 +38,14 @@ struct MqttOptions {
     std::string ca_file;    ///< trusted certificates; empty: the certificates of the system
     int qos = 0;            ///< 0: at most once, 1: at least once
     std::string client_id;  ///< empty: the broker chooses an ID
-    /// Topic of the presence messages of a publisher; empty for none. The broker retains the newest
-    /// message for later subscribers. The last will is the message for a broken connection.
+    /// Topic of the presence messages of a publisher, or empty if no presence messages are sent.
+    /// The broker retains the newest message for later subscribers. The last will is the message
+    /// for a broken connection.
     std::string presence_topic;
-    /// Returns a presence message. Called by two threads, but never at the same time.
+    /// Returns a presence message. Two threads call this function, but never at the same time.
     std::function<std::string(Presence)> presence;
-    /// Maximum number of messages that are queued without a connection. Beyond it, the oldest
-    /// messages are dropped.
+    /// Maximum number of messages that are queued without a connection. If the queue is full, the
+    /// oldest messages are dropped.
     std::size_t queue = 50;
     /// Called with messages for the user, for example that the connection is lost or restored.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
@@ -76,7 +77,7 @@ class MqttClient {
     /// Ends the connection and the thread. No virtual function is called afterwards.
     void stop();
 
-    // Called by the thread, without the lock.
+    // The thread calls these functions without holding the lock.
     virtual void on_connected() {}
     virtual void on_disconnected() {}
     virtual void on_published(int) {}
@@ -124,7 +125,7 @@ class MqttPublisher : public MqttClient {
     /// interruption, the newest messages are sent first.
     void publish(std::string topic, std::string payload);
 
-    /// Waits until all messages are sent, at most for `patience`. Returns false on timeout.
+    /// Waits until all messages are sent, but at most for `patience`. Returns false on timeout.
     bool flush(std::chrono::milliseconds patience);
 
     std::int64_t sent() const;
@@ -160,8 +161,7 @@ class MqttSubscriber : public MqttClient {
   public:
     using Handler = std::function<void(std::string_view topic, std::string_view payload)>;
 
-    /// Subscribes to topics. `handle` is called by another thread. Throws Error like
-    /// MqttClient::start.
+    /// Subscribes to topics. Another thread calls `handle`. Throws Error like MqttClient::start.
     MqttSubscriber(MqttOptions options, std::vector<std::string> topics, Handler handle);
     ~MqttSubscriber() override;
 

@@ -1,5 +1,5 @@
-// Converts the results of a frame from mm with y down, or from the world frame, to metres with y
-// up.
+// Converts the results of a frame to metres with y up. The results are in mm with y down, or in the
+// world frame.
 #include <cmath>
 #include <cstdio>
 
@@ -9,7 +9,7 @@
 namespace dotpose::ros {
 namespace {
 
-/// Signs of y and angles: both are negated if y points down in the plane.
+/// Signs of y and of angles. Both are negated if y points down in the plane.
 struct Axes {
     bool is_y_up = true;
 

@@ -263,7 +263,7 @@ class ImageRows {
     }
 
     float darkness_at(Vec2 offset_mm) const {
-        // Subtract half a pixel, because pixel centres have integer coordinates.
+        // Subtracts half a pixel, because pixel centres have integer coordinates.
         const double u = (page_.centre_mm.x + offset_mm.x) / page_.mm_per_px - 0.5;
         const double v = (page_.centre_mm.y + offset_mm.y) / page_.mm_per_px - 0.5;
         if (!(u > -1 && v > -1 && u < page_.image.width_px && v < page_.image.height_px)) return 0;
@@ -322,7 +322,7 @@ std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
 
 std::vector<float> expose(const PageImage& page, const View& view,
                           const Imperfections& imperfections) {
-    // The sub-pixels are as fine as for the dots of the default pattern.
+    // Uses the sub-pixel size for dots of the default pattern.
     const Kernel kernel = make_kernel(imperfections, Pattern{}.dot_mm / view.camera.mm_per_px);
     const std::vector<float> paper = bare_paper(view, Page{}, imperfections, kernel.border_px);
     ImageRows rows(page, view, imperfections, kernel);

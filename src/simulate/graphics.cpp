@@ -9,7 +9,8 @@
 namespace dotpose::simulate {
 namespace {
 
-// Capital letters as strokes of four digits each, x y x y, on a grid 2 wide and 4 high, y up.
+// Capital letters. Each stroke is given by four digits, x y x y, on a grid that is 2 units wide and
+// 4 units high. y points up.
 constexpr std::array<std::string_view, 14> kLetters = {
     "001414200121",      // A
     "000404240020",      // C

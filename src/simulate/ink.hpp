@@ -35,7 +35,7 @@ struct View {
     CameraModel camera;
     CameraPose pose;
     Projection projection;
-    /// Maximum distance at which ink outside of the image contributes, due to blur and motion.
+    /// Maximum distance at which ink outside the image contributes, due to blur and motion.
     double margin_px;
 
     View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperfections& blurred);
@@ -51,8 +51,8 @@ OffsetBox visible_offsets(const View& view);
 /// Adds the image of a disc if it is in view.
 void add_disc(Ink& ink, const View& view, Vec2 offset_mm, double radius_mm, double reflectance);
 
-/// Returns the offset of the dot of a cell from its intersection, in units of the displacement
-/// length.
+/// Function that returns the offset of the dot of a cell from its intersection, in units of the
+/// displacement length.
 using DisplacementOf = std::function<Vec2(Cell)>;
 
 /// Adds the visible dots of the page, with their printing errors.

@@ -22,12 +22,13 @@ double integral_of_edge(double x, double sigma) {
 Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, double share) {
     const auto pixels = static_cast<std::size_t>(2 * kernel.border_px + 1);
     const auto per_pixel = static_cast<std::size_t>(kernel.per_pixel);
-    // edges[i] is the integral of the response up to the border before sub-pixel i of the kernel.
+    // edges[i] is the value of `integral_of_edge` at the border before sub-pixel i of the kernel.
     std::vector<double> edges;
     for (std::size_t i = 0; i <= (pixels + 1) * per_pixel; ++i) {
         edges.push_back(integral_of_edge(
             static_cast<double>(i) / kernel.per_pixel - kernel.border_px - 1 + shift_px, sigma_px));
     }
+    // Returns the integral of the response up to a border.
     const auto collected = [&](std::size_t border) {
         return edges[border + per_pixel] - edges[border];
     };
@@ -47,7 +48,7 @@ Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, 
     return result;
 }
 
-// Returns the number of sub-pixels per pixel and axis, at most 8, to have at least about 6
+// Returns the number of sub-pixels per pixel and axis, at most 8. This gives about 6 or more
 // sub-pixels across a dot. Sampling then moves the centroid of a dot by less than 0.003 px.
 int sub_pixels_for(double dot_px) {
     if (dot_px < 1.5) return 8;

@@ -66,8 +66,8 @@ class Texture {
         return nodes_[static_cast<std::size_t>(row * columns_ + column)];
     }
 
-    // Precomputes the values of the nodes in view, because each node is used by about 36 pixels.
-    // Under a strong tilt, there may be more nodes than pixels. In that case, there is no table.
+    // Precomputes the values of the nodes in view, because about 36 pixels use each node. Under a
+    // strong tilt, there may be more nodes than pixels. In this case, there is no table.
     void tabulate(const View& view) {
         const OffsetBox box = visible_offsets(view);
         const double width = (box.high_mm.x - box.low_mm.x) * nodes_per_mm_ + 3;

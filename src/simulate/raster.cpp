@@ -89,9 +89,9 @@ void Raster::draw_band(int top) {
 }
 
 // Darkens each sub-pixel in proportion to the area that a convex shape covers. The area is exact
-// along the row. Across the row, it is a Gauss quadrature with four chords, with an error below 0.1
-// % even at the round ends of a dot. `chord_at(y)` returns the left and right end of the chord at
-// y.
+// along the row. Across the row, a Gauss quadrature with four chords approximates the area, with an
+// error below 0.1 % even at the round ends of a dot. `chord_at(y)` returns the left and the right
+// end of the chord at y.
 template <typename ChordAt>
 void Raster::fill(double top, double bottom, double darkness, const ChordAt& chord_at) {
     struct Line {

@@ -12,7 +12,7 @@ void require(bool holds, const std::string& otherwise) {
     if (!holds) throw BadArgument(otherwise);
 }
 
-// Returns true if the value is between `low` and `high`. False for NaN.
+// Returns true if the value is from `low` to `high`. Returns false for NaN.
 bool within(double value, double low, double high) {
     return value >= low && value <= high;
 }
@@ -33,8 +33,8 @@ void check_camera(const CameraModel& camera, const CameraPose& pose) {
                 within(camera.readout_px.y, -kMaxReadout * half_v, kMaxReadout * half_v),
             "the motion during the readout must be at most 75 % of the image");
     const double corner_square = half_u * half_u + half_v * half_v;
-    // At |k| r^2 = 1, eq. 2 folds the image over itself (k above 0) or reaches infinity (k below
-    // 0).
+    // At |k| r^2 = 1, eq. 2 folds the image over itself if k is positive, or reaches infinity if k
+    // is negative.
     require(within(camera.k * corner_square, -0.9, 0.9),
             "the distortion k is too strong for this image: |k| r^2 must stay below 0.9 in the "
             "corners");

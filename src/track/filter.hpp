@@ -2,8 +2,8 @@
 // decay towards zero and are driven by white noise (Singer 1970). The variance of the noise, the
 // agility, is adapted to the motion of the robot.
 //
-// Bar-Shalom, Li, Kirubarajan: Estimation with Applications to Tracking and Navigation, 8.2 (the
-// model) and 11.2 (fitting it).
+// Bar-Shalom, Li, Kirubarajan: Estimation with Applications to Tracking and Navigation, sections
+// 8.2 (the model) and 11.2 (fitting the model).
 #pragma once
 
 #include "dotpose/track.hpp"
@@ -26,7 +26,7 @@ MotionEstimate predicted(const MotionEstimate& motion, std::int64_t time_us,
 MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measured,
                        std::int64_t time_us, bool is_y_up, const TrackOptions& options);
 
-/// Returns b - a in mm, mm and rad in [-pi, pi).
+/// Returns b - a: x and y in mm, and the angle in rad, in [-pi, pi).
 Vector3 difference(const TrackedPose& a, const TrackedPose& b);
 
 /// Difference between a sighting and the prediction for its time, with its covariance.

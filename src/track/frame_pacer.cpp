@@ -22,7 +22,7 @@ bool FramePacer::has_moved(const Fix& fix) const {
     const bool was_seen = rest_.status == Status::ok;
     if (fix.status != Status::ok) {
         // For a moving device, a frame without a fix is not informative. A stationary device that
-        // had a fix should get a fix again. If a frame has no fix, the device may have been moved.
+        // had a fix should get a fix again. If it does not get a fix, it may have been moved.
         return options_.lost_is_moved && was_seen && motion_ == Motion::stationary;
     }
     if (!was_seen) return true;

@@ -33,17 +33,17 @@ std::array<float, 2> in_pattern(float x, float y, const Fix& fix, const Sighting
     return {c * x - s * y, s * x + c * y};
 }
 
-/// Returns a standard deviation as an integer multiple of a unit, clamped to limits. NaN gives the
-/// upper limit.
+/// Returns a standard deviation as an integer multiple of a unit, clamped to limits. Returns the
+/// upper limit for NaN.
 std::int32_t bounded(float sigma, float unit, std::int32_t min, std::int32_t max) {
     const float value = sigma / unit;
     if (!(value < static_cast<float>(max))) return max;
     return std::max(static_cast<std::int32_t>(value), min);
 }
 
-/// Returns the standard deviation of the predicted pose. It combines the standard deviations of the
-/// filter and of the fix with `unforeseen`, a motion that the filter cannot predict. Three standard
-/// deviations must cover this motion.
+/// Returns the standard deviation of the predicted pose. Combines the standard deviations of the
+/// filter and of the fix, and adds a third of `unforeseen`, a motion that the filter cannot
+/// predict. Three standard deviations then cover this motion.
 float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis,
             float unforeseen) {
     return std::sqrt(predicted[axis][axis] + seen.covariance[axis][axis]) +

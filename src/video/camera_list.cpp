@@ -17,7 +17,7 @@ namespace dotpose::video {
 namespace {
 
 constexpr int kMaxDevices = 64;
-/// Maximum number of entries of each kind, because a faulty driver might return entries endlessly.
+/// Maximum number of entries of each kind. A faulty driver might return entries endlessly.
 constexpr std::uint32_t kMaxEntries = 256;
 
 class Device {

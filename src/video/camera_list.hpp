@@ -20,11 +20,11 @@ struct FoundCamera {
     std::string problem;  ///< reason why the device could not be queried; empty if it was queried
 };
 
-/// Returns the cameras among /dev/video0 to /dev/video63; empty if there are none.
+/// Returns the cameras among /dev/video0 to /dev/video63, or an empty list if there are none.
 std::vector<FoundCamera> find_cameras();
 
-/// Returns the cameras as a sentence without a full stop: "cameras are /dev/video0 (name), ..." or
-/// a statement that none was found.
+/// Returns the cameras as a sentence without a full stop: "cameras are /dev/video0 (name), ...".
+/// Without cameras, the sentence states that none was found.
 std::string in_one_line(const std::vector<FoundCamera>& cameras);
 
 }  // namespace dotpose::video

@@ -36,7 +36,7 @@ struct Module {
     std::unique_ptr<ScreenOutput> (*open_screen)(const ScreenOptions& options);
 };
 
-/// Returns the module, which is loaded by the first call. Throws Error if that fails.
+/// Returns the module. The first call loads the module and throws Error if loading fails.
 const Module& module();
 
 }  // namespace dotpose::video

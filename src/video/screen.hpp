@@ -40,7 +40,7 @@ struct CalibrationScene {
 
     CalibrationCoverage coverage;
     std::vector<Gauge> gauges;
-    std::optional<double> theta_rad;  ///< direction of the frame; none if it was not located
+    std::optional<double> theta_rad;  ///< direction of the frame; empty if it was not located
     bool is_taken = false;            ///< true if this frame was taken
 };
 
@@ -69,7 +69,7 @@ struct ScreenOptions {
 class ScreenOutput {
   public:
     virtual ~ScreenOutput() = default;
-    /// Implement the functions of Screen with the same names.
+    /// These functions implement the functions of Screen with the same names.
     virtual bool show(const Scene& scene) = 0;
     virtual void finish() = 0;
     virtual bool is_wanted() = 0;
@@ -77,22 +77,24 @@ class ScreenOutput {
 
 class Screen {
   public:
-    /// Throws Error if the window or the file cannot be opened. Both are opened for the first
-    /// scene.
+    /// The window and the file are opened for the first scene. Throws Error if the module that
+    /// opens them cannot be loaded.
     explicit Screen(const ScreenOptions& options);
 
     /// Returns true if there is a window or a recording.
     bool is_on() const;
 
-    /// Draws, shows and records a scene if `is_on()`. Returns false if the user closed the window
-    /// or pressed q or Escape in it. Throws Error if this fails.
+    /// Draws, shows and records a scene if `is_on()` is true. Returns false if the user closed the
+    /// window or pressed q or Escape in the window. Throws Error if the scene cannot be shown or
+    /// recorded.
     bool show(const Scene& scene);
 
     /// Closes the recording. Throws Error if it is incomplete, for example because the disk is
     /// full.
     void finish();
 
-    /// Handles window events while there is no new scene. Returns false like `show`.
+    /// Handles window events while there is no new scene. Returns false under the same conditions
+    /// as `show`.
     bool is_wanted();
 
   private:

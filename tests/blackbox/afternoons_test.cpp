@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// Returns a phone's photo of a place on the page of a sheet file.
+/// Returns a phone photo of a part of the page.
 Shot phone_shot(const json& sheet) {
     Setup setup;
     setup.seed = 3;
@@ -98,7 +98,7 @@ TEST_F(Afternoon, OfATeacherWithAPhone) {
     EXPECT_EQ(read_file(directory_ / "again.pdf"), read_file(directory_ / "sheet.pdf"));
 }
 
-// A maker of devices checks the optics, and reads the packets of the device.
+// A device maker checks the optics, and reads the packets of the device.
 TEST_F(Afternoon, OfAMakerOfDevices) {
     expect_ok("optics --device paper");
     for (int i = 0; i < 3; ++i) {

@@ -27,7 +27,7 @@ constexpr std::uint32_t kShifted = 231;
 constexpr std::uint32_t kBorder = 221;
 constexpr std::uint32_t kCommon = 100;
 
-/// Returns a frame of 17 x 10 dots without rotation, with its centre at these remainders.
+/// Returns a frame of 17 x 10 dots without rotation. Its centre is at cell (x, y) modulo kPeriod.
 Shot shot_at(CodeVariant code, std::uint32_t x, std::uint32_t y) {
     Shot shot = test::shot(3);
     shot.page.pattern.code = code;
@@ -122,7 +122,7 @@ TEST_F(AnyCode, given_decides_and_another_that_explains_the_frame_is_a_warning) 
     EXPECT_EQ(wrong["other_code"], "libdots");
     EXPECT_TRUE(is_at(wrong, "other_x_mm", "other_y_mm", truth)) << wrong;
 
-    // If there is no place in the given code, the warning names a code with a place.
+    // If the frame has no position in the given code, the warning names a code in which it has one.
     run("--code microdots a.pgm");
     const json none = records().at(0);
     EXPECT_NE(none["status"], "ok");

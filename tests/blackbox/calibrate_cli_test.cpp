@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 class CalibrateCommand : public ToolCommand {
   protected:
-    /// Renders frames of the paper's lens into a folder.
+    /// Simulates frames with the lens of the paper, and writes them to a folder.
     void simulate(const std::string& folder, int frames, const std::string& more = "") {
         ASSERT_EQ(run("simulate -o " + folder + " --seed 91 --k -8.7e-6 --frames " +
                       std::to_string(frames) + " " + more),
@@ -38,8 +38,8 @@ TEST_F(CalibrateCommand, WritesACameraFileThatLocateReads) {
     EXPECT_EQ(json::parse(output_)["wrong"], 0);
 }
 
-// Frames of lenses without a camera file. The lens moves the corner by up to 5 % of its distance
-// from the centre, inwards and outwards.
+// Locates frames with lens distortion, but without a camera file. The lens moves the image corner
+// by up to 5 % of its distance from the centre, inwards and outwards.
 TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
     const auto corner_px = [](int width, int height) {
         return std::hypot((width - 1) / 2.0, (height - 1) / 2.0);
@@ -233,7 +233,7 @@ TEST_F(CalibrateCommand, KeepsTheMountOfTheFileThatItReplaces) {
     EXPECT_THAT(file("camera.yaml"), HasSubstr("k_per_px2: -8.7e-06"));
     EXPECT_THAT(file("camera.yaml"), HasSubstr("reference_px: [500, 59.5]"));
 
-    // A camera file with a mount that cannot be kept is not overwritten.
+    // If the mount in a camera file cannot be kept, the file is not overwritten.
     for (const char* other : {kLargeCamera, "{format: another}"}) {
         std::ofstream(directory_ / "camera.yaml") << other;
         EXPECT_EQ(run("calibrate frames/*.pgm -o camera.yaml"), 1);

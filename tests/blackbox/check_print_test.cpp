@@ -102,7 +102,7 @@ TEST_F(CheckPrintCommand, fit_makes_the_millimetres_of_the_sheet_file_true) {
     EXPECT_NEAR(sheets()[1].print_scale_y, 0.98, 2e-4);
     EXPECT_EQ(sheets()[0].print_scale_x, 1);
 
-    // A sheet that is not in the file has no effect.
+    // A scan of a sheet that is not in the file does not change the file.
     const std::string before = file("sheets.json");
     write_jpeg("other.jpg", scan_of_60_x_50_mm(settings), 600);
     EXPECT_EQ(run("check-print other.jpg --fit --sheets sheets.json"), 1);
@@ -149,7 +149,7 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json --dpi 600"), 0) << errors_;
 }
 
-// Without its EXIF data, a photo taken straight from above would be taken for a scan with the
+// Without its EXIF data, a photo taken straight from above would be mistaken for a scan with the
 // resolution that the phone wrote into the file.
 TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     ASSERT_EQ(run("print --paper 60x50 -o a.svg --sheets sheets.json --name a"), 0);
@@ -175,8 +175,8 @@ TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     EXPECT_EQ(run("check-print photo.jpg --format json"), 0);
     EXPECT_EQ(json::parse(output_)["exif_of_camera"], true);
 
-    // EXIF data of a scanner have no exposure, so the resolution of the file, 300 dpi, is used. The
-    // option --dpi has the same effect.
+    // The EXIF data of a scanner contain no exposure, so the resolution of the file, 300 dpi, is
+    // used. The option --dpi has the same effect.
     write("scan.jpg", {test::date_taken, test::file_source});
     EXPECT_EQ(run("check-print scan.jpg"), 3);
     EXPECT_THAT(output_, HasSubstr("FAULT: the driver scaled the page to 110.0 %"));

@@ -8,7 +8,7 @@
 
 namespace dotpose::test {
 
-/// Returns the value of a JSON line for a CSV column, or null if there is none.
+/// Returns the value in a JSON line that corresponds to a CSV column, or null if there is none.
 inline nlohmann::json value_in(const nlohmann::json& line, const std::string& column) {
     if (line.contains(column)) return line[column];
     if (column == "section_u" && line.contains("section")) return line["section"][0];

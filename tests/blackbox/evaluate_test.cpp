@@ -55,7 +55,7 @@ class EvaluateCommand : public ToolCommand {
     }
 };
 
-/// Returns true if a picture contains some ink, on mostly light paper.
+/// Returns true if a picture contains some ink on mostly light paper.
 bool shows_something(const GreyImage& image) {
     const auto pixels = static_cast<std::ptrdiff_t>(image.pixels.size());
     const auto light = std::count_if(image.pixels.begin(), image.pixels.end(),
@@ -78,8 +78,8 @@ TEST_F(EvaluateCommand, AFolderGivesTheNumbersOfTheSameFramesInMemory) {
     ASSERT_EQ(run("evaluate --preset nominal --frames 10 --seed 7 --format json"), 0) << errors_;
     const json memory = result();
     EXPECT_EQ(memory["located"], folder["located"]);
-    // truth.csv gives positions with 8 decimals, in grid spacings. Rounding explains the
-    // difference.
+    // truth.csv contains positions with 8 decimals, in grid spacings. The difference is due to
+    // rounding.
     EXPECT_NEAR(memory["position_um"]["median"], folder["position_um"]["median"], 1e-4);
     EXPECT_NEAR(memory["angle_deg"]["max"], folder["angle_deg"]["max"], 1e-6);
 }
@@ -145,7 +145,7 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     EXPECT_EQ(result()["located"], 5);
     // The limit is larger than above for two reasons. The centre is 5 mm from the camera, so an
     // angle error of 0.03 degrees moves it by 3 µm. The coordinates in truth.csv have only 6
-    // significant digits, an error of up to 3 µm.
+    // significant digits, which is an error of up to 3 µm.
     EXPECT_LT(result()["position_um"]["max"], 15);
     EXPECT_LT(result()["angle_deg"]["max"], 0.15);
 }
@@ -201,8 +201,8 @@ class EvaluateMeasured : public EvaluateCommand {
                       frame_of(sheet, x_mm, y_mm, 0.4 * i, static_cast<std::uint64_t>(i)).view());
             by_ruler << name << ",table," << x_mm << ',' << y_mm << ',' << 0.4 * i * kDegrees
                      << '\n';
-            // The frame of the stage has y up and is rotated by a quarter turn. Its coordinates are
-            // 0.3 % too large.
+            // In the coordinate system of the stage, y points up and the axes are rotated by a
+            // quarter turn. Its coordinates are 0.3 % too large.
             by_stage << name << ',' << 1.003 * y_mm / 1000 << ',' << 1.003 * x_mm / 1000 << ','
                      << 90 - 0.4 * i * kDegrees << '\n';
         }

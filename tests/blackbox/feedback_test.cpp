@@ -50,7 +50,7 @@ class Feedback : public ToolCommand {
         }
     }
 
-    /// A source of raw frames that never ends.
+    /// Shell command that writes raw frames and then keeps the pipe open.
     static constexpr const char* kEndless =
         "{ cat frames.raw; touch fed; until [ -e done ]; do sleep 0.02; done; } | ";
     /// Starts the tool as a process with a known id.

@@ -25,8 +25,8 @@ class Hostile : public ToolCommand {
     }
 };
 
-/// Control sequences that set the title and the colour of a terminal and ring its bell, and a line
-/// break with a forged output line.
+/// Control sequences that set the title and the colour of a terminal and ring its bell, followed by
+/// a line break and a forged output line.
 constexpr const char* kActs = "\x1b]0;OWNED\x07\x1b[31m\x7f\xc2\x9b\n{\"status\":\"ok\"}";
 
 void expect_harmless(const std::string& text) {
@@ -69,7 +69,7 @@ TEST_F(Hostile, OptionsRefuseWhatIsNoFiniteNumber) {
         EXPECT_EQ(run(command), 2) << command;
         EXPECT_THAT(errors_, HasSubstr("finite number")) << command;
     }
-    // This text is a valid file name.
+    // A file may have the name `nan`.
     put("nan", "P5 1 1 255\nx");
     run("locate nan");
     EXPECT_THAT(output_, HasSubstr("\"file\":\"nan\""));
@@ -208,7 +208,7 @@ TEST_F(Hostile, AReaderThatLeavesEndsNeitherMapNorLog) {
     EXPECT_EQ(std::ranges::count(output_, '\n'), 1);
     EXPECT_EQ(std::ranges::count(file("log.csv"), '\n'), 41);
     EXPECT_THAT(file("map.svg"), HasSubstr("40 frames"));
-    // The frames arrive after the reader has left.
+    // The frames arrive after the reader has closed the pipe.
     EXPECT_EQ(shell("mkfifo packets; (exec 3< packets; exec 3<&-; : > left) & "
                     "(until [ -e left ]; do sleep 0.01; done; tail -q -c 22560 frames/*.pgm) |"
                     "\"$T\" watch - --size 188x120 --packets packets -o lines; wait"),
@@ -219,8 +219,8 @@ TEST_F(Hostile, AReaderThatLeavesEndsNeitherMapNorLog) {
 
 TEST_F(Hostile, AFullDiskIsToldByTheRecording) {
     simulate(40);
-    // Files are limited to 8 blocks of 512 bytes, and the signal that would end the program is
-    // ignored.
+    // Files are limited to 8 blocks of 512 bytes. The signal that would end the program at this
+    // limit is ignored.
     EXPECT_EQ(shell("trap '' XFSZ; ulimit -f 8; \"$T\" watch frames --fps 50 --record a.mp4 | cat"
                     " > /dev/null; \"$T\" watch frames --fps 50 --record a.mp4 > /dev/null"),
               1);

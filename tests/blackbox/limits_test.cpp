@@ -1,4 +1,4 @@
-// Tests that `locate` locates the worst frames that docs/limits.md promises.
+// Tests that `locate` locates frames at the limits that docs/limits.md promises.
 #include <algorithm>
 #include <cctype>
 #include <memory>

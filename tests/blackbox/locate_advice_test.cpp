@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// The view has about 7 x 7 clear dots, which do not suffice to exclude all other places.
+// The view contains about 7 x 7 clear dots, too few to rule out all other positions.
 TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
     ASSERT_EQ(ToolCommand::run("simulate -o few --size 84x84 --frames 1 --preset clean --seed 3"),
               0);
@@ -26,8 +26,8 @@ TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
     EXPECT_THAT(records().at(0)["message"], HasSubstr("show more of the sheet"));
 }
 
-// Bits are read in all cells, including cells without a dot. Their number is therefore not twice
-// the number of dots.
+// Bits are read in all cells, including cells without a dot. The number of bits is therefore not
+// twice the number of dots.
 TEST_F(LocateCommand, bits_that_contradict_a_position_are_not_counted_by_dots) {
     dotpose::Setup setup;
     setup.seed = 3;
@@ -102,7 +102,7 @@ TEST_F(LocateCommand, a_picture_that_is_tilted_out_of_focus_or_shaken_says_so) {
     run("blurred.pgm");
     EXPECT_NE(records().at(0)["status"], "ok") << output_;
     EXPECT_THAT(records().at(0)["message"], HasSubstr("the picture is out of focus, shaken"));
-    // A sharp picture of a text gets neither the advice on focus nor the advice on tilt.
+    // A sharp picture of text gets neither the advice on focus nor the advice on tilt.
     write_pgm(directory_ / "text.pgm", render_scene(Scene::text, clean_shot(14)).view());
     run("text.pgm");
     EXPECT_NE(records().at(0)["status"], "ok") << output_;
@@ -119,7 +119,7 @@ Shot wide_shot() {
     return draw_shot(setup, 0);
 }
 
-// Neither side of the image is a multiple of 2, so its centre moves when the image is reduced.
+// Both dimensions of the image are odd, so the image centre moves when the image is reduced.
 TEST_F(LocateCommand, an_image_beyond_the_limit_is_reduced_and_that_is_told) {
     const Shot wide = wide_shot();
     write_pgm(directory_ / "wide.pgm", render(wide).view());
@@ -194,12 +194,12 @@ TEST_F(LocateCommand, a_picture_from_too_near_says_so) {
         const std::string message = records().at(0)["message"];
         EXPECT_THAT(message, HasSubstr("the camera is too near, its dots are ")) << px;
         const double told = std::stod(message.substr(message.find("its dots are ") + 13));
-        EXPECT_NEAR(told, px, 0.06 * px);  // the advice ignores the lens
+        EXPECT_NEAR(told, px, 0.06 * px);  // the advice ignores lens distortion
         EXPECT_THAT(message, Not(HasSubstr("focus")));
     }
 }
 
-// The dots are too few for a search in all three codes, but enough for one code.
+// There are too few dots for a search in all three codes, but enough for a search in one code.
 TEST_F(LocateCommand, a_position_that_only_its_code_makes_certain_names_the_option) {
     int found = 0;
     for (int seed = 1; seed <= 12 && found == 0; ++seed) {
@@ -221,7 +221,7 @@ TEST_F(LocateCommand, a_position_that_only_its_code_makes_certain_names_the_opti
     EXPECT_EQ(found, 1) << "no seed shows the case";
 }
 
-// The dots have fewer pixels than a lens resolves, so the spacing cannot be measured.
+// The dots are too small for a lens to resolve, so the spacing cannot be measured.
 TEST_F(LocateCommand, a_picture_of_a_screen_says_that_it_may_be_too_coarse) {
     ASSERT_EQ(ToolCommand::run("simulate -o screen --mm-per-px 0.26 --frames 1 --seed 1"), 0);
     run("screen/frame_000000.pgm");

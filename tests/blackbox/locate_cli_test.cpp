@@ -279,7 +279,7 @@ TEST_F(LocateCommand, draws_one_image_into_a_file) {
     EXPECT_THAT(file("picture.svg"), HasSubstr("</svg>"));
     run("--draw picture.svg flat.pgm");
     EXPECT_THAT(file("picture.svg"), HasSubstr("no fix: no_contrast"));
-    // The picture contains the advice of the line.
+    // The picture contains the advice from the output line.
     const std::string message = records().at(0)["message"];
     EXPECT_THAT(file("picture.svg"), HasSubstr(message.substr(0, 40)));
     run("--draw picture.svg a.pgm flat.pgm");
@@ -331,7 +331,8 @@ TEST_F(LocateCommand, the_lens_is_used) {
     EXPECT_LT(with_lens["residual_px"], 0.5);
     run("a.pgm");
     const json without = records().at(0);
-    // The lens term of the pose fit alone explains most of the dots, but less accurately.
+    // Without --k, the lens term of the pose fit still explains most of the dots, but less
+    // accurately.
     if (without["status"] == "ok") {
         EXPECT_LT(without["dots_used"], 0.95 * with_lens["dots_used"].get<double>()) << without;
         EXPECT_GT(without["sigma_x_mm"], 1.2 * with_lens["sigma_x_mm"].get<double>()) << without;
@@ -367,7 +368,7 @@ TEST_F(LocateCommand, white_dots_on_black_are_read_if_told) {
     EXPECT_EQ(pixels_in("inverted.svg"), pixels_in("usual.svg"));
 }
 
-// Spacings of half a millimetre in micrometres and in metres, and spacings just outside the range.
+// Half a millimetre given in micrometres and in metres, and spacings just outside the valid range.
 TEST_F(LocateCommand, a_spacing_in_another_unit_is_refused) {
     write_frame("a.pgm", 0);
     for (const std::string spacing : {"508", "0.0005", "100.1", "0.0099"}) {
@@ -451,7 +452,7 @@ TEST_F(LocateCommand, wrong_usage_is_status_2_with_a_message) {
         "--code 7 a.pgm",           // not a name
         "--spacing 0 a.pgm",        // not a length
         "--spacing -1 a.pgm",       //
-        "--k 1 a.pgm",              // out of range of all lenses
+        "--k 1 a.pgm",              // outside the range of all lenses
         "--k nan a.pgm",            //
         "--k wide a.pgm",           //
         "--reference 1 a.pgm",      // only one coordinate

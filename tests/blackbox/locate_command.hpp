@@ -45,7 +45,7 @@ inline std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
-/// Returns nominal shots with known poses.
+/// Returns a nominal shot with a known pose.
 inline Shot shot(std::uint64_t index) {
     Setup setup;
     setup.seed = 20;
@@ -83,8 +83,8 @@ class LocateCommand : public ToolCommand {
         image.pixels.assign(static_cast<std::size_t>(width_px * height_px), 200);
         write_pgm(directory_ / name, image.view());
     }
-    /// Writes an image with libpng's simplified interface. 2-byte samples are linear, as libpng
-    /// defines 16-bit formats.
+    /// Writes an image with libpng's simplified interface. 2-byte samples are linear, as in the
+    /// 16-bit formats of libpng.
     void write_as_png(const std::string& name, const GreyImage& image, png_uint_32 format,
                       const void* samples) const {
         png_image png{};

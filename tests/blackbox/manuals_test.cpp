@@ -1,4 +1,4 @@
-// Tests the manual pages, and the completions for shells (apps/shell).
+// Tests the manual pages and the shell completions (apps/shell).
 #include <set>
 #include <sstream>
 #include <string>

@@ -23,7 +23,7 @@ struct Mistake {
 };
 
 constexpr Mistake kMistakes[] = {
-    // Commands and options.
+    // Commands and options
     {"NoCommand", "", 2, "no command given", "Try: dotpose --help"},
     {"MisspeltCommand", "loacte a.pgm", 2, "unknown command 'loacte'", "did you mean 'locate'?"},
     {"MisspeltCommandOfHelp", "help pirnt", 2, "'pirnt'", "did you mean 'print'?"},
@@ -38,7 +38,7 @@ constexpr Mistake kMistakes[] = {
      "dotpose calibrate --help"},
     {"OptionBeforeCommand", "--spacing 0.5 locate a.pgm", 2, "unknown option '--spacing'",
      "dotpose locate --spacing"},
-    // Files and folders.
+    // Files and folders
     {"NoImage", "locate", 2, "no source of frames given", "name images, a folder, a video"},
     {"NoSuchImage", "locate nothere.png", 1, "cannot read nothere.png", "no such file"},
     {"EmptyFolder", "locate empty", 1, "cannot read empty", "no images in this folder"},
@@ -72,7 +72,7 @@ constexpr Mistake kMistakes[] = {
     {"ReplayOfFolder", "replay frames", 1, "cannot read frames", "dotpose watch --log"},
     {"ReplayOfText", "replay notes.txt", 1, "not a log of dotpose watch", "notes.txt"},
     {"EvaluateWithoutTruth", "evaluate plain", 1, "no plain/truth.csv", "--poses"},
-    // Units, sizes and numbers.
+    // Units, sizes and numbers
     {"SpacingInMicrometres", "locate --spacing 508 a.pgm", 2, "'508'", "the default is 0.508"},
     {"SpacingWithUnit", "locate --spacing 0.5mm a.pgm", 2, "'0.5mm'", "in mm"},
     {"UnknownPaper", "print -o a.pdf --paper A44", 2, "unknown paper size 'A44'", "A0 to A6"},
@@ -81,7 +81,7 @@ constexpr Mistake kMistakes[] = {
     {"ReferenceOfOneNumber", "locate --reference 10 a.pgm", 2, "'10'", "two numbers"},
     {"SectionTooLarge", "print -o a.pdf --section 63,0", 2, "'63,0'", "from 0 to 62"},
     {"NoFrames", "simulate -o g --frames 0", 2, "0", "1 to 1000000"},
-    // Options that require each other, and missing arguments.
+    // Options that require each other, and missing arguments
     {"NameTaken", "print -o b.svg --sheets sheets.json --name table", 2,
      "there already is a sheet 'table'", "dotpose print --help"},
     {"SheetsWithoutName", "print -o b.svg --sheets sheets.json", 2, "--sheets", "--name"},
@@ -89,14 +89,14 @@ constexpr Mistake kMistakes[] = {
     {"OneFrameToCalibrate", "calibrate a.pgm -o c.yaml", 1, "a single frame", "take 5 to 50"},
     {"NothingToCalibrate", "calibrate", 2, "no frames given", "5 to 50 images"},
     {"RawWithoutSize", "locate -", 2, "raw frames need their size", "--size WxH"},
-    // Cameras, lines and brokers.
+    // Cameras, serial lines and brokers
     {"NoSuchCamera", "watch 63 --no-window", 1, "cannot open the camera 63", "there is none"},
     {"NoSuchVideo", "watch nothere.mp4", 1, "cannot read nothere.mp4", "no such file or camera"},
     {"BrokerWithoutScheme", "fleet --mqtt broker", 2, "'broker'", "did you mean mqtt://broker?"},
     {"NoPackets", "listen notes.txt", 0, "0 packets", "watch --packets"},
 };
 
-/// Prints the command of the mistake for lists of tests.
+/// Prints the command of the mistake in test listings.
 void PrintTo(const Mistake& mistake, std::ostream* out) {
     *out << "dotpose " << mistake.arguments;
 }

@@ -1,4 +1,4 @@
-// Tests the lines of `locate`, `watch` and `listen`: schema, units and covariances.
+// Tests the output lines of `locate`, `watch` and `listen`: schema, units and covariances.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -46,7 +46,7 @@ Matrix propagated(const Matrix& j, const Matrix& c) {
     return result;
 }
 
-/// Expects equal matrices. Both have seven digits.
+/// Expects equal matrices. Both matrices were printed with seven digits.
 void expect_equal(const Matrix& actual, const Matrix& expected) {
     for (std::size_t i = 0; i < 9; ++i) {
         const double scale = std::sqrt(expected[i / 3][i / 3] * expected[i % 3][i % 3]);
@@ -104,7 +104,7 @@ class OutputLines : public ToolCommand {
         json::parse(read_file(test::source_dir() + "/docs/schema/lines-1.json"))};
 };
 
-/// All commands that write lines, with the values of each option that changes the fields of a line.
+/// All commands that write output lines, with the values of each option that changes the fields.
 constexpr std::array kRuns = {
     "locate frames/f0.pgm frames/g10.pgm",
     "locate frames/f0.pgm --sheets sheets.json",

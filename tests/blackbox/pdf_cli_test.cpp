@@ -25,8 +25,7 @@ class PdfCommands : public ToolCommand {
 TEST_F(PdfCommands, print_makes_pages_with_text_that_can_be_selected) {
     run("$T print -o 'my sheet.pdf' --pages 3 --paper A6 --section 1,2 --origin 9,8");
     EXPECT_EQ(exit_code_, 0);
-    // Between margins of 10 mm there are 85 mm and 128 mm, with room for 167 and 252 cells of 0.508
-    // mm.
+    // Margins of 10 mm leave 85 x 128 mm, which is enough for 167 x 252 cells of 0.508 mm.
     EXPECT_THAT(output_, HasSubstr("my sheet.pdf: 1/3, page 105 x 148 mm, cells 9,8 to 175,259 "));
     EXPECT_THAT(output_, HasSubstr("3/3, page 105 x 148 mm, cells 343,8 to 509,259 "));
     run("qpdf --check 'my sheet.pdf' && pdftotext -f 2 -l 2 'my sheet.pdf' -");
@@ -72,7 +71,7 @@ TEST_F(PdfCommands, overlay_says_which_region_each_page_got) {
     run("$T print -o in.pdf --pages 3 --paper 80x60 > /dev/null && "
         "$T overlay in.pdf -o out.pdf --pages 1,z --origin 5000,10 --spacing 1");
     EXPECT_EQ(exit_code_, 0);
-    // Between margins of 5 mm there are 70 mm and 50 mm.
+    // Margins of 5 mm leave 70 x 50 mm.
     EXPECT_THAT(output_, HasSubstr("out.pdf 1: page 80 x 60 mm, cells 5000,10 to 5069,59 "));
     EXPECT_THAT(output_, HasSubstr("out.pdf 3: page 80 x 60 mm, cells 5070,10 to 5139,59 "));
     EXPECT_THAT(output_, HasSubstr("warning: pages 1, 3: black text or drawings hide dots"));
@@ -97,7 +96,7 @@ TEST_F(PdfCommands, overlay_enters_its_pages_in_a_sheet_file) {
         int origin_y;
         int columns;
     } expected[] = {
-        // Between margins of 5 mm, n dots take (n - 0.5) * 0.508 mm. Free regions are 1024 cells
+        // With margins of 5 mm, n dots take (n - 0.5) * 0.508 mm. Free regions are 1024 cells
         // apart.
         {"desk", 1, 1024, 1024, 59},
         {"form-1", 1, 1024 + 59 + 1024, 1024, 138},

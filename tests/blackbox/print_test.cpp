@@ -54,7 +54,7 @@ TEST_F(PrintCommand, writes_every_format) {
     EXPECT_THAT(file("a.tif").substr(0, 2), testing::AnyOf("II", "MM"));
 }
 
-/// Returns a number of four bytes, most significant first, as in PNG.
+/// Returns the 32-bit big-endian number at an offset, as used in PNG.
 std::uint32_t number_at(const std::string& bytes, std::size_t at) {
     std::uint32_t number = 0;
     for (std::size_t i = at; i < at + 4; ++i)

@@ -25,7 +25,7 @@ Shot shot_of(Preset preset, Size size, std::uint64_t index) {
     return draw_shot(setup, index);
 }
 
-/// Expects a refusal. A fix is wrong, and so is a status about the caller instead of the frame.
+/// Expects a refusal of the frame. A fix is a failure, and so is a status that blames the caller.
 void expect_refusal(const GreyImage& image, LargeMemory& memory, const std::string& what) {
     const Fix fix = Locator(memory, DeviceOptions{}).locate(image.view());
     switch (fix.status) {

@@ -127,7 +127,7 @@ TEST_F(RunFiles, a_camera_file_may_be_completed_but_not_turned_into_another_form
         "1, cols: 5, data: [0, 0, 0, 0, 0]}}");
     expect_refused({"calibrate --camera ros.yaml --drive g/frame_000000.pgm -o ros.yaml"},
                    " would overwrite the input ");
-    // Three frames at random places are not a drive, but this can only be detected by locating
+    // Three frames at random places are not a drive, but the tool detects this only by locating
     // them.
     EXPECT_EQ(run("calibrate --camera c.yaml --drive g/*.pgm -o c.yaml"), 1);
 }

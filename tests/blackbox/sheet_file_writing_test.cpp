@@ -139,8 +139,8 @@ TEST_F(SheetFileWriting, prints_at_the_same_time_all_get_regions_of_their_own) {
     std::vector<std::uint32_t> origins;
     for (const json& sheet : sheets())
         origins.push_back(sheet["origin_x"]);
-    // With twice the gap of 1024, the regions would need two rows. They are in one row, with 59
-    // columns each.
+    // All regions are in one row, with 59 columns each and gaps of 1024 columns. With twice this
+    // gap, two rows would be necessary.
     EXPECT_THAT(origins, ElementsAre(1024, 2107, 3190, 4273, 5356, 6439, 7522, 8605));
 }
 

@@ -1,6 +1,6 @@
-// Tests poses on the page and in the world, with the tool alone: prints pages with `dotpose print`
-// and a sheet file, renders frames of the pages, and locates the frames with `dotpose locate` and
-// the sheet file.
+// Tests poses on the page and in the world end to end: prints pages with `dotpose print` and a
+// sheet file, renders frames of the pages, and locates the frames with `dotpose locate` and the
+// sheet file.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -27,8 +27,8 @@ using testing::IsEmpty;
 
 constexpr double kPi = std::numbers::pi;
 
-// Tolerance of places. In nominal frames, dots are jittered by 0.010 mm and about 170 are in view,
-// so a fix is accurate to 0.001 mm. An error of half a camera pixel would be 0.02 mm.
+// Tolerance of positions. In nominal frames, dots are jittered by 0.010 mm and about 170 dots are
+// in view, so a fix is accurate to 0.001 mm. An error of half a camera pixel would be 0.02 mm.
 constexpr double kTolerance_mm = 0.02;
 
 using SheetFiles = SheetsCommand;
@@ -59,8 +59,8 @@ TEST_F(SheetFiles, tell_sheet_place_and_world_pose) {
         EXPECT_EQ(record.contains("x_m"), i % 2 == 1);
         EXPECT_EQ(record.contains("yaw_rad"), i % 2 == 1);
         if (i % 2 == 0) continue;
-        // The page's y axis points down, and the world's y axis points up. The place in the world
-        // is therefore the conjugate, rotated and moved.
+        // The page's y axis points down, and the world's y axis points up. The position in the
+        // world is therefore the complex conjugate, rotated and translated.
         const std::complex<double> turn = std::polar(1.0, kYaw_rad);
         const std::complex<double> at =
             std::complex(1.25, -0.5) + turn * std::conj(std::complex(x_mm, y_mm)) / 1000.0;
@@ -105,9 +105,9 @@ TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
     EXPECT_NE(records().at(0)["status"], "ok") << records().at(0);
 }
 
-/// Returns the image of a camera above the printed page, cut out of the printed file. Each camera
-/// pixel covers 2 x 2 printer pixels, and the image centre is at the corner of the printer pixels
-/// (u, v). The table around the page is white.
+/// Returns the image of a camera above the printed page, cropped from the printed file. Each camera
+/// pixel covers 2 x 2 printer pixels, and the image centre is at the corner (u, v) of the printer
+/// pixels. The table around the page is white.
 GreyImage cut_out(const GreyImage& page, int u, int v, int width_px = 188, int height_px = 120) {
     const auto level_at = [&page](int column, int row) {
         const bool is_inside =
@@ -143,8 +143,8 @@ TEST_F(SheetFiles, agree_with_a_ruler_on_the_printed_page) {
     }
 }
 
-/// Returns the column with the most dark pixels, among the given columns and between the given
-/// rows.
+/// Returns the column with the most dark pixels, searching columns [u_begin, u_end) and rows
+/// [v_begin, v_end).
 int darkest_column(const GreyImage& page, int u_begin, int u_end, int v_begin, int v_end) {
     int best = u_begin;
     int most = 0;
@@ -204,12 +204,13 @@ TEST_F(SheetFiles, may_mix_codes_and_spacings) {
             EXPECT_EQ(record["sheet"], file[i]["name"]);
             EXPECT_NEAR(record["x_sheet_mm"], x_mm, kTolerance_mm);
             EXPECT_NEAR(record["y_sheet_mm"], 18.5, kTolerance_mm);
-            // Millimetres of the pattern use the spacing of the sheet.
+            // Positions of the pattern in mm are computed with the spacing of the sheet.
             EXPECT_NEAR(record["x_mm"],
                         record["x_grid"].get<double>() * file[i]["spacing_mm"].get<double>(), 1e-5);
         }
     }
-    // Outside of all sheets, the spacing is unknown, and no lengths are in millimetres.
+    // Outside of all sheets, the spacing is unknown, so the record contains no lengths in
+    // millimetres.
     run("frame.pgm --code libdots");
     json elsewhere = file[0];
     elsewhere["origin_x"] = 300'000'000;
@@ -234,7 +235,8 @@ TEST_F(SheetFiles, csv_has_the_same_columns_for_every_frame) {
     const std::vector<json> expected = records();
     ASSERT_EQ(expected.size(), 4U);
     EXPECT_EQ(expected[2]["status"], "ok");
-    // All sheets have the same spacing, which is therefore also used for this place.
+    // All sheets have the same spacing, so this spacing also applies to the position outside of
+    // them.
     EXPECT_TRUE(expected[2].contains("x_mm"));
     run("--format csv " + arguments);
     EXPECT_EQ(lines_of(output_).front(),
@@ -295,7 +297,7 @@ TEST_F(SheetFiles, the_print_scale_is_applied) {
 TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
     ASSERT_EQ(print("-o a.png --margin 0 --dpi 1200 --paper 30x30 --sheets sheets.json --name a"),
               0);
-    // The margin is wide enough for frames with their centre on b that only show dots of a.
+    // The margin is so wide that frames centred on b may show only dots of a.
     ASSERT_EQ(print("-o b.png --margin 9 --dpi 1200 --paper 50x30 --sheets sheets.json --name b"),
               0);
     const GreyImage a = read_image((directory_ / "a.png").string());
@@ -318,7 +320,8 @@ TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
         const double x_mm = (is_b ? u - a.width_px : u) * 25.4 / 1200;
         EXPECT_NEAR(record["x_sheet_mm"], x_mm, kTolerance_mm) << u;
     }
-    // Frames reach 280 printer pixels to each side. The dots of b begin 430 pixels from its edge.
+    // Frames extend by 280 printer pixels to each side. The dots of b begin 430 pixels from its
+    // edge.
     EXPECT_GE(on_a, 8);
     EXPECT_GE(on_b, 12);
 }
@@ -399,8 +402,8 @@ TEST_F(SheetFiles, pictures_show_the_profile_that_was_found) {
     ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --code microdots "
                     "--spacing 0.6"),
               0);
-    // This place is on no sheet. Although the second code variant was tried afterwards, the picture
-    // shows the fix of the first.
+    // This position is not on any sheet. Although the tool also tries the second code variant, the
+    // picture shows the fix of the first.
     write_frame("elsewhere.pgm", 0);
     run("--sheets sheets.json --draw pictures elsewhere.pgm");
     EXPECT_EQ(records().at(0)["status"], "ok");

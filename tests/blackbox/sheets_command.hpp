@@ -9,8 +9,8 @@
 
 namespace dotpose::test {
 
-/// Returns a nominal frame of a place on a page, given in mm of the page. The place on the code
-/// plane follows from the numbers in the sheet file.
+/// Returns a nominal frame of a position on a page, in mm. The position in the code plane is
+/// computed from the numbers in the sheet file.
 inline GreyImage frame_of(const json& sheet, double x_mm, double y_mm, double theta_rad,
                           std::uint64_t seed) {
     Setup setup;
@@ -51,7 +51,7 @@ class SheetsCommand : public LocateCommand {
         write("sheets.json", document.dump());
     }
 
-    /// Returns the record of an image.
+    /// Locates an image with the sheet file, and returns its record.
     json locate_with_sheets(const GreyImage& image) {
         write_pgm(directory_ / "frame.pgm", image.view());
         run("--sheets sheets.json frame.pgm");

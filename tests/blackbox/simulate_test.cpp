@@ -160,7 +160,7 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
     }
     EXPECT_LE(between_sheets, 2);
     EXPECT_THAT(sheets, testing::ElementsAre("a", "b"));
-    // A step is 20 mm along a curve.
+    // Consecutive frames are 20 mm apart along a curve.
     for (const double step_mm : steps_mm) {
         EXPECT_LT(step_mm, 20.1);
         EXPECT_GT(step_mm, 12);

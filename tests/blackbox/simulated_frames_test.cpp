@@ -21,7 +21,7 @@ std::uint64_t frames_of(std::uint64_t usual, std::uint64_t many) {
     return std::getenv("DOTPOSE_LONG_TESTS") != nullptr ? many : usual;
 }
 
-/// Results of a run of frames.
+/// Results of a series of frames.
 struct Tally {
     std::uint64_t frames = 0;
     std::uint64_t located = 0;
@@ -84,7 +84,7 @@ TEST(SimulatedFrames, NominalFramesAreLocated) {
     EXPECT_GE(tally.located_share(), 0.995) << "seed " << kFramesSeed;
     EXPECT_EQ(tally.wrong, 0u);
     EXPECT_LE(tally.median_um(), 1.2) << "seed " << kFramesSeed;
-    // The camera sees 8.6 mm. An error of 3 µm at its border corresponds to 0.7 mrad.
+    // The view is 8.6 mm wide. An error of 3 µm at its border corresponds to 0.7 mrad.
     EXPECT_LE(tally.percentile(tally.errors_mrad, 0.5), 1);
 }
 
@@ -103,9 +103,9 @@ TEST(SimulatedFrames, HardFramesAreLocated) {
 }
 
 TEST(SimulatedFrames, FramesInDoubtAreLookedAtOnceMore) {
-    // Frames that are dark and noisy, or have graphics along the grid. With the first grid, a third
-    // of their bits contradict the position. In the last frame, words rotate the first estimate of
-    // the grid by 26 degrees.
+    // These frames are dark and noisy, or have graphics along the grid. With the first grid, a
+    // third of their bits contradict the position. In the last frame, words rotate the first
+    // estimate of the grid by 26 degrees.
     const auto memory = std::make_unique<LargeMemory>();
     Tally tally;
     for (const std::uint64_t index :

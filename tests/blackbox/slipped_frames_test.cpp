@@ -1,4 +1,4 @@
-// Tests sheets that are not one plane, with `locate` and with the tool.
+// Tests sheets that are not planar, with `locate` and with the tool.
 #include "../slipped_frames.hpp"
 
 #include <algorithm>
@@ -79,14 +79,14 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         divided += outcome.fix.surface == Surface::divided ? 1 : 0;
     }
     EXPECT_GE(fixes, kFrames * 9 / 10);
-    // If the true fraction is 1 %, a fraction of more than 3 % of so few frames occurs by chance
-    // once in 70 runs.
+    // The number of frames is small: if the true fraction is 1 %, a fraction of more than 3 %
+    // occurs by chance once in 70 runs.
     EXPECT_LE(claim_too_much, fixes * 3 / 100);
     // Many slips affect only a corner, or displace dots by less than their scatter.
     EXPECT_GE(divided, fixes / 2);
 }
 
-/// Errors of the frames of one kind of sheet relative to their covariances.
+/// Errors of the frames of one kind of sheet, in relation to the reported covariances.
 struct Claims {
     int fixes = 0;
     int within_4_sigmas = 0;
@@ -171,7 +171,7 @@ TEST(BlurredFrames, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         y += off.y_grid * off.y_grid / double{fix.covariance[1][1]};
     }
     EXPECT_EQ(fixes, kFrames);
-    // The mean of 150 squared standard normal numbers has a standard deviation of 0.12.
+    // The mean of 150 squared standard normal variables has a standard deviation of 0.12.
     EXPECT_LT(x / fixes, 1.5);
     EXPECT_LT(y / fixes, 1.5);
 }

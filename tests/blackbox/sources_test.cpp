@@ -160,7 +160,7 @@ TEST_F(Sources, EvaluateSaysWhichPosesAreMissing) {
     fs::copy_file(directory_ / image(0), directory_ / "frames/other.pgm");
     EXPECT_EQ(run("evaluate frames/other.pgm"), 1);
     EXPECT_EQ(errors_, "dotpose: frames/truth.csv has no pose of frames/other.pgm\n");
-    // First, the file of poses has more rows than the video has frames; then it has fewer rows.
+    // First, the file of poses has more rows than the video has frames. Then it has fewer rows.
     const std::string truth = file("frames/truth.csv");
     std::ofstream(directory_ / "more.csv") << truth << truth.substr(truth.find('\n') + 1);
     EXPECT_EQ(run("evaluate drive.mkv --format json --poses more.csv"), 1);
@@ -262,7 +262,7 @@ TEST_F(Sources, AreFlippedForAllCommands) {
         EXPECT_EQ(record["status"], "ok");
 }
 
-/// Returns a number in the camera file.
+/// Returns the value with this name in the camera file, or -1 if there is none.
 double value_of(const std::string& yaml, const std::string& name) {
     const std::size_t at = yaml.find(name + ": ");
     return at == std::string::npos ? -1 : std::stod(yaml.substr(at + name.size() + 2));

@@ -34,7 +34,7 @@ SheetEntry sheet(const std::string& name, std::uint32_t origin_x) {
     return entry;
 }
 
-/// Returns a frame of a place on one sheet, in mm from its corner.
+/// Returns a frame of a position on one sheet, given in mm from the corner of the sheet.
 GreyImage sheet_frame(const Shot& like, const SheetEntry& entry, double x_mm, double y_mm,
                       double theta_rad) {
     Shot shot = like;
@@ -48,8 +48,8 @@ GreyImage sheet_frame(const Shot& like, const SheetEntry& entry, double x_mm, do
     return render(shot);
 }
 
-/// Returns a frame of a place on the table, in the coordinates of the first sheet. Light and noise
-/// of both renderings are equal, so the darker pixel of each pair belongs to a dot.
+/// Returns a frame of a position on the table, in the coordinates of the first sheet. Both sheets
+/// are rendered with equal light and noise, so the darker of two pixels belongs to a dot.
 GreyImage table_frame(std::uint64_t index, double x_mm, double y_mm, double theta_rad) {
     Setup setup;
     setup.camera.width_px = 376;
@@ -86,7 +86,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     ASSERT_EQ(run("calibrate --stitch --sheets sheets.json seam*.pgm"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("frames      12 of 12 show two sheets"));
     EXPECT_THAT(output_, HasSubstr("sheet       left: stays where it is"));
-    // Without a camera file, the mm per px are unknown.
+    // Without a camera file, the scale of the image in mm per px is unknown.
     EXPECT_THAT(output_, HasSubstr("(UNKNOWN) along x"));
     EXPECT_THAT(output_, HasSubstr("UNKNOWN:    these frames do not determine the scales"));
     const auto sheets = read_sheets(directory_ / "sheets.json");
@@ -95,7 +95,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_NEAR(sheets[1].world->y_m, 1 - kDown_mm / 1000, 3e-5);
     EXPECT_NEAR(sheets[1].world->yaw_rad, -kTurn_rad, 0.02 * std::numbers::pi / 180);
 
-    // Both sheets give the same place in the world.
+    // Both sheets give the same position in the world.
     write_pgm(directory_ / "right.pgm", table_frame(20, 45, 12, 0.3).view());
     ASSERT_EQ(run("locate --sheets sheets.json right.pgm"), 0) << errors_;
     const json record = json::parse(output_);

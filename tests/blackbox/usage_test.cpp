@@ -1,4 +1,4 @@
-// Tests the help, and the messages for invalid command lines.
+// Tests the help texts, and the error messages for invalid command lines.
 #include <sstream>
 #include <string>
 

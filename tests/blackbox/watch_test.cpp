@@ -56,8 +56,8 @@ int frame_at(double seconds) {
     return static_cast<int>(std::lround(seconds * kDriveFps));
 }
 
-/// Returns the first frame after `from` at which the robot is 0.1 mm, along an axis, from its
-/// position at frame `place`. With step -1, searches backwards.
+/// Returns the first frame after `from` at which the robot is more than 0.1 mm away, along x or y,
+/// from its position at frame `place`. With step -1, searches backwards.
 int first_away(const Drive& drive, int from, int step, int place) {
     const DriveState rest = drive.at(place);
     int frame = from;
@@ -121,7 +121,7 @@ void expect_accurate_at_seam(const std::vector<json>& lines, const Drive& drive)
     EXPECT_GT(frames, 10);
 }
 
-// A single test, because rendering and locating the drive takes seconds.
+// This is a single test, because rendering and locating the drive takes seconds.
 TEST_F(Watch, FollowsADrive) {
     put_video(drive_.frames(), "drive.avi");
     ASSERT_EQ(run(std::string("watch drive.avi ") + kTrack), 0);
@@ -240,7 +240,8 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
         EXPECT_EQ(lines[i]["verdict"], "accepted") << i;
     }
     EXPECT_GE(with_prior, 3);
-    // If all frames show only this view, there is no track, and no frame is accepted with a prior.
+    // If every frame shows only this window, there is no track, and no frame is accepted with a
+    // prior.
     ASSERT_EQ(run(std::string("watch - --size 188x120 --fps 200 --max-p-wrong 1e-13 --roi "
                               "56,22,76x76 ") +
                       kTrack,
@@ -250,7 +251,7 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
         EXPECT_NE(line["verdict"], "with_prior");
 }
 
-// At 250 mm/s, a frame with the time of its neighbour has an error of 1 mm.
+// At 250 mm/s, a frame with the time of its neighbour would have an error of 1 mm.
 TEST_F(Watch, KeepsTimesWhateverTheContainer) {
     constexpr int kFirst = 200;
     constexpr int kLength = 60;
@@ -263,7 +264,7 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
         EXPECT_GE(errors.fixes(), static_cast<int>(lines.size()) - 1) << name;
         return lines.size();
     };
-    // H.264 decodes frames in a different order than they are displayed.
+    // H.264 frames are decoded in a different order than they are displayed.
     encode("-c:v libx264 -crf 12", "ordered.mp4");
     encode("-c:v libx264 -crf 12", "ordered.avi");
     EXPECT_EQ(watch("ordered.mp4"), std::size_t{kLength});

@@ -82,7 +82,7 @@ std::vector<GreyImage> drive() {
     return frames;
 }
 
-// The board of the desktop program: a camera that delivers the frames, and a line that keeps all
+// Board of the desktop program. Its camera delivers the frames, and its serial line keeps all
 // bytes.
 struct EndOfFrames {};
 std::vector<GreyImage> camera;
@@ -232,7 +232,7 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         const CameraPose truth = pose_at(packet.time_us / 1e6);
         EXPECT_NEAR(packet.x_grid(), x_grid(truth), 0.012) << packet.time_us;
         EXPECT_NEAR(packet.y_grid(), y_grid(truth), 0.012) << packet.time_us;
-        // The device attempt on the desktop, without a prediction.
+        // Compares with the device attempt on the desktop, which has no prediction.
         const Fix fix =
             alone.locate(camera[static_cast<std::size_t>(packet.time_us / kFrameTime_us)].view());
         ASSERT_EQ(fix.status, Status::ok);
@@ -243,7 +243,7 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
     // docs/firmware.md: 99.6 % of the frames are tracked.
     EXPECT_LE(missed, 3);
     ASSERT_GT(times_us.size(), 300U);
-    // Every frame during the drive and for 5 s after its end, then one per second.
+    // Every frame is taken during the drive and for 5 s after its end, then one frame per second.
     for (std::size_t i = 0; i < 300; ++i)
         ASSERT_EQ(times_us[i], static_cast<std::int64_t>(i) * kFrameTime_us);
     EXPECT_EQ(times_us.back() - times_us[times_us.size() - 2], 1'000'000);

@@ -1,4 +1,4 @@
-// Metadata of the exported folder that package managers read.
+// Tests the metadata of the exported folder, which package managers read.
 #include <filesystem>
 #include <fstream>
 #include <iterator>

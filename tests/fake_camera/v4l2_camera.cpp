@@ -1,7 +1,7 @@
-// A fake camera for machines without a camera. Loaded with LD_PRELOAD, it answers the requests of
-// OpenCV to the kernel about /dev/video0. It repeats the raw grey frames of the file FAKE_CAMERA,
-// of the size FAKE_CAMERA_SIZE. Without the file, the camera is unplugged. Requested settings, and
-// the times of its frames in µs, are written to the file FAKE_CAMERA_LOG. The camera also offers
+// A fake camera for machines without a camera. Loaded with LD_PRELOAD, it intercepts OpenCV's
+// system calls on /dev/video0. It repeats the raw grey frames of the file FAKE_CAMERA, which have
+// the size FAKE_CAMERA_SIZE. Without the file, the camera is unplugged. It writes the requested
+// settings, and the times of its frames in µs, to the file FAKE_CAMERA_LOG. The camera also offers
 // 640x480 at 15 frames/s.
 #include <algorithm>
 #include <cerrno>
@@ -112,7 +112,7 @@ int give_frame(v4l2_buffer& buffer) {
     return 0;
 }
 
-/// Returns the size with an index, or 0 x 0 after the last one.
+/// Returns the frame size with an index, or 0 x 0 after the last one.
 v4l2_frmsize_discrete size_at(unsigned index) {
     if (index == 0) {
         return {static_cast<unsigned>(camera.width_px), static_cast<unsigned>(camera.height_px)};

@@ -19,7 +19,7 @@
 namespace dotpose::test {
 namespace {
 
-// First bytes of packets, MQTT 3.1.1 section 2.2.
+// First byte of each type of packet (MQTT 3.1.1, section 2.2).
 constexpr std::uint8_t kConnect = 0x10;
 constexpr std::uint8_t kConnectAnswer = 0x20;
 constexpr std::uint8_t kPublishQos1 = 0x32;
@@ -165,8 +165,8 @@ void Connection::receive_some() {
     if (size == 0) throw std::runtime_error("disconnected");
     if (size < 0 && errno != EAGAIN) fail("cannot receive");
     if (size > 0) incoming_.append(block.data(), static_cast<std::size_t>(size));
-    // Packets from a broker to a publisher are short, so their length is a single byte, the second
-    // of the packet.
+    // Packets from a broker to a publisher are short. Their length is therefore a single byte, the
+    // second byte of the packet.
     std::size_t at = 0;
     while (incoming_.size() >= at + 2) {
         const std::size_t length = static_cast<std::uint8_t>(incoming_[at + 1]);

@@ -27,8 +27,8 @@ class Connection {
     bool has_room() const { return published_ - answered_ < kMaxUnanswered; }
     void publish(const std::string& topic, const std::string& payload);
 
-    /// Sends and receives until `until_us` of the monotonic clock. If that time has passed,
-    /// continues until everything is sent. Throws std::runtime_error if the other side disconnects.
+    /// Sends and receives until `until_us` of the monotonic clock, or longer if there is still data
+    /// to send. Throws std::runtime_error if the other side disconnects.
     void exchange(std::int64_t until_us);
 
     std::int64_t published() const { return published_; }
@@ -44,7 +44,7 @@ class Connection {
 
     int descriptor_;
     std::string outgoing_;
-    std::size_t sent_ = 0;  ///< number of bytes of `outgoing_` that are sent
+    std::size_t sent_ = 0;  ///< number of bytes of `outgoing_` that have been sent
     std::string incoming_;
     std::int64_t published_ = 0;
     std::int64_t answered_ = 0;

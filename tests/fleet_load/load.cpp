@@ -1,5 +1,6 @@
-// Publishes the states of many robots with QoS 1, each robot at a constant rate with numbers from
-// 0, and prints the numbers of sent and answered states. docs/fleet.md contains the results.
+// Publishes the states of many robots with QoS 1, and prints the numbers of sent and answered
+// states. Each robot publishes at a constant rate, and numbers its states from 0. docs/fleet.md
+// contains the results.
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
@@ -31,7 +32,7 @@ struct Arguments {
 struct Outcome {
     std::int64_t published = 0;
     std::int64_t answered = 0;
-    std::int64_t latest_us = 0;  ///< maximum delay of a state after its time
+    std::int64_t latest_us = 0;  ///< maximum delay between due time and publication of a state
 };
 
 /// Publishes all states of the robots over a connection. The states of different robots are

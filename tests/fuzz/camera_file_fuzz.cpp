@@ -1,4 +1,4 @@
-// Fuzzes `read_camera` with any file. It must return a camera with which images can be located, or
+// Fuzzes `read_camera` with arbitrary files. It must return a camera that is valid for `locate`, or
 // throw Error.
 #include <cstdlib>
 

@@ -1,5 +1,5 @@
-// Fuzzes the options that several commands share, with one argument per line. They must be accepted
-// or refused.
+// Fuzzes the options that several commands share. Each line of the input is an argument. Every
+// argument must be accepted or refused.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace dotpose;
 
-/// The values of the options. Each value has its own bounds.
+/// Values of the options. Each option has its own bounds.
 struct Values {
     CodeVariant code = CodeVariant::anoto;
     Section section;

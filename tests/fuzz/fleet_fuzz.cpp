@@ -1,5 +1,6 @@
-// Fuzzes a fleet with messages of a broker, one per line, with a tab between topic and payload. The
-// fleet must accept each message or count it as bad, and its table and map must remain printable.
+// Fuzzes a fleet with arbitrary broker messages, one per line, with a tab between topic and
+// payload. The fleet must accept each message or count it as bad, and its table and map must remain
+// printable.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Fuzzes `read_image` and `read_origin` with any file. They must return an image and its origin, or
-// throw Error.
+// Fuzzes `read_image` and `read_origin` with arbitrary files. They must return an image and its
+// origin, or throw Error.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -9,8 +9,8 @@
 
 using namespace dotpose;
 
-// A few bytes may announce an image of gigabytes. The fuzzer would report the allocation as a
-// fault.
+// A few bytes may declare an image of gigabytes. The fuzzer would report its allocation as an
+// error.
 constexpr int kMaxPixels = 1 << 20;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,4 @@
-// Fuzzes `next_line` with any text. It must return lines of limited length, or throw Error.
+// Fuzzes `next_line` with arbitrary text. It must return lines of limited length, or throw Error.
 #include <cstdint>
 #include <cstdlib>
 #include <sstream>

@@ -1,4 +1,4 @@
-// Input format of `locate_fuzz`: a header, then pixels, or symbols from which dots are drawn.
+// Input format of `locate_fuzz`: a header, followed by pixels or by the symbols of drawn dots.
 #pragma once
 
 #include <algorithm>
@@ -22,13 +22,13 @@ struct LocateHeader {
         default_options = 1,
         window_decoder = 2,
         one_attempt = 4,
-        drawn = 8,  ///< dots are drawn from symbols instead of reading pixels
+        drawn = 8,  ///< the input contains the symbols of dots instead of pixels
         rows_pushed = 16,
-        own_prediction = 32,  ///< the prediction is the moved fix of the frame
+        own_prediction = 32,  ///< the prediction is the fix of the frame, displaced
     };
-    std::uint16_t width_px = 64;  ///< modulo 512
+    std::uint16_t width_px = 64;  ///< taken modulo 512
     std::uint16_t height_px = 64;
-    std::uint8_t code = 0;  ///< modulo 3
+    std::uint8_t code = 0;  ///< taken modulo 3
     std::uint8_t flags = default_options;
     std::uint8_t padding_px = 0;  ///< padding between rows, px
     std::int8_t max_p_wrong_log2 = -30;
@@ -42,7 +42,7 @@ struct LocateHeader {
     std::int16_t min_dots = 40;
     std::int32_t max_offset_q16 = 24000;
     std::int32_t k_q40 = 0;
-    std::int32_t reference_dx_q8 = 0;  ///< modulo 2^20: 4096 px
+    std::int32_t reference_dx_q8 = 0;  ///< taken modulo 2^20, which is 4096 px
     std::int32_t reference_dy_q8 = 0;
     // Parameters of drawn dots.
     std::uint16_t angle = 0;             ///< 65536 is a full turn
@@ -67,8 +67,8 @@ inline DeviceOptions options_of(const LocateHeader& header) {
     return options;
 }
 
-/// Returns a prediction: either any map to any place, read from the last bytes (which are also
-/// pixels), or the fix of the frame, moved by up to 2 spacings and 11 degrees.
+/// Returns a prediction: either an arbitrary map to an arbitrary place, read from the last bytes
+/// (which are also pixels), or the fix of the frame, moved by up to 2 spacings and 11 degrees.
 inline Prediction prediction_of(const LocateHeader& header, std::span<const std::uint8_t> rest,
                                 const Fix& fix) {
     static_assert(std::is_trivially_copyable_v<Prediction>);
@@ -88,7 +88,7 @@ inline Prediction prediction_of(const LocateHeader& header, std::span<const std:
                  prediction.pattern_from_image.centre_q8);
 }
 
-/// An image that ends at the end of its memory, to detect reads past its end.
+/// An image that ends at the end of its allocation, to detect reads past its end.
 struct Pixels {
     std::vector<std::uint8_t> bytes;
     int width_px = 0;
@@ -107,7 +107,7 @@ struct Pixels {
     std::uint8_t& at(int u, int v) { return bytes[static_cast<std::size_t>(stride_bytes * v + u)]; }
 };
 
-/// Number of symbols per row of cells, and of rows, in drawn images. Cell (0, 0) is in the middle.
+/// Number of symbols per row, and number of rows, in drawn images. Cell (0, 0) is in the middle.
 inline constexpr int kDrawnSide = 40;
 
 /// Draws dots that are a third of the spacing wide, with one symbol per byte. Bytes of 240 and

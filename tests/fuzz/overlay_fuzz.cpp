@@ -1,5 +1,5 @@
-// Fuzzes `overlay_pdf` with any document, with or without changes of its colours. It must write the
-// document with dots, or throw Error.
+// Fuzzes `overlay_pdf` with arbitrary documents, with and without changes of their colours. It must
+// write the document with dots, or throw Error.
 #include <filesystem>
 
 #include "dotpose/tools/overlay.hpp"
@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::filesystem::path kOut =
         std::filesystem::temp_directory_path() / ("overlay_fuzz-" + std::to_string(getpid()));
     OverlayOptions options;
-    // The options give few dots, and limits that short inputs can reach.
+    // These options produce few dots, and set limits that short inputs can reach.
     options.pattern.spacing_mm = 8;
     options.max_content_mb = 1;
     for (const bool changes_colours : {false, true}) {

@@ -1,5 +1,5 @@
-// Fuzzes the packet reader with any bytes. Each packet found must equal a packet that `encode`
-// produces.
+// Fuzzes the packet reader with arbitrary bytes. Each packet found must equal a packet that
+// `encode` produces.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

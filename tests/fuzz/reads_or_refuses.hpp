@@ -1,4 +1,4 @@
-/// The check of every reader of files: it must return, or throw Error with a message.
+/// Checks file readers: a reader must return, or throw Error with a message.
 #pragma once
 
 #include <cstdint>

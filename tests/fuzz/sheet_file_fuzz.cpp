@@ -1,4 +1,5 @@
-// Fuzzes `read_sheets` with any file. It must return sheets that can be printed, or throw Error.
+// Fuzzes `read_sheets` with arbitrary files. It must return sheets that can be printed, or throw
+// Error.
 #include <cstdlib>
 
 #include "dotpose/files/sheet_file.hpp"

@@ -1,5 +1,5 @@
-// Tests `dotpose watch` on two cameras: a fake local camera of the kernel (tests/fake_camera), and
-// a network camera. Each camera is disconnected and reconnected during the run.
+// Tests `dotpose watch` on two cameras: a fake V4L2 camera (tests/fake_camera), and a network
+// camera. Each camera is disconnected and reconnected during the run.
 #include <algorithm>
 #include <fstream>
 #include <set>
@@ -58,8 +58,8 @@ class Cameras : public ToolCommand {
         return lines;
     }
 
-    /// Expects that the robot was located, lost while the camera was away, and located again, each
-    /// time at its true pose.
+    /// Expects that the robot was located, lost while the camera was disconnected, and located
+    /// again, each time at its true pose.
     void expect_seen_lost_and_seen() {
         std::string events;
         std::int64_t last_frame = -1;
@@ -112,15 +112,16 @@ TEST_F(Cameras, AtThisComputer) {
         EXPECT_EQ(settings.count(setting), 2U) << setting;
     for (const json& line : lines()) {
         const auto time_us = std::llround(line["t_s"].get<double>() * 1e6);
-        // The driver reports the times in milliseconds, as doubles.
+        // The tool gets the driver's times as doubles in milliseconds. Rounding may change them by
+        // 1 µs.
         const auto at = times_us.lower_bound(time_us - 1);
         const bool is_of_driver = at != times_us.end() && *at <= time_us + 1;
         EXPECT_EQ(is_of_driver, line["status"] == "ok") << line;
     }
 }
 
-/// The socket of the camera is in the state 0A (listening) until a client has connected (01), which
-/// may happen immediately.
+/// In /proc/net/tcp, the socket of the camera is in state 0A (listening) until a client connects,
+/// and then in state 01. A client may connect immediately.
 TEST_F(Cameras, InTheNetwork) {
     ASSERT_EQ(
         shell(fmt::format("port={}\n", free_port()) + kWaiting +

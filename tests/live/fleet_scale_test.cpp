@@ -1,5 +1,5 @@
 // Tests `dotpose fleet` with many robots, with shared subscriptions, with bridged brokers, and when
-// it is ended.
+// the program is stopped.
 #include <array>
 #include <csignal>
 #include <filesystem>
@@ -44,7 +44,7 @@ class FleetScale : public Mqtt {
         EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     }
 
-    /// Returns the states in the logs of some fleets, with repetitions.
+    /// Returns the states in the logs of some fleets, including repeated states.
     std::multiset<Logged> logged(const std::vector<fs::path>& folders) {
         std::multiset<Logged> states;
         for (const fs::path& folder : folders) {
@@ -146,7 +146,7 @@ TEST_F(FleetScale, BridgedBrokersPassOnEachStateOnce) {
                                   west.port()));
     WatchedFleet in_east(folders[0], "--qos 1 --log log.csv --mqtt " + east.url());
     WatchedFleet in_west(folders[1], "--qos 1 --log log.csv --mqtt " + west.url());
-    // The bridge works once a state has passed it.
+    // The bridge is ready when a state has passed through it.
     wait_until([&] {
         publish(west, 1, 1, 1000);
         std::this_thread::sleep_for(200ms);
@@ -159,7 +159,7 @@ TEST_F(FleetScale, BridgedBrokersPassOnEachStateOnce) {
     for (const fs::path& folder : folders) {
         wait_until([&] { return logged({folder}).size() >= before + 100 * 60; }, 60s);
     }
-    std::this_thread::sleep_for(500ms);  // for repeated states
+    std::this_thread::sleep_for(500ms);  // waits for repeated states
     for (WatchedFleet* fleet : {&in_east, &in_west}) {
         const std::string table = fleet->table();
         EXPECT_THAT(table, HasSubstr("101 robots, "));

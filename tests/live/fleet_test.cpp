@@ -136,7 +136,7 @@ TEST_F(Fleet, TopicsTellWhoARobotIsAndTextsDoNotActOnTheTerminal) {
                    Message{"\x1b[2J", 1, time, "\x1b]0;OWNED\x07\nroot moving"}.json());
     for (const char* bad : {"2026-11-24T16:00:nanZ", "2026-11-24T16:00:00", "", "now"})
         sender.publish(topic_of("carl"), Message{"carl", 1, bad}.json());
-    sender.publish(topic_of("\x1b[31mred"), "{}");  // a topic that the library does not send
+    sender.publish(topic_of("\x1b[31mred"), "{}");  // the publisher refuses this topic
     sender.publish(topic_of("dora"), std::string(1'000'000, '['));
     EXPECT_TRUE(sender.flush(20s));
     EXPECT_EQ(sender.dropped(), 1);
@@ -216,7 +216,7 @@ TEST_F(Fleet, InventedNamesFillNoMemory) {
     std::this_thread::sleep_for(1s);
     const std::string table = fleet.table();
     const std::size_t last_line = table.rfind('\n', table.size() - 2) + 1;
-    // On a busy machine, the last states are still on their way.
+    // On a busy machine, the last states may still be in transit.
     EXPECT_THAT(table.substr(last_line),
                 testing::AllOf(testing::StartsWith("10000 robots, "), HasSubstr(" states, 0 bad")));
 }

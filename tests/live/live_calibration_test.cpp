@@ -1,5 +1,4 @@
-// Tests `dotpose calibrate --live` with a fake camera of the kernel (tests/fake_camera), and in a
-// window.
+// Tests `dotpose calibrate --live` with a fake V4L2 camera (tests/fake_camera), and in a window.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -50,7 +49,7 @@ TEST_F(LiveCalibration, HasAWindowAndEndsWithAKey) {
     GTEST_SKIP() << "the libraries of the window keep memory to the end";
 #endif
     if (shell("command -v Xvfb && command -v xdotool") != 0) GTEST_SKIP() << "no Xvfb, no xdotool";
-    // Only 2 places are shown. Without the key press, the program would not end.
+    // The camera shows only 2 places. Without the key press, the program would not end.
     ASSERT_EQ(
         shell("mkfifo display frames.raw; Xvfb -displayfd 1 > display 2>/dev/null & server=$!\n"
               "trap 'kill $server' EXIT; head -c $((188 * 120 * 6)) camera.raw > two.raw\n"

@@ -113,8 +113,8 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     shell("mkfifo frames");
     std::thread camera([&] {
         const GreyImage image = DriveCamera(188, 120).frame(Drive(), 0);
-        // The pipe is closed on exec, because a broker that is started meanwhile must not keep the
-        // pipe open.
+        // The pipe is closed on exec, because a broker that is started in the meantime must not
+        // keep the pipe open.
         std::FILE* pipe = std::fopen((directory_ / "frames").c_str(), "wbe");
         const auto begun = std::chrono::steady_clock::now();
         for (int i = 1; i <= kFrames; ++i) {
@@ -163,7 +163,7 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     }
     EXPECT_GT(before[1] - before[0], kBack - kGone - 100);
     // The newest 50 states were kept. States in transit when the broker was stopped, and states of
-    // new frames, come in between.
+    // new frames, may arrive in between.
     std::vector<int> waited;
     std::copy_if(before + 1, ids.end(), std::back_inserter(waited),
                  [&](int id) { return id > before[1] - 50 && id <= before[1]; });
@@ -221,7 +221,7 @@ TEST_F(Mqtt, TellsThatTheUserIsRefused) {
     EXPECT_THAT(errors_, HasSubstr("refuses the connection"));
 }
 
-/// Returns options of a publisher that announces its presence by a word on the topic `presence`.
+/// Returns options of a publisher that announces its presence with a word on the topic `presence`.
 MqttOptions with_presence(MqttOptions options) {
     options.presence_topic = "presence";
     options.presence = [](publish::Presence presence) -> std::string {

@@ -61,7 +61,7 @@ constexpr const char* kTimestamp =
 
 class Vda5050 : public Mqtt {
   protected:
-    /// Watches ten frames of a robot. The last five have no pattern.
+    /// Runs `dotpose watch` on ten frames of a robot. The last five frames show no pattern.
     void watch(const Broker& broker) {
         const DriveCamera camera(188, 120);
         for (int i = 0; i < 10; ++i) {

@@ -34,7 +34,7 @@ std::string describe(const Draw& draw) {
            " x " + std::to_string(draw.rows) + " turned " + std::to_string(draw.quarter_turns);
 }
 
-/// Returns a position. One in 16 is within 40 of the end of the axis, where windows wrap around.
+/// Returns a position. One in 16 is within 40 positions of the end of the axis, where windows wrap.
 template <typename Rng>
 std::uint32_t random_position(Rng& rng) {
     if (random_int(rng, 0, 15) != 0) return random_place(rng).cell.x;
@@ -43,7 +43,7 @@ std::uint32_t random_position(Rng& rng) {
 
 Draw random_draw(std::uint64_t seed) {
     std::minstd_rand rng(static_cast<std::uint32_t>(seed % 2147483646 + 1));
-    rng.discard(3);  // discards some numbers, because neighbouring seeds begin with similar ones
+    rng.discard(3);  // discards some numbers, because neighbouring seeds begin with similar numbers
     Draw draw;
     draw.code = kCodeVariants[static_cast<std::size_t>(random_int(rng, 0, 2))];
     draw.place = random_place(rng);
@@ -167,7 +167,7 @@ TEST(CodeProperty, EverySectionAtAndAcrossTheWrap) {
 }
 
 TEST(CodeProperty, EveryPositionOfOneSheet) {
-    // The page has 400 x 3 windows, each one step from the previous window.
+    // Tests 400 x 3 windows of a page, at consecutive positions.
     for (std::uint32_t x = 0; x < 400; ++x) {
         for (std::uint32_t y = 0; y < 3; ++y) {
             for (const CodeVariant code : kCodeVariants) {

@@ -1,5 +1,5 @@
-// Weak sightings: enumerates all other places inside the tracker's gate, sums their odds relative
-// to the true place, and compares the sum with the bound that the tracker uses (docs/tracking.md).
+// Tests weak sightings: enumerates all other places inside the tracker's gate, sums their odds
+// relative to the true place, and compares the sum with the tracker's bound (docs/tracking.md).
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -19,7 +19,7 @@ namespace dotpose {
 namespace {
 
 constexpr int kMaxSide = 16;
-/// Maximum distance of two places inside a gate of less than 15 cells to each side.
+/// Maximum distance of two places inside a gate of fewer than 15 cells to each side.
 constexpr int kReach = 29;
 constexpr std::uint64_t kSeed = 20;
 constexpr std::array kCodeVariants{CodeVariant::anoto, CodeVariant::libdots,
@@ -68,8 +68,8 @@ void read(View& view, Rng& rng) {
     }
 }
 
-/// Returns the p_wrong reported by the decoder, as a power of two. Returns 1 if the decoder found
-/// another place or none.
+/// Returns log2 of the p_wrong that the decoder reports. Returns 1 if the decoder found another
+/// place or none.
 int claim(View& view) {
     core::Grid grid = view.grid();
     Decoding decoding;
@@ -85,7 +85,7 @@ int claim(View& view) {
                : 1;
 }
 
-/// Returns, for each line that may be in view, its start in the main sequence at the first cell of
+/// Returns, for each line that may be in view, the index in the main sequence at the first cell of
 /// the view.
 std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std::uint32_t cross) {
     std::vector<int> result;
@@ -221,7 +221,7 @@ struct Twin {
     int dy = 0;
 };
 
-/// Returns all twins. The step along each axis compensates the roll along the other axis.
+/// Returns all twins. The step along each axis compensates for the roll along the other axis.
 std::vector<Twin> twins(CodeVariant code) {
     const auto found = repetitions(code);
     std::vector<Twin> twins;

@@ -16,12 +16,12 @@ function members(definition) {
     .join(", ");
 }
 
-/** Numbers of types in a type_description_interfaces/FieldType. */
+/** Numbers of field types in type_description_interfaces/FieldType. */
 const typeIds = { message: 1, uint8: 3, int32: 6, uint32: 7, float64: 11, byte: 16, string: 17 };
 const kOfArrays = 48;
 const kOfSequences = 144;
 
-/** Types in the definitions of ROS, for which the npm package has replaced `byte`. */
+/** Original types in the definitions of ROS, where the npm package has replaced `byte`. */
 const asInRos = { "diagnostic_msgs/DiagnosticStatus level": "byte" };
 
 function described({ name, definitions }) {
@@ -43,8 +43,8 @@ function described({ name, definitions }) {
   return { type_name: name.replace("/", "/msg/"), fields };
 }
 
-/** Returns the hash of a type, whose definition comes first, from JSON with spaces after commas
-   and colons. */
+/** Returns the hash of a type from a list of definitions, in which its own definition comes first. The
+   hash is computed from JSON with spaces after commas and colons. */
 function typeHash([whole, ...parts]) {
   const byName = (a, b) => (a.type_name < b.type_name ? -1 : 1);
   const text = JSON.stringify({
@@ -64,7 +64,7 @@ let differ = false;
 for (const { name, definition, hash } of JSON.parse(await readFile("/dev/stdin", "utf8"))) {
   const type = name.replace("/msg/", "/");
   const parts = parse(definition, { ros2: true });
-  // These readers need no definition of the type Time, but files of ROS contain its definition.
+  // Readers do not need the definition of the type Time, but files written by ROS contain it.
   const time = parts.find((part) => part.name === "builtin_interfaces/Time");
   if (members(time) !== "int32 sec, uint32 nanosec") {
     console.log(`${name}: a time is ${members(time)}`);

@@ -39,8 +39,8 @@ class Dds : public WatchCommand {
         return run_shell(std::string("unshare -rn sh -c '") + kNetwork + "' 2>&1").exit_code == 0;
     }
 
-    /// Runs `dotpose watch` with frames that `frames` writes, and a reader of its messages, which
-    /// is started first. Returns the messages received by the reader.
+    /// Starts a reader of messages, and then runs `dotpose watch` on the frames that the shell
+    /// command `frames` writes. Returns the messages received by the reader.
     std::vector<json> read_drive(const std::string& frames, const std::string& reliability,
                                  const std::string& options, const std::string& environment = "") {
         const std::string watch = "'" + test::tool_path() + "' watch - " + kRaw + " " + kTrack +
@@ -93,8 +93,8 @@ TEST_F(Dds, SendsSensorDataAsRosDoes) {
 TEST_F(Dds, IsFoundOnThisComputerAloneIfRosSaysSo) {
     DOTPOSE_NEEDS_DDS();
     put_raw(20);
-    // With LOCALHOST, the reader receives no multicast, by which programs discover each other in a
-    // network.
+    // With LOCALHOST, the reader receives no multicast packets, with which programs discover each
+    // other in a network.
     const auto messages = read_drive("cat drive.raw", "reliable", "--dds-reliable",
                                      "export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; ");
     EXPECT_EQ(of_topic(messages, "/anna/pose").size(), 20U);

@@ -22,7 +22,7 @@ struct MessageTolerance {
     double turn_rad_s = 0.6e-6;
 };
 inline constexpr MessageTolerance kAsWatched;
-/// The log has degrees with six decimals, and velocities in mm and degrees with three decimals.
+/// The log has degrees with six decimals, and velocities in mm/s and degrees/s with three decimals.
 inline constexpr MessageTolerance kAsLogged = {2e-9, 2e-8, 2e-6, 1e-5};
 
 inline double yaw_of(const nlohmann::json& rotation) {
@@ -40,7 +40,7 @@ inline std::int64_t time_us(const nlohmann::json& line) {
     return std::llround(line["t_s"].get<double>() * 1e6);
 }
 
-/// Expects that the poses equal the lines with a fix, one by one, with the same times.
+/// Expects that each pose equals the corresponding line with a fix, and has the same time.
 inline void expect_poses_of(const std::vector<nlohmann::json>& lines,
                             const std::vector<nlohmann::json>& poses,
                             const MessageTolerance& tolerance) {
@@ -137,7 +137,7 @@ inline void expect_odometry_of(const std::vector<nlohmann::json>& lines,
         before_y = y;
     }
     EXPECT_EQ(next, transforms.size());
-    // The robot was found at the start, where it was put down, and where it was put aside.
+    // The robot was found at the start, after it was put down, and after it was moved aside.
     EXPECT_EQ(jumps, 3);
 }
 

@@ -1,6 +1,5 @@
-// Serialises messages with an independent serialiser and independent definitions, and prints each
-// as a line with its type and its bytes. golden.txt contains the output; cdr_test.cpp builds the
-// same messages.
+// Serialises messages with an independent serialiser and independent definitions, and prints each as a line
+// with its type and its bytes. golden.txt contains the output. cdr_test.cpp builds the same messages.
 //
 //   node golden.mjs > golden.txt
 import { MessageWriter } from "@foxglove/rosmsg2-serialization";

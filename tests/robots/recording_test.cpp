@@ -37,7 +37,8 @@ class Recording : public WatchCommand {
     }
 };
 
-// A single test, because locating the drive takes seconds, and reading its recording takes as long.
+// This is a single test, because locating the drive takes seconds, and so does reading its
+// recording.
 TEST_F(Recording, HasThePosesAndTheOdometryOfTheLines) {
     DOTPOSE_NEEDS_NPM();
     put_raw(drive_.frames());

@@ -20,8 +20,8 @@ double yaw(const Quaternion& rotation) {
     return 2 * std::atan2(rotation.z, rotation.w);
 }
 
-/// Returns the motion of a robot at 2 m, 1 m, 90 degrees, that drives at 0.3 m/s along the y axis
-/// of the world and turns.
+/// Returns the motion of a robot at (2 m, 1 m) and 90 degrees. The robot drives at 0.3 m/s along
+/// the y axis of the world, and turns.
 PlanarMotion northwards() {
     PlanarMotion motion;
     motion.pose = {2, 1, kRightAngle};
@@ -161,8 +161,8 @@ TEST(RobotMessages, VelocitiesAreThoseOfTheRobot) {
     EXPECT_NEAR(twist.twist.linear.x, 0.3, 1e-12);
     EXPECT_NEAR(twist.twist.linear.y, 0, 1e-12);
     EXPECT_EQ(twist.twist.angular.z, -0.5);
-    // Forwards is the y axis of the world. Sideways, an angle error of 1 rad adds 0.3 m/s. The
-    // variance of the angle is 3.
+    // The forward direction is the y axis of the world. An angle error of 1 rad adds 0.3 m/s
+    // sideways. The variance of the angle is 3.
     EXPECT_NEAR(twist.covariance[0], 5, 1e-12);
     EXPECT_NEAR(twist.covariance[7], 4 + 0.3 * 0.3 * 3, 1e-12);
     EXPECT_NEAR(twist.covariance[35], 6, 1e-12);
@@ -278,11 +278,13 @@ TEST(CameraMount, IsWhereTheImageCentreIsSeenFromTheRobot) {
     EXPECT_NEAR(ahead->transform.translation.x, 0.01, 1e-12);
     EXPECT_NEAR(ahead->transform.translation.y, 0, 1e-12);
     EXPECT_NEAR(ahead->transform.translation.z, 0.02, 1e-12);
-    // A rotation by half a turn about x: the image's y axis points to the right and z down.
+    // The camera is rotated by half a turn about x: the image's y axis points to the right, and z
+    // down.
     EXPECT_NEAR(ahead->transform.rotation.x, 1, 1e-12);
 
-    // The robot's heading is the image's y axis, which points down in the image. A point at the
-    // image's +x is to the left of the robot, as y is up, so the camera is 10 mm to its left.
+    // The robot's heading is the image's y axis, which points down in the image. The image's x axis
+    // therefore points to the left of the robot, so the camera is 10 mm to the left of the robot's
+    // centre.
     camera.theta_offset_rad = kRightAngle;
     const auto left = camera_mount(camera);
     EXPECT_NEAR(left->transform.translation.x, 0, 1e-12);

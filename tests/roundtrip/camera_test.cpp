@@ -1,5 +1,5 @@
-// Locates frames of the pages of a document: `dotpose overlay`, a renderer instead of a printer,
-// the simulated camera, and `dotpose locate`.
+// Locates frames of the pages of a document, with `dotpose overlay`, a renderer in place of a
+// printer, the simulated camera, and `dotpose locate`.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -28,21 +28,21 @@ using nlohmann::json;
 constexpr int kPages = 5;
 constexpr double kPageWidth_mm = 60;
 constexpr double kPageHeight_mm = 80;
-// Distance from the edge of the page, which contains only the margin of the document. Frames reach
-// 5.2 mm around their centre.
+// Minimum distance of a frame from the edge of the page, which contains only the margin of the
+// document. A frame extends up to 5.2 mm from its centre.
 constexpr double kEdge_mm = 8;
 constexpr int kPrinter_dpi = 1200;
-// A renderer may move all dots by one of its pixels (0.021 mm). A fix adds 0.002 mm.
+// A renderer may shift all dots by one of its pixels (0.021 mm). A fix adds 0.002 mm.
 constexpr double kTolerance_mm = 0.03;
 
-/// The place of a frame.
+/// The pose of a frame on its page.
 struct TakenFrame {
     int page = 1;
     Vec2 at_mm;
     double theta_rad = 0;
 };
 
-/// A kind of camera, and the options of printing for it.
+/// A kind of camera, and the print options for it.
 struct Camera {
     const char* name;
     const char* overlay_options;
@@ -59,7 +59,7 @@ class OverlaidBook : public testing::TestWithParam<Camera> {
     }
 
     /// Writes pages of text to in.pdf, and the same pages with dots to out.pdf. sheets.json
-    /// contains both and other sheets.
+    /// contains these pages and another sheet.
     void make_book() const {
         std::ofstream roff(directory_.path() / "book.roff");
         roff << ".pl 8c\n.po 0.6c\n.ll 4.8c\n.ps 9\n.vs 11\n.hy 0\n";
@@ -77,7 +77,7 @@ class OverlaidBook : public testing::TestWithParam<Camera> {
                      GetParam().overlay_options);
     }
 
-    /// Writes frames of random places, and their names, in order, to list.txt.
+    /// Writes frames of random places, and lists their names, in order, in list.txt.
     std::vector<TakenFrame> take_frames() const {
         constexpr std::uint64_t kSeed = 41;
         fmt::print("seed {}\n", kSeed);

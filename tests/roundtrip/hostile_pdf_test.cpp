@@ -1,4 +1,4 @@
-// Documents designed to exhaust stack, memory or time.
+// Tests documents that are designed to exhaust stack, memory or time.
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -22,7 +22,7 @@ using testing::HasSubstr;
 constexpr const char* kCatalogue = "<< /Type /Catalog /Pages 2 0 R >>";
 constexpr int kDeep = 9000;
 
-/// Returns data compressed for the filter FlateDecode.
+/// Returns data compressed `times` times for the filter FlateDecode.
 std::string packed(std::string data, int times = 1) {
     for (int i = 0; i < times; ++i) {
         uLongf size = compressBound(data.size());
@@ -38,7 +38,7 @@ std::string stream_with(const std::string& keys, const std::string& data) {
     return fmt::format("<< /Length {} {} >>\nstream\n{}\nendstream", data.size(), keys, data);
 }
 
-/// Returns one page. `more` contains the objects with numbers from 5.
+/// Returns the objects of a document with one page. `more` contains the objects numbered from 5.
 std::vector<std::string> page_with(const std::string& keys, const std::string& content = stream(""),
                                    const std::vector<std::string>& more = {}) {
     std::vector<std::string> objects = {
@@ -49,7 +49,8 @@ std::vector<std::string> page_with(const std::string& keys, const std::string& c
     return objects;
 }
 
-/// Returns objects with numbers from 5. `names` makes each object refer to the next one.
+/// Returns objects numbered from 5. `names(number)` returns an object that refers to `number`, so
+/// that each object refers to the next one.
 std::vector<std::string> chain(const std::function<std::string(int)>& names) {
     std::vector<std::string> objects;
     for (int number = 5; number < 5 + kDeep; ++number)
@@ -176,7 +177,7 @@ TEST_F(HostileDocument, the_content_of_all_pages_is_bounded) {
         options);
 }
 
-/// Returns a document whose objects are listed by a stream with these keys and data.
+/// Returns a document with a cross-reference stream that has these keys and data.
 std::string with_cross_reference_stream(const std::string& keys, const std::string& data) {
     const std::string catalogue = "%PDF-1.5\n1 0 obj\n<< /Type /Catalog >>\nendobj\n";
     return fmt::format(
@@ -203,7 +204,7 @@ TEST_F(HostileDocument, lists_of_objects_are_bounded) {
         with_cross_reference_stream("/Filter [/FlateDecode /FlateDecode]", packed(zeros, 2));
     write("junk in front\n" + twice);
     expect(too_much);
-    // An older list, to which a table refers.
+    // An older cross-reference stream, to which a table refers.
     for (const char* key : {"Prev", "XRefStm"}) {
         const std::size_t place = twice.find("2 0 obj");
         write(twice + fmt::format("xref\n0 1\n0000000000 65535 f \ntrailer\n<< /Size 3 /Root 1 0 R "
@@ -213,7 +214,7 @@ TEST_F(HostileDocument, lists_of_objects_are_bounded) {
     }
     write(with_cross_reference_stream("/Filter /FlateDecode", packed(std::string(12, '\0'))));
     expect("in.pdf");
-    // Incomplete lists.
+    // Incomplete cross-reference tables and streams.
     for (const char* cut : {"xref\n0 1\n", "2 0 obj\n", "2 0 obj\n<< /Type (", "trailer <<"}) {
         write(std::string("%PDF-1.5\n") + cut + "\nstartxref\n9\n%%EOF\n");
         expect("in.pdf: damaged PDF");

@@ -26,8 +26,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// A producer of the document in.pdf, from two pages of text (page.roff) or a picture (page.ps) in
-/// its directory, or an existing document.
+/// A program that produces the document in.pdf, from two pages of text (page.roff) or a picture
+/// (page.ps) in its directory, or from an existing document.
 struct Producer {
     const char* name;
     const char* command;

@@ -20,7 +20,7 @@ struct Limits {
     double mean_um;
     double largest_um;
 };
-// A seventh of the displacement of 85 µm that encodes a symbol at a spacing of 0.508 mm.
+// The maximum is a seventh of the displacement, which is 85 µm at a spacing of 0.508 mm.
 constexpr Limits kUsual = {4, 12};
 // At 300 dpi, 0.3 mm are 3.5 pixels. No page can be more accurate, because neighbouring dots may
 // ink the same pixel. The displacement of a symbol is 50 µm.
@@ -30,7 +30,7 @@ constexpr Limits kFineOnCoarse = {6, 30};
 // show the place of a smaller dot within a pixel: the error is up to 17 µm for a dot of 0.05 mm at
 // 300 dpi. A dot of whole pixels in whole places is exact at any size.
 constexpr double kExactDot_px = 2.3;
-// Maximum diameter at 0.3 mm that leaves a white pixel between any two dots: 1.6 pixels.
+// Maximum diameter, at a spacing of 0.3 mm, that leaves a white pixel between any two dots: 1.6 px.
 constexpr double kFineDot_px = 1.63;
 
 struct Dots {
@@ -103,8 +103,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 class OddResolution : public testing::TestWithParam<const char*> {};
 
-// Shows why letters are used for whole pixels only: a renderer moves each letter to whole pixels
-// (or parts of pixels), but draws strokes at their exact places.
+// Shows why glyphs are used for dots of whole pixels only: a renderer moves each glyph to whole
+// pixels (or parts of pixels), but draws strokes at their exact places.
 TEST_P(OddResolution, moves_letters_and_leaves_strokes) {
     constexpr int kOdd_dpi = 310;  // a spacing of 6.2 pixels
     SheetOptions options;

@@ -1,4 +1,4 @@
-/// Pages of a PDF document, painted by free renderers.
+/// Pages of a PDF document, rendered by open-source programs.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace dotpose::roundtrip {
 
-/// A grey page: 0 is black, row by row.
+/// A grey page, row by row. 0 is black.
 struct GreyPage {
     int width_px = 0;
     int height_px = 0;

@@ -1,4 +1,4 @@
-/// A PDF written by hand, with all properties that must survive laying dots over it.
+/// Writes small PDF documents from hand-written objects.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace dotpose::roundtrip {
 
-/// Writes the objects 1, 2, ... given as text without "obj" and "endobj". The first object is the
-/// catalogue.
+/// Writes a document with the objects 1, 2, ..., which are given as text without "obj" and
+/// "endobj". The first object is the catalogue.
 void write_pdf(const std::filesystem::path& path, const std::vector<std::string>& objects);
 
 std::string stream(const std::string& data);

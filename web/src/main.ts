@@ -1,4 +1,4 @@
-// Starts the page: the address after '#' selects one of its three parts.
+// Starts the page. The address after '#' selects one of its three views.
 import { Engine } from "./engine/engine.js";
 import { LookView } from "./look/look.js";
 import { element, show } from "./page/dom.js";
@@ -35,7 +35,7 @@ function route(): void {
         if (link.dataset["view"] === name) link.setAttribute("aria-current", "page");
         else link.removeAttribute("aria-current");
     }
-    // Move the focus of keyboards and screen readers to the content, except when the page is
+    // Moves the focus of keyboards and screen readers to the content, except when the page is first
     // opened.
     if (current !== "") element("content", HTMLElement).focus({ preventScroll: true });
     if (current !== "") scrollTo(0, 0);

@@ -3,8 +3,8 @@ declare const __FILES__: string[];
 declare const __BUILD__: string;
 
 /**
- * The parts of ServiceWorkerGlobalScope used here. Its TypeScript types conflict with the types of
- * a page.
+ * The parts of ServiceWorkerGlobalScope that are used in this file. The TypeScript types of
+ * ServiceWorkerGlobalScope conflict with the types of a page.
  */
 interface WorkEvent extends Event {
     waitUntil(work: Promise<unknown>): void;
@@ -27,7 +27,7 @@ const kCache = kPrefix + __BUILD__;
 
 async function install(): Promise<void> {
     const cache = await caches.open(kCache);
-    // Bypasses the HTTP cache of the browser, which may still contain files of the previous build.
+    // Bypasses the HTTP cache of the browser, which may contain files of the previous build.
     await cache.addAll(__FILES__.map((file) => new Request(file, { cache: "reload" })));
     await worker.skipWaiting();
 }

@@ -1,5 +1,5 @@
-// Opens the built page in Chromium, for the tests: a server for dist/, and a browser with a fake
-// camera.
+// Opens the built page in Chromium for the tests. Provides a server for dist/ and a browser with a
+// fake camera.
 import { execFileSync } from "node:child_process";
 import { createServer } from "node:http";
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
@@ -11,7 +11,7 @@ import { chromium } from "playwright-core";
 const kRoot = fileURLToPath(new URL("../..", import.meta.url));
 const kDist = fileURLToPath(new URL("../dist", import.meta.url));
 const kChromium = process.env.CHROMIUM ?? "/usr/bin/chromium";
-/** The tool of the same checkout, which renders frames and checks prints. */
+/** The command-line tool of the same checkout. It renders frames and checks prints. */
 const kTool = process.env.DOTPOSE_TOOL ?? join(kRoot, "build/release/bin/dotpose");
 
 const kTypes = {
@@ -24,7 +24,7 @@ const kTypes = {
     ".webmanifest": "application/manifest+json",
 };
 
-/** Serves dist/ below /page/, because the page must also work below the root of a server. */
+/** Serves dist/ under /page/, because the page must also work below the root of a server. */
 export async function serve() {
     const server = createServer((request, response) => {
         const path = normalize(decodeURIComponent(new URL(request.url, "http://localhost").pathname));
@@ -49,7 +49,7 @@ export async function serve() {
     };
 }
 
-/** Starts Chromium. `clip` is the y4m file that its fake camera shows. */
+/** Starts Chromium. `clip` is the y4m file that the fake camera shows. */
 export async function launch({ clip, ...options } = {}) {
     const profile = mkdtempSync(join(tmpdir(), "dotpose-page-"));
     const quiet = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"];
@@ -62,7 +62,7 @@ export async function launch({ clip, ...options } = {}) {
         args: [...quiet, ...offline, ...camera, ...(clip ? [`--use-file-for-fake-video-capture=${clip}`] : [])],
         ...options,
     });
-    // Long enough for a busy machine.
+    // The timeout is long enough for a busy machine.
     context.setDefaultTimeout(120_000);
     return {
         context,
@@ -73,7 +73,7 @@ export async function launch({ clip, ...options } = {}) {
     };
 }
 
-/** Opens a page, and collects its errors, warnings and requests to other servers. */
+/** Opens a page and collects its errors, warnings, and requests to other servers. */
 export async function open(context, url) {
     const page = await context.newPage();
     const complaints = [];
@@ -90,7 +90,7 @@ export async function open(context, url) {
     return { page, complaints };
 }
 
-/** Runs the tool and returns its output. */
+/** Runs the command-line tool and returns its output. */
 export function dotpose(...args) {
     return execFileSync(kTool, args, { encoding: "utf8", maxBuffer: 1 << 28 });
 }

@@ -1,4 +1,4 @@
-// Clips with known poses for the fake camera of Chromium: frames of the tool's simulated camera.
+// Makes clips for the fake camera of Chromium from simulated frames with known poses.
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -11,15 +11,15 @@ export function readCsv(text) {
     return lines.map((line) => Object.fromEntries(head.map((name, i) => [name, value(line[i])])));
 }
 
-/** Returns the size and the pixels of a binary PGM file written by the tool. */
+/** Returns the size and pixels of a binary PGM file written by the command-line tool. */
 function readPgm(bytes) {
     const [, width, height] = /^P5\s+(\d+)\s+(\d+)\s+255\s/.exec(bytes.subarray(0, 64).toString("latin1")).map(Number);
     return { width, height, pixels: bytes.subarray(bytes.length - width * height) };
 }
 
 /**
- * Writes `clip.y4m` into the folder. Returns for each of its frames the true pose, the tool's
- * line for the luma of the frame (`tool`), and the frame as a picture file (`png`).
+ * Writes `clip.y4m` to the folder. For each frame, returns the true pose, the tool's output line
+ * for the luma of the frame (`tool`), and the path of the frame as a picture (`png`).
  */
 export function makeClip(folder, { frames, size }) {
     const still = join(folder, "frames");
@@ -31,7 +31,7 @@ export function makeClip(folder, { frames, size }) {
     const lumas = [];
     for (const { file } of truth) {
         const { pixels } = readPgm(readFileSync(join(still, file)));
-        // Chromium expects luma in the limited range of 16 to 235.
+        // Chromium expects luma in the limited range from 16 to 235.
         const luma = Buffer.from(pixels, 0).map((level) => 16 + Math.round((level * 219) / 255));
         parts.push(Buffer.from("FRAME\n"), luma, chroma);
         const path = join(folder, `luma_${file}`);

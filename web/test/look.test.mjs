@@ -1,4 +1,5 @@
-// Look, with a camera that shows a clip with known poses, for both methods of reading the luma.
+// Tests the view "Look" with a camera that shows a clip with known poses, for both methods of
+// reading the luma.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -25,8 +26,8 @@ after(async () => {
 });
 
 /**
- * Runs the camera until `frames` frames are logged. Returns the log and the complaints of the
- * page.
+ * Runs the camera until `frames` frames are logged. Returns the log and the errors and warnings of
+ * the page.
  */
 async function runCamera(address, frames) {
     const { page, complaints } = await open(browser.context, server.url + address);
@@ -41,8 +42,8 @@ async function runCamera(address, frames) {
 }
 
 /**
- * Returns the true pose of a line of the log. The true pose is the nearest pose of the clip,
- * because the frames of the clip are metres apart.
+ * Returns the true pose for a line of the log. It is the nearest pose of the clip, because the
+ * frames of the clip are metres apart.
  */
 function truthOf(line) {
     const near = (at) => Math.hypot(at.x_mm - line.x_mm, at.y_mm - line.y_mm);
@@ -68,7 +69,7 @@ test("the luma straight from the camera gives the poses of the clip, to the bit 
     assert.match(rate, /^\d+ frames per second, straight from the camera$/);
     const lines = readCsv(log);
     requireTruth(lines);
-    // Frames without a prediction must have the same pose as in the tool.
+    // Frames without a prediction must have the same pose as in the command-line tool.
     const first = lines.filter((line) => line.attempt === "first");
     assert.ok(first.length >= 4, `${first.length} frames were read without prediction`);
     for (const line of first) {
@@ -92,7 +93,7 @@ test("the columns of a log are keys of the tool's lines", async () => {
     const { page, log } = await runCamera("#look", 2);
     const schema = JSON.parse(readFileSync(new URL("../../docs/schema/lines-1.json", import.meta.url), "utf8"));
     const known = new Set(Object.values(schema.$defs).flatMap(({ properties }) => Object.keys(properties ?? {})));
-    // Array fields have one column per element.
+    // Array fields have one column for each element.
     for (const column of log.split("\n")[0].split(",")) assert.ok(known.has(column.replace(/^(section)_[uv]$/, "$1")), column);
     await page.close();
 });
@@ -134,7 +135,7 @@ test("a picture is read, and one of something else gets a hint", async () => {
     await page.waitForFunction(() => document.getElementById("look-x").textContent !== "–");
     const x_mm = Number((await page.textContent("#look-x")).replaceAll("\u202f", ""));
     assert.ok(Math.abs(x_mm - truth[0].x_mm) < 0.005, `${x_mm}, not ${truth[0].x_mm}`);
-    // The header of the page has no dots.
+    // The header of the page contains no dots.
     const buffer = await page.screenshot({ clip: { x: 0, y: 0, width: 640, height: 200 } });
     await page.setInputFiles("#look-file", { name: "other.png", mimeType: "image/png", buffer });
     await page.waitForFunction(() => document.getElementById("look-x").textContent === "–");

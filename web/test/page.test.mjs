@@ -1,5 +1,5 @@
-// The whole page: checks that it is accessible, works offline, is installable, and makes no
-// requests to other servers.
+// Tests the whole page: it must be accessible, work offline, be installable, and make no requests
+// to other servers.
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";

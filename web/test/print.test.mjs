@@ -1,4 +1,5 @@
-// Print: checks that the rendered PDF has the same dots as the PDF of the tool.
+// Tests the view "Print": the rendered PDF must have the same dots as the PDF of the command-line
+// tool.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -22,7 +23,7 @@ after(async () => {
     if (folder) rmSync(folder, { recursive: true, force: true });
 });
 
-/** Renders the first page as grey values. */
+/** Renders the first page as grey levels. */
 function render(pdf, dpi) {
     const out = pdf.replace(/\.pdf$/, "");
     execFileSync("pdftoppm", ["-r", String(dpi), "-gray", "-singlefile", pdf, out]);
@@ -75,12 +76,12 @@ for (const code of ["anoto", "libdots"]) {
 test("what is printed passes check-print and is located where it should be", async () => {
     const { page, path } = await printed({ paper: "148x210", x: "410815000", y: "2000", name: "a5" });
     const rendered = render(path, 600);
-    // The exit status is nonzero if the print has faults.
+    // The exit status is nonzero if the check finds faults.
     const verdict = dotpose("check-print", rendered.path, "--dpi", "600");
     assert.match(verdict, /\b600\b|100(\.0+)? ?%|ok/i);
     const fix = JSON.parse(dotpose("locate", "--code", "anoto", rendered.path));
     assert.equal(fix.status, "ok");
-    // The expected position is the middle of the page, relative to the first dot.
+    // The expected position is the centre of the page, relative to the first dot.
     const origin_mm = JSON.parse(await page.evaluate(() => localStorage.getItem("dotpose-sheets"))).at(-1).layout;
     const expected_mm = 410815000 * 0.508 + 148 / 2 - origin_mm.first_x_mm;
     assert.ok(Math.abs(fix.x_mm - expected_mm) < 0.03, `${fix.x_mm}, not ${expected_mm}`);

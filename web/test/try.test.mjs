@@ -1,4 +1,5 @@
-// Try: checks that the simulated camera is located after it is moved and its frames are degraded.
+// Tests the view "Try": the simulated camera must be located after it moves and after its frames
+// are degraded.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { launch, open, serve } from "./browser.mjs";
@@ -8,7 +9,7 @@ let browser;
 
 before(async () => {
     server = await serve();
-    // With reduced motion, the camera does not drive automatically.
+    // If reduced motion is preferred, the camera does not drive automatically.
     browser = await launch({ viewport: { width: 1200, height: 1000 }, reducedMotion: "reduce" });
 });
 after(async () => {
@@ -22,14 +23,14 @@ async function openTry() {
     return opened;
 }
 
-/** Returns the pose and error shown by the page, in mm. */
+/** Returns the position and the error shown on the page, in mm. */
 async function shown(page) {
     const [x, y, error] = await Promise.all(["#try-x", "#try-y", "#try-error"].map((id) => page.textContent(id)));
     const unit_mm = { µm: 0.001, mm: 1 }[error.split(" ")[1]];
     return { x_mm: parseFloat(x), y_mm: parseFloat(y), error_mm: parseFloat(error) * unit_mm };
 }
 
-/** Makes a change and waits until it is drawn. */
+/** Makes a change and waits until it has been drawn. */
 async function settled(page, change) {
     await change();
     await page.waitForFunction(() => document.getElementById("try-camera").dataset.busy === "false");

@@ -1,16 +1,16 @@
-// Redraws the icons of public/icons/: node tools/draw_icons.mjs (renders the PNG files with
-// Chromium).
+// Redraws the icons in public/icons/. Run with `node tools/draw_icons.mjs`. Renders the PNG files
+// with Chromium.
 import { writeFile, mkdir } from "node:fs/promises";
 import { chromium } from "playwright-core";
 
 const kFolder = new URL("../public/icons/", import.meta.url);
-/** Five rows of symbols. The letters u, d, l, r are the displacements of the dots. */
+/** Five rows of symbols. The letters u, d, l and r are the displacement directions of the dots. */
 const kRows = ["rulud", "udrlu", "lrudr", "durlu", "ldurl"];
 const kStep = { u: [0, -1], d: [0, 1], l: [-1, 0], r: [1, 0] };
 
 /**
- * Returns an icon as SVG. `inset` keeps the drawing inside the circle to which phones may crop
- * the icon.
+ * Returns an icon as SVG. `inset` keeps the drawing inside the circle to which phones may crop the
+ * icon.
  */
 function icon({ radius, inset }) {
     const cell = (512 - 2 * inset) / 5;

@@ -1,4 +1,4 @@
-// Takes the picture of the page for web/README.md. Run `node tools/take_picture.mjs` after
+// Takes the picture of the page in web/README.md. Run `node tools/take_picture.mjs` after
 // web/build.
 import { fileURLToPath } from "node:url";
 import { launch, open, serve } from "../test/browser.mjs";

@@ -1,4 +1,4 @@
-// The position code: the displacement of each dot of a sheet.
+// The position code: displacements of the dots of a sheet.
 #include "dotpose/code.hpp"
 
 #include <algorithm>
@@ -12,8 +12,8 @@ using namespace dotpose;
 
 constexpr std::int32_t kMaxCells = 65535;
 
-/// Number of columns that are written together. Their rolls are computed once and need little
-/// memory.
+/// Number of columns that are written together. The rolls of a block are computed once and need
+/// little memory.
 constexpr std::uint32_t kBlock_columns = 64;
 
 bool are_sides(std::int32_t columns, std::int32_t rows) {
@@ -59,7 +59,7 @@ dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int3
         return DOTPOSE_BAD_VALUE;
     const auto width = static_cast<std::uint32_t>(columns);
     const auto height = static_cast<std::uint32_t>(rows);
-    // Both factors are below 2^16, so the product does not overflow.
+    // `width` and `height` are less than 2^16, so the product does not overflow.
     if (bytes < width * height) return DOTPOSE_TOO_LITTLE_MEMORY;
     dotpose_place first = *top_left;
     for (std::uint32_t i = 0; i < width; i += kBlock_columns) {

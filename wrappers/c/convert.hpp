@@ -1,4 +1,4 @@
-// Conversions between the structs of dotpose.h and the structs of the core. Conversions to the core
+// Conversions between the structs of dotpose.h and the types of the core. Conversions to the core
 // check every value, because a C caller can pass any value.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace dotpose::c {
 
-/// Returns true if an integer is a value of an enumeration from 0 to `last`.
+/// Returns true if an integer is a valid value of an enumeration with values from 0 to `last`.
 template <typename Enum>
 constexpr bool is_one_of(std::int32_t value, Enum last) {
     return value >= 0 && value <= static_cast<std::int32_t>(last);
@@ -23,8 +23,8 @@ inline bool is_code(std::int32_t code) {
     return is_one_of(code, CodeVariant::microdots);
 }
 
-/// Reads options: overwrites the defaults in `options` with the members that the caller's version
-/// of the struct has. `first_bytes` is the size of the struct in its first version.
+/// Reads options: overwrites the defaults in `options` with the members that exist in the caller's
+/// version of the struct. `first_bytes` is the size of the first version of the struct.
 template <typename DeviceOptions>
 dotpose_status read_sized(const DeviceOptions* given, std::size_t first_bytes,
                           DeviceOptions& options) {
@@ -35,7 +35,8 @@ dotpose_status read_sized(const DeviceOptions* given, std::size_t first_bytes,
     return DOTPOSE_OK;
 }
 
-/// Writes the default options, limited to the members that the caller's version of the struct has.
+/// Writes the default options. Only writes members that exist in the caller's version of the
+/// struct.
 template <typename DeviceOptions>
 dotpose_status write_sized(DeviceOptions defaults, std::size_t first_bytes, DeviceOptions* options,
                            std::size_t bytes) {
@@ -46,8 +47,8 @@ dotpose_status write_sized(DeviceOptions defaults, std::size_t first_bytes, Devi
     return DOTPOSE_OK;
 }
 
-/// Returns true if a time or coordinate of a tracker is at most 2^bits in magnitude, so that no
-/// difference of two values overflows.
+/// Returns true if the absolute value is at most 2^bits. The limits are chosen such that
+/// differences of times or coordinates do not overflow.
 constexpr bool is_within_range(std::int64_t value, int bits) {
     return value >= -(std::int64_t{1} << bits) && value <= std::int64_t{1} << bits;
 }
@@ -55,34 +56,35 @@ constexpr bool is_within_range(std::int64_t value, int bits) {
 bool is_place(const dotpose_place& place);
 Place to_core(const dotpose_place& place);
 
-/// Reads options. Null selects the defaults. Returns BAD_ARGUMENT if an option is out of range.
+/// Reads options. If `given` is null, uses the defaults. Returns BAD_ARGUMENT if an option is out
+/// of range.
 dotpose_status to_core(const dotpose_options* given, LocatorOptions& options);
 
 /// Reads a motion. Returns BAD_VALUE if it is not usable.
 dotpose_status to_core(const dotpose_measured_motion& given, MeasuredMotion& motion);
 
-/// Reads a prediction. Returns BAD_VALUE if its place is not in the code.
+/// Reads a prediction. Returns BAD_VALUE if the code does not contain its place.
 dotpose_status to_core(const dotpose_prediction& given, Prediction& prediction);
 
-/// Checks that a fix can be read and written. Returns NULL_POINTER or BAD_SIZE otherwise.
+/// Returns OK if a fix can be read and written, otherwise NULL_POINTER or BAD_SIZE.
 dotpose_status check(const dotpose_fix* fix);
 
 /// Reads a fix with any status. Returns the errors of `check`, or BAD_VALUE if the fix was not
 /// written by this library.
 dotpose_status to_core(const dotpose_fix* given, Fix& fix);
-/// Reads a fix whose status must be ok. Otherwise returns NO_FIX.
+/// Reads a fix. Returns NO_FIX if its status is not ok.
 dotpose_status to_core_ok(const dotpose_fix* given, Fix& fix);
 
-/// Returns true if the prediction can be moved without an overflow. Predictions made from fixes
-/// always can.
+/// Returns true if the prediction can be moved without overflow. This is always the case for
+/// predictions made from fixes.
 bool can_move(const Prediction& prediction);
 
-/// Writes a fix. The size of `result` must have been checked.
+/// Writes a fix. The caller must have checked the size of `result`.
 void to_c(const Fix& fix, dotpose_fix& result);
 void to_c(const Place& place, dotpose_place& result);
 void to_c(const Prediction& prediction, dotpose_prediction& result);
 
-/// Writes the result of a misused call, and returns its status.
+/// Writes the result of an invalid call, and returns its status.
 dotpose_status refuse(dotpose_status status, dotpose_fix& result);
 
 }  // namespace dotpose::c

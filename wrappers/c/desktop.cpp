@@ -1,5 +1,5 @@
-// Functions that device locators do not have: known sheets, detection of the code, and the dots of
-// the last frame.
+// Functions that device locators do not support: known sheets, detection of the code, and the dots
+// of the last frame.
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Layout of the evidence in the core: prior log odds, factors of the current frame, the cell, the
+/// Layout of CodeEvidence in the core: prior log odds, factors of the current frame, cell, and
 /// number of frames.
 struct State {
     std::int32_t log2_q8[kCodeVariantCount];
@@ -27,7 +27,7 @@ static_assert(sizeof(State) == sizeof(dotpose_code_evidence));
 static_assert(sizeof(State) == sizeof(CodeEvidence));
 static_assert(std::is_trivially_copyable_v<CodeEvidence>);
 
-/// Reads evidence. Null is no evidence. Returns BAD_VALUE if the evidence was neither zeroed nor
+/// Reads evidence. Null means no evidence. Returns BAD_VALUE if the struct was neither zeroed nor
 /// written by this library.
 dotpose_status read_evidence(const dotpose_code_evidence* given, CodeEvidence& evidence) {
     if (given == nullptr) return DOTPOSE_OK;
@@ -47,7 +47,7 @@ dotpose_status read_evidence(const dotpose_code_evidence* given, CodeEvidence& e
     return DOTPOSE_OK;
 }
 
-// The core reads the regions where the caller keeps them.
+// The core reads the regions in the caller's memory, so the layouts must be equal.
 static_assert(sizeof(dotpose_region) == sizeof(KnownRegion));
 static_assert(offsetof(dotpose_region, code) == offsetof(KnownRegion, code));
 static_assert(offsetof(dotpose_region, section_u) == offsetof(KnownRegion, section.u));
@@ -65,7 +65,7 @@ void give(const CodeReading& reading, dotpose_code_reading* result) {
     c::to_c(Place{reading.other_cell, reading.other_section}, result->other);
 }
 
-/// Checks that the locator is valid and not a device locator.
+/// Returns OK if the locator is valid and not a device locator.
 dotpose_status check_desktop(const dotpose_locator* locator) {
     const dotpose_status status = c::check(locator);
     if (status != DOTPOSE_OK) return status;

@@ -43,7 +43,7 @@ extern "C" {
 
 /* ---- Statuses ------------------------------------------------------------------------------- */
 
-/* Result of a call, or the reason why it failed. Values never change their numbers. */
+/* Result of a call, or the reason why it failed. The numbers of the values never change. */
 typedef int32_t dotpose_status;
 enum {
     /* Located. */
@@ -102,8 +102,8 @@ const char* dotpose_status_name(dotpose_status status);
 /* Returns a description of a status: one sentence without a full stop. Never returns null. */
 const char* dotpose_status_message(dotpose_status status);
 
-/* Version of this header. DOTPOSE_VERSION_NUMBER is for the preprocessor and increases with
- * every version. */
+/* Version of this header. DOTPOSE_VERSION_NUMBER is for the preprocessor and increases with every
+ * version. */
 #define DOTPOSE_VERSION "0.2.0"
 #define DOTPOSE_VERSION_NUMBER 200
 
@@ -140,13 +140,14 @@ enum {
 };
 
 /* Returns the displacement of the dot at a place, in units of the displacement length (usually a
- * sixth of the spacing). One of `dx` and `dy` (down) is -1 or 1, the other 0. */
+ * sixth of the spacing). `dx` is to the right and `dy` is down. One of them is -1 or 1, and the
+ * other is 0. */
 dotpose_status dotpose_displacement(int32_t code, const dotpose_place* place, int32_t* dx,
                                     int32_t* dy);
 
-/* Returns the symbols of columns x rows dots, row by row from `top_left`, for printing a sheet
- * of this size. The pattern wraps around at the end of an axis, as in locators. `columns` and
- * `rows` are 1 to 65535. */
+/* Returns the symbols of columns x rows dots, row by row from `top_left`, for printing a sheet of
+ * this size. As in locators, the pattern wraps around at the end of an axis. `columns` and `rows`
+ * must be from 1 to 65535. */
 dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int32_t columns,
                                int32_t rows, uint8_t* symbols, size_t bytes);
 
@@ -207,6 +208,7 @@ enum {
  *
  * The pose is the pattern position at the reference point of the image, by default the image
  * centre. Unless `status` is DOTPOSE_OK, x_mm, y_mm and theta_rad are NaN, and only `status`,
+ * `dots_seen` and the counts of the completed stages are valid.
  * `dots_seen` and the counts of the stages reached are valid. */
 typedef struct dotpose_fix {
     /* Size of this struct; dotpose_fix_init sets it. */
@@ -275,8 +277,8 @@ typedef struct dotpose_fix {
 } dotpose_fix;
 
 /* Sets up a fix before the first call that writes to it. `bytes` is sizeof(dotpose_fix) in the
- * caller. Functions that read or write a fix return BAD_SIZE, and leave the fix unchanged, if
- * its size matches no version. */
+ * caller. Functions that read or write a fix return BAD_SIZE, and leave the fix unchanged, if its
+ * size does not match any version. */
 dotpose_status dotpose_fix_init(dotpose_fix* fix, size_t bytes);
 
 /* Expected position of the pattern in the next frame: 72 bytes. */
@@ -288,13 +290,13 @@ typedef struct dotpose_prediction {
     int32_t sigma_theta_bam;          /* 68: standard deviation of theta */
 } dotpose_prediction;
 
-/* Returns the prediction that the next frame has the same pose as `fix`. A frame that confirms
- * its prediction is located in a fraction of the time. Otherwise the frame is located without
- * the prediction. */
+/* Returns a prediction that the next frame has the same pose as `fix`. A frame that confirms its
+ * prediction is located in a fraction of the time. If the frame does not confirm the prediction, it
+ * is located without the prediction. */
 dotpose_status dotpose_prediction_like(const dotpose_fix* fix, dotpose_prediction* prediction);
 
 /* Moves a prediction by `by_x_q16` and `by_y_q16` spacings in the pattern frame, and turns it by
- * `turn_bam` about the image point `pivot_u_q8`, `pivot_v_q8`. Each movement is at most 4096
+ * `turn_bam` about the image point `pivot_u_q8`, `pivot_v_q8`. Each movement must be at most 4096
  * spacings. */
 dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t code,
                                        int32_t by_x_q16, int32_t by_y_q16, int32_t turn_bam,
@@ -307,15 +309,15 @@ enum {
     DOTPOSE_KIND_DEVICE = 0, /* microcontrollers: integers only, images up to 188 px wide, 13 KB */
     DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 250 KB */
     DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 1.7 MB */
-    DOTPOSE_KIND_DEVICE_160X120 = 3, /* like a device, images up to 160 px wide, 11 KB */
-    DOTPOSE_KIND_DEVICE_320X240 = 4  /* like a device, images up to 320 x 240 px, 23 KB */
+    DOTPOSE_KIND_DEVICE_160X120 = 3, /* like DEVICE, for images up to 160 px wide, 11 KB */
+    DOTPOSE_KIND_DEVICE_320X240 = 4  /* like DEVICE, for images up to 320 x 240 px, 23 KB */
 };
 
-/* Number of attempts of a locator. A device locator always uses the device attempt. */
+/* Attempts that a locator makes. A device locator always makes the device attempt. */
 enum {
-    DOTPOSE_EFFORT_DEVICE = 0, /* one, in integers, as on a device */
-    DOTPOSE_EFFORT_ONCE = 1,   /* one */
-    DOTPOSE_EFFORT_TWICE = 2   /* a frame that cannot be located is filtered and located again */
+    DOTPOSE_EFFORT_DEVICE = 0, /* one attempt, in integers, as on a device */
+    DOTPOSE_EFFORT_ONCE = 1,   /* one attempt */
+    DOTPOSE_EFFORT_TWICE = 2   /* a second attempt on the filtered frame if the first fails */
 };
 
 /* Dots from which the position is decoded. */
@@ -328,8 +330,9 @@ enum {
  * each option and when to change it. */
 typedef struct dotpose_options {
     uint32_t size; /* 0: set by dotpose_options_init */
-    /* DOTPOSE_CODE_ of the sheet. The default DETECT uses all whole images so far. Device
-     * locators and frames pushed row by row use anoto, or the code of the last image. */
+    /* Code of the sheet: DOTPOSE_CODE_. The default, DETECT, detects the code from all whole images
+     * so far. Device locators, and frames that are pushed row by row, use the code of the last
+     * image, or anoto if there is none. */
     int32_t code;             /*  4 */
     int32_t effort;           /*  8: DOTPOSE_EFFORT_; default twice */
     int32_t decoder;          /* 12: DOTPOSE_DECODER_; default all */
@@ -349,8 +352,8 @@ typedef struct dotpose_options {
 
 /* Sets the default options. `bytes` is sizeof(dotpose_options) in the caller. */
 dotpose_status dotpose_options_init(dotpose_options* options, size_t bytes);
-/* Returns the name of the first member that is out of range, for which functions return
- * BAD_ARGUMENT. Returns null if all members are valid. */
+/* Returns the name of the first member that is out of range and causes BAD_ARGUMENT. Returns null
+ * if all members are valid. */
 const char* dotpose_bad_option(const dotpose_options* options);
 
 /* A locator, as an opaque type. It must not be used by several threads at the same time. */
@@ -363,21 +366,21 @@ typedef struct dotpose_locator dotpose_locator;
 #define DOTPOSE_DEVICE_160X120_BYTES (sizeof(void*) == 4 ? 10768u : 12000u)
 #define DOTPOSE_DEVICE_320X240_BYTES (sizeof(void*) == 4 ? 23232u : 25232u)
 
-/* Returns the memory, in bytes, that a locator of a kind needs, or 0 for an unknown kind. */
+/* Returns the number of bytes that a locator of a kind needs, or 0 for an unknown kind. */
 size_t dotpose_locator_bytes(int32_t kind);
 
 /* Sets up a locator in memory provided by the caller. The address must be a multiple of 8. The
- * memory must not be modified or copied while the locator is in use. It may be released without
- * a further call. If `options` is null, the defaults are used. */
+ * memory must not be modified or copied while the locator is in use. No call is needed before the
+ * memory is released. If `options` is null, the defaults are used. */
 dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
                                     const dotpose_options* options, dotpose_locator** locator);
 
-/* Sets up a locator of DOTPOSE_KIND_DEVICE. A program that sets up locators only with this
- * function does not contain the other kinds, if its linker removes unused sections. */
+/* Sets up a locator of DOTPOSE_KIND_DEVICE. If a program sets up locators only with this function,
+ * and its linker removes unused sections, it does not contain the other kinds. */
 dotpose_status dotpose_device_init(void* memory, size_t bytes, const dotpose_options* options,
                                    dotpose_locator** locator);
-/* Set up a locator of DOTPOSE_KIND_DEVICE_160X120 or DOTPOSE_KIND_DEVICE_320X240 in the same way.
- */
+/* Sets up a locator of DOTPOSE_KIND_DEVICE_160X120 or DOTPOSE_KIND_DEVICE_320X240 in the same way.
+ * */
 dotpose_status dotpose_device_160x120_init(void* memory, size_t bytes,
                                            const dotpose_options* options,
                                            dotpose_locator** locator);
@@ -392,7 +395,7 @@ dotpose_status dotpose_locator_create(int32_t kind, const dotpose_options* optio
  * `locator` is null. */
 void dotpose_locator_destroy(dotpose_locator* locator);
 
-/* Changes the options. Drops a frame that was begun and not finished. */
+/* Changes the options. Discards a frame that was begun but not finished. */
 dotpose_status dotpose_set_options(dotpose_locator* locator, const dotpose_options* options);
 
 /* A printed rectangle of the code plane: 20 bytes. */
@@ -407,7 +410,7 @@ typedef struct dotpose_region {
     uint32_t rows;     /* 16: at least 1 */
 } dotpose_region;
 
-/* Whether sheets other than the known ones may be in view. */
+/* Possibility that sheets other than the known sheets are in view. */
 enum {
     /* Other sheets are also located if enough of their dots are in view. */
     DOTPOSE_OTHERS_POSSIBLE = 0,
@@ -415,11 +418,12 @@ enum {
     DOTPOSE_OTHERS_IMPOSSIBLE = 1
 };
 
-/* Sets the regions of the sheets that may be in view. Views of about 30 dots, in images from 24 x
- * 24 px, then suffice. The locator reads `regions` in each frame, so the array must stay valid and
- * unchanged. With a `count` of 0, all places are possible again. Drops a frame that was begun.
- * Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not inside the plane,
- * or has a code or section that does not exist. Not for devices: WRONG_KIND. */
+/* Sets the regions of the sheets that may be in view. Views of about 30 dots, in images of at least
+ * 24 x 24 px, are then sufficient. The locator reads `regions` in each frame, so the array must
+ * remain valid and unchanged. If `count` is 0, all places are possible again. Discards a frame that
+ * was begun. Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not inside
+ * the plane, or has a code or section that does not exist. Returns WRONG_KIND for device locators.
+ * */
 dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region* regions,
                                  size_t count, int32_t others);
 
@@ -447,13 +451,14 @@ dotpose_status dotpose_locate_moved(dotpose_locator* locator, const uint8_t* pix
                                     int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                     const dotpose_measured_motion* since_last, dotpose_fix* fix);
 
-/* Returns the code of the options or, if it is detected, the code of the last image. Move
- * predictions of the fix of that image with this code, and pass it to dotpose_packet_of. */
+/* Returns the code from the options or, if the code is detected, the code of the last image. Use
+ * this code to move predictions made from the fix of that image, and pass it to
+ * dotpose_packet_of. */
 dotpose_status dotpose_code_of(const dotpose_locator* locator, int32_t* code);
 
-/* Locates an image row by row: dotpose_begin, then dotpose_push_row for each row from the top,
- * then dotpose_finish. A row need not stay valid after its call. `prediction` may be null. A
- * frame that does not confirm its prediction gets the status not_tracked. */
+/* Locates an image row by row: dotpose_begin, then dotpose_push_row for each row from the top, then
+ * dotpose_finish. A row need not remain valid after the call. `prediction` may be null. A frame
+ * that does not confirm its prediction gets the status not_tracked. */
 dotpose_status dotpose_begin(dotpose_locator* locator, int32_t width_px, int32_t height_px,
                              const dotpose_prediction* prediction);
 dotpose_status dotpose_push_row(dotpose_locator* locator, const uint8_t* pixels);
@@ -467,14 +472,15 @@ typedef struct dotpose_dot {
     int32_t area_px; /* 12 */
 } dotpose_dot;
 
-/* Returns up to `capacity` dots of the last frame, and their total number. With the option
- * show_stages, every attempt keeps its dots. Not for devices: WRONG_KIND. */
+/* Returns up to `capacity` dots of the last frame, and their total number. If the option
+ * show_stages is set, every attempt keeps its dots. Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, int32_t capacity,
                             int32_t* count);
 
 /* ---- Sheets whose code is not known --------------------------------------------------------- */
 
-/* Likelihood of each code for one sheet, from all its frames so far. Initialise it with zeros:
+/* Likelihood of each code for one sheet, from all its frames so far. Initialise the struct with
+ * zeros:
  *     dotpose_code_evidence evidence = {{0}}; */
 typedef struct dotpose_code_evidence {
     int32_t state[9];
@@ -489,29 +495,30 @@ typedef struct dotpose_code_reading {
 } dotpose_code_reading;
 
 /* Locates an image whose code is not known, and adds the image to the evidence. A frame that two
- * codes explain about equally well gets the status ambiguous_code. Afterwards the locator has
- * the code that was read, and a prediction must have been made in that code. `prediction`,
- * `evidence` (to use only this frame) and `reading` may be null. Not for devices: WRONG_KIND. */
+ * codes explain about equally well gets the status ambiguous_code. The call sets the code of the
+ * locator to the code that was read. The prediction must have been made in the previous code of the
+ * locator. `prediction`, `evidence` (to use only this frame) and `reading` may be null. Returns
+ * WRONG_KIND for device locators. */
 dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* pixels,
                                        int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                        const dotpose_prediction* prediction,
                                        dotpose_code_evidence* evidence,
                                        dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Locates an image in the code of the options, and reports whether another code also explains
- * the image. `reading` may be null. Not for devices: WRONG_KIND. */
+/* Locates an image in the code of the options, and reports whether another code also explains the
+ * image. `reading` may be null. Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* pixels,
                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                       dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Returns the likeliest code, and an upper bound of the probability that another code is
- * correct. */
+/* Returns the most likely code, and an upper bound of the probability that another code is correct.
+ * */
 dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* code,
                                       float* p_wrong);
 
 /* ---- Trackers ------------------------------------------------------------------------------- */
 
-/* A tracker follows a robot from frame to frame. Its content is private. The struct may be
+/* Follows a robot from frame to frame. The contents of the struct are private. The struct may be
  * copied.
  *
  *     dotpose_tracker tracker;
@@ -529,7 +536,8 @@ typedef struct dotpose_tracker {
     uint64_t state[216];
 } dotpose_tracker;
 
-/* Motion of the robot, and limits for accepting sightings: 88 bytes. Comments give the defaults. */
+/* Motion of the robot, and limits for accepting sightings: 88 bytes. Each comment ends with the
+ * default. */
 typedef struct dotpose_track_options {
     uint32_t size;                         /*  0: set by dotpose_track_options_init */
     float acceleration_mm_s2;              /*  4: standard deviation while manoeuvring; 600 */
@@ -666,7 +674,7 @@ dotpose_status dotpose_packet_of(const dotpose_fix* fix, int32_t code, uint32_t 
 /* Encodes a packet. `bytes` must have room for DOTPOSE_PACKET_BYTES. */
 dotpose_status dotpose_packet_encode(const dotpose_packet* packet, uint8_t* bytes, size_t capacity);
 
-/* A packet reader finds packets in a byte stream, which may contain other data. Its content is
+/* Finds packets in a byte stream that may contain other data. The contents of the struct are
  * private. */
 typedef struct dotpose_packet_reader {
     uint64_t state[14];
@@ -676,23 +684,23 @@ dotpose_status dotpose_packet_reader_init(dotpose_packet_reader* reader);
 /* Processes the next byte. Returns OK if the byte completes a packet, and NO_PACKET otherwise. */
 dotpose_status dotpose_packet_reader_push(dotpose_packet_reader* reader, uint8_t byte,
                                           dotpose_packet* packet);
-/* Returns the number of byte sequences that were not a packet because they were damaged. */
+/* Returns the number of byte sequences that were rejected as damaged packets. */
 dotpose_status dotpose_packet_reader_damaged(const dotpose_packet_reader* reader,
                                              uint32_t* damaged);
 
 /* ---- Pacing of frames, to spare a battery --------------------------------------------------- */
 
-/* A pacer determines when to take the next frame. Its content is private. */
+/* Determines when to take the next frame. The contents of the struct are private. */
 typedef struct dotpose_pacer {
     uint64_t state[40];
 } dotpose_pacer;
 
-/* Definition of movement, and periods of frames: 40 bytes. Comments give the defaults. */
+/* Criteria for movement, and frame periods: 40 bytes. Each comment ends with the default. */
 typedef struct dotpose_pacer_options {
     uint32_t size;                /*  0: set by dotpose_pacer_options_init */
     int32_t moved_q16;            /*  4: minimum movement per axis, spacings; 6554 */
     int32_t turned_bam;           /*  8: minimum turn; 11930465, one degree */
-    int32_t lost_is_moved;        /* 12: 1: a resting device without a fix has moved; 1 */
+    int32_t lost_is_moved;        /* 12: 1 if losing the pattern is movement; 1 */
     int64_t stationary_after_us;  /* 16: 5000000 */
     int64_t stationary_period_us; /* 24: period while stationary; 1000000 */
     int64_t moving_period_us;     /* 32: period while moving; 0 */
@@ -702,8 +710,9 @@ typedef struct dotpose_pacer_options {
 dotpose_status dotpose_pacer_options_init(dotpose_pacer_options* options, size_t bytes);
 /* Sets up a pacer. If `options` is null, the defaults are used. */
 dotpose_status dotpose_pacer_init(dotpose_pacer* pacer, const dotpose_pacer_options* options);
-/* Updates the pacer with the fix of a frame, with any status, and its time. Returns the earliest
- * time of the next frame, and whether the device is moving (1 or 0; `is_moving` may be null). */
+/* Updates the pacer with the fix of a frame, with any status, and the time of the frame. Returns
+ * the earliest time of the next frame, and whether the device is moving (1 or 0). `is_moving` may
+ * be null. */
 dotpose_status dotpose_pacer_next_frame(dotpose_pacer* pacer, const dotpose_fix* fix,
                                         int64_t time_us, int64_t* next_us, int32_t* is_moving);
 

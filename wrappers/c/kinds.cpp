@@ -1,4 +1,4 @@
-// Locators of every kind, in memory of the caller or in allocated memory.
+// Locators of all kinds, in memory of the caller or in allocated memory.
 #include <array>
 #include <cstdlib>
 

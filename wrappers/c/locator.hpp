@@ -1,5 +1,5 @@
-// Implementation of dotpose_locator: one object contains the memory and the locator of the core,
-// and pointers to the functions of its kind.
+// Implementation of dotpose_locator. An object contains the memory and the locator of the core, and
+// pointers to the functions of its kind.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace dotpose::c {
 
-/// Functions that differ between kinds of locators. They are function pointers, so a program
-/// contains only the kinds that it creates. The last four are null for devices.
+/// Functions that differ between kinds of locators. They are function pointers, so that a program
+/// contains only the kinds that it creates. The last four are null for device locators.
 struct Actions {
     void (*set_options)(RowLocator& locator, const LocatorOptions& options);
     Fix (*locate)(RowLocator& locator, const ImageView& image, const Prediction* prediction);
@@ -75,7 +75,7 @@ constexpr Actions actions_of() {
 template <typename Kind>
 inline constexpr Actions kActionsOf = actions_of<Kind>();
 
-/// Mark of an object that was set up.
+/// Marks an object that was set up.
 inline constexpr std::uint32_t kLocatorMark = 0xD07C0001;
 
 }  // namespace dotpose::c
@@ -83,8 +83,8 @@ inline constexpr std::uint32_t kLocatorMark = 0xD07C0001;
 /// Common part of all kinds, at the beginning of each object.
 struct dotpose_locator {
     std::uint32_t mark = 0;
-    std::int32_t rows_left = 0;  ///< number of rows that the current frame still needs
-    bool has_begun = false;      ///< true if dotpose_finish has a frame to finish
+    std::int32_t rows_left = 0;  ///< number of rows that are missing from the current frame
+    bool has_begun = false;      ///< true if a frame was begun and not finished
     const dotpose::c::Actions* actions = nullptr;
     dotpose::RowLocator* locator = nullptr;
     void* allocation = nullptr;  ///< memory to be freed by dotpose_locator_destroy, or null
@@ -94,10 +94,10 @@ namespace dotpose::c {
 
 /// Checks that a locator can be used.
 dotpose_status check(const dotpose_locator* locator);
-/// Drops the frame that was begun.
+/// Discards the frame that was begun.
 void drop_frame(dotpose_locator& locator);
 
-/// An image and its prediction, as types of the core.
+/// An image and its prediction, as core types.
 struct Frame {
     ImageView image;
     Prediction prediction;
@@ -125,20 +125,20 @@ struct LocatorOf : dotpose_locator {
     Kind kind;
 };
 
-/// Returns the size of memory that has room for a T at any address of alignment kAlignment.
+/// Returns the size of memory in which a T fits at any address that is a multiple of kAlignment.
 template <typename T>
 constexpr std::size_t bytes_of() {
     return sizeof(T) + (alignof(T) > kAlignment ? alignof(T) - kAlignment : 0);
 }
 
-/// Checks that memory provided by the caller has room for an object of `needed` bytes.
+/// Checks memory provided by the caller. It must be aligned and have at least `needed` bytes.
 inline dotpose_status check_memory(const void* memory, std::size_t bytes, std::size_t needed) {
     if (memory == nullptr) return DOTPOSE_NULL_POINTER;
     if (reinterpret_cast<std::uintptr_t>(memory) % kAlignment != 0) return DOTPOSE_NOT_ALIGNED;
     return bytes < needed ? DOTPOSE_TOO_LITTLE_MEMORY : DOTPOSE_OK;
 }
 
-/// Creates a T, which is a LocatorOf, in memory provided by the caller.
+/// Creates a T in memory provided by the caller. T must be a LocatorOf.
 template <typename T>
 dotpose_status init(void* memory, std::size_t bytes, const dotpose_options* given,
                     dotpose_locator** result) {

@@ -1,4 +1,4 @@
-// Small objects that are stored in a struct of dotpose.h: trackers, packet readers and pacers.
+// Small objects stored in structs of dotpose.h: trackers, packet readers and pacers.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace dotpose::c {
 
-/// A T in a struct of dotpose.h, after a mark that shows that it was set up.
+/// A T stored in a struct of dotpose.h. The mark before it shows that the struct was set up.
 template <typename T, std::uint32_t kMark>
 struct Object {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>,
@@ -19,7 +19,7 @@ struct Object {
     std::uint32_t mark = kMark;
     T value;
 
-    /// Creates the object in a struct, which must not be null.
+    /// Creates the object in a struct. `place` must not be null.
     template <typename Struct, typename... Arguments>
     static void make(Struct* place, const Arguments&... arguments) {
         static_assert(sizeof(Object) <= sizeof(Struct), "the struct in dotpose.h is too small");
@@ -27,7 +27,7 @@ struct Object {
         ::new (static_cast<void*>(place)) Object{kMark, T(arguments...)};
     }
 
-    /// Finds the object in a struct. Returns NOT_INITIALIZED if the struct was not set up.
+    /// Returns the object in a struct. Returns NOT_INITIALIZED if the struct was not set up.
     template <typename Struct>
     static dotpose_status find(const Struct* place, const T*& found) {
         if (place == nullptr) return DOTPOSE_NULL_POINTER;

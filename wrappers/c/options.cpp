@@ -47,7 +47,7 @@ LocatorOptions options_of(const dotpose_options& o) {
 }
 
 const char* bad_member(const dotpose_options& o) {
-    // Enumerations have fewer bits in C++, so they are checked before the conversion.
+    // Enumerations have fewer bits in C++, so their values are checked before the conversion.
     if (o.code != DOTPOSE_CODE_DETECT && !c::is_code(o.code)) return "code";
     if (!c::is_one_of(o.effort, Effort::twice)) return "effort";
     if (!c::is_one_of(o.decoder, Decoder::all)) return "decoder";

@@ -28,7 +28,7 @@ dotpose_packet to_c(const PosePacket& p) {
             p.deviation_q12};
 }
 
-/// Reads a packet. Returns BAD_VALUE if a member has a value that packets cannot contain.
+/// Reads a packet. Returns BAD_VALUE if a member has a value that a packet cannot contain.
 dotpose_status to_core(const dotpose_packet& given, PosePacket& packet) {
     const dotpose_place place{given.cell_x, given.cell_y, given.section_u, given.section_v};
     const bool is_status =

@@ -34,7 +34,7 @@ constexpr bool is_of_c(dotpose_status status) {
     return status >= kFirst && status <= DOTPOSE_NO_PACKET;
 }
 
-/// Converts a status to the core. Unknown statuses become `other`.
+/// Converts a status of dotpose.h to a status of the core. Unknown statuses become `other`.
 dotpose::Status of_core(dotpose_status status) {
     const bool is_known = status >= 0 && status < dotpose::kStatusCount;
     return is_known ? static_cast<dotpose::Status>(status) : dotpose::Status::other;

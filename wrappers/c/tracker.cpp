@@ -13,7 +13,8 @@ using namespace dotpose;
 using TrackerObject = c::Object<Tracker, 0xD07C0004>;
 
 constexpr std::size_t kFirstBytes = 88;
-/// Limits of times and places, as powers of two. Differences of two values must not overflow.
+/// Limits of times and coordinates, as powers of two. The difference of two values must not
+/// overflow.
 constexpr int kLatest_us = 62;
 constexpr int kFarthest_nm = 60;
 
@@ -61,7 +62,7 @@ TrackOptions options_of(const dotpose_track_options& o) {
             .spacing_mm = o.spacing_mm};
 }
 
-/// Returns true if a number is not negative and can be squared without overflow.
+/// Returns true if a number is not negative and its square does not overflow.
 bool is_size(float value) {
     return value >= 0 && value <= 1e9F;
 }
@@ -84,8 +85,7 @@ bool are_good(const dotpose_track_options& o) {
            o.max_weak_p_wrong_log2 <= -1 && o.lost_after_us >= 0 && o.stationary_after_us >= 0;
 }
 
-/// Reads a sighting. Returns BAD_VALUE if a member is not a number, or so large that sums would
-/// overflow.
+/// Reads a sighting. Returns BAD_VALUE if a member is NaN, or so large that sums would overflow.
 dotpose_status to_core(const dotpose_sighting& given, Sighting& sighting) {
     constexpr float kMaxCovariance = 1e12F;
     const auto is_finite = [](float value) { return std::fabs(value) <= kMaxCovariance; };

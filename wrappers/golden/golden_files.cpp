@@ -1,15 +1,15 @@
-// Writes frames and the bits of their fixes. Tests compare the wrappers with these files.
+// Writes frames and the exact bits of their fixes. Tests compare the wrappers with these files.
 //
 //   dotpose_golden_files DIRECTORY [TIMES]
 //
-// For each set, `nominal` (200 frames), `hard` (150) and `vga` (40), or TIMES as many frames, it
-// writes
+// For each set, `nominal` (200 frames), `hard` (150 frames) and `vga` (40 frames), each multiplied
+// by TIMES, writes
 //
-//   SET.frames  a sequence of binary PGM images: each frame, and its next frame
-//   SET.csv     a line for each frame and way of locating; wrappers/golden/README.md describes
-//               the columns
+//   SET.frames  a sequence of binary PGM images: each frame, followed by its next frame
+//   SET.csv     a line for each frame and method of locating; wrappers/golden/README.md
+//               describes the columns
 //
-// The frames are those of accuracy/golden.cpp.
+// The frames are the frames of accuracy/golden.cpp.
 #include <bit>
 #include <concepts>
 #include <cstdint>
@@ -95,7 +95,7 @@ class Numbers {
         put(plane.lens_q40);
     }
     /// Writes the covariance with lengths in another unit. `unit` is the length of a spacing in
-    /// that unit.
+    /// this unit.
     void put_covariance(const Fix& fix, double unit) {
         const double units[] = {unit, unit, 1};
         for (int i = 0; i < 9; ++i) {
@@ -138,7 +138,7 @@ class Lines {
     std::uint64_t index_;
 };
 
-/// Locates a frame in every way, and the next frame with the prediction of the first.
+/// Locates a frame with every method, and the next frame with a prediction from the first fix.
 void locate(const GreyImage& image, const GreyImage& next, Lines lines) {
     const auto memory = std::make_unique<LargeMemory>();
     Locator locator(*memory, DeviceOptions{});

@@ -18,7 +18,7 @@ from setuptools.command.build_ext import build_ext
 from setuptools.command.sdist import sdist
 
 HERE = Path(__file__).resolve().parent
-# A source distribution contains the sources of dotpose.
+# In a source distribution, this folder contains the sources of dotpose.
 PACKED = HERE / "source"
 ROOT = PACKED if PACKED.exists() else HERE.parents[1]
 NEEDED = ["CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "CONTRIBUTING.md"]

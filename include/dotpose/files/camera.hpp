@@ -36,7 +36,7 @@ struct PaperScale {
     double perspective_v = 0;
 };
 
-/// Tilt of the paper relative to the image plane, with the signs of tools/simulate.hpp.
+/// Tilt of the paper relative to the image plane, with the sign convention of tools/simulate.hpp.
 struct Tilt {
     double x_rad = 0;  ///< about the image x axis; above 0, the paper recedes towards the bottom
     /// About the image y axis; above 0, the paper comes closer towards the right.
@@ -47,7 +47,7 @@ struct Tilt {
 struct Camera {
     int width_px = 0;
     int height_px = 0;
-    /// Radial distortion, paper eq. 1-2 (a division model), about `centre_px`. Below 0 for barrel
+    /// Radial distortion, paper eq. 1-2 (a division model), about `centre_px`. Negative for barrel
     /// distortion.
     double k_per_px2 = 0;
     PixelPoint centre_px;
@@ -62,20 +62,21 @@ struct Camera {
     /// Heading of the robot minus the angle of the image x axis at the image centre.
     double theta_offset_rad = 0;
 
-    /// True if frames are mirrored. They are then flipped left to right before they are located,
-    /// and all pixels of this struct refer to flipped frames.
+    /// True if the camera delivers mirrored frames. Mirrored frames are flipped left to right
+    /// before they are located. All pixel coordinates in this struct refer to the flipped frames.
     bool flip = false;
 
-    /// Time from the first to the last row of an image, if the sensor has a rolling shutter. The
-    /// pose then applies to the time of the middle row, and the velocity of the camera is fitted as
-    /// well.
+    /// Time from the first to the last row of an image, if the sensor has a rolling shutter. In
+    /// this case, the pose applies to the time of the middle row, and the velocity of the camera is
+    /// fitted as well.
     std::optional<double> readout_ms;
 
-    /// Settings of the sensor, for information; dotpose does not use them.
+    /// Sensor settings, for information only. dotpose does not use them.
     std::optional<double> exposure_us;
     std::optional<double> gain;
 
-    /// Standard deviations from a calibration, by the name of the key, in the unit of the key.
+    /// Standard deviations from a calibration, indexed by the name of the key in the camera file,
+    /// in the unit of the key.
     std::map<std::string, double> sigma;
 };
 
@@ -106,25 +107,26 @@ double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
 /// Returns the position on the paper of an undistorted pixel, in mm from the point under the image
 /// centre, with x along the image x axis at this point. `camera.paper` must be known. In this
-/// frame, two calibrations of one camera agree to microns; the pixels of points far outside the
-/// image differ more.
+/// frame, two calibrations of the same camera agree to within microns. The pixel coordinates of
+/// points far outside the image differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point returned by `from_image_centre`.
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 
 /// Returns the reference point of `camera` as an undistorted pixel of `other`, another calibration
-/// of the same camera. If the view of either camera is not known, returns the same pixel.
+/// of the same camera. If the view of either camera is not known, returns the reference pixel
+/// unchanged.
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
 
-/// Returns the camera whose images are a part of the images of `camera`. The part is the rectangle
-/// of `width_px` x `height_px` whose top left pixel is (`left_px`, `top_px`). Reference point and
-/// heading refer to the same point and direction as before, even if `camera` uses the defaults.
-/// Throws BadArgument as `validate` does, and if the part exceeds the image.
+/// Returns the camera for crops of the images of `camera`. The crop is the rectangle of `width_px`
+/// x `height_px` whose top left pixel is (`left_px`, `top_px`). Reference point and heading refer
+/// to the same point and direction as before, even if `camera` uses the defaults. Throws
+/// BadArgument as `validate` does, and if the crop exceeds the image.
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
-/// Sets lens and reference point for images of this size. If the view of the camera is known, the
-/// trace keeps the dots for `with_camera`. Throws BadArgument if the size differs from the size of
-/// the images of the camera.
+/// Sets the lens and the reference point in `options`, for images of the given size. If the view of
+/// the camera is known, also sets `show_stages`, because `with_camera` needs the dots in the trace.
+/// Throws BadArgument if the given size is not the image size of the camera.
 void use_camera(const Camera& camera, int width_px, int height_px, DeviceOptions& options);
 
 }  // namespace dotpose

@@ -17,19 +17,19 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Version of the format, for writing and reading.
+/// Version of the format that is written and read.
 inline constexpr int kCameraFileVersion = 1;
 
 /// Reads a camera file, or a camera_info file of ROS. Throws Error, with the names of the file and
 /// the key, if the file cannot be read, has another format or version, or has a key that is
 /// missing, unknown, of the wrong type or out of range. Also throws Error if the distortion model
-/// is not plumb_bob, or if eq. 2 cannot approximate the lens to 0.5 px rms.
+/// is not plumb_bob, or if eq. 2 cannot approximate the lens to within 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 
 /// Reads a camera from the text of a camera file. `name` is the name of the file in messages.
 Camera parse_camera(const std::string& text, const std::string& name);
 
-/// Returns true if the file is a camera_info file of ROS, which `write_camera` would replace by a
+/// Returns true if the file is a camera_info file of ROS, which `write_camera` would replace with a
 /// file in another format. Throws Error if the file cannot be read.
 bool is_camera_info(const std::filesystem::path& path);
 

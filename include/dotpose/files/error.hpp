@@ -1,5 +1,5 @@
-/// Errors of the layers around the core (printing, simulation, files, the tool). The core never
-/// throws; it returns a Status.
+/// Exceptions of the layers around the core (printing, simulation, files, the tool). The core never
+/// throws. It returns a Status instead.
 #pragma once
 
 #include <stdexcept>
@@ -11,15 +11,16 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Thrown if an operation failed; `what()` is one sentence for the user, without a full stop, that
+/// Thrown if an operation fails. `what()` is one sentence for the user, without a full stop, that
 /// names the file or value.
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// Thrown if an argument is invalid, independent of the state of the machine: a margin wider than
-/// the page, an unknown paper size. `what()` names the wrong value and the permitted values.
+/// Thrown if an argument is invalid regardless of the state of the machine, for example a margin
+/// wider than the page or an unknown paper size. `what()` names the wrong value and the permitted
+/// values.
 class BadArgument : public Error {
   public:
     using Error::Error;

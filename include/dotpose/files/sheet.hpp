@@ -1,4 +1,4 @@
-/// Sheet: the dimensions of a printed pattern and of its page. The core does not need it.
+/// Sheet: the dimensions of a printed pattern and of its page. The core does not use this header.
 ///
 /// Coordinate frames (both x right, y DOWN): *pattern*, where intersection (i, j) is at (i, j) *
 /// spacing_mm; *sheet*, in mm from the top left corner of the page.
@@ -11,7 +11,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Grid spacing for which dots are whole printer pixels at 300, 600 and 1200 dpi (paper III-A.1).
+/// Grid spacing at which dots cover whole printer pixels at 300, 600 and 1200 dpi (paper III-A.1).
 inline constexpr double kDefaultSpacing_mm = 0.508;
 
 /// Maximum width and height of a page, in mm.
@@ -34,8 +34,8 @@ inline double reach_mm(const Pattern& pattern) {
     return pattern.displacement_mm + pattern.dot_mm / 2;
 }
 
-/// Printed length over nominal length, per axis. Printers differ, and they scale the direction of
-/// paper feed and the direction across it differently.
+/// Printed length over nominal length, per axis. The scale depends on the printer, and differs
+/// between the direction of paper feed and the direction across it.
 struct AxisScale {
     double x = 1;
     double y = 1;
@@ -53,7 +53,7 @@ struct Sheet {
     double origin_y_mm = 0;
 };
 
-/// Checks a sheet from any source. Throws BadArgument for the first invalid value: lengths must be
+/// Checks all values of a sheet. Throws BadArgument for the first invalid value: lengths must be
 /// positive and finite, dots must not touch, the section must be below kSections, the sheet must
 /// have at least kMinSheetCells columns and rows, the region must be inside the code plane, and all
 /// ink must be on the page.

@@ -35,7 +35,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Version of the format, for writing and reading.
+/// Version of the format that is written and read.
 inline constexpr int kSheetFileVersion = 1;
 
 /// Number of free cells around every allocated region. It exceeds the diagonal of the largest frame
@@ -50,10 +50,10 @@ struct WorldPose {
     double yaw_rad = 0;  ///< counter-clockwise from the world's x axis
 };
 
-/// The print parameters of a page, which together with the sheet reproduce the same page.
+/// The print parameters of a page. Together with the sheet, they reproduce the page.
 struct SheetPrint {
     std::string title;          ///< title of the page and its document
-    int pages = 1;              ///< number of pages of the document with dots
+    int pages = 1;              ///< number of pages with dots in the document
     double dpi = 600;           ///< resolution of the printer
     std::string dots = "auto";  ///< method of drawing dots in a PDF: "auto", "glyphs" or "strokes"
     bool has_labels = true;     ///< true if a PDF has text and rulers in the margins
@@ -74,10 +74,10 @@ struct SheetEntry {
     /// Position of the top left corner of the page in the world, and direction of the upper edge of
     /// the page from this corner. None if not known.
     std::optional<WorldPose> world;
-    /// Print parameters; none if the entry was made by an earlier version, or not by printing.
+    /// Print parameters. None if the entry was made by an earlier version, or not by printing.
     std::optional<SheetPrint> print;
-    /// True if the region is reserved for a page that may not exist: the page is being written, or
-    /// the program was stopped while it wrote the page.
+    /// True if the region is reserved for a page that may not exist, because the page is being
+    /// written, or because the program was stopped while it wrote the page.
     bool is_reserved = false;
 };
 
@@ -110,7 +110,7 @@ struct SheetFileWait {
 /// destroyed. Readers do not wait. Not thread-safe.
 class SheetFile {
   public:
-    /// Waits for exclusive access, then reads the file. A missing file is read as a file without
+    /// Waits for exclusive access, then reads the file. A missing file counts as a file without
     /// sheets. Throws Error as `read_sheets` does, or if the file cannot be locked, for example
     /// because another program holds the lock for longer than `wait` allows.
     explicit SheetFile(const std::filesystem::path& path, const SheetFileWait& wait = {});
@@ -126,8 +126,8 @@ class SheetFile {
     ///
     /// The next free region is the topmost, then leftmost region with a distance of at least
     /// kSheetGap_cells from the ends of the plane and from the regions of all other sheets,
-    /// whatever their code variant and section. Allocated sheets can therefore be distinguished by
-    /// their cells alone.
+    /// regardless of their code variant and section. Allocated sheets can therefore be
+    /// distinguished by their cells alone.
     ///
     /// Returns the added entries. Throws BadArgument as `validate` does, and if the name is taken,
     /// the plane is full, or the count is below 1.
@@ -175,9 +175,10 @@ class SheetFile {
 
     std::filesystem::path path_;
     Lock lock_;
-    std::optional<std::string> text_;  ///< the file as read or saved; none if it did not exist
+    std::optional<std::string> text_;  ///< contents of the file as read or saved; none if the file
+                                       ///< did not exist
     std::vector<SheetEntry> sheets_;
-    /// Names of renamed sheets in `text_`, by the new name.
+    /// Names of the renamed sheets in `text_`, indexed by the new name.
     std::map<std::string, std::string> names_in_text_;
 };
 
@@ -186,19 +187,19 @@ class SheetFile {
 /// programs may change the file in the meantime.
 class SheetReservation {
   public:
-    /// Calls `enter` to add the sheets. Throws Error as SheetFile does. In this case, nothing is
+    /// Calls `enter` to add the sheets. Throws Error as SheetFile does, in which case nothing is
     /// reserved.
     SheetReservation(const std::filesystem::path& path,
                      const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});
-    /// Removes unconfirmed entries if possible. If the file was not changed otherwise, the previous
-    /// file is restored.
+    /// Removes unconfirmed entries if possible. Restores the previous file if no other program has
+    /// changed the file.
     ~SheetReservation();
     SheetReservation(const SheetReservation&) = delete;
     SheetReservation& operator=(const SheetReservation&) = delete;
 
-    /// Removes the marks, because the pages exist. Throws Error if the file cannot be changed, in
-    /// which case the sheets remain reserved, or if another program has removed the sheets and
-    /// assigned their cells.
+    /// Removes the marks. Call this function after the pages have been written. Throws Error if the
+    /// file cannot be changed, in which case the sheets remain reserved, or if another program has
+    /// removed the sheets and assigned their cells.
     void confirm();
 
   private:

@@ -30,18 +30,19 @@ using PoseCovariance = std::array<std::array<float, 3>, 3>;
 /// Place of a fix on a page of a sheet file.
 struct SheetPlace {
     const SheetEntry* entry = nullptr;  ///< entry of the page, in the span passed to `find_sheet`
-    double x_mm = 0;                    ///< in the sheet frame, with the print scale applied
+    double x_mm = 0;                    ///< position in the sheet frame, with the print scale
+                                        ///< applied
     double y_mm = 0;
     double theta_rad = 0;  ///< angle of the image x axis, from the sheet's +x towards +y, in (-pi,
                            ///< pi]
-    /// Covariance of (x_mm, y_mm, theta_rad), from the covariance of the fix; all 0 if the fix has
-    /// none.
+    /// Covariance of (x_mm, y_mm, theta_rad), from the covariance of the fix. All 0 if the fix has
+    /// no covariance.
     PoseCovariance covariance{};
 };
 
 /// Returns the place of `fix`, which was read in the given code variant. The place is on the sheet
-/// whose region contains the fix, otherwise on a sheet whose margins contain the fix. None if the
-/// fix is not ok or is on no sheet.
+/// whose region contains the fix or, if there is none, on a sheet whose margins contain the fix.
+/// Returns none if the fix is not ok or is not on any sheet.
 std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, CodeVariant code,
                                      const Fix& fix);
 
@@ -56,7 +57,8 @@ struct WorldPlace {
     PoseCovariance covariance{};
 };
 
-/// Converts a place on a sheet to the world. None if the world pose of the sheet is not known.
+/// Converts a place on a sheet to the world. Returns none if the world pose of the sheet is not
+/// known.
 std::optional<WorldPlace> world_place(const SheetPlace& place);
 
 /// Converts the covariance of a pose from the sheet to the world. `sheet_yaw_rad` is the direction

@@ -1,4 +1,4 @@
-/// Writes files that appear completely or not at all.
+/// Writes files atomically: a file appears completely or not at all.
 #pragma once
 
 #include <filesystem>
@@ -11,9 +11,9 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Writes a temporary file beside the target and renames it to the target. Symbolic links are
-/// followed, and an existing target keeps its mode. Throws Error if the target is not a regular
-/// file or cannot be written.
+/// Writes `contents` to a temporary file beside the target, and renames the temporary file to the
+/// target. Symbolic links are followed, and an existing target keeps its mode. Throws Error if the
+/// target is not a regular file or cannot be written.
 void write_file(const std::filesystem::path& target, std::string_view contents);
 
 /// Throws Error, as `write_file` does, if the file cannot be created. Intended to be called before

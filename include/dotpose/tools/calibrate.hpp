@@ -1,4 +1,4 @@
-/// Calibration from the sheet itself: every dot's true place is known, so any printed sheet is a
+/// Calibration with printed sheets. The true place of every dot is known, so any printed sheet is a
 /// calibration target.
 ///
 ///     const auto frame_at = [&](int i) { return read_image(names[i]); };
@@ -7,10 +7,12 @@
 ///
 /// `calibrate_lens` finds the lens and the scale, `calibrate_spin` and `calibrate_drive` the mount
 /// of the camera on a robot, `calibrate_readout` the readout time of its rolling shutter, and
-/// `stitch_sheets` the relative poses of adjacent sheets. If the frames cannot determine a result,
-/// Error is thrown with advice. Standard deviations are computed from the residuals of the fit.
+/// `stitch_sheets` the relative poses of adjacent sheets. If the frames do not determine a result,
+/// the functions throw Error with advice. Standard deviations are computed from the residuals of
+/// the fit.
 ///
-/// Frames are requested by index, several times, and not stored. Functions share no state.
+/// Frames are requested by index, possibly several times, and are not stored. Functions share no
+/// state.
 #pragma once
 
 #include <functional>
@@ -33,10 +35,10 @@ namespace dotpose {
 /// Returns frame `index` of the series, from 0. May throw Error.
 using FrameAt = std::function<GreyImage(int index)>;
 
-/// The common options of all calibrations.
+/// Options that all calibrations have in common.
 struct CalibrateOptions {
     /// The printed pattern. Only its code variant and spacing are used. All measured lengths are
-    /// proportional to the spacing, so an error of the spacing is an error of the lengths.
+    /// proportional to the spacing, so they have the relative error of the spacing.
     Pattern pattern;
     /// True to detect the code variant from the frames instead of using the code variant of
     /// `pattern`. Ignored by `stitch_sheets`, because each sheet has its own code variant.
@@ -110,7 +112,8 @@ struct SpinStation {
     double x_mm = 0;
     double y_mm = 0;
     double theta_rad = 0;
-    /// Centre of rotation from this frame alone, minus the centre from all frames.
+    /// Centre of rotation computed from this frame alone, minus the centre computed from all
+    /// frames.
     double off_x_mm = 0;
     double off_y_mm = 0;
 };
@@ -143,13 +146,13 @@ struct SpinCalibration {
     std::vector<SpinStation> stations;
 };
 
-/// Finds the position of the camera on the robot from at least 3 frames over more than 30 degrees.
-/// A full turn in 12 frames is recommended. `camera` contains the lens and the view of the paper.
-/// Without `camera`, the lens is assumed to have no distortion. Throws Error if too few frames have
-/// a fix, the turn is too small, a frame differs in size from the camera file or from the first
-/// frame, the spacing contradicts the view of the camera, the reference point is beyond the range
-/// of a camera file, or the centre of rotation varies by more than one spacing (rms per axis) or is
-/// uncertain by more than half a spacing.
+/// Finds the position of the camera on the robot from at least 3 frames that cover more than 30
+/// degrees. A full turn in 12 frames is recommended. `camera` contains the lens and the view of the
+/// paper. Without `camera`, the lens is assumed to have no distortion. Throws Error if too few
+/// frames have a fix, the turn is too small, a frame differs in size from the camera file or from
+/// the first frame, the spacing contradicts the view of the camera, the reference point is beyond
+/// the range of a camera file, or the centre of rotation varies by more than one spacing (rms per
+/// axis) or is uncertain by more than half a spacing.
 SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
                                const CalibrateOptions& options);
@@ -165,11 +168,11 @@ struct DriveCalibration {
     double length_mm = 0;    ///< length of the drive
 };
 
-/// Finds the direction of the camera from at least 2 frames over more than 5 mm. Throws Error if
-/// too few frames have a fix, a frame differs in size from the camera file or from the first frame,
-/// the spacing contradicts the view of the camera, the drive is too short, or the robot turned by
-/// more than 5 degrees from its mean direction, left the straight line by more than this angle, or
-/// drove backwards.
+/// Finds the direction of the camera from at least 2 frames that cover more than 5 mm. Throws Error
+/// if too few frames have a fix, a frame differs in size from the camera file or from the first
+/// frame, the spacing contradicts the view of the camera, the drive is too short, or the robot
+/// turned by more than 5 degrees from its mean direction, deviated from the straight line by more
+/// than this angle, or drove backwards.
 DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
                                  const CalibrateOptions& options);
@@ -183,22 +186,22 @@ struct ReadoutCalibration {
     double motion = 0;    ///< rms motion during the readout, in spacings
 };
 
-/// Finds the readout time from at least 7 consecutive frames, taken every `interval_ms`, of a
-/// camera that moves over a sheet. Compares the motion during the readout of each frame with the
-/// motion from the previous to the next frame. Throws Error if the camera file has no view of the
-/// paper, if fewer than 5 frames have a fix and neighbours with a fix, or if the motion does not
-/// determine the readout time to 10 %.
+/// Finds the readout time of a camera that moves over a sheet, from at least 7 consecutive frames
+/// taken every `interval_ms`. Compares the motion during the readout of each frame with the motion
+/// from the previous to the next frame. Throws Error if the camera file has no view of the paper,
+/// if fewer than 5 frames have a fix and are adjacent to frames with a fix, or if the motion does
+/// not determine the readout time to 10 %.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
 
 /// Reference of the print scales. Frames determine the ratios between the scales of sheets and
-/// axes, but not the length of a millimetre.
+/// axes, but not the absolute scale.
 struct ScaleReference {
     enum class By {
         /// No measurement: the mean of the two print scales of the fixed sheet does not change.
         fixed_sheet,
-        /// The scale of the camera, in mm per px, is true, because the camera was calibrated with
-        /// the true spacing.
+        /// The scale of the camera, in mm per px, is assumed to be true. Requires a camera that was
+        /// calibrated with the true spacing.
         camera,
         width  ///< the true width of a sheet was measured
     };
@@ -209,8 +212,8 @@ struct ScaleReference {
 
 /// Prior standard deviation of a print scale, relative to the value in the sheet file.
 inline constexpr double kUsualPrintError = 0.003;
-/// Returns true if the frames determined a print scale, in addition to the value in the sheet file.
-/// `sigma_scale` is the standard deviation of the scale.
+/// Returns true if the frames determined a print scale: its standard deviation `sigma_scale` is
+/// less than half of the prior standard deviation.
 inline constexpr bool is_scale_known(double sigma_scale) {
     return sigma_scale < kUsualPrintError / 2;
 }
@@ -250,7 +253,7 @@ struct Stitching {
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
     std::vector<SeamSighting> sightings;  ///< sightings of pairs of connected sheets
-    /// Names of sheets without a connection to the fixed sheet.
+    /// Names of sheets that are not connected to the fixed sheet.
     std::vector<std::string> unconnected;
     int frames = 0;
     int used = 0;              ///< number of frames that show two sheets
@@ -258,17 +261,18 @@ struct Stitching {
 };
 
 /// Finds the world poses and print scales of sheets from frames that show parts of two sheets. The
-/// first stitched sheet with a world pose keeps it. If none has a world pose, the first sheet
-/// defines the world: its corner is the origin, and its upper edge is the x axis.
+/// first stitched sheet that has a world pose keeps this pose. If no sheet has a world pose, the
+/// first sheet defines the world: its corner is the origin, and its upper edge is the x axis.
 ///
 /// `camera` contains the lens and, for mounted cameras, the view of the paper. Without a view, the
-/// view is fitted to each part of a frame. The poses are then less accurate than with a known view,
-/// and correct only if the fixed sheet has the print scales in the sheet file.
+/// view is fitted to each part of a frame. In this case, the poses are less accurate than with a
+/// known view. They are correct only if the fixed sheet really has the print scales in the sheet
+/// file.
 ///
-/// Throws Error if there are fewer than two sheets, no frame shows two sheets, only sheets that no
-/// frame shows have a world pose, the sheet of the reference is not stitched, or the camera file
-/// implies a print scale that differs from 1 by more than 25 %. Throws BadArgument if the sheet of
-/// the reference does not exist.
+/// Throws Error if there are fewer than two sheets, no frame shows two sheets, no frame shows a
+/// sheet with a world pose although such sheets exist, the sheet of the reference is not stitched,
+/// or the camera file implies a print scale that differs from 1 by more than 25 %. Throws
+/// BadArgument if the sheet of the reference does not exist.
 Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
                         const std::optional<Camera>& camera, const CalibrateOptions& options,
                         const ScaleReference& reference = {});

@@ -1,5 +1,6 @@
-/// Coverage of a lens calibration by the frames so far, and the missing requirements. Intended for
-/// programs that take frames while the camera moves, like `dotpose calibrate --live`.
+/// Coverage: what the frames taken so far cover for a lens calibration, and which requirements are
+/// not met yet. Intended for programs that take frames while the camera moves, like `dotpose
+/// calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
 ///     coverage.add(view);  // for each frame taken
@@ -22,16 +23,18 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Minimum fraction of the parts of the image that must show dots. Below it, the verdict of a
-/// calibration is `corners_unseen`.
+/// Minimum fraction of the parts of the image that must show dots. With a lower fraction, the
+/// verdict of a calibration is `corners_unseen`.
 inline constexpr double kMinCoverage = 0.85;
-/// Maximum width of dots in focus, in spacings. Dots of twice their printed width begin to touch.
+/// Maximum width of dots in focus, in spacings. Dots that are blurred to twice their printed width
+/// begin to touch.
 inline constexpr double kWidestDot = 0.32;
 /// Required number of distinct places on the sheet at which frames were taken; see
 /// `CalibrationCoverage::places`.
 inline constexpr int kWantedPlaces = 4;
-/// Required number of directions of frames, among `CalibrationCoverage::kDirections` sectors.
-/// Different directions distinguish a lens from a printer that stretches one axis of the paper.
+/// Required number of different frame directions, counted in `CalibrationCoverage::kDirections`
+/// sectors. Different directions distinguish lens distortion from a printer that stretches one axis
+/// of the paper.
 inline constexpr int kWantedDirections = 3;
 /// Maximum uncertainty of the lens in the corner of the image; see `corner_sigma_px`.
 inline constexpr double kWantedCornerSigma_px = 0.1;
@@ -40,18 +43,18 @@ inline constexpr double kWantedCornerSigma_px = 0.1;
 PixelPoint farthest_corner(const Camera& camera);
 
 /// Returns the standard deviation, in px, of the undistorted position of the farthest corner
-/// relative to the middle of the image. It follows from the errors of `k_per_px2` and the
-/// distortion centre, which are assumed to be independent. `camera.sigma` must contain their
-/// standard deviations.
+/// relative to the middle of the image. Computed from the standard deviations of `k_per_px2` and of
+/// the distortion centre, which `camera.sigma` must contain. Their errors are assumed to be
+/// independent.
 double corner_sigma_px(const Camera& camera);
 
-/// Parts of the image that have shown dots.
+/// The parts of the image in which dots have been seen.
 class ImageCoverage {
   public:
     static constexpr int kColumns = 12;
     static constexpr int kRows = 8;
 
-    /// Creates the parts of images of the given size, which must be positive.
+    /// Creates an empty coverage for images of the given size, which must be positive.
     ImageCoverage(int width_px, int height_px) : width_px_(width_px), height_px_(height_px) {}
 
     /// Marks the part of the image that contains a pixel. Ignores pixels outside the image. Returns
@@ -61,7 +64,7 @@ class ImageCoverage {
     bool is_covered(int column, int row) const {
         return covered_[static_cast<std::size_t>(row * kColumns + column)];
     }
-    /// Returns the fraction of marked parts.
+    /// Returns the fraction of the parts that are marked.
     double share() const;
 
   private:
@@ -72,7 +75,7 @@ class ImageCoverage {
 
 /// One located frame.
 struct CalibrationView {
-    std::vector<PixelPoint> dots;  ///< pixels of the image where dots were read
+    std::vector<PixelPoint> dots;  ///< image positions at which dots were read
     double x_grid = 0;             ///< position under the image centre, in spacings
     double y_grid = 0;
     Section section;
@@ -87,10 +90,10 @@ struct CalibrationNeed {
     std::string advice;  ///< one line for the user
 };
 
-/// The combined coverage of the frames taken.
+/// The combined coverage of all frames taken so far.
 class CalibrationCoverage {
   public:
-    /// Number of sectors of a full turn in which directions are counted.
+    /// Number of sectors into which a full turn is divided to count directions.
     static constexpr int kDirections = 8;
 
     /// Creates an empty coverage for images of the given size, which must be positive.
@@ -115,7 +118,7 @@ class CalibrationCoverage {
     }
 
     /// Returns the requirements that are not met, the most urgent first, or an empty list if the
-    /// frames are sufficient. `lens` is the calibration by the frames so far, if there is one.
+    /// frames are sufficient. `lens` is the calibration from the frames so far, if there is one.
     std::vector<CalibrationNeed> missing(const std::optional<Camera>& lens) const;
 
   private:

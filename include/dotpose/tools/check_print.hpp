@@ -9,8 +9,8 @@
 ///
 /// The pattern is found anywhere in the image, at any angle, by `locate` on overlapping crops.
 /// Neighbouring crops with consistent positions form a field, and every dot of a field is measured
-/// in the image. The nominal place of each dot is known, so scale, rotation and skew of the print
-/// follow.
+/// in the image. The nominal place of each dot is known, so the measured places determine the
+/// scale, rotation and skew of the print.
 ///
 /// A page may contain several fields: patches of a test page (test_page.hpp), or sheets side by
 /// side. Functions throw Error or BadArgument. They share no state.
@@ -39,7 +39,7 @@ struct CheckPrintOptions {
     /// The pattern that was printed. The section is read from the image. Patches of a test page
     /// encode their own settings, so only the code variant is used for them.
     Pattern pattern;
-    /// True to find the code variant from the whole page instead of using the code variant of
+    /// True to detect the code variant from the whole page instead of using the code variant of
     /// `pattern`.
     bool any_code = false;
     /// Sheets that the scan may contain, for example the sheets of a sheet file. A field within the
@@ -48,13 +48,14 @@ struct CheckPrintOptions {
     std::vector<Sheet> sheets;
     /// Resolution of the scan. An image without a resolution, or with the perspective or lens
     /// distortion of a camera, is treated as a photo: the check allows for both effects and does
-    /// not judge the scale. A resolution that contradicts the spacing is a fault.
+    /// not judge the scale. A resolution that contradicts the spacing is reported as a fault.
     std::optional<Resolution> resolution;
-    /// True if the image file states that a camera took it. The resolution is then ignored.
+    /// True if the image file states that a camera took the image. In this case, the resolution is
+    /// ignored.
     bool is_photo = false;
     /// Reflectance of solid ink relative to the paper, 0 to 0.9. The value must be given, because
-    /// it cannot be measured on dots of a few pixels. A measured diameter is the diameter of a disc
-    /// of this ink with the darkness of the dot.
+    /// it cannot be measured on dots of a few pixels. The measured diameter of a dot is the
+    /// diameter of a disc of this ink that has the same total darkness.
     double ink_reflectance = 0.15;
     /// Called after each part of the work. Returning false stops the work with an Error.
     std::function<bool(int done, int total)> progress;
@@ -99,8 +100,8 @@ struct PrintField {
     /// Index in CheckPrintOptions::sheets of the sheet whose region contains the field.
     std::optional<std::size_t> sheet;
 
-    std::optional<PrintScale> scale;        ///< for scans only
-    std::optional<ScaleRatio> scale_ratio;  ///< for photos only
+    std::optional<PrintScale> scale;        ///< only for scans
+    std::optional<ScaleRatio> scale_ratio;  ///< only for photos
     double spacing_px = 0;                  ///< spacing in the middle of the field
     /// Rms deviation of the dots from their fitted places, per axis, on the paper.
     double residual_mm = 0;
@@ -118,12 +119,14 @@ struct PrintField {
     int bits_wrong = 0;  ///< number of wrong bits, at most two per dot found
     /// Median diameter of equivalent discs; see CheckPrintOptions::ink_reflectance.
     double dot_mm = 0;
-    double dot_sigma_mm = 0;  ///< scatter of the diameter, from the median absolute deviation
+    double dot_sigma_mm = 0;  ///< standard deviation of the diameter, from the median absolute
+                              ///< deviation
     double paper_level = 0;   ///< median grey level of blank paper
     double contrast = 0;      ///< darkness at the centres of the dots relative to the paper, 0 to 1
-    /// False if blur and tone curve of a photo hide sizes and contrast.
+    /// False if the blur and the tone curve of a photo do not allow sizes and contrast to be
+    /// measured.
     bool are_sizes_told = true;
-    /// False if noise of a photo hides which dots are missing or wrong.
+    /// False if the noise of a photo does not allow missing and wrong dots to be detected.
     bool are_dots_told = true;
 
     double covered_share() const { return covered > 0 ? double(covered) / (covered + cells) : 0; }
@@ -192,11 +195,12 @@ struct PrintCheck {
     std::vector<PrintField> fields;
     /// True if there are no fields, but the flipped image shows the pattern.
     bool is_mirrored = false;
-    CodeVariant code = CodeVariant::anoto;  ///< code variant that was given or found
-    double code_p_wrong = 0;  ///< probability that the code variant is wrong, if it was found
-    std::optional<Resolution> resolution;  ///< resolution that was used; none for a photo
-    bool is_photo = false;                 ///< CheckPrintOptions::is_photo
-    /// Evidence because of which the stated resolution was not used.
+    CodeVariant code = CodeVariant::anoto;  ///< code variant that was given or detected
+    double code_p_wrong = 0;                ///< probability that a detected code variant is wrong
+    std::optional<Resolution> resolution;   ///< resolution that was used; none for a photo
+    bool is_photo = false;                  ///< CheckPrintOptions::is_photo
+    /// Evidence that the image is a photo. None unless the stated resolution was ignored because of
+    /// this evidence.
     std::optional<CameraSigns> camera;
     std::vector<RepeatedCells> repeated;
     bool is_test_page = false;
@@ -206,7 +210,7 @@ struct PrintCheck {
     /// On a test page: index of the field with the best settings for each spacing, finest spacing
     /// first.
     std::vector<std::size_t> best_per_spacing;
-    /// Index of the field with the best settings of all; valid if best_per_spacing is not empty.
+    /// Index of the field with the best settings overall. Valid if best_per_spacing is not empty.
     std::size_t best = 0;
     std::vector<Finding> findings;
 };

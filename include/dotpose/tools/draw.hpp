@@ -1,12 +1,12 @@
-/// Drawing: pictures (self-contained SVG) of the stages of `locate` in a frame, of paths over a
-/// sheet, calibrations, checked prints and evaluations. The stages contain no drawing code: drawing
-/// uses the trace, or the result.
+/// Drawing: writes self-contained SVG pictures of the stages of `locate` in a frame, paths over a
+/// sheet, calibrations, checked prints and evaluations. The stages contain no drawing code. Drawing
+/// uses the trace or the result.
 ///
 ///     const dotpose::Fix fix = locator.locate(image.view());
 ///     draw_frame("frame.svg", image.view(), locator.trace());
 ///
-/// Functions throw Error when a file cannot be written; they share no state. Texts must be UTF-8;
-/// invalid bytes are replaced.
+/// Functions throw Error if a file cannot be written. They share no state. Texts must be UTF-8.
+/// Invalid bytes are replaced.
 #pragma once
 
 #include <filesystem>
@@ -56,9 +56,9 @@ struct DrawOptions {
 /// The left panel shows, over the image (paper Fig. 2 and 3), a ring around each dot, the symmetric
 /// connections of the neighbour search, and the centre of the intact neighbourhood. Below the
 /// panel, the same connections are drawn from one origin, with the grid vectors (Fig. 4). The right
-/// panel (Fig. 9) shows the grid, the symbol of each dot as read on the pattern and coloured by its
-/// likelihood, the decoded window and its corner, the reference point and the angle theta. Below
-/// the panel is the pose, or the reason why there is none.
+/// panel (Fig. 9) shows the grid, the symbol of each dot, as seen on the pattern and coloured by
+/// its likelihood, the decoded window and its corner, the reference point and the angle theta.
+/// Below the panel is the pose, or the reason why there is none.
 ///
 /// With lens distortion, everything is drawn at its place in the image, so grid lines are curved.
 /// Large images are embedded at a lower resolution, and dots too close together for letters are
@@ -78,7 +78,7 @@ struct PathPoint {
 };
 
 /// Draws the true path on the page with the measured points. The errors are too small to be visible
-/// on the page, so they are also drawn as a scatter plot and over the frame number.
+/// on the page, so they are also drawn as a scatter plot and as a function of the frame number.
 void draw_path(std::ostream& out, const Sheet& sheet, std::span<const PathPoint> path,
                const std::string& title = {});
 void draw_path(const std::filesystem::path& file, const Sheet& sheet,
@@ -91,7 +91,7 @@ void draw_calibration(const std::filesystem::path& path, const LensCalibration& 
 /// frame.
 void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibration);
 
-/// Draws the sheets before and after stitching, with the residuals of the frames over the seams.
+/// Draws the sheets before and after stitching, with the residuals of the frames at the seams.
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 

@@ -11,7 +11,7 @@
 /// step.
 ///
 /// Except for times, results depend only on the frames, not on the number of threads. Functions
-/// share no state. They throw Error for files and BadArgument for arguments.
+/// share no state. They throw Error for problems with files and BadArgument for invalid arguments.
 #pragma once
 
 #include <filesystem>
@@ -65,8 +65,8 @@ struct FrameRun {
     /// True to detect the code variant of frames without a known code variant, independently for
     /// each frame.
     bool any_code = false;
-    /// Refines a fix with the trace of its frame, for example by `with_camera`. None: fixes are not
-    /// refined. Called from several threads. Its time is not measured.
+    /// Refines a fix with the trace of its frame, for example by `with_camera`. If empty, fixes are
+    /// not refined. Called from several threads. Its time is not measured.
     std::function<Fix(const Fix&, const Trace&)> refine;
     int threads = 0;  ///< number of threads; 0 for one per core
     Progress progress;

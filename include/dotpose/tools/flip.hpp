@@ -11,8 +11,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Flips an image left to right. Mirrored images of a camera or its driver can be located
-/// afterwards.
+/// Flips an image left to right. Use this function for cameras or drivers that deliver mirrored
+/// images.
 inline void flip(GreyImage& image) {
     const auto width = static_cast<std::ptrdiff_t>(image.width_px);
     for (auto row = image.pixels.begin(); row != image.pixels.end(); row += width)

@@ -37,15 +37,15 @@ struct FollowerOptions {
     /// True if only these sheets can be in view. If false, other sheets are also located if enough
     /// of their dots are in view. See Locator::set_known.
     bool has_only_sheets = false;
-    /// The code variant; none to detect it from all images together. Not used if there are sheets,
-    /// which have their own code variants.
+    /// The code variant, or none to detect it from all images together. Ignored if there are
+    /// sheets, because each sheet has its own code variant.
     std::optional<CodeVariant> code;
     /// Spacing of the pattern, in mm, if there are no sheets.
     double spacing_mm = kDefaultSpacing_mm;
     /// Lens, view and mount of the camera. Images must have the size in the camera file.
     std::optional<Camera> camera;
     /// True if images are flipped left to right before they are located, like `flip` in a camera
-    /// file. All pixels then refer to the flipped images.
+    /// file. All pixel coordinates refer to the flipped images.
     bool flip = false;
     /// The reference pixel of the pose, instead of the image centre or the reference point of the
     /// camera file.
@@ -57,12 +57,13 @@ struct FollowerOptions {
 struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
-    std::optional<SheetPlace> place;  ///< place of the fix; none if it is on no sheet
-    /// The code variant, and other places that explain the image. After `locate`, its fix does not
-    /// include the correction by the camera file.
+    std::optional<SheetPlace> place;  ///< place of the fix; none if the fix is not on any sheet
+    /// The code variant of the fix, and the place in another code variant that explains the image,
+    /// if there is one. After `locate`, `reading.fix` does not include the correction by the camera
+    /// file.
     CodeReading reading;
     /// Spacing of the sheet, or the common spacing of all sheets, in mm. NaN if spacings differ and
-    /// the fix is on no sheet.
+    /// the fix is not on any sheet.
     double spacing_mm = 0;
     /// Spacing computed from the fix and the view of the camera file, in mm; NaN if unknown.
     /// `contradicts` (mounted_pose.hpp) compares this spacing with `spacing_mm`.
@@ -109,7 +110,7 @@ class Follower {
 
   private:
     struct Found {
-        Fix seen;  ///< fix without the camera file
+        Fix seen;  ///< fix before the correction by the camera file
         Fix fix;
         std::optional<SheetPlace> place;  ///< place of `seen`
         CodeReading reading;
@@ -151,7 +152,7 @@ class Follower {
     /// last fix. Empty: all code variants.
     std::vector<CodeVariant> codes_;
     CodeEvidence evidence_;       ///< evidence of the previous images
-    double unplaced_spacing_mm_;  ///< spacing for a fix on no sheet
+    double unplaced_spacing_mm_;  ///< spacing for a fix that is not on any sheet
     bool is_in_world_ = false;
     DeviceOptions used_;
     ImageView image_;

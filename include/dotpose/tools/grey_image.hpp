@@ -1,4 +1,4 @@
-/// An 8-bit grey image that owns its pixels, for tools; the core uses only `ImageView`.
+/// An 8-bit grey image that owns its pixels, for tools. The core uses only `ImageView`.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Grey levels by rows from the top, without padding: pixel (u, v) is `pixels[v * width_px + u]`; 0
-/// is black.
+/// Grey levels, row by row from the top, without padding: pixel (u, v) is `pixels[v * width_px +
+/// u]`. Grey level 0 is black.
 struct GreyImage {
     std::vector<std::uint8_t> pixels;
     int width_px = 0;

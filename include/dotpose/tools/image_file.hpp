@@ -1,18 +1,18 @@
 /// Reads images from files as 8-bit grey, and writes grey images.
 ///
-/// Formats: PNM (PBM, PGM and PPM, text and binary), PNG, JPEG, BMP, TIFF; WebP, HEIC and AVIF if
-/// dotpose was built with libwebp and libheif. The format is detected from the first bytes of a
-/// file, never from its name. A truncated or damaged file is an Error, even if part of the picture
-/// could be decoded, because interpolated pixels are not measurements. A JPEG that lacks only its
-/// end marker is read.
+/// Formats: PNM (PBM, PGM and PPM, text and binary), PNG, JPEG, BMP and TIFF. If dotpose was built
+/// with libwebp and libheif, also WebP, HEIC and AVIF. The format is detected from the first bytes
+/// of a file, never from its name. A truncated or damaged file is an Error, even if part of the
+/// picture could be decoded, because interpolated pixels are not measurements. A JPEG that lacks
+/// only its end marker is read.
 ///
 /// Every pixel is converted to one grey level, from 0 (black) to 255 (white). Colour is converted
 /// to luma 0.299 R + 0.587 G + 0.114 B (Rec. 601) of the stored values. Palettes are expanded. CMYK
 /// is converted without profiles. Gamma and colour profiles are ignored. Samples of 16 bits, and
-/// samples with a maximum value other than 255, are scaled to 0..255 and rounded. Opaque images of
-/// 16 bits without a value above 4095 are interpreted as 8 to 12 bits in the lower bits, as sensors
-/// deliver them. Transparent pixels are composited on white. Of a TIFF file with several pages, the
-/// first page or the requested page is read.
+/// samples with a maximum value other than 255, are scaled to 0..255 and rounded. Opaque 16-bit
+/// images without a value above 4095 are interpreted as sensor data with 8 to 12 bits in the lower
+/// bits. Transparent pixels are composited on white. If a TIFF file has several pages, the
+/// requested page is read, by default the first page.
 ///
 /// The orientation in EXIF data and in HEIC is ignored, because the calibration and mount of a
 /// camera refer to the pixels of the sensor.
@@ -32,7 +32,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Maximum side and maximum number of pixels of an image that can be read, and the default limit of
+/// Maximum side and maximum number of pixels of an image that can be read, and the default limit on
 /// the number of pixels.
 inline constexpr int kMaxImageSide_px = 100'000;
 inline constexpr int kMaxImagePixels = 1 << 28;
@@ -56,7 +56,7 @@ GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaul
                      int page = 1);
 
 /// Reads one image as above. Sets `note` to a sentence about the file for the user, for example
-/// that its end marker is missing, or to an empty text.
+/// that its end marker is missing, or to an empty string.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
                      int page = 1);
 
@@ -75,8 +75,9 @@ struct ImageOrigin {
     /// True if the image is from a camera: its EXIF data (JPEG, PNG, TIFF, WebP, HEIC) contain
     /// exposure time, f-number, sensitivity or focal length.
     bool is_photo = false;
-    /// Resolution of a scan: PNG pHYs, JPEG density, TIFF and BMP resolution. None if it is
-    /// missing, for photos, and for 72 and 96 dpi, the defaults of programs without a resolution.
+    /// Resolution of a scan: PNG pHYs, JPEG density, TIFF and BMP resolution. None if the image is
+    /// a photo, if the resolution is missing, or if it is 72 or 96 dpi, which programs write by
+    /// default if they do not know the resolution.
     std::optional<Resolution> resolution;
 };
 
@@ -97,8 +98,8 @@ std::vector<std::uint8_t> encode_image(ImageEncoding encoding, ImageView image);
 /// cannot be written.
 void write_pgm(const std::filesystem::path& path, ImageView image);
 
-/// Writes 8-bit grey PNG, replacing the file. Equal images give equal files. Throws Error as
-/// `write_pgm` does.
+/// Writes 8-bit grey PNG, replacing the file. Identical images produce identical files. Throws
+/// Error as `write_pgm` does.
 void write_png(const std::filesystem::path& path, ImageView image);
 
 }  // namespace dotpose

@@ -1,14 +1,14 @@
-/// MCAP files: recordings of timed messages of any types, for Foxglove, Lichtblick, PlotJuggler and
-/// `ros2 bag`. Format: https://mcap.dev/spec.
+/// MCAP files: recordings of timestamped messages of any type, for Foxglove, Lichtblick,
+/// PlotJuggler and `ros2 bag`. Format: https://mcap.dev/spec.
 ///
 ///     McapFile file("run.mcap");
 ///     const McapChannel poses = file.add_channel("/anna/pose", ros::type_of(pose));
 ///     file.write(poses, time_ns, ros::to_cdr(pose));
 ///     file.finish();
 ///
-/// Messages are collected in chunks. Each chunk is written with the index and the end of the file,
-/// which the next chunk overwrites. The file of a killed program is therefore complete except for
-/// the messages of the last chunk.
+/// Messages are collected in chunks. Each chunk is written together with the index and the end of
+/// the file, which the next chunk overwrites. If the program is killed, the file is therefore
+/// complete except for the messages of the last chunk.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,9 @@ namespace dotpose {
 /// The number of a channel in its file.
 enum class McapChannel : std::uint16_t {};
 
-/// Quality of service with which `ros2 bag play` offers the messages of a channel. The default
-/// suits all topics except /tf_static, which needs a `depth` of 1 and keeps the latest message for
-/// later subscribers.
+/// Quality of service with which `ros2 bag play` publishes the messages of a channel. The default
+/// suits all topics except /tf_static. That topic needs a `depth` of 1 and `is_transient_local`,
+/// which keeps the latest message for later subscribers.
 struct McapQuality {
     int depth = 100;
     bool is_transient_local = false;

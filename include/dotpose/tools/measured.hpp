@@ -1,5 +1,5 @@
 /// Measured: compares the places of located frames on a sheet or in the world with independently
-/// measured places, for example of a motion stage.
+/// measured places, for example from a motion stage.
 ///
 ///     std::vector<MeasuredFrame> frames = ...;
 ///     const Similarity alignment = align(frames);
@@ -54,8 +54,8 @@ struct Similarity {
     double shift_y_mm = 0;
     double turn_rad = 0;  ///< positive in the direction of positive angles
     double scale = 1;
-    /// Mean of true minus found angles after the turn. It is the direction of the independently
-    /// measured heading in the image.
+    /// Mean of true minus found angles after the turn. This offset is the direction, in the image,
+    /// of the independently measured heading.
     double angle_offset_rad = 0;
 };
 
@@ -69,8 +69,8 @@ struct MeasuredError {
     double x_mm = 0;
     double y_mm = 0;
     std::optional<double> angle_rad;  ///< none if the true angle is not known
-    /// True if the fix is wrong: it is on another sheet, there is no true place, or its error is
-    /// above half a spacing or 2 degrees and above ten times the median.
+    /// True if the fix is wrong: it is on another sheet, there is no true place, or its error
+    /// exceeds half a spacing or 2 degrees and also exceeds ten times the median.
     bool is_wrong = false;
 };
 
@@ -93,7 +93,7 @@ struct Measurement {
 /// Compares found and true places, after the alignment if there is one.
 Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Similarity>& alignment);
 
-/// Returns the result as pairs (name, value) for tables.
+/// Returns the result as (name, value) pairs for tables.
 std::vector<std::pair<std::string, std::string>> described(const Measurement& measurement);
 
 /// Writes one line for each frame: true place, found place and error.

@@ -30,7 +30,7 @@ Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
 
 /// Velocity of a camera over the paper, from one image of a rolling shutter.
 struct ReadoutVelocity {
-    /// In spacings per second, along x and y of the pattern (y down).
+    /// Velocity along x and y of the pattern (y down), in spacings per second.
     double x_per_s = 0;
     double y_per_s = 0;
     std::array<std::array<double, 2>, 2> covariance{};
@@ -47,12 +47,12 @@ MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const T
                                    const AxisScale& print = {});
 
 /// Returns the spacing of the pattern in mm, computed from the fix and the view of the camera file,
-/// divided by the print scale of the sheet (nominal mm). NaN without a fix or a view.
+/// divided by the print scale of the sheet (nominal mm). Returns NaN without a fix or a view.
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
 
 /// Maximum relative difference between the nominal and the measured spacing of a sheet. The limit
 /// is larger than the change of scale within the depth of field of a camera close to the paper, and
-/// smaller than the 3 % by which a page shrinks that a printer driver scales to 97 %.
+/// smaller than the 3 % by which a page shrinks if a printer driver scales it to 97 %.
 inline constexpr double kMaxSpacingDifference = 0.025;
 
 /// Returns true if a measured spacing contradicts the spacing of the sheet. Returns false if either

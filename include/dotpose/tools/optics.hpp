@@ -1,10 +1,10 @@
-/// Optics: the view of the pattern by a camera with given parts, for designing a device (paper
-/// III-A). The model is a thin lens, focused on the paper.
+/// Optics: computes how a camera with given parts images the pattern, for designing a device (paper
+/// III-A). The model is a thin lens that is focused on the paper.
 ///
 ///     const OpticsReport report = design_optics(paper_optics());
 ///     for (const OpticsAdvice& advice : report.advice) puts(advice.text.c_str());
 ///
-/// The functions are pure and throw BadArgument for bad values.
+/// The functions are pure and throw BadArgument for invalid values.
 #pragma once
 
 #include <optional>
@@ -34,15 +34,15 @@ struct Optics {
     double turn_rpm = 60;        ///< maximum turn rate about the image centre
     double largest_blur_px = 1;  ///< maximum permitted motion in the image during the exposure
 
-    /// Measured values, which replace the values of the thin lens: size of a pixel on the paper,
-    /// and field of view after correction of distortion.
+    /// Measured values, which replace the values computed from the thin-lens model: size of a pixel
+    /// on the paper, and field of view after correction of distortion.
     std::optional<double> mm_per_px;
     std::optional<double> field_width_mm;
     std::optional<double> field_height_mm;
 };
 
-/// Returns the device of the paper: an MT9V034 with pixels of 6 um binned 4 x 4, a lens of 5.5 mm,
-/// 0.046 mm per px, and a field of 8.59 x 5.48 mm.
+/// Returns the device of the paper: an MT9V034 with 6 um pixels binned 4 x 4, a 5.5 mm lens, 0.046
+/// mm per px, and a field of 8.59 x 5.48 mm.
 Optics paper_optics();
 
 /// One fault or remark about a device.
@@ -51,7 +51,7 @@ struct OpticsAdvice {
     std::string text;       ///< one sentence: the fault and the remedy
 };
 
-/// The view that the camera of a device has of the pattern.
+/// Properties of the image of the pattern in the camera of a device.
 struct OpticsReport {
     double magnification = 0;
     double mm_per_px = 0;
@@ -68,16 +68,16 @@ struct OpticsReport {
     double block_diagonal_mm = 0;
     /// True if the shorter side of the field is at least `block_diagonal_mm` (paper III-A.3).
     bool block_fits = false;
-    /// Side of a field that contains 8 x 8 dots at any position of the grid. At 45 degrees, the
-    /// nearest block may be half a diagonal step from the middle.
+    /// Side of a square field that contains 8 x 8 dots at any position of the grid. At 45 degrees,
+    /// the nearest block may be half a diagonal step from the middle.
     double block_anywhere_mm = 0;
     bool block_fits_anywhere = false;
 
-    double fastest_mm_s = 0;  ///< maximum speed for the exposure, without a turn
-    /// Maximum turn rate on the spot for the exposure. The limit is the motion of the middle of the
-    /// edge that is farthest from the image centre.
+    double fastest_mm_s = 0;  ///< maximum speed at the given exposure, without a turn
+    /// Maximum turn rate on the spot at the given exposure. The limit is the motion of the middle
+    /// of the edge that is farthest from the image centre.
     double fastest_turn_rpm = 0;
-    double longest_exposure_s = 0;  ///< maximum exposure for speed and turn rate together
+    double longest_exposure_s = 0;  ///< maximum exposure at the given speed and turn rate
     double blur_px = 0;             ///< blur at the given speed, turn rate and exposure
 
     /// Distances from the lens at which the defocus blur is one pixel: nearer and farther than the

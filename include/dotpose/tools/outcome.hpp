@@ -11,8 +11,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Deviations above which a fix is wrong. Wrong fixes do not count as located, and are excluded
-/// from the error statistics.
+/// Deviations above which a fix counts as wrong. Wrong fixes do not count as located, and are
+/// excluded from the error statistics.
 inline constexpr double kWrongFrom_grid = 0.5;
 inline constexpr double kWrongFrom_deg = 2;
 
@@ -30,12 +30,13 @@ struct Outcome {
     Fix fix;
     Truth truth;
     double elapsed_us = 0;  ///< time of `locate`, without reading the frame
-    std::string problem;    ///< error of the file; if not empty, all other members are not valid
+    std::string problem;    ///< error while reading the file; if not empty, no other member is
+                            ///< valid
 
     /// Returns true if the frame was read and located, correctly or not.
     bool is_fix() const { return problem.empty() && fix.status == Status::ok; }
-    /// Returns true if there is a wrong fix: its deviation is above kWrongFrom_grid or
-    /// kWrongFrom_deg, it is in another section, or the frame has no pose.
+    /// Returns true if the frame has a wrong fix: the deviation is above kWrongFrom_grid or
+    /// kWrongFrom_deg, the fix is in another section, or the frame has no true pose.
     bool is_wrong() const;
 };
 

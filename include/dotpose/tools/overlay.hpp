@@ -45,21 +45,22 @@ struct OverlayOptions {
     int copies = 1;  ///< number of copies of the document, each with its own cells
     /// Paper on which several pages with dots are printed side by side as cards, with cut marks.
     /// The sheet of a card begins at the corner of the card. Cards have no links or form fields,
-    /// and pages without dots are omitted. None: no cards, so each page of the document remains a
-    /// page.
+    /// and pages without dots are omitted. If none, there are no cards, and each page of the
+    /// document remains a page.
     std::optional<Paper> card_paper;
     bool under = false;    ///< true for dots below the content of the page instead of above
-    std::string password;  ///< password of an encrypted file, which stays encrypted
-    /// True to replace black ink, which is visible in infrared light, by the other inks.
+    std::string password;  ///< password of an encrypted file; the result is also encrypted
+    /// True to replace black ink, which is visible in infrared light, with the other inks.
     bool black_to_cmy = false;
     double lighten = 0;  ///< fraction of the ink that is removed from the document, 0 to below 1
-    /// Maximum unpacked content of one page, in megabytes. The limit for all pages together is
-    /// eight times as large. A page needs a few times this size in memory. Increase the limit for
-    /// large maps.
+    /// Maximum size of the uncompressed content of one page, in megabytes. The limit for all pages
+    /// together is eight times as large. Processing a page needs a few times this size in memory.
+    /// Increase the limit for large maps.
     int max_content_mb = 64;
     Progress progress;
     /// Called once with all pages that get dots, before anything is written. It may change each
-    /// `sheet.origin`, for example to a free region of a SheetFile. An exception ends the work.
+    /// `sheet.origin`, for example to a free region of a SheetFile. An exception cancels the
+    /// overlay.
     std::function<void(std::span<OverlaidPage>)> place;
 };
 
@@ -80,8 +81,8 @@ struct OverlayReport {
 /// Throws BadArgument if the pattern, margin, page range or number of copies is invalid, cards
 /// differ in size or are larger than their paper, a page is too small or its region would extend
 /// past the end of the code plane, or `out` is `in`. Throws Error if `in` cannot be read, is
-/// damaged, needs another password, is nested too deeply or unpacks to too much data, if `out`
-/// cannot be written, or if `progress` returned false.
+/// damaged, needs another password, is nested too deeply or exceeds the limit on uncompressed
+/// content, if `out` cannot be written, or if `progress` returned false.
 OverlayReport overlay_pdf(const std::filesystem::path& in, const std::filesystem::path& out,
                           const OverlayOptions& options = {});
 

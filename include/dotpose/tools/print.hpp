@@ -6,7 +6,7 @@
 ///     const dotpose::Sheet sheet = dotpose::make_sheet(options);
 ///     dotpose::write_sheet(sheet, "page.png");
 ///
-/// Rows are written immediately, so memory grows with the width of the page, not with its area.
+/// Rows are written immediately, so memory use grows with the width of the page, not with its area.
 /// Functions throw BadArgument or Error (error.hpp). They share no state, so threads may write
 /// different files at the same time.
 #pragma once
@@ -55,9 +55,10 @@ struct SheetOptions {
 
 /// Lays out a sheet: fills the page inside its margins with whole cells, from the top left.
 ///
-/// The first intersection is the first one whose dot is inside the margins and whose coordinates
-/// are odd multiples of half a 300 dpi printer pixel. With the default pattern, every dot then
-/// covers whole printer pixels at 300, 600 and 1200 dpi (paper section III-A.1, Fig. 11).
+/// The top left intersection is the first one whose dot is inside the margins and whose coordinates
+/// are odd multiples of half a 300 dpi printer pixel. With these coordinates, every dot of the
+/// default pattern covers whole printer pixels at 300, 600 and 1200 dpi (paper section III-A.1,
+/// Fig. 11).
 ///
 /// Throws BadArgument as `validate` does, if the margins leave less space than kMinSheetCells
 /// columns and rows, and if the region would extend past the end of the code plane.
@@ -84,8 +85,8 @@ enum class PrintFormat {
     pdf,   ///< true size, black ink only (K), labels and rulers in the margins, several pages
 };
 
-/// Returns the format for a file ending: .txt .svg .png .tif .tiff .pdf, in upper or lower case.
-/// Throws BadArgument for other endings.
+/// Returns the format for a file extension: .txt, .svg, .png, .tif, .tiff or .pdf, in upper or
+/// lower case. Throws BadArgument for other extensions.
 PrintFormat print_format(const std::filesystem::path& path);
 
 /// Called after each row of the pattern. Returning false stops the work.
@@ -95,9 +96,10 @@ using Progress = std::function<bool(int rows_done, int rows)>;
 enum class DotDrawing {
     automatic,  ///< `glyphs` where they are exact, otherwise `strokes`
     /// Text in a font of four glyphs: small and fast, but renderers round the position of every
-    /// glyph to whole pixels, so spacing, displacement and dot must be whole pixels.
+    /// glyph to whole pixels, so spacing, displacement and dot diameter must be whole numbers of
+    /// pixels.
     glyphs,
-    strokes,  ///< lines of length 0 with round ends: exact at any spacing
+    strokes,  ///< lines of length 0 with round caps: exact at any spacing
 };
 
 /// Options of `write_sheet`.
@@ -112,7 +114,7 @@ struct PrintOptions {
     bool labels = true;
     std::string name;     ///< PDF only: the first label, and the title of the document
     std::string command;  ///< PDF only: label with the command that reprints the sheet
-    /// PDF only: individual commands of the pages, which replace `command` if there are any.
+    /// PDF only: separate commands for each page. If there are any, they replace `command`.
     std::vector<std::string> page_commands;
     int first_page = 1;  ///< PDF only: number of the first sheet in the labels
     /// PDF only: number of pages in the labels; 0 for the number of sheets.
@@ -121,7 +123,7 @@ struct PrintOptions {
     Progress progress;
 };
 
-/// Writes the sheet in the format of the file's ending.
+/// Writes the sheet in the format given by the file extension.
 ///
 /// In PNG and TIFF, the centre of every dot is rounded to the nearest printer pixel. The error is
 /// at most half a printer pixel per axis and does not accumulate.
@@ -131,8 +133,8 @@ struct PrintOptions {
 /// file is unchanged and no temporary file remains.
 ///
 /// Throws BadArgument as `print_format`, `validate` and `validate_resolution` do, and for
-/// DotDrawing::glyphs if lengths are not whole pixels. Throws Error if the file cannot be created
-/// or written (with the system's reason), or if `progress` returned false.
+/// DotDrawing::glyphs if lengths are not whole numbers of pixels. Throws Error if the file cannot
+/// be created or written (with the system's reason), or if `progress` returned false.
 void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
                  const PrintOptions& options = {});
 
@@ -159,8 +161,8 @@ struct PrintPage {
     std::vector<InkRectangle> marks;
 };
 
-/// Returns rectangles that show a text of digits, '.', '/', '-', 'x', 'm' and spaces. Other
-/// characters remain blank. (`x_mm`, `y_mm`) is the upper left corner of the text.
+/// Returns rectangles that form a text of digits, '.', '/', '-', 'x', 'm' and spaces. Other
+/// characters are left blank. (`x_mm`, `y_mm`) is the upper left corner of the text.
 std::vector<InkRectangle> ink_text(std::string_view text, double x_mm, double y_mm,
                                    double height_mm);
 

@@ -1,4 +1,4 @@
-/// Protocol: the paper's experiment (section IV), simulated.
+/// Protocol: simulates the paper's experiment (section IV).
 #pragma once
 
 #include <filesystem>
@@ -31,7 +31,8 @@ struct ProtocolOptions {
 
 /// Error of one coordinate while the device is at rest.
 struct Spread {
-    double bias = 0;   ///< mean of found minus true; its absolute value is the paper's accuracy
+    double bias = 0;   ///< mean of found minus true values; its absolute value is the paper's
+                       ///< accuracy
     double sigma = 0;  ///< standard deviation; the paper's precision
 };
 
@@ -70,8 +71,8 @@ std::string table_3(const Protocol& protocol);
 /// Writes one line for each station.
 void write_stations_csv(std::ostream& out, std::span<const Station> stations);
 
-/// Writes table-3.md, positions.csv, angles.csv (the printed page) and figure-13, -14, -15, each as
-/// .svg and .png.
+/// Writes table-3.md, positions.csv and angles.csv (both for the printed page), and figure-13,
+/// figure-14 and figure-15, each as .svg and .png.
 void write_protocol(const std::filesystem::path& folder, const Protocol& protocol);
 
 }  // namespace dotpose

@@ -12,9 +12,9 @@
 /// and the same origin. `odom` begins at the first pose of the robot. While the robot is followed,
 /// the transform from `map` to `odom` does not change. When the robot is found again after it was
 /// lost or moved by hand, or is in another plane, `map` to `odom` jumps, and `odom` to `base_link`
-/// continues. `base_link` is the reference point of the camera file on the paper, with the robot's
-/// heading; without a camera file it is the point under the image centre, with x along the image x
-/// axis.
+/// remains continuous. `base_link` is the reference point of the camera file on the paper, with the
+/// robot's heading. Without a camera file, `base_link` is the point under the image centre, with x
+/// along the image x axis.
 #pragma once
 
 #include <array>
@@ -57,7 +57,7 @@ struct PlanarMotion {
     double vx_m_s = 0;  ///< velocity along the x axis of the plane
     double vy_m_s = 0;
     double turn_rad_s = 0;
-    /// Covariance of all six values, in their order.
+    /// Covariance of these six values, in this order.
     std::array<std::array<double, 6>, 6> covariance{};
 };
 
@@ -66,7 +66,8 @@ struct RobotUpdate {
     std::int64_t time_ns = 0;            ///< middle of the exposure
     std::optional<PlanarFix> fix;        ///< none without a fix, or if its place is not known
     std::optional<PlanarMotion> motion;  ///< none while the robot is lost
-    std::uint32_t plane = 0;             ///< plane number; poses in different planes are unrelated
+    std::uint32_t plane = 0;             ///< ID of the plane; poses in different planes are
+                                         ///< unrelated
     bool is_found_again = false;  ///< true if the motion does not continue the previous motion
     std::string state;            ///< "lost", "moving" or "stationary"
     std::string problem;          ///< reason why there is no fix; empty if there is one
@@ -76,7 +77,7 @@ struct RobotUpdate {
 /// Returns the results of a frame. `is_in_world` is Follower::is_in_world.
 RobotUpdate update_of(const Followed& followed, bool is_in_world, std::int64_t time_ns);
 
-/// Names of the frames of reference.
+/// Names of the coordinate frames.
 struct RobotFrames {
     std::string map = "map";
     std::string odom = "odom";
@@ -90,7 +91,7 @@ struct RobotFrames {
 /// a space or a control character.
 RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 
-/// Messages of one frame. There are no `odometry` and `tf` while the robot is lost.
+/// Messages of one frame. `odometry` and `tf` are empty while the robot is lost.
 struct RobotMessages {
     std::optional<PoseWithCovarianceStamped> pose;  ///< pose of the fix, in `map`
     std::optional<Odometry> odometry;  ///< pose of the track in `odom`, twist in `base_link`
@@ -98,7 +99,7 @@ struct RobotMessages {
     DiagnosticArray status;
 };
 
-/// Makes the messages of one robot, frame by frame.
+/// Creates the messages of one robot, frame by frame.
 class RobotMessenger {
   public:
     explicit RobotMessenger(std::string robot, RobotFrames frames = {});
@@ -121,7 +122,8 @@ class RobotMessenger {
 
 /// Returns the mount of the camera: the pose of the optical frame (z towards the paper, x and y
 /// along the axes of the image) in `base_link`, above the point under the image centre. The height
-/// is 0 if the camera file has no focal length. None if the camera file has no view of the paper.
+/// is 0 if the camera file has no focal length. Returns none if the camera file has no view of the
+/// paper.
 std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFrames& frames = {});
 
 }  // namespace dotpose::ros

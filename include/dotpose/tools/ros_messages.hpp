@@ -5,8 +5,8 @@
 ///     message.header = {ros_time(time_ns), "map"};
 ///     const std::vector<std::uint8_t> bytes = to_cdr(message);
 ///
-/// robot_messages.hpp makes messages from fixes, mcap_file.hpp writes messages to files. Units and
-/// frames follow ROS REP 103: metres, radians, seconds; x forward, y left, z up.
+/// robot_messages.hpp creates messages from fixes, and mcap_file.hpp writes messages to files.
+/// Units and frames follow ROS REP 103: metres, radians, seconds; x forward, y left, z up.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct Time {
     std::uint32_t nanosec = 0;
 };
 
-/// Converts nanoseconds since 1970, or since any other start, to a message. Times out of range are
+/// Converts nanoseconds since 1970, or since any other epoch, to a message. Times out of range are
 /// clamped.
 Time ros_time(std::int64_t time_ns);
 

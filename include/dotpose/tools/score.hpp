@@ -23,7 +23,7 @@ struct Quantiles {
     double p95 = std::numeric_limits<double>::quiet_NaN();
     double max = std::numeric_limits<double>::quiet_NaN();
 };
-/// Returns the quantiles of some values, in any order.
+/// Returns the quantiles of the given values, which may be in any order.
 Quantiles quantiles_of(std::vector<double> values);
 
 /// Counts and error statistics of many frames.
@@ -40,8 +40,8 @@ struct Score {
     Quantiles position_um;  ///< distance between the found and the true position
     Quantiles angle_deg;
     /// Mean of error^2 / variance, for x, y and theta: 1 if the covariance is correct, above 1 if
-    /// the errors are larger than the covariance predicts. NaN without correct fixes, or if one of
-    /// them has no covariance.
+    /// the errors are larger than the covariance predicts. NaN if there are no correct fixes, or if
+    /// any of them has no covariance.
     std::array<double, 3> normalised = {};
 
     double largest_p_wrong = 0;  ///< maximum p_wrong of all fixes
@@ -49,10 +49,10 @@ struct Score {
 
     double located_share() const { return frames > 0 ? 1.0 * located / frames : 0; }
 };
-/// Returns the score of some outcomes.
+/// Returns the score of the given outcomes.
 Score score_of(std::span<const Outcome> outcomes);
 
-/// Returns the score as (name, value) for tables.
+/// Returns the score as (name, value) pairs for tables.
 std::vector<std::pair<std::string, std::string>> described(const Score& score);
 
 }  // namespace dotpose

@@ -4,13 +4,14 @@
 /// ink, light, blur, motion, integration over the area of each pixel, noise, clipping, rounding.
 /// The centroid of a dot is exact to better than 0.003 px (tests/unit/simulate).
 ///
-/// How to use: fill a `Setup`, then for frame i
+/// Usage: fill a `Setup`, then render frame i:
 ///
 ///     const Shot shot = draw_shot(setup, i);  // change anything here: shot.pose.theta_rad = 0;
 ///     const GreyImage image = render(shot);
 ///
 /// Every frame depends on (setup, i) alone: the same bytes on every machine, in any order and from
-/// any number of threads. All functions are pure and thread-safe. Bad values throw BadArgument.
+/// any number of threads. All functions are pure and thread-safe. Functions throw BadArgument for
+/// invalid values.
 ///
 /// Coordinate frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y
 /// DOWN as the page is read, mm). Offsets named `offset_mm` are in the pattern frame, relative to
@@ -47,8 +48,9 @@ struct CameraModel {
     int height_px = 120;  ///< 1 to 16384
     /// Size of a pixel at the image centre on the reference plane. Above 0.
     double mm_per_px = 0.046;
-    /// Radial distortion of eq. 1-2, p_u = m + r_d / (1 + k |r_d|^2), in 1 / px^2; m is the image
-    /// centre. Below 0 for barrel distortion. 1 + k |r|^2 must stay in (0, 2) over the whole image.
+    /// Radial distortion k of eq. 1-2, p_u = m + r_d / (1 + k |r_d|^2), in 1 / px^2, where m is the
+    /// image centre. Negative for barrel distortion. 1 + k |r|^2 must stay in (0, 2) over the whole
+    /// image.
     double k = 0;
     /// Distance of the projection centre from the pose point, relevant only with tilt. Above 0.
     double working_distance_mm = 16;
@@ -61,7 +63,7 @@ struct CameraModel {
 /// Pose of the camera. The pattern point under the image centre is cell + fraction.
 struct CameraPose {
     Cell cell;
-    double fraction_x = 0;  ///< grid units, from `cell`; usually in [0, 1)
+    double fraction_x = 0;  ///< distance from `cell`, in grid units; usually in [0, 1)
     double fraction_y = 0;
     /// Angle of the image x axis in the pattern frame, from +x towards +y (clockwise as seen on
     /// the paper), at the image centre.
@@ -76,15 +78,16 @@ struct CameraPose {
 double x_grid(const CameraPose& pose);
 double y_grid(const CameraPose& pose);
 
-/// Effects of printer, paper, light and sensor on a frame. By default there are none: preset
-/// `clean`. Fractions and reflectances are in [0, 1]; sigmas, lengths and counts are not negative.
+/// Effects of printer, paper, light and sensor on a frame. The defaults are those of the preset
+/// `clean`, which has none of these effects. Fractions and reflectances are in [0, 1]; sigmas,
+/// lengths and counts are not negative.
 struct Imperfections {
     double paper_level = 200;       ///< grey level of bare paper at the image centre, 0 to 255
     double ink_reflectance = 0.15;  ///< reflectance relative to paper
     double ink_variation = 0;  ///< standard deviation of a dot's reflectance, relative to paper
-    /// Contrast of the palest ink relative to the darkest. Each direction of displacement may have
-    /// its own ink: the darkest ink has `ink_reflectance`, and the contrasts of the remaining two
-    /// inks are evenly spaced between those of the palest and the darkest.
+    /// Contrast of the palest ink relative to the darkest ink. Each direction of displacement may
+    /// have its own ink: the darkest ink has `ink_reflectance`, and the contrasts of the remaining
+    /// two inks are evenly spaced between those of the palest and the darkest.
     double palest_ink = 1;
     double vignetting = 0;  ///< loss of light in the image corners, growing with r^2
     /// Linear change of light from one side to the opposite side, relative to the light at the
@@ -104,7 +107,7 @@ struct Imperfections {
     static constexpr double kGrain_px = 3;  ///< size of the texture's grains
     double tilt_x_rad = 0;  ///< tilt that `draw_shot` adds to the pose; `render` ignores it
     double tilt_y_rad = 0;
-    /// Number of sub-pixels per pixel along each axis, at most 8. 0 selects a number with which no
+    /// Number of sub-pixels per pixel along each axis, at most 8. 0 selects a number at which no
     /// dot has an error above 0.003 px. Larger numbers take longer.
     int sub_pixels = 0;
 };
@@ -119,7 +122,7 @@ const char* name(Preset preset);
 /// Draws each imperfection uniformly from the preset's range.
 Imperfections draw_imperfections(Preset preset, Rng& rng);
 
-/// A rectangle on a page, turned by any angle.
+/// A rectangle on a page, rotated by any angle.
 struct PageArea {
     double x_grid = 0;  ///< centre, in grid units
     double y_grid = 0;
@@ -149,8 +152,8 @@ struct Page {
     /// Areas with printed dots: a dot is printed if its intersection is in one of the areas. If
     /// empty, all dots are printed.
     std::vector<PageArea> areas;
-    /// Extent of the paper (none if unlimited), and reflectance of the table around it relative to
-    /// paper.
+    /// Extent of the paper (none if unlimited), and reflectance of the surrounding table relative
+    /// to paper.
     std::optional<PageArea> paper;
     double table_reflectance = 0.2;
     /// Returns the shift of the dot at an intended place (in grid units) from this place, due to
@@ -182,8 +185,8 @@ class Projection {
     double k_;
     double focal_px_;
     double distance_mm_;
-    // Axes of the pattern in the frame of the camera (x right, y down, z ahead): camera_mm = x_axis
-    // * offset.x + y_axis * offset.y + (0, 0, distance).
+    // Axes of the pattern in the frame of the camera (x right, y down, z forward): camera_mm =
+    // x_axis * offset.x + y_axis * offset.y + (0, 0, distance).
     std::array<double, 3> x_axis_;
     std::array<double, 3> y_axis_;
 };
@@ -229,8 +232,8 @@ struct Shot {
     std::uint64_t seed = 0;
 };
 
-/// Draws frame `index` of a run: a uniform angle, a position anywhere on the plane with the whole
-/// frame on it, and imperfections from the preset.
+/// Draws the random parameters of frame `index` of a run: a uniform angle, a position anywhere on
+/// the plane with the whole frame on it, and imperfections from the preset.
 Shot draw_shot(const Setup& setup, std::uint64_t index);
 
 /// A view that is only partly covered by the pattern.
@@ -248,9 +251,9 @@ struct PartialView {
     bool on_table = false;
 };
 
-/// Draws the areas with dots and the edge of the paper from the shot's seed. In every second frame,
-/// areas are aligned with the pattern, otherwise with the image. Throws BadArgument if there is no
-/// room for the islands.
+/// Chooses the areas with dots and the edge of the paper at random, from the shot's seed. Areas are
+/// aligned either with the pattern or with the image, with equal probability. Throws BadArgument if
+/// there is no room for the islands.
 void cover_partly(Shot& shot, const PartialView& view);
 
 /// Renders a shot.

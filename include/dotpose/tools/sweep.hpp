@@ -33,9 +33,9 @@ inline constexpr std::array kSweepKinds = {SweepKind::noise,   SweepKind::blur,
 /// Returns the identifier, such as "occlusion".
 const char* name(SweepKind kind);
 
-/// Options of a sweep, for all values of the condition.
+/// Options of a sweep. They apply to all values of the condition.
 struct SweepOptions {
-    Setup setup;  ///< setup of all frames, with all other conditions
+    Setup setup;  ///< setup of all frames, except for the varied condition
     /// Number of frames per value. Frame i is the same at every value, except for the condition
     /// that is varied.
     int frames_per_value = 200;
@@ -54,7 +54,7 @@ struct SweepPoint {
     Score all;
 };
 
-/// Scores over one condition.
+/// Scores as a function of one condition.
 struct Sweep {
     SweepKind kind = SweepKind::noise;
     Preset preset = Preset::nominal;

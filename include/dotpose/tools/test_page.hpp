@@ -42,14 +42,14 @@ struct TestPageOptions {
     std::vector<int> dots = {2, 3, 4, 6, 8};       ///< 0.042, 0.064, 0.085, 0.127, 0.169 mm
 };
 
-/// Lays out the patches, with a label "spacing/dot" in mm above each patch. Combinations with
-/// touching dots are omitted. Throws BadArgument as `make_sheet` does, for settings outside 1 to
+/// Lays out the patches, with a label "spacing/dot" in mm above each patch. Combinations in which
+/// dots would touch are omitted. Throws BadArgument as `make_sheet` does, for settings outside 1 to
 /// 80, and if there are no spacings or no dot diameters.
 PrintPage make_test_page(const TestPageOptions& options);
 
 /// Returns the settings of the patch whose first cell is nearest to `cell` on both axes. This
-/// includes cells slightly outside the patch. None if the cell is outside the region of the test
-/// pages, or if the dots of such a patch would touch.
+/// includes cells slightly outside the patch. Returns none if the cell is outside the region of the
+/// test pages, or if the dots of such a patch would touch.
 std::optional<Pattern> test_patch_at(CodeVariant code, Cell cell);
 
 }  // namespace dotpose

@@ -1,4 +1,4 @@
-/// Names of the tracker's states and events for lines, panels and messages.
+/// Names of the tracker's states and events, for output lines, panels and messages.
 #pragma once
 
 #include <string>

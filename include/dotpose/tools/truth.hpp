@@ -22,7 +22,7 @@ struct Truth {
     double x_grid = 0;
     double y_grid = 0;
     double theta_rad = 0;
-    std::optional<Section> section;  ///< not checked if not known
+    std::optional<Section> section;  ///< section of the pose; not checked if unknown
     double spacing_mm = kDefaultSpacing_mm;
 };
 
@@ -56,7 +56,7 @@ struct TruthRow {
 ///   - x_sheet_mm, y_sheet_mm; optional theta_sheet_deg, sheet;
 ///   - x_m, y_m (they take precedence over places on sheets); optional yaw_rad or yaw_deg (yaw_rad
 ///     takes precedence), sheet.
-/// Optional are section_u, section_v, code, spacing_mm. A row with an empty pose is a frame
+/// Optional columns: section_u, section_v, code, spacing_mm. A row with an empty pose is a frame
 /// without a pose. `spacing_mm`, if given, replaces the spacings in the file. Throws Error if the
 /// file cannot be read, contains no frames, or has invalid content. The message contains the name
 /// of the file and, for an invalid line, its number.

@@ -22,7 +22,7 @@ std::uint64_t reversed(std::uint64_t word) {
     return __builtin_bswap64(word);
 }
 
-/// Returns the lines in reverse order. The bits of each line keep their order.
+/// Returns the lines in reverse order. The order of the bits in each line does not change.
 BitLines in_opposite_order(const BitLines& lines) {
     BitLines result = lines;
     std::reverse(result.bits.begin(), result.bits.end());
@@ -30,7 +30,7 @@ BitLines in_opposite_order(const BitLines& lines) {
     return result;
 }
 
-/// Returns each line as it reads after a half turn: reversed, with its bits flipped. The order of
+/// Returns each line as it is read after a half turn: reversed, with all bits flipped. The order of
 /// the lines does not change.
 BitLines backwards(const BitLines& lines) {
     BitLines result;
@@ -42,9 +42,9 @@ BitLines backwards(const BitLines& lines) {
     return result;
 }
 
-/// Returns the range from the first to the last line that has bits. If the range is longer than
-/// `max_count` lines, returns the `max_count` lines of the range that are nearest to the middle of
-/// the block.
+/// Returns the range from the first to the last line that contains bits. If this range has more
+/// than `max_count` lines, returns the `max_count` lines of the range that are nearest to the
+/// middle of the block.
 LineRange lines_with_bits(const BitLines& lines, int max_count) {
     int first = 0;
     int last = BitBlock::kSide - 1;
@@ -59,8 +59,10 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
 
 /// Returns the score of a line read backwards minus its score read forwards. If all bits of the
 /// line agree with the main sequence in exactly one direction, the result is 127 (backwards) or
-/// -127 (forwards) for each bit beyond the first six. By chance, six bits almost always also agree
-/// exactly in the wrong direction. Each further bit halves the probability of such an agreement.
+/// -127 (forwards) for each bit beyond the first six. The first six bits do not count, because the
+/// main sequence contains every string of six bits except one. Six bits therefore almost always
+/// agree in the wrong direction, too. Each further bit halves the probability of a chance
+/// agreement.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);
@@ -79,13 +81,13 @@ int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid
 }
 
 /// Returns the sum of the scores of several lines read backwards, minus the sum of their scores
-/// read forwards. Ends early if the sums differ by at least `kLandslide`.
+/// read forwards. Stops early if the sums differ by at least `kLandslide`.
 int backwardness(const Kernels& kernels, const BitLines& lines) {
     constexpr int kVoters = tuning::turns::kVotersOfBits;
     const LineRange range = lines_with_bits(lines, BitBlock::kSide);
     int sum = 0;
     for (int voter = 0; voter < kVoters; ++voter) {
-        // The voting lines are in the middle half of the range, where the lines are longest.
+        // Takes the voting lines from the middle half of the range, where the lines are longest.
         const auto i = static_cast<std::size_t>(range.first + range.count / 4 +
                                                 range.count * voter / (2 * kVoters));
         if (i >= lines.bits.size()) break;

@@ -1,6 +1,7 @@
 // Bit lines: the bits of 64 x 64 cells, stored as one word for each column and one word for each
-// row. A few instructions rotate a line, compare it, or count its bits. Paper sections II-B.4 to
-// II-B.7, with hard bits (0, 1 or not read) instead of probabilities.
+// row. Reversing or comparing a line, or counting its bits, takes only a few instructions.
+// Implements paper sections II-B.4 to II-B.7 with hard bits (0, 1 or not read) instead of
+// probabilities.
 #pragma once
 
 #include "core/decode/lines.hpp"
@@ -8,8 +9,8 @@
 
 namespace dotpose::core {
 
-/// The bits of a block of cells: x bits by column, y bits by row. Cell (0, 0) is in column kMiddle
-/// and in row kMiddle of the block.
+/// The bits of a block of cells. The x bits are stored by column, and the y bits are stored by row.
+/// Cell (0, 0) of the grid is in column kMiddle and row kMiddle of the block.
 struct BitBlock {
     static constexpr int kSide = 64;
     static constexpr int kMiddle = 32;
@@ -27,12 +28,13 @@ struct BlockRanges {
     LineRange rows;
 };
 
-/// Returns the range from the first to the last column that has bits, and the range from the first
-/// to the last row that has bits. Each range is limited to the `max_count` lines nearest to the
-/// middle of the block.
+/// Returns the range from the first to the last column that contains bits, and the range from the
+/// first to the last row that contains bits. Each range is limited to the `max_count` lines nearest
+/// to the middle of the block.
 BlockRanges ranges_with_bits(const BitBlock& block, int max_count);
 
-/// The scored lines of a block, and the indices in the block of the first scored column and row.
+/// The scored lines of a block. `first_column` and `first_row` are the indices of the first scored
+/// column and the first scored row in the block.
 struct BlockLines {
     int first_column = 0;
     int first_row = 0;
@@ -40,20 +42,22 @@ struct BlockLines {
     Lines rows;
 };
 
-/// Returns the most likely number of quarter turns from the grid to the pattern, 0 to 3, by a vote
-/// of columns and rows near the middle. `turned` applies this rotation.
+/// Returns the most likely number of quarter turns (0 to 3) from the grid to the pattern. The
+/// number is determined by a vote of the columns and rows near the middle of the block. `turned`
+/// applies this rotation.
 int likeliest_turn(const Kernels& kernels, const BitBlock& block);
 
 /// Returns the block rotated by `quarters` quarter turns. 0, 1, 2 and 3 quarter turns map cell (i,
 /// j) to (i, j), (-1 - j, i), (-1 - i, -1 - j) and (j, -1 - i), respectively.
 BitBlock turned(int quarters, const BitBlock& block);
-/// Returns the plane after the same rotation. The result maps image points to cells of the rotated
-/// block.
+/// Returns the plane rotated by `quarters` quarter turns. The result maps image points to cells of
+/// the rotated block.
 FloatPlane turned(int quarters, const FloatPlane& grid_from_image);
 
-/// Scores the lines of an upright block that have bits. Columns use the first half of `storage`,
-/// and rows use the second half. If half of `storage` is too small for all lines, only the lines
-/// nearest to the middle are scored.
+/// Scores the columns and rows of an upright block, except for empty lines at the ends of each
+/// axis. The columns are stored in the first half of `storage`, and the rows are stored in the
+/// second half. If half of `storage` is too small for the lines of an axis, scores only the lines
+/// nearest to the middle of the block.
 BlockLines score_block(const Kernels& kernels, const BitBlock& block,
                        std::span<ScoredLine> storage);
 

@@ -7,19 +7,20 @@
 namespace dotpose::core {
 namespace {
 
-/// The signed sums of a group of kGroup consecutive weights are tabulated for all combinations of
-/// signs. Up to kGroups of these tables are added in one pass over the rolls.
+/// Number of consecutive weights in a group. The signed sums of the weights of a group are
+/// tabulated for all combinations of signs. One pass over the rolls adds the tables of up to
+/// kGroups groups.
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
-/// Weights of two lines a and b, packed as a + 65536 b. Adding packed weights adds the weights of
-/// each line, because the sums of each line fit in 16 bits.
+/// Weights of two lines a and b, packed as a + 65536 b. One addition of packed weights adds the
+/// weights of both lines, because the sums of each line fit in 16 bits.
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
-/// The kGroup bits of the main sequence that begin at each index. The first bit is the lowest bit.
-/// Each string of bits is stored as its byte offset in Sums, which saves small processors a
-/// multiplication.
+/// For each index, the string of kGroup bits of the main sequence that begins at this index. The
+/// first bit is the lowest bit. Each string is stored as a byte offset into Sums, which saves a
+/// multiplication on small processors.
 constexpr auto kStrings = [] {
     std::array<std::uint8_t, 2 * kSections + kAtOnce> strings{};
     for (std::size_t i = 0; i < strings.size(); ++i) {
@@ -39,7 +40,7 @@ std::int32_t sum_at(const Sums& sums, std::uint8_t bytes) {
 
 using Line = std::span<const std::int8_t>;
 
-/// Packs kAtOnce weights of each line, beginning with the weight at index `first`. Weights beyond
+/// Packs kAtOnce weights of each line, starting with the weight at index `first`. Weights beyond
 /// the end of a line are 0.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
     const auto rest = [&](Line line) {
@@ -60,8 +61,8 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
     ((sums[sizeof...(I) + I] = sums[I] + 2 * weight), ...);
 }
 
-/// Sets the sum of a group of weights for each string of bits. A weight is negated if its bit is 0.
-/// Unrolling halves the time. Not inlined, because the unrolled code is long.
+/// Computes the signed sum of a group of weights for each string of bits. A weight is negated if
+/// its bit is 0. Unrolling halves the time. Not inlined, because the unrolled code is long.
 [[gnu::noinline]] void sum_signed(const std::int32_t* weights, Sums& sums) {
     static_assert(kGroup == 5);
     sums[0] = -(weights[0] + weights[1] + weights[2] + weights[3] + weights[4]);
@@ -73,8 +74,8 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
 }
 
 /// Adds the sums of the first `Groups` groups to the score of each roll or, if `Adds` is false,
-/// overwrites the scores with these sums. `phase` is the index, modulo 63, of the first of the
-/// weights in its line.
+/// overwrites the scores with these sums. `phase` is the index of the first weight in its line,
+/// modulo 63.
 template <std::size_t Groups, bool Adds>
 void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineScores& scores_a,
                LineScores& scores_b) {
@@ -85,8 +86,8 @@ void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineSco
         std::int32_t sum = sum_at(sums[0], string[0]);
         for (std::size_t group = 1; group < Groups; ++group)
             sum += sum_at(sums[group], string[group * kGroup]);
-        // Unpacks the sum of line b: (sum + 0x8000) >> 16, without the constant, which would occupy
-        // a register.
+        // Unpacks the sum of line b. Equivalent to (sum + 0x8000) >> 16, but without the constant,
+        // which would occupy a register.
         const std::int32_t of_b = ((sum >> 15) + 1) >> 1;
         *a = static_cast<std::int16_t>(Adds ? *a + sum : sum);
         *b = static_cast<std::int16_t>(Adds ? *b + of_b : of_b);

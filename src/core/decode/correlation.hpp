@@ -9,18 +9,19 @@
 
 namespace dotpose::core {
 
-/// A roll (offset of the main sequence) and its score.
+/// A roll (an offset in the main sequence) and its score.
 struct Match {
     std::int32_t score = 0;
     std::uint8_t roll = 0;
 };
 
-/// Sets the score of each roll: the sum of all weights, each multiplied by +1 if its bit of the
-/// main sequence is 1, and by -1 if the bit is 0. At roll o, the first weight belongs to bit o.
-/// Doubtful bits have small weights. There are at most 256 weights, in [-127, 127].
+/// Computes the score of each roll. The score is the sum of all weights, each multiplied by +1 if
+/// the corresponding bit of the main sequence is 1, and by -1 if the corresponding bit is 0. At
+/// roll o, the first weight corresponds to bit o. Doubtful bits have small weights. `weights`
+/// contains at most 256 values in [-127, 127].
 void correlate(std::span<const std::int8_t> weights, LineScores& scores);
 
-/// Correlates two lines, in little more time than `correlate` takes for one line.
+/// Correlates two lines. Takes little more time than `correlate` takes for one line.
 void correlate_both(std::span<const std::int8_t> a, std::span<const std::int8_t> b,
                     LineScores& scores_a, LineScores& scores_b);
 

@@ -23,7 +23,7 @@ int below_sections(int roll) {
     return roll < kSections ? roll : roll - kSections;
 }
 
-/// Returns 64 bits of the main sequence, beginning at `index`.
+/// Returns 64 bits of the main sequence, starting at `index`.
 std::uint64_t main_word(int index) {
     const auto next = static_cast<std::size_t>(below_sections(index + 32));
     return code::kMainWords[static_cast<std::size_t>(index)] | std::uint64_t{code::kMainWords[next]}
@@ -31,9 +31,7 @@ std::uint64_t main_word(int index) {
 }
 
 /// Finds the position of the first line of a range, and its roll at `first_cell`. Returns false if
-/// the last three quarters of the lines contain no `run_length(code)` adjacent exact lines, if
-/// their rolls do not occur in the code, or if the number of wrong bits at the position exceeds
-/// half the number of lines.
+/// the axis fails one of the conditions that `find_place_exactly` lists.
 bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange& range,
                        int first_cell, AxisReading& reading) {
     const auto count = static_cast<std::size_t>(range.count);
@@ -45,8 +43,8 @@ bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange&
     };
     const auto length = static_cast<std::size_t>(run_length(code));
     std::array<std::uint8_t, BitBlock::kSide> rolls;
-    // Skips the first quarter of the lines. The middle lines are longest and therefore most
-    // reliable.
+    // Skips the first quarter of the lines. The lines in the middle are the longest and therefore
+    // the most reliable.
     std::size_t end = count / 4;
     for (std::size_t run = 0; run < length; ++end) {
         if (end == count) return false;

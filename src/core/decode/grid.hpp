@@ -8,13 +8,13 @@
 
 namespace dotpose::core {
 
-/// Maximum number of cells per axis in the grid of any workspace.
+/// Maximum number of cells along each axis of a grid, for any workspace.
 inline constexpr int kMaxGridSide = 256;
 
 /// The matrices P^(x), P^(y) over the cells [i0, i0 + columns) x [j0, j0 + rows).
 struct Grid {
     std::span<GridCell> storage;
-    int side = 0;  ///< capacity: side * side cells
+    int side = 0;  ///< `storage` has room for side * side cells
     int i0 = 0;
     int j0 = 0;
     int columns = 0;

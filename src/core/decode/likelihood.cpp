@@ -58,7 +58,8 @@ Status assign(std::span<const DetectedDot> dots, PointOf point_of, Grid& grid) {
     }
     lay_out(min, max, grid);
 
-    // Copies the grid, because small processors would otherwise reload its members for each dot.
+    // Local copy of the grid. Without the copy, its members would be reloaded for each dot, which
+    // is slow on small processors.
     const Grid here = grid;
     const auto columns = static_cast<unsigned>(here.columns);
     const auto rows = static_cast<unsigned>(here.rows);

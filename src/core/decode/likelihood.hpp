@@ -8,21 +8,21 @@
 namespace dotpose::core {
 
 /// Returns the quasi-probability f(r) of eq. 9 for a projected offset in units of 2^-16 spacings.
-/// The result is in units of 1/127, in [-127, 127].
+/// The result is in [-127, 127], in units of 1/127.
 std::int8_t quasi_probability(std::int32_t projection_q16);
 
 /// Clears the grid and sets its extent to the cells from `min` to `max`. If an axis has more than
 /// `grid.side` cells, the extent is limited to the cells nearest to cell (0, 0).
 void lay_out(FixedVec min, FixedVec max, Grid& grid);
 
-/// Fills the matrices P of Fig. 8 from all dots. If a cell contains several dots, the dot with the
-/// highest quality counts. A grid with more than `grid.side` cells along an axis is cropped to the
-/// `grid.side` cells nearest to cell (0, 0). Error: grid_too_small, if the dots extend over fewer
-/// than kWindowSide columns or rows.
+/// Fills the matrices P of Fig. 8 from all dots. If a cell contains several dots, only the dot with
+/// the highest quality is used. A grid with more than `grid.side` cells along an axis is cropped to
+/// the `grid.side` cells nearest to cell (0, 0). Error: grid_too_small, if the dots extend over
+/// fewer than kWindowSide columns or rows.
 Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid);
 
-/// Faster variant of `assign_likelihoods` for a plane without perspective and lens distortion.
+/// Faster variant of `assign_likelihoods` for a plane without perspective or lens distortion.
 Status assign_affine_likelihoods(std::span<const DetectedDot> dots,
                                  const PlaneFromImage& grid_from_image, Grid& grid);
 

@@ -1,4 +1,4 @@
-// Nominal: the symbols of the code in the cells of a grid whose place is known.
+// Nominal: the expected symbols of the cells of a grid whose place in the code is known.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@
 
 namespace dotpose::core {
 
-/// The symbols of the code in the cells of a grid, at the place and turn of a decoding.
+/// The symbols that the code assigns to the cells of a grid, given the place and the turn of a
+/// decoding.
 class Nominal {
   public:
     Nominal(const Grid& grid, CodeVariant code, const Decoding& decoding);
@@ -17,7 +18,7 @@ class Nominal {
     /// Returns the pattern step of a grid cell: its column and row on the upright pattern, relative
     /// to `Decoding::place`.
     FixedVec pattern_step(FixedVec grid_cell) const { return turn_(grid_cell); }
-    /// Returns the symbol at a pattern step, which must belong to a cell of the grid.
+    /// Returns the symbol at a pattern step. The pattern step must belong to a cell of the grid.
     Symbol symbol(FixedVec pattern_step) const;
 
   private:

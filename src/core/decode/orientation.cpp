@@ -7,8 +7,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of lines per axis that vote on the turn. The voting lines are in the middle half, where
-/// the lines are longest.
+/// Number of lines per axis that vote on the turn. The voting lines are in the middle half of the
+/// region, where the lines are longest.
 constexpr int kVoters = tuning::turns::kVoters;
 
 /// The voting columns or rows of a region, and the bit (x or y) that is read from their cells.
@@ -97,26 +97,26 @@ std::int32_t best_agreement(const Voters& voters) {
 }  // namespace
 
 Orientation rank_turns(const Grid& grid, const GridRegion& region) {
-    // differs: the paper counts the lines that occur exactly in the main sequence. The sum of the
-    // best scores also uses lines with misread bits.
+    // differs: the paper counts the lines that occur exactly in the main sequence. Here, the sum of
+    // the best scores also takes lines with misread bits into account.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
     const BothWays of_columns = agreement(x_columns);
     const BothWays of_rows = agreement(y_rows);
     const std::int32_t columns = of_columns.forwards.as_is;
     const std::int32_t rows = of_rows.forwards.as_is;
-    // A half turn reverses the lines and flips their bits.
+    // A half turn reverses each line and flips its bits.
     const std::int32_t turned_columns = of_columns.backwards.flipped;
     const std::int32_t turned_rows = of_rows.backwards.flipped;
-    // A quarter turn exchanges columns and rows. It reverses and flips either the columns or the
-    // rows (see `turned` in upright.hpp).
+    // A quarter turn exchanges columns and rows. The turn reverses and flips either the columns or
+    // the rows (see `turned` in upright.hpp).
     const std::array<std::int32_t, 4> scores{columns + rows, turned_columns + rows,
                                              turned_columns + turned_rows, columns + turned_rows};
     std::array<QuarterTurn, 4> turns{QuarterTurn{0}, QuarterTurn{1}, QuarterTurn{2},
                                      QuarterTurn{3}};
     const auto score = [&](QuarterTurn t) { return scores[static_cast<std::size_t>(t.quarters)]; };
-    // Sorts the turns by score and keeps the order of ties. A library function would need much more
-    // code for four elements.
+    // Sorts the turns by decreasing score with a stable insertion sort. For four elements, a
+    // library function would need much more code.
     for (std::size_t n = 1; n < turns.size(); ++n) {
         for (std::size_t i = n; i > 0 && score(turns[i]) > score(turns[i - 1]); --i)
             std::swap(turns[i], turns[i - 1]);
@@ -125,8 +125,8 @@ Orientation rank_turns(const Grid& grid, const GridRegion& region) {
 }
 
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t upright) {
-    // A mirror image exchanges x and y bits (the projections of eq. 7 and 8), and may reverse
-    // lines.
+    // A mirror image exchanges x and y bits (the projections of eq. 7 and 8), and may reverse lines
+    // or flip bits.
     const Voters y_columns(grid, region, true, &GridCell::y);
     const Voters x_rows(grid, region, false, &GridCell::x);
     const auto is_much_more = [&](std::int32_t mirrored) {

@@ -1,5 +1,5 @@
-// Orientation: the quarter turn that rotates the grid to the upright orientation of the pattern.
-// Paper section II-B.6.
+// Orientation: finds the quarter turn that rotates the grid to the upright orientation of the
+// pattern. Paper section II-B.6.
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@ struct Orientation {
                              ///< likely turn
 };
 
-/// Ranks the four turns (0 to 3 quarter turns) by a vote of columns and rows. The lines of each
-/// axis are compared with the main sequence both as read and after a half turn, which reverses the
-/// lines and flips their bits.
+/// Ranks the four possible turns (0 to 3 quarter turns) by a vote of columns and rows. Each voting
+/// line is compared with the main sequence twice: as read, and after a half turn. A half turn
+/// reverses the line and flips its bits.
 Orientation rank_turns(const Grid& grid, const GridRegion& region);
 
-/// Returns true if the region agrees much better with a mirrored pattern than with the pattern. In
-/// a mirrored pattern, columns contain y bits and rows contain x bits. `agreement` is
+/// Returns true if the region agrees much better with a mirrored pattern than with an unmirrored
+/// pattern. In a mirrored pattern, columns contain y bits and rows contain x bits. `agreement` is
 /// `Orientation::agreement` of this region.
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t agreement);
 

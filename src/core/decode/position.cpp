@@ -9,10 +9,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Minimum number of lines that determine a position.
+/// Minimum number of lines required to determine a position.
 constexpr int kMinLines = 6;
 
-/// Reads the position of one axis from the best roll of each line.
+/// Determines the position on one axis from the best roll of each line.
 Status read_axis(CodeVariant code, const Lines& lines, AxisReading& reading) {
     std::array<std::uint8_t, kMaxLines> rolls{};
     for (int i = 0; i < lines.count(); ++i) {

@@ -9,10 +9,10 @@
 
 namespace dotpose::core {
 
-/// Decodes by the method of the paper, as a baseline: finds the turn by vote, correlates each line
-/// of the clearest 8 x 8 cells with the main sequence, and uses the best roll of each line. Errors:
-/// grid_too_small (also if the mean quality of the cells is less than a third of the maximum),
-/// not_in_code, ambiguous.
+/// Decodes with the method of the paper, as a baseline. Finds the turn by a vote, correlates each
+/// line of the clearest window of 8 x 8 cells with the main sequence, and uses the best roll of
+/// each line. Errors: grid_too_small (also if the mean quality of the cells is less than a third of
+/// the maximum), not_in_code, ambiguous.
 Status decode_window(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                      Decoding& decoding);
 
@@ -24,7 +24,7 @@ Status decode_all(const Grid& grid, CodeVariant code, std::span<ScoredLine> stor
                   Decoding& decoding);
 
 /// Decodes all dots in bounded time, for first attempts. A position that takes longer to find is
-/// rarely certain. Errors: as `decode_all`.
+/// rarely certain. Errors: same as `decode_all`.
 Status decode_briefly(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                       Decoding& decoding);
 

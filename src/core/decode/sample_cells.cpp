@@ -33,8 +33,8 @@ struct PlaceView {
 /// Measurements of one cell.
 struct CellView {
     FixedVec centre_q8;  ///< image point of the intersection, in 2^-8 px
-    FixedVec u_q8;       ///< one spacing along the rows of the grid, in 2^-8 px of the image
-    FixedVec v_q8;       ///< one spacing along the columns of the grid, in 2^-8 px of the image
+    FixedVec u_q8;       ///< image vector of one spacing along the rows of the grid, in 2^-8 px
+    FixedVec v_q8;       ///< image vector of one spacing along the columns of the grid, in 2^-8 px
     int half_px = 0;     ///< half the side of the square for `shade_q8`, in px
     std::array<PlaceView, 4> places;  ///< indexed by Symbol
 
@@ -71,8 +71,9 @@ class CellSampler {
     /// Returns the paper level at the centre of the cell divided by the paper level at the centre
     /// of the image, in 1/256.
     int light_q8(const CellView& view) const;
-    /// For each place in the image, returns the shade of the darkest of eight squares around the
-    /// place, at about 2/15 of the spacing from it. Elements of places outside the image are 0.
+    /// Returns, for each place in the image, the largest shade of eight squares around the place.
+    /// The centres of the squares are about 2/15 of the spacing away from the place. The elements
+    /// of places outside the image are 0.
     std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
@@ -124,7 +125,8 @@ int CellSampler::shade_q8(FixedVec centre_q8, int half_px) const {
 
 template <typename Use>
 void CellSampler::visit(const Grid& grid, Use use) const {
-    // Each row of intersections is computed only once, although two adjacent rows of cells need it.
+    // Computes each row of intersections only once, although two adjacent rows of cells use the
+    // row.
     std::array<FixedVec, kMaxGridSide + 1> here;
     std::array<FixedVec, kMaxGridSide + 1> below;
     const auto find_row = [&](int j, std::array<FixedVec, kMaxGridSide + 1>& row) {
@@ -198,8 +200,9 @@ int CellSampler::light_q8(const CellView& view) const {
     return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
-/// Returns the medians of the darkness and of the shade at the darkest place of a cell, at least 1.
-/// The medians are over a sample of the cells that have all four places in the image.
+/// Returns a place with the darkness and the shade of a typical dot. Each value is a median over
+/// the darkest places of a sample of cells, and is at least 1. The sample contains only cells with
+/// all four places in the image.
 PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
     std::array<std::int32_t, tuned::kMedianSample> darkness;
     std::array<std::int32_t, tuned::kMedianSample> shade;
@@ -220,7 +223,7 @@ PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
             std::max<std::int32_t>(median(std::span(shade).first(count)), 1)};
 }
 
-/// Typical darkness of dots and of graphics in an image. Computes the weights of bits from the
+/// The typical darkness of dots and of graphics in an image. Computes the weights of bits from the
 /// darkness at the places of a cell.
 class Ink {
   public:
@@ -286,8 +289,9 @@ class Ink {
                4 * sorted[2] > tuned::kSecondDot_4ths * sorted[3];
     }
 
-    /// Returns the weight of a bit, in [-127, 127]. `one_q8` is the maximum darkness of the two
-    /// places where the bit is 1, and `zero_q8` of the two places where the bit is 0.
+    /// Returns the weight of a bit, in [-127, 127]. `one_q8` is the larger darkness of the two
+    /// places at which the bit is 1. `zero_q8` is the larger darkness of the two places at which
+    /// the bit is 0.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
         // The weight is proportional to the log-likelihood ratio of the bit. At constant sensor
         // noise, this ratio is proportional to the difference in grey levels times the contrast in

@@ -54,8 +54,8 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Returns the reading in which line `line` is at `position` with `roll`. Its score is the sum over
-/// all lines.
+/// Returns the reading in which the line with index `line` is at `position` and has the roll
+/// `roll`. The score of the reading is the sum of the scores of all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     std::array<std::uint8_t, kMaxLines> storage;
@@ -72,7 +72,7 @@ AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32
 using Run = std::array<Choices, kMaxRunLength>;
 
 /// Returns the number of rolls to try for each line of a run. Repeatedly adds the roll with the
-/// smallest loss, as long as there are at most `max_readings` combinations of rolls.
+/// smallest loss, as long as the number of combinations of rolls does not exceed `max_readings`.
 std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     std::array<int, kMaxRunLength> widths;
     widths.fill(1);
@@ -110,8 +110,8 @@ bool improve(CodeVariant code, const Lines& lines, int first, std::span<const st
     return best.is_clear();
 }
 
-/// Reads one run with up to `max_readings` combinations of the most likely rolls of its lines,
-/// until a reading is clear.
+/// Tries up to `max_readings` combinations of the most likely rolls of the lines of one run. Stops
+/// at the first clear reading.
 void try_run(CodeVariant code, const Lines& lines, int first, int length, int max_readings,
              AxisReading& best) {
     Run run;
@@ -137,8 +137,8 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
     }
 }
 
-/// Returns the first line of the run with the largest sum of margins among the runs not taken yet,
-/// or -1 if all runs are taken.
+/// Among the runs that are not taken yet, finds the run with the largest sum of margins. Returns
+/// the first line of this run, or -1 if all runs are taken.
 int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int largest = INT32_MIN;

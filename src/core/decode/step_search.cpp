@@ -14,8 +14,8 @@ constexpr std::size_t kSequences = 4;
 constexpr std::size_t kDigits = 3;
 constexpr std::size_t kStepSizes = code::kMaxDelta - code::kMinDelta + 1;
 
-/// Minimum loss of score, indexed by sequence and digit, if the step between two adjacent lines has
-/// this digit in this sequence.
+/// The losses of one step, indexed by secondary sequence and digit. Each element is the minimum
+/// loss of score if the step has this digit in this sequence.
 using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
 
 /// Returns the maximum, over all rolls, of the sum of the scores of two adjacent lines whose rolls
@@ -46,7 +46,7 @@ StepLosses losses_of(const LineScores& line, const LineScores& next) {
     return losses;
 }
 
-/// Number of most likely places of the first line that are kept in each secondary sequence.
+/// Number of most likely places of the first line to keep in each secondary sequence.
 constexpr std::size_t kChoices = tuning::step_search::kChoices;
 using Choices = std::array<std::uint32_t, kChoices>;
 
@@ -74,7 +74,7 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
     return places;
 }
 
-/// Returns the reading with the first line at `position` and the roll that has the highest score
+/// Returns the reading whose first line is at `position`. Selects the roll with the highest score
 /// over all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;

@@ -1,17 +1,17 @@
-// Step search: finds the position of an axis from the steps between all adjacent lines. A *step* is
-// the difference of the rolls of two adjacent lines. differs: the paper decodes each line
-// separately; docs/differs-from-paper.md.
+// Step search: finds the position on one axis from the steps between all adjacent lines. A *step*
+// is the difference between the rolls of two adjacent lines. differs: the paper decodes each line
+// separately. See docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/lines.hpp"
 
 namespace dotpose::core {
 
-/// Computes the loss of each digit of every step. From these losses, finds the places in each
-/// secondary sequence that agree best with all steps. Then evaluates all combinations of these
-/// places. Replaces `best` if a combination has a higher score. Also finds positions that the
-/// search by runs of lines misses, for example if graphics hide every sixth line or if no line has
-/// a clear roll.
+/// Computes the loss of score for each possible digit of each step. From these losses, finds the
+/// places in each secondary sequence that agree best with all steps. Then evaluates all
+/// combinations of these places, and replaces `best` if a combination has a higher score. Also
+/// finds positions that the search by runs of lines misses, for example if graphics hide every
+/// sixth line or if no line has a clear roll.
 void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

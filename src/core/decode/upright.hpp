@@ -12,10 +12,10 @@
 
 namespace dotpose::core {
 
-/// Signed weights of the bits of a line. Positive weights mean bit 1.
+/// Signed weights of the bits of a line. A positive weight favours the bit value 1.
 using Line = std::array<std::int8_t, kMaxGridSide>;
 
-/// Weights of the two bits of a symbol. Positive weights mean bit 1.
+/// Signed weights of the two bits of a symbol. A positive weight favours the bit value 1.
 struct Bits {
     std::int8_t x = 0;
     std::int8_t y = 0;
@@ -55,7 +55,7 @@ class Upright {
         };
         to_right_ = stride({1, 0});
         downwards_ = stride({0, 1});
-        // Selects the bit and the sign that `turned` gives every cell of a line.
+        // Selects the bit and the sign that `turned` uses for each cell of a line.
         x_bit_ = is_sideways() ? &GridCell::y : &GridCell::x;
         y_bit_ = is_sideways() ? &GridCell::x : &GridCell::y;
         x_sign_ = q == 0 || q == 1 ? 1 : -1;
@@ -67,11 +67,11 @@ class Upright {
     /// Returns the grid cell of the top left symbol.
     FixedVec corner() const { return corner_; }
 
-    /// Returns the weights of the x bits down a column.
+    /// Returns the weights of the x bits of a column, from top to bottom.
     std::span<const std::int8_t> column(int a, Line& line) const {
         return weights(first_ + a * to_right_, downwards_, rows(), x_bit_, x_sign_, line);
     }
-    /// Returns the weights of the y bits along a row.
+    /// Returns the weights of the y bits of a row, from left to right.
     std::span<const std::int8_t> row(int b, Line& line) const {
         return weights(first_ + b * downwards_, to_right_, columns(), y_bit_, y_sign_, line);
     }

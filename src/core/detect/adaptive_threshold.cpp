@@ -13,10 +13,10 @@ namespace dotpose::core {
 namespace {
 
 /// Half of a low threshold for which every pixel is dark. Stored after the last column as a
-/// sentinel, which ends the search for dark pixels.
+/// sentinel that ends the search for dark pixels.
 constexpr std::uint8_t kAlwaysDark = 128;
 
-constexpr int kBandsKept = 4;  // three are needed; a power of two is faster
+constexpr int kBandsKept = 4;  // three bands are needed, but a power of two is faster
 constexpr unsigned kContrastBins = 64;
 
 std::span<Tile> tiles_of(const AdaptiveThreshold& threshold, int band) {
@@ -24,7 +24,7 @@ std::span<Tile> tiles_of(const AdaptiveThreshold& threshold, int band) {
     return threshold.tiles.subspan(static_cast<std::size_t>(band & (kBandsKept - 1)) * n, n);
 }
 
-/// Copies whole blocks of kBlock bytes until fewer bytes remain before `end`. Advances both
+/// Copies blocks of kBlock bytes until fewer than kBlock bytes remain before `end`. Advances both
 /// pointers.
 template <std::size_t kBlock>
 void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_t*& to) {
@@ -37,8 +37,8 @@ void keep_row(const std::uint8_t* pixels, const AdaptiveThreshold& threshold, st
     const std::uint8_t* const end = pixels + threshold.width_px;
     std::uint8_t* const whole = row + whole_width(threshold);
     if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
-        // Copies blocks of constant size, which compilers inline. The `memcpy` of small devices
-        // would copy byte by byte.
+        // Copies blocks of constant size, because compilers inline these copies. The `memcpy`
+        // function of small devices copies byte by byte.
         copy_blocks<28>(pixels, end, row);
         copy_blocks<12>(pixels, end, row);
         copy_blocks<4>(pixels, end, row);
@@ -67,8 +67,8 @@ ThreeBands three_bands(const AdaptiveThreshold& threshold, int band) {
             band + 1 < band_count(threshold) ? tiles_of(threshold, band + 1).data() : here};
 }
 
-/// For each tile, computes the maximum mean and the maximum darkness of the tile and the tiles
-/// above and below this tile.
+/// Computes, for each tile, the maximum mean and the maximum darkness among the tile and the tiles
+/// above and below it.
 void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
                 std::uint8_t* darknesses) {
     for (std::size_t t = 0; t < count; ++t) {
@@ -101,7 +101,8 @@ inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     return column + kTileWidth_px;
 }
 
-/// Number of tiles for each ratio of contrast to paper level, in steps of 1/kContrastBins.
+/// Number of tiles for each ratio of contrast to paper level. The width of a bin is
+/// 1/kContrastBins.
 using Histogram = std::array<std::uint16_t, kContrastBins>;
 
 /// Adds each tile with at least `min_contrast` to the histogram, and sets the mean of all other
@@ -131,7 +132,8 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
 /// Returns the contrast of the dots of a band relative to the paper level, in 1/256, or 0 if no
 /// tile has contrast. Ink reflects the same fraction of the light everywhere, so all tiles have the
 /// same relative contrast. Strokes of graphics increase the contrast of the tiles around the
-/// strokes. The 30 % quantile over a band is the contrast of dots even if strokes cross the band.
+/// strokes. The result is the 30 % quantile of the tiles, which is the contrast of dots even if
+/// strokes cross the band.
 unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                              int min_contrast, int& max_contrast) {
     Histogram histogram{};
@@ -199,8 +201,8 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold) {
 
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold) {
     const auto tiles = static_cast<std::size_t>(threshold.tiles_per_band);
-    // Before the levels of the columns are set, their memory stores one value per tile. The paper
-    // levels are at the end of the memory, which is overwritten last.
+    // The memory for the column levels is first used to store one value per tile. The paper levels
+    // are stored at the end of this memory, which `set_levels` overwrites last.
     std::uint8_t* const papers = threshold.half_low_levels.data() + whole_width(threshold) - tiles;
     std::uint8_t* const darknesses = threshold.high_levels.data();
     join_bands(three_bands(threshold, band), tiles, papers, darknesses);

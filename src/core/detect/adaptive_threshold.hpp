@@ -1,6 +1,7 @@
 // Adaptive threshold: measures the paper level and the contrast of tiles, and sets the thresholds
-// of each column. First half of the thresholding of paper section II-B.1. differs: the paper uses
-// one global threshold, but LEDs next to a wide-angle lens never light the sheet evenly.
+// of each column. Implements the first half of the thresholding of paper section II-B.1. differs:
+// the paper uses one global threshold, but LEDs next to a wide-angle lens never light the sheet
+// evenly.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +14,16 @@
 namespace dotpose::core {
 
 /// Width and height of the tiles of the adaptive threshold. The height is kLowTile_px for images
-/// whose shorter side is at most `kMaxSideWithLowTiles_px`, and kHighTile_px for larger images. Any
-/// three adjacent tiles must contain a part of a dot. If at least 8 dots are visible along the
-/// shorter side, the spacing is at most 1/8 of this side.
+/// whose shorter side is at most `kMaxSideWithLowTiles_px`, and kHighTile_px for larger images.
+/// Three adjacent tiles must always contain a part of a dot. The sizes assume that at least 8 dots
+/// are visible along the shorter side, and that the spacing is therefore at most 1/8 of this side.
 inline constexpr int kTileWidth_px = 16;
 inline constexpr int kLowTile_px = 8;
 inline constexpr int kHighTile_px = 16;
 inline constexpr int kMaxSideWithLowTiles_px = 240;
-/// Number of bytes that the search for dark pixels may read after the last row and after the last
-/// low threshold. The bytes after the last row may have any value. The bytes after the last low
-/// threshold contain a sentinel.
+/// Number of bytes that the search for dark pixels may read beyond the end of the last row and
+/// beyond the end of the low thresholds. The bytes beyond the last row may have any value. The
+/// bytes beyond the low thresholds contain a sentinel.
 inline constexpr int kReadAhead_px = 8;
 
 /// Grey levels of one tile, measured in every fourth row.
@@ -53,12 +54,12 @@ struct AdaptiveThreshold {
     std::span<std::uint8_t> high_levels;
 };
 
-/// Starts a frame.
+/// Starts a new frame.
 void begin_threshold(int width_px, int height_px, AdaptiveThreshold& threshold);
 
 /// Stores the next row. Measures the tiles of a band after its last row. Returns the number of
-/// bands that this row makes ready for thresholding: 0 or 1, and up to 2 for the last row of the
-/// image.
+/// bands that become ready for thresholding with this row: 0 or 1, or up to 2 for the last row of
+/// the image.
 int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold);
 
 /// Sets `threshold.half_low_levels` and `threshold.high_levels` for one band from its tiles and the
@@ -66,8 +67,8 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold);
 /// a band as ready.
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold);
 
-/// Returns the minimum contrast, in grey levels, of tiles of the next band that are not blank. The
-/// minimum increases with the largest contrast so far, from `options.min_contrast` to twice this
+/// Returns the contrast, in grey levels, below which a tile of the next band counts as blank. The
+/// result increases with the largest contrast so far, from `options.min_contrast` to twice this
 /// value. This rejects noise in blank tiles as soon as tiles with dots have been measured.
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold);
 
@@ -82,12 +83,12 @@ inline int band_begin(const AdaptiveThreshold& threshold, int band) {
 inline int band_end(const AdaptiveThreshold& threshold, int band) {
     return std::min((band + 1) * threshold.band_px, threshold.height_px);
 }
-/// Returns the width of all tiles of a band, which is the distance between stored rows.
+/// Returns the total width of the tiles of a band, which is also the stride of the stored rows.
 inline int whole_width(const AdaptiveThreshold& threshold) {
     return threshold.tiles_per_band * kTileWidth_px;
 }
 /// Returns a stored row of one of the two newest bands. The row is extended to whole tiles by
-/// repetition of its last pixel, and begins at a multiple of 8 bytes.
+/// repeating its last pixel, and is aligned to 8 bytes.
 inline std::uint8_t* kept_row(const AdaptiveThreshold& threshold, int v) {
     const int slot = v & (2 * threshold.band_px - 1);
     return threshold.rows.data() + slot * whole_width(threshold);

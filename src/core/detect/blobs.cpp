@@ -23,8 +23,8 @@ int all_within_px(const AdaptiveThreshold& threshold) {
     return std::max(threshold.width_px, threshold.height_px);
 }
 
-/// Predicate: true if the distance of a dot from the image centre, along both axes, is at most
-/// `DotList::kept_within_px`.
+/// Predicate that returns true if the distance of a dot from the image centre, along both axes, is
+/// at most `DotList::kept_within_px`.
 struct IsKept {
     FixedVec image_centre_q8;
     std::int32_t within_q8;
@@ -37,8 +37,9 @@ struct IsKept {
     }
 };
 
-/// Removes all dots that do not satisfy the predicate, and keeps the order. std::remove_if is not
-/// used, because libraries unroll it, which takes a kilobyte on small devices.
+/// Removes all dots that do not satisfy the predicate, and preserves the order of the remaining
+/// dots. Does not use std::remove_if, because standard libraries unroll it, which costs a kilobyte
+/// of code on small devices.
 template <typename Predicate>
 void keep_dots(DotList list, Predicate is_to_keep) {
     DetectedDot* kept = list.dots.data();
@@ -51,8 +52,8 @@ void keep_dots(DotList list, Predicate is_to_keep) {
 }
 
 /// Reduces `kept_within_px`, and removes the dots beyond the new distance from the image centre, to
-/// make room for inner dots. Returns false if `kept_within_px` is already 0. Not inlined, because
-/// small devices need their registers for the frequent path of the caller.
+/// make room for dots nearer the centre. Returns false if `kept_within_px` is already 0. Not
+/// inlined, because the frequent path of the caller needs the registers of small devices.
 [[gnu::noinline]] bool make_room(const AdaptiveThreshold& threshold, DotList list) {
     if (list.kept_within_px == 0) return false;
     list.kept_within_px -= list.kept_within_px / 8 + 1;
@@ -85,7 +86,7 @@ void close_blob(const OpenBlob& blob, const AdaptiveThreshold& threshold, DotLis
          blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
         static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
         static_cast<std::uint16_t>(blob.area_px)};
-    // Until the list is full for the first time, all dots are kept, without comparing distances.
+    // Until the list is full for the first time, keeps all dots without comparing distances.
     while (list.kept_within_px == all_within_px(threshold) || IsKept(threshold, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
             list.dots[static_cast<std::size_t>(list.count++)] = dot;
@@ -161,8 +162,8 @@ void end_row(Run& after_last) {
 }
 
 /// Adds each run of row `v` to the blob of the runs above that touch it. Runs that meet only at a
-/// corner also touch. Merges the blobs of runs above that touch the same run. Opens a new blob for
-/// a run that touches no run above, or only runs without a blob.
+/// corner also touch (8-connectivity). Merges the blobs of runs above that touch the same run.
+/// Opens a new blob for a run that touches no run above, or only runs without a blob.
 void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
     bool some_united = false;
     for (Run& run : below) {
@@ -194,22 +195,23 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
         run.blob = whole(run.blob);
 }
 
-/// Closes the blobs of the row above that do not continue in row `v`, and adds them to the list if
-/// they may be dots. Also frees the blobs that were merged into other blobs.
+/// Closes the blobs of the row above that do not continue in row `v`, and adds the closed blobs
+/// that may be dots to the list. Also frees the blobs that were merged into other blobs.
 void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& threshold,
                  OpenBlobs& open, DotList list) {
     for (const Run& run : above) {
         OpenBlob* const blob = run.blob;
         if (blob == nullptr || blob->last_v == v) continue;
         if (blob->part_of == nullptr) close_blob(*blob, threshold, list);
-        blob->last_v = static_cast<std::uint16_t>(v);  // skips other runs of this blob
+        blob->last_v = static_cast<std::uint16_t>(v);  // skips the other runs of this blob
         blob->part_of = open.first_unused;
         open.first_unused = blob;
     }
 }
 
-/// Returns the upper quartile of a member over a sample of the blobs in the list. There may be as
-/// many blobs of noise as dots, but few blobs are larger than dots.
+/// Returns the upper quartile of a member over a sample of the blobs in the list. The upper
+/// quartile is typical of dots even if half of the blobs are noise, because few blobs are larger
+/// than dots.
 std::int32_t typical(std::span<const DetectedDot> dots, std::uint16_t DetectedDot::*member) {
     constexpr std::size_t kSample = 128;
     const std::size_t step = dots.size() / kSample + 1;

@@ -13,8 +13,9 @@
 
 namespace dotpose::core {
 
-/// A blob that may continue in the next row, as sums over its pixels. The sums are modulo 2^32. For
-/// blobs small enough to be dots, the sums are exact relative to the corner of the blob.
+/// A blob that may continue in the next row, represented by sums over its pixels. The sums are
+/// computed modulo 2^32. For blobs that are small enough to be dots, the sums relative to the
+/// corner of the blob are exact.
 struct OpenBlob {
     std::uint32_t sum_x = 0;  ///< sum of weight times u
     std::uint32_t sum_y = 0;  ///< sum of weight times v
@@ -24,19 +25,20 @@ struct OpenBlob {
     std::uint16_t right = 0;  ///< exclusive
     std::uint16_t first_v = 0;
     std::uint16_t last_v = 0;
-    /// The blob into which this blob was merged. In the list of unused blobs, the next unused blob.
+    /// The blob into which this blob was merged, or null. For an unused blob, the next blob in the
+    /// list of unused blobs.
     OpenBlob* part_of = nullptr;
     bool passes_high = false;  ///< true if a pixel is darker than the high threshold
 };
 
 /// Blobs that have pixels in the newest thresholded row.
 struct OpenBlobs {
-    /// Runs of the newest row and of the row above, one row in each half. A sentinel run ends each
-    /// row.
+    /// Runs of the newest row and of the row above it. Each half of the span contains the runs of
+    /// one row, followed by a sentinel run.
     std::span<Run> runs;
     int run_count = 0;
     bool newest_in_second_half = false;
-    int max_runs = INT32_MAX;  ///< maximum number of runs per image; all later runs are ignored
+    int max_runs = INT32_MAX;  ///< maximum number of runs per image; further runs are ignored
     int runs_left = 0;
     std::span<OpenBlob> blobs;
     std::size_t blobs_begun = 0;  ///< number of elements of `blobs` that this image has used so far
@@ -50,7 +52,7 @@ struct DotList {
     int& kept_within_px;  ///< distance from the image centre, per axis, within which dots are kept
 };
 
-/// Starts a frame: discards all blobs and dots.
+/// Starts a new frame and discards all blobs and dots.
 void begin_blobs(const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
 /// Finds the runs of row `v` with `threshold.half_low_levels` and `threshold.high_levels`, and
@@ -60,7 +62,8 @@ void grow_blobs(int v, const AdaptiveThreshold& threshold, OpenBlobs& open, DotL
 
 /// Removes blobs with too few pixels, with a mass far below the upper quartile of the masses, or
 /// with an area far above the upper quartile of the areas. Paper section II-B.1 ("only blobs with
-/// sufficient pixels are retained"). Limits relative to the upper quartiles suit any spacing.
+/// sufficient pixels are retained"). Limits relative to the upper quartiles are suitable for any
+/// spacing.
 void sift_dots(const BlobOptions& options, DotList list);
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// Inverses: division by multiplication, for processors without a divider.
+// Inverses: replaces divisions with multiplications, for processors without a divide instruction.
 #pragma once
 
 #include <cstdint>

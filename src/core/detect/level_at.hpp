@@ -1,5 +1,5 @@
-// Level at: the grey level of an image at a sub-pixel point, as a weighted mean over a small
-// window.
+// Level at: the grey level of an image at a sub-pixel point, computed as a weighted mean over a
+// small window.
 #pragma once
 
 #include "dotpose/geometry.hpp"
@@ -10,9 +10,9 @@ namespace dotpose::core {
 /// Returns true if the image has pixels on both sides of the point along both axes.
 bool shows_level(const ImageView& image, FixedVec point_q8);
 
-/// Returns the grey level at a point, in units of 2^-8: the mean of 4 x 4 pixels, weighted with the
-/// binomial (1 2 1), which is centred on the point along both axes. Defective pixels are corrected.
-/// Requires `shows_level`.
+/// Returns the grey level at a point, in units of 2^-8. The level is the mean of 4 x 4 pixels,
+/// weighted with a 1-2-1 binomial filter that is centred on the point along both axes. Defective
+/// pixels are corrected. Requires `shows_level`.
 int level_at_q8(const ImageView& image, FixedVec point_q8);
 
 }  // namespace dotpose::core

@@ -33,13 +33,14 @@ struct PixelBox {
     int pixels() const { return columns() * rows(); }
 };
 
-/// A summed-area table (Crow 1984), which provides the sum of the grey levels of any box within
-/// `all`.
+/// A summed-area table (Crow 1984). Provides the sum of the grey levels of any box within the area
+/// of the table.
 class LevelSums {
   public:
     static constexpr int kMaxSide_px = 48;
 
-    /// `all` has at most kMaxSide_px rows and columns.
+    /// Constructs the table for the area `all`, which must have at most kMaxSide_px rows and
+    /// columns.
     LevelSums(const ImageView& image, const PixelBox& all) : left_(all.left), top_(all.top) {
         std::fill_n(sums_[0].begin(), all.columns() + 1, 0U);
         for (int j = 0; j < all.rows(); ++j) {

@@ -11,35 +11,37 @@
 
 namespace dotpose::core {
 
-/// Paper levels of the square blocks of an image.
+/// The paper levels of an image, which is divided into square blocks.
 struct PaperMap {
     int block_px = 0;
     int columns = 0;
     int rows = 0;
     std::span<std::uint8_t> levels;  ///< paper levels of the blocks, row by row
-    /// For each block, the brightest level of the block and of the eight blocks around it.
+    /// For each block, the brightest level among the block and the eight blocks around it.
     std::span<std::uint8_t> brightest;
 };
 
-/// Measures the paper level of each block: the grey level that a third of a sample of the pixels of
-/// the block reach or exceed. A block that is much darker than the brightest of the blocks around
-/// it is mostly covered by graphics, so the brightest level replaces its level. The side of a block
-/// is a tenth of the shorter side of the image.
+/// Measures the paper level of each block. The paper level is the grey level that a third of the
+/// sampled pixels of the block reach or exceed. A block that is much darker than the brightest of
+/// the blocks around it is assumed to be covered by graphics. Its level is replaced with the
+/// brightest level. The side of a block is a tenth of the shorter side of the image.
 void measure_paper(const ImageView& image, PaperMap& map);
 
-/// Returns the index of the block of a pixel. Pixels outside the image belong to the nearest block.
+/// Returns the index of the block that contains a pixel. Pixels outside the image belong to the
+/// nearest block.
 inline std::size_t block_at(const PaperMap& map, int u, int v) {
     const int column = std::clamp(u / map.block_px, 0, map.columns - 1);
     const int row = std::clamp(v / map.block_px, 0, map.rows - 1);
     return static_cast<std::size_t>(row * map.columns + column);
 }
 
-/// Returns the brightest paper level of the block of a pixel and of the eight blocks around it.
+/// Returns the brightest paper level among the block that contains a pixel and the eight blocks
+/// around it.
 inline int brightest_paper_near(const PaperMap& map, int u, int v) {
     return map.brightest[block_at(map, u, v)];
 }
 
-/// Returns the paper level of the block of a pixel. The level is at least 1.
+/// Returns the paper level of the block that contains a pixel. The level is at least 1.
 inline int paper_at(const PaperMap& map, int u, int v) {
     return map.levels[block_at(map, u, v)];
 }

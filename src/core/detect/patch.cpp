@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::patch;
 
-/// Returns 2^24 / (n + 1), rounded up. The values are tabulated, because the divisions for all
-/// tiles would take a microsecond.
+/// Returns 2^24 / (n + 1), rounded up. The values are tabulated, because a division for each tile
+/// would take a microsecond in total.
 constexpr std::uint32_t reciprocal_q24(std::uint32_t n) {
     return ((1U << 24) + n) / (n + 1);
 }
@@ -27,7 +27,7 @@ std::size_t relative_darkness(int darkness, int paper) {
         24);
 }
 
-/// Returns the beginning of an interval of `length` px around `centre`, which is shifted to be
+/// Returns the start of an interval of `length` px around `centre`. The interval is shifted to be
 /// inside [0, size).
 int begin_of(int centre, int length, int size) {
     return std::clamp(centre - length / 2, 0, size - length);
@@ -51,8 +51,8 @@ bool measure_contrast(Patch& patch) {
     const auto tile = [](int column, int row) {
         return static_cast<std::size_t>(row * Patch::kTilesPerRow + column);
     };
-    // Number of tiles, indexed by the ratio of their darkness to their paper level in units of
-    // 1/64. The last bin counts tiles without contrast.
+    // Histogram of the tiles by the ratio of darkness to paper level, in units of 1/64. The last
+    // bin counts tiles without contrast.
     constexpr std::size_t kFlat = 65;
     std::array<int, kFlat + 1> counts{};
     for (int row = 0; row < rows; ++row) {
@@ -72,7 +72,8 @@ bool measure_contrast(Patch& patch) {
     patch.dot_contrast_q8 = 4 * static_cast<int>(median) + 2;
     const int contrast_q16 = patch.dot_contrast_q8 * tuned::kThreshold_q8;
     for (int row = 0; row < rows; ++row) {
-        // Computes the thresholds of a whole row, including unused tiles, as one vector.
+        // Computes the thresholds of a whole row of tiles, including unused tiles, in one vector
+        // operation.
         const auto paper = std::span(patch.brightest).subspan(tile(0, row), Patch::kTilesPerRow);
         std::array<std::uint8_t, Patch::kTilesPerRow> thresholds;
         for (std::size_t i = 0; i < thresholds.size(); ++i)

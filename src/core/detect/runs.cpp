@@ -26,8 +26,9 @@ bool is_group_light(const std::uint8_t* pixels, const std::uint8_t* half_low_lev
     return tops == kTops;
 }
 
-/// Returns the first dark pixel of a row at or after `begin`. The sentinel after the end of the
-/// row, a threshold for which every pixel is dark, ends the search.
+/// Returns the first dark pixel of a row at or after `begin`, or the end of the row. The search
+/// never continues beyond the end of the row, because the threshold after the end is a sentinel for
+/// which every pixel is dark.
 const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row,
                               const std::uint8_t* half_low_levels) {
     const auto before = static_cast<std::size_t>(begin - row) % kWord_px;
@@ -59,8 +60,8 @@ const std::uint8_t* write_run(const std::uint8_t* pixel, const std::uint8_t* row
     run.begin = static_cast<std::uint16_t>(pixel - row);
     bool passes_high = false;
     std::uint32_t mass = 0;
-    // Sum of depth * (last column - column): the depth of a pixel is added again for every pixel
-    // that follows.
+    // Sum of depth * (last column - column). Computed by adding the depth of each pixel once for
+    // every pixel that follows.
     std::uint32_t moment = 0;
     const std::uint8_t* tile_end = nullptr;
     do {

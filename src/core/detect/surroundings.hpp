@@ -27,9 +27,9 @@ inline LevelRange range_around(const ImageView& image, int u, int v) {
     return range;
 }
 
-/// Returns the level of a pixel, or the mean level of its neighbours if the pixel is defective: if
-/// its level is outside the range of its eight neighbours by more than a quarter of their maximum.
-/// The pixel must not be on the border.
+/// Returns the level of a pixel, or the mean level of its neighbours if the pixel is defective. A
+/// pixel is defective if its level is outside the range of its eight neighbours by more than a
+/// quarter of their maximum. The pixel must not be on the border.
 inline int without_defect(const ImageView& image, int u, int v) {
     const auto [low, high] = range_around(image, u, v);
     const int level = image.row(v)[u];

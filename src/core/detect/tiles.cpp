@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Row step: every kRowsEvery-th row is measured. At least some dots of a tile extend over a
-/// measured row.
+/// Row subsampling step: every kRowsEvery-th row of a band is measured. At least some of the dots
+/// in a tile extend over a measured row.
 constexpr int kRowsEvery = 4;
 
 /// The measured rows of a band.
@@ -20,8 +20,8 @@ struct Rows {
 
     Rows(int band, const AdaptiveThreshold& threshold) {
         const int rows = band_end(threshold, band) - band_begin(threshold, band);
-        // The measured rows are centred in the band. In a last band of one or two rows, the first
-        // row is measured.
+        // The measured rows are centred in the band. If the last band has only one or two rows, its
+        // first row is measured.
         const int first = rows > kRowsEvery / 2 ? kRowsEvery / 2 : 0;
         begin = kept_row(threshold, band_begin(threshold, band) + first);
         stride = kRowsEvery * whole_width(threshold);
@@ -29,7 +29,7 @@ struct Rows {
     }
 };
 
-/// Converts the sums of tiles to means.
+/// Converts sums over the pixels of a tile to means.
 class Means {
   public:
     explicit Means(int rows) {
@@ -62,7 +62,7 @@ constexpr Word excess_of_pairs(Word a, Word b) {
     return difference & (is_positive - (is_positive >> 15));
 }
 
-/// Returns the minimum of all fields without their top bits, which must be set.
+/// Returns the minimum of all fields, without the top bits. The top bits of all fields must be set.
 constexpr std::uint32_t min_of_pairs(Word pairs) {
     for (std::size_t shift = 4 * sizeof pairs; shift >= 16; shift /= 2)
         pairs -= excess_of_pairs(pairs, pairs >> shift & ~kPairTops);

@@ -10,7 +10,7 @@ namespace dotpose::core {
 /// Returns the undistorted image point of an image point, by eq. 1-2.
 FixedVec undistorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8);
 
-/// Replaces the centres of dots with their undistorted points.
+/// Replaces the centres of dots with the undistorted image points.
 void undistort(const FixedLens& lens, FixedVec image_centre_q8, std::span<DetectedDot> dots);
 
 /// Returns the distorted image point of an undistorted image point, by the inverse of eq. 2: r_d =

@@ -11,13 +11,13 @@ namespace dotpose::core {
 
 using Word = std::size_t;
 
-/// Returns the word with this value in every byte.
+/// Returns a word in which every byte has the value `byte`.
 constexpr Word in_all_bytes(std::uint8_t byte) {
     return static_cast<Word>(0x0101010101010101) * byte;
 }
 
-/// The top bit of every byte. Comparisons use half of each level, which fits in the seven lower
-/// bits, and store their result in the top bit.
+/// Mask of the top bit of every byte. Comparisons use half of each grey level, which fits in the
+/// seven lower bits, and store their result in the top bit.
 inline constexpr Word kTops = in_all_bytes(0x80);
 
 /// Loads a word. `pixels` must be aligned to the size of a word.

@@ -1,5 +1,4 @@
-// Normal equations of a least-squares problem in single precision, solved by Cholesky
-// decomposition.
+// Normal equations: a least-squares problem in single precision, solved by Cholesky decomposition.
 #pragma once
 
 #include <array>
@@ -10,8 +9,8 @@
 
 namespace dotpose::core {
 
-/// The normal equations M p = right of N parameters p. `decompose` replaces M by its Cholesky
-/// factor L, with M = L L^T. Rows are computed four at a time.
+/// The normal equations M p = right of N parameters p. `decompose` replaces M with its Cholesky
+/// factor L, where M = L L^T. Rows are computed four at a time.
 template <std::size_t N>
 class NormalEquations {
   public:
@@ -21,8 +20,8 @@ class NormalEquations {
     void set(std::size_t row, std::size_t column, float number) {
         columns_[column].set(row, number);
     }
-    /// Adds an equation, given its derivatives with respect to the parameters, its residual and its
-    /// weight.
+    /// Adds an equation with a residual, the derivatives of the equation with respect to the
+    /// parameters, and a weight.
     void add(const Vector& derivatives, float residual, float weight) {
         const Column all(derivatives);
         for (std::size_t i = 0; i < N; ++i) {
@@ -39,9 +38,9 @@ class NormalEquations {
             columns_[i].set(i, columns_[i].at(i) * by);
     }
 
-    /// Replaces M by L. Leaves out a parameter if elimination of the preceding parameters reduces
-    /// its diagonal element to `min_determined` times its original value or less. Returns false if
-    /// one of the first `required` parameters is left out.
+    /// Replaces M with L. Excludes a parameter if the elimination of the preceding parameters
+    /// reduces its diagonal element to `min_determined` times the original value or less. Returns
+    /// false if one of the first `required` parameters is excluded.
     bool decompose(float min_determined, std::size_t required) {
         Vector minima;
         for (std::size_t i = 0; i < N; ++i)
@@ -49,7 +48,7 @@ class NormalEquations {
         for (std::size_t i = 0; i < N; ++i) {
             Column& column = columns_[i];
             // If no equation contains a parameter, its diagonal element is 0, and the parameter is
-            // also left out.
+            // also excluded.
             if (!(column.at(i) > minima[i])) {
                 if (i < required) return false;
                 leave_out(i);
@@ -65,9 +64,9 @@ class NormalEquations {
         return true;
     }
 
-    // The following functions require `decompose`.
+    // The following functions may be called only after `decompose`.
 
-    /// Returns true if `decompose` did not leave out the parameter.
+    /// Returns true if `decompose` did not exclude the parameter.
     bool determines(std::size_t parameter) const { return columns_[parameter].at(parameter) > 0; }
     /// Returns an element of L.
     float factor(std::size_t row, std::size_t column) const { return columns_[column].at(row); }
@@ -84,8 +83,8 @@ class NormalEquations {
     }
     /// Returns L^-T `vector`.
     Vector unwhitened(const Vector& vector) const {
-        // The product with the element that was computed last is subtracted last. The other
-        // products then do not wait for this element.
+        // Subtracts the product with the most recently computed element last. The other products do
+        // not have to wait for this element.
         Vector result{};
         for (std::size_t i = N; i-- > 0;) {
             float rest = vector[i];
@@ -107,7 +106,8 @@ class NormalEquations {
     Vector solution() const { return unwhitened(whitened(right_)); }
 
   private:
-    /// A column of M or L, stored in whole vectors. Columns of L are 0 above the diagonal.
+    /// A column of M or L, stored in vectors of four elements. Columns of L are 0 above the
+    /// diagonal.
     class Column {
       public:
         Column() = default;

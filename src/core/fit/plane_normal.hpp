@@ -1,5 +1,5 @@
 // Plane normal: the normal equations for the least-squares fit of a plane with perspective, shear
-// and lens, in single precision.
+// and lens distortion, in single precision.
 #pragma once
 
 #include "core/fit/normal_equations.hpp"
@@ -8,14 +8,14 @@
 
 namespace dotpose::core {
 
-/// Residuals of four points, in spacings, with their weights. Points of weight 0 are left out.
+/// Residuals of four points, in spacings, with their weights. Points with weight 0 are ignored.
 struct Residuals {
     FourVecs offset;
     Four weight;
 };
 
-/// Weighted sums over points and their residuals, from which the elements of the normal equations
-/// are computed.
+/// Weighted sums over points and their residuals. The elements of the normal equations are computed
+/// from these sums.
 class PlaneSums {
   public:
     void add(const FourVecs& places, const Residuals& residuals);

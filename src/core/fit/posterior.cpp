@@ -14,8 +14,8 @@ using Pair = std::array<float, 2>;
 
 using Symmetric = Symmetric2<float>;
 
-/// Returns the prior covariance of the whitened terms, in units of the noise variance, if the
-/// variance of each term before whitening is 1.
+/// Returns the prior covariance of the whitened terms, in units of the noise variance, for terms
+/// that have a variance of 1 before whitening.
 Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, float variance) {
     const std::size_t i = terms.first;
     const float scale = 1 / variance;
@@ -26,14 +26,14 @@ Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, flo
     return {(a * a + b * b) * scale, b * c * scale, c * c * scale};
 }
 
-/// Posterior of the terms under one component of the prior.
+/// Posterior of the terms for one component of the prior.
 struct PosteriorOfKind {
     /// Precision (inverse covariance) of the sum of terms and noise, in units of the precision of
     /// the noise.
     Symmetric precision;
     Pair mean;
     float distance;  ///< squared Mahalanobis distance of the fitted terms from 0
-    /// Prior probability of the component, or its posterior probability after `weigh`.
+    /// Prior probability of the component. `weigh` replaces it with the posterior probability.
     float probability;
 
     PosteriorOfKind() = default;

@@ -1,7 +1,7 @@
-// Posterior: estimates the distortion terms by Bayes' rule, which shrinks the fitted terms towards
-// 0. The terms are 0 for a camera straight above flat paper. Fitting a tilt that is not present
-// costs accuracy, and so does omitting a tilt that is present. The amount of shrinkage depends on
-// the probability that a tilt is present. differs: the paper has no such terms.
+// Posterior: estimates the distortion terms with Bayes' rule, which shrinks the fitted terms
+// towards 0. The terms are 0 for a camera that looks straight at flat paper. Fitting a tilt that is
+// not present costs accuracy, as does omitting a tilt that is present. The amount of shrinkage
+// depends on the probability that a tilt is present. differs: the paper has no such terms.
 #pragma once
 
 #include <array>
@@ -16,21 +16,21 @@ namespace dotpose::core {
 struct DistortionPrior {
     struct Kind {
         float probability;
-        float deviation;  ///< standard deviation of each term, in `unit` of `posterior_of`
+        float deviation;  ///< standard deviation of each term, relative to `unit` of `posterior_of`
     };
     std::size_t first;  ///< index of the first term in `Parameters`
     std::size_t count;  ///< number of terms, 1 or 2
     std::array<Kind, 3> kinds;
 };
 
-/// Posterior of the whitened terms, given one frame. The second term is 0 if there is only one
-/// term.
+/// Posterior of the whitened terms, given the dots of one frame. The second term is 0 if there is
+/// only one term.
 struct Posterior {
     std::array<float, 2> mean;
     std::array<std::array<float, 2>, 2> covariance;
 };
 
-/// Returns the posterior by Bayes' rule. `whitened` contains the fitted terms, as returned by
+/// Computes the posterior with Bayes' rule. `whitened` contains the fitted terms, as returned by
 /// normal.times_transposed. `variance` is the noise variance of each element of `whitened`. `unit`
 /// is the unit of the standard deviations of the prior.
 Posterior posterior_of(const DistortionPrior& terms, const PlaneNormal& normal,

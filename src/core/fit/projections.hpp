@@ -10,10 +10,10 @@
 
 namespace dotpose::core {
 
-/// Parameters of a plane, the most important first: at_centre (x, y), scale, rotation, perspective
-/// (x, y), shear (2), lens. The value of each parameter is its effect, in spacings, at a place one
-/// unit from the origin. kTilt, kShear and kBend are the indices of the first parameter of
-/// perspective, shear and lens.
+/// Parameters of a plane, in order of decreasing importance: at_centre (x, y), scale, rotation,
+/// perspective (x, y), shear (two parameters), lens distortion. The value of each parameter is its
+/// effect, in spacings, at a place one unit from the origin. kTilt, kShear and kBend are the
+/// indices of the first parameter of perspective, shear and lens distortion.
 constexpr std::size_t kPoseParameters = 9;
 constexpr std::size_t kTilt = 4;
 constexpr std::size_t kShear = 6;
@@ -27,14 +27,14 @@ struct FourVecs {
 };
 
 /// Returns the derivatives of x and of y with respect to all parameters, at one of four places. In
-/// pattern coordinates, the derivatives are polynomials of the place: (place . (1, 0)) place and
-/// (place . (0, 1)) place for perspective, and (place . place) place for the lens.
+/// pattern coordinates, the derivatives are polynomials in the place: (place . (1, 0)) place and
+/// (place . (0, 1)) place for perspective, and (place . place) place for lens distortion.
 std::array<Parameters, 2> jacobian(const FourVecs& places, std::size_t point);
 
 /// A plane with parameters that act on the pattern instead of the image. Changes of scale,
 /// rotation, perspective and shear are exact at any tilt. Places on the pattern are relative to the
 /// plane's `at`, in units of its scale. With this unit, the derivatives with respect to all
-/// parameters have similar sizes, and single precision suffices.
+/// parameters have similar magnitudes, so single precision is sufficient.
 class ScaledPlane {
   public:
     ScaledPlane(const FloatPlane& plane, float reach_px);
@@ -43,8 +43,9 @@ class ScaledPlane {
     /// centre.
     FourVecs project(Four x_px, Four y_px) const;
 
-    /// Returns perspective, shear and lens relative to a camera that looks straight at the sheet.
-    /// The other parameters are 0.
+    /// Returns the parameters of perspective, shear and lens distortion, which are 0 for a camera
+    /// without distortion that looks straight at the sheet. The other parameters in the result are
+    /// 0.
     Parameters distortions() const;
     /// Returns the unit of places, in spacings: the length on the pattern that corresponds to
     /// `reach_px`.

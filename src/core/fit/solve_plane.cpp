@@ -18,7 +18,7 @@ constexpr std::array<DistortionPrior, 3> kTerms{{
 }};
 
 /// Shrinks the distortion terms of a step to their posterior means. `whole` contains the whitened
-/// terms of the plane after the step without shrinkage. Sets the covariance of `fit`.
+/// terms that the plane would have after the step without shrinkage. Sets the covariance of `fit`.
 void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
     fit.covariance = {};
     for (std::size_t i = 0; i < kTilt; ++i)
@@ -60,7 +60,7 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
     constexpr float kExact = 1e-12F;
     fit.variance = std::max(residual_squares / static_cast<float>(freedom), kExact);
-    // Adds the step to the terms of the current plane in whitened form, in which the errors of all
+    // Adds the step to the terms of the current plane. Both are whitened, so the errors of all
     // terms are independent and have the variance `fit.variance`.
     Parameters whole = normal.times_transposed(distortions);
     for (std::size_t i = 0; i < kPoseParameters; ++i)

@@ -1,5 +1,5 @@
-// Solve: one Gauss-Newton step to the least-squares plane. Shrinks the distortion terms according
-// to the probability that distortion is present.
+// Solve plane: computes one Gauss-Newton step towards the least-squares plane. Shrinks the
+// distortion terms according to the probability that distortion is present.
 #pragma once
 
 #include <array>
@@ -23,16 +23,16 @@ struct PoseFit {
     std::array<std::array<float, 3>, 3> uneven{};
 };
 
-/// Returns the plane for the computation of a step. Its `at_centre` is set to 0, because
+/// Returns the plane from which a step is computed. The `at_centre` of this plane is 0, because
 /// `at_centre` may need more bits than a float has.
 ScaledPlane scaled_from_centre(const PlaneFromImage& plane, int reach_px);
 /// Returns the plane after a step. `scaled` is the result of `scaled_from_centre` for the plane.
 PlaneFromImage stepped(const PlaneFromImage& plane, const ScaledPlane& scaled,
                        const Parameters& step);
 
-/// Solves the normal equations of `fit` for the step to the least-squares plane, and shrinks the
-/// distortion terms to their posterior means. `distortions` contains the distortion terms of the
-/// current plane, and `unit` is the scale of the current plane. Sets the number of dots, the
+/// Solves the normal equations of `fit` for the step towards the least-squares plane, and shrinks
+/// the distortion terms to their posterior means. `distortions` contains the distortion terms of
+/// the current plane, and `unit` is the scale of the current plane. Sets the number of dots, the
 /// variance, the squares and the covariance of `fit`. Sets `moved` to the squared length of the
 /// step in units of the standard deviation of the pose. Returns false if the dots do not determine
 /// the plane.

@@ -1,5 +1,5 @@
-// Alternatives: the summed odds of all positions other than the position read. Most of the sum is
-// due to positions that share lines with the position read. docs/integrity.md derives the sum.
+// Alternatives: the summed odds of all positions other than the reading. Most of the sum is due to
+// positions that share lines with the reading. docs/integrity.md derives the sum.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -7,11 +7,10 @@
 namespace dotpose::core {
 
 /// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up to an
-/// integer and clamped to at most 0. Far alternatives differ from the position read in several
-/// sequences and share few adjacent lines. The sum contains the expected odds of the far
-/// alternatives that are not counted one by one. All other odds, including those of the
-/// alternatives counted one by one, are exact or upper bounds. The sum is only as precise as a
-/// comparison with 2^limit_log2 requires. Returns 0 if there are at most 5 lines.
+/// integer and clamped to at most 0. Far alternatives differ from the reading in several sequences
+/// and share few adjacent lines. A far alternative contributes its expected odds, unless it is
+/// counted one by one. All other odds in the sum are exact or upper bounds. The sum is only as
+/// precise as a comparison with 2^limit_log2 requires. Returns 0 if there are at most 5 lines.
 int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

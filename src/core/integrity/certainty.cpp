@@ -21,8 +21,8 @@ namespace {
 
 /// Number of shifts at which an alternative does not share a given line.
 constexpr float kShifts = kSections - 1;
-/// Odds added for each single alternative that is not counted one by one: an upper bound on its
-/// odds, as log2 in units of 2^-8 and as a number.
+/// Upper bound on the odds of a single alternative that is not counted one by one, as log2 in units
+/// of 2^-8 and as a number. The sums contain this bound instead of the odds.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Total number of places in the four sequences.
@@ -35,8 +35,8 @@ constexpr float power_of_two_rounded_up(int n_q8) {
     return static_cast<float>(exp2_q16(n - whole * 256)) * 1.02F * power_of_two_exactly(whole - 16);
 }
 
-/// Returns the same odds as `LikelihoodRatios::odds`, but without the upper limit, and without
-/// 64-bit integers, whose conversion may need a library call.
+/// Returns the same odds as `LikelihoodRatios::odds`, but without an upper limit. Uses no 64-bit
+/// integers, because their conversion to floating point may require a library call.
 float odds_of(const LikelihoodRatios& ratios, int lost) {
     const int log2_q8 = std::max(ratios.log2_odds_q8(lost), kNegligible_q8);
     const int whole = log2_q8 >> 8;
@@ -72,7 +72,7 @@ float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
 }
 
 /// Returns an upper bound on the summed odds of the alternatives that share no line: the same
-/// position in the other sections, and the single alternatives at shifts at which they share no
+/// position in the other sections, and the single alternatives at the shifts at which they share no
 /// line.
 float sharing_none(const LikelihoodRatios& ratios) {
     int lost = 0;
@@ -81,11 +81,11 @@ float sharing_none(const LikelihoodRatios& ratios) {
     return (1 + kSingles) * kShifts * odds_of(ratios, lost);
 }
 
-/// Score that a wrong bit loses. All bits in this file have full weight, so losses are multiples of
-/// this score.
+/// Loss caused by one wrong bit, in units of the score. All bits in this file have the full weight,
+/// so losses are multiples of kBit.
 constexpr int kBit = 2 * 127;
 /// Lists the lines with their minimum losses in bits, sorted by decreasing loss. Losses are clamped
-/// to between 0 and kMaxBits. Returns the number of lines.
+/// to [0, kMaxBits]. Returns the number of lines.
 std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
     constexpr int kMaxBits = 31;
     const auto count = static_cast<std::size_t>(ratios.count());
@@ -110,8 +110,8 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
 }
 
 /// Returns the loss of the single alternative with the place `place` in `sequence`, at the shift at
-/// which it shares the line `shared`. Stops at the loss at which the odds are at most kSkippedOdds,
-/// regardless of gains in other lines. The result is then a partial sum.
+/// which it shares the line `shared`. Stops as soon as the odds are at most kSkippedOdds,
+/// regardless of gains in the remaining lines. The result is then a partial sum.
 int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place, int shared) {
     const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
@@ -127,9 +127,9 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Returns an upper bound on the summed odds of the single alternatives that share a line. Tables
-/// bound the odds for most sequences. For the other sequences, alternatives that may matter are
-/// counted one by one. Returns 1 if these alternatives cannot be listed (see
+/// Returns an upper bound on the summed odds of the single alternatives that share a line. For most
+/// sequences, the bound comes from a table. For the other sequences, the alternatives that may
+/// matter are counted one by one. Returns 1 if these alternatives cannot be listed (see
 /// `Kernels::list_similar_places`).
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
@@ -164,7 +164,7 @@ float seam_alternatives(const Kernels& kernels, const UnsharedLines& unshared) {
         std::max(seam_alternatives_log2_q8(kernels, unshared), -100 * 256));
 }
 
-/// Parameters of the judgement that both axes share.
+/// Parameters of the test for certainty. Both axes use the same parameters.
 struct Query {
     CodeVariant code;
     int odds_per_bit_q8;
@@ -185,17 +185,17 @@ float chance_of(const Confidence& bits, const Query& query) {
         chance_log2_q8(bits, query.odds_per_bit_q8, query.others->log2_in_question_q8));
 }
 
-/// Returns the number of possible codes, each weighted by its odds relative to the code read, or 1
-/// if the code is given. All codes have the same number of alternatives, so the odds of
-/// alternatives are multiplied by this number.
+/// Returns the number of possible codes, each weighted by its odds relative to the code that was
+/// read. Returns 1 if the code is given. All codes have the same number of alternatives, so the
+/// odds of alternatives are multiplied by this number.
 float codes_in_question(const Query& query) {
     return !is_code_in_question(query) ? 1
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
-/// Returns an upper bound on the probability that one axis is wrong, or 1 if chance and
-/// alternatives exceed the limit. For hard bits, computes only the first, largest bound on the
-/// alternatives.
+/// Returns an upper bound on the probability that the position on one axis is wrong. Returns 1 if
+/// chance and alternatives alone exceed the limit. For hard bits, computes only the first of the
+/// three bounds on the alternatives, which is the fastest to compute and the largest.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
                  const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();
@@ -216,8 +216,8 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     return sum + seam_alternatives(kernels, unshared);
 }
 
-/// Returns true if the upper bounds on the probability of error of both axes add up to at most the
-/// limit. Sets `fix.p_wrong_log2`, unless `axis_wrong` returns 1 or more for the x axis. On
+/// Returns true if the sum of the upper bounds on the probability of error of both axes is within
+/// the limit. Sets `fix.p_wrong_log2`, unless `axis_wrong` returns 1 or more for the x axis. On
 /// success, also sets the odds of the other codes, unless `Query::others` is null.
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                  const LikelihoodRatios& x, const LikelihoodRatios& y, const Query& query,
@@ -233,14 +233,14 @@ bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
     return true;
 }
 
-/// Returns the odds of a bit, as log2 in units of 2^-8, estimated from both axes. Both axes are
-/// read from the same dots and therefore have the same error rate. Returns 0 if the bits carry no
-/// information, or if too many bits of either axis are wrong. Sets `fix.bit_errors`.
+/// Returns the odds that a bit is correct, as log2 in units of 2^-8, estimated from both axes. Both
+/// axes are read from the same dots and therefore have the same error rate. Returns 0 if the bits
+/// carry no information, or if too many bits of either axis are wrong. Sets `fix.bit_errors`.
 int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOptions& options,
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();
     for (const Confidence* bits : {&x, &y}) {
-        // A larger fraction of wrong bits indicates that two patterns are in view.
+        // A fraction of wrong bits above the limit indicates that two patterns are in view.
         if (256 * bits->wrong() > bits->bits() * options.max_bit_error_q8) return 0;
     }
     Confidence both = x;

@@ -16,28 +16,28 @@
 
 namespace dotpose::core {
 
-/// Hard bits (bits that all have the full weight, 127) of one axis near the middle of the view,
-/// from the first to the last line that has bits.
+/// Hard bits of one axis near the middle of the view, from the first to the last line that has
+/// bits. Each hard bit has the full weight, 127.
 struct AxisBits {
     std::span<const ComparedLine> lines;
     AxisReading reading;    ///< reading of the first line, at the first bit of its word
-    Confidence confidence;  ///< all bits read on this axis, also outside the middle
+    Confidence confidence;  ///< all bits read on this axis, including bits outside the middle
     std::span<const std::uint8_t> rolls;  ///< roll of each line
 };
 
 /// Returns true if the hard bits alone, without the scores of lines, make the position certain.
-/// This takes a tenth of the work of `is_certain` and suffices for clean frames. Returns false if
-/// in doubt. Only the bits near the middle of the view are compared with alternatives. Ignoring the
-/// other bits can only increase the bound. Sets `bit_errors` of the fix. `p_wrong_log2` of the fix
-/// is valid only if the result is true. If the result is true, also sets the odds of the other
+/// This test takes a tenth of the work of `is_certain` and suffices for clean frames. Returns false
+/// if in doubt. Only the bits near the middle of the view are compared with alternatives. Ignoring
+/// the other bits can only increase the bound. Sets `bit_errors` of the fix. `p_wrong_log2` of the
+/// fix is valid only if the result is true. If the result is true, also sets the odds of the other
 /// codes, unless `others` is null.
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
                           CodeVariant code, const IntegrityOptions& options, Fix& fix,
                           OtherCodes* others = nullptr);
 
-/// Bits and scores by which a position is judged.
+/// Bits and scores from which the certainty of a position is computed.
 struct Evidence {
-    Place corner;                    ///< place where the first column and row cross
+    Place corner;                    ///< place where the first column and the first row cross
     std::array<Confidence, 2> bits;  ///< bits of x and of y, compared with the code
     Lines columns;
     Lines rows;
@@ -64,8 +64,8 @@ bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant co
 /// to 0 if that integer is positive. Returns true if `p_wrong_log2` is at most `limit_log2`.
 bool is_within_limit(float wrong, int limit_log2, Fix& fix);
 
-/// Sets the odds of the other codes, without judging the position. Does nothing if the bits carry
-/// no information.
+/// Sets the odds of the other codes, without testing the certainty of the position. Does nothing if
+/// the bits carry no information.
 void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                        OtherCodes& others);
 

@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Index of the first line that is compared, and of the first cell of each line that is compared.
-/// `kFirst` is relative to cell (0, 0), `kFirstOfBlock` is the index in a BitBlock.
+/// Index of the first compared line, and of the first compared cell of each line. `kFirst` is
+/// relative to cell (0, 0). `kFirstOfBlock` is the index in a BitBlock.
 constexpr int kFirst = -kMaxComparedLines / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 
@@ -31,9 +31,9 @@ std::uint32_t longest_run(std::uint32_t bits) {
 
 }  // namespace
 
-/// Compares `count` lines of one axis, beginning with the line `first_line`, with the code. Skips
-/// lines outside the middle kMaxComparedLines lines. `rolls` contains the rolls of the `count`
-/// lines at the cell `first_cell`.
+/// Compares `count` lines of one axis with the code, beginning with the line `first_line`. Skips
+/// all lines except the kMaxComparedLines lines in the middle of the block. `rolls` contains the
+/// rolls of the `count` lines at the cell `first_cell`.
 CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rolls, int first_line,
                                   int count, int first_cell) {
     Half half;
@@ -53,8 +53,8 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
         const std::uint32_t code = code::kMainWords[static_cast<std::size_t>(roll)];
         const std::uint32_t wrong = (bits ^ code) & seen;
         // If a line has no wrong bits, keeps only its longest run of bits without a gap, because
-        // the tables contain only such runs. The dropped bits could only make alternatives less
-        // likely.
+        // the tables in likelihood_ratios.cpp apply only to runs without gaps. The dropped bits
+        // could only make alternatives less likely.
         half.rolls[i] = static_cast<std::uint8_t>(roll);
         half.lines[i] = {code, wrong == 0 ? longest_run(seen) : seen, wrong};
         if (seen == 0) continue;

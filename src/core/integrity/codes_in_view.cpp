@@ -5,8 +5,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds below which no further bits are needed: odds of the place of the reading in another code,
-/// and summed odds of all other places in that code.
+/// Odds of another code below which no further bits are needed: odds of the place of the reading in
+/// that code, and summed odds of all other places in that code.
 constexpr float kMaxOddsHere = 1e-12F;
 constexpr float kMaxOddsElsewhere = 1e-10F;
 
@@ -20,9 +20,9 @@ bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     return own != theirs;
 }
 
-/// Returns true if more bits may change the odds: if the odds of other places in another code are
-/// not negligible yet, or if there are more lines and a code that is not ruled out has different
-/// rolls in the block.
+/// Returns true if more bits may change the odds. This is the case if the odds of other places in
+/// another code are not yet negligible. It is also the case if there are more lines, and a code
+/// that is not ruled out has different rolls in the block.
 bool may_change_odds(CodeVariant read, const Place& place, bool has_more_lines,
                      const OtherCodes& others) {
     const auto have_other_rolls = [&](CodeVariant other) {

@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Computes the odds of the other codes again if further bits may change the odds. `place` is the
+/// Recomputes the odds of the other codes if further bits may change these odds. `place` is the
 /// place of cell (0, 0) of `block`. `has_more_lines` is true if the block has more lines than were
 /// used to make the position certain.
 void weigh_codes_in_view(const Kernels& kernels, CodeVariant read, const Place& place,

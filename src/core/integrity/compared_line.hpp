@@ -8,7 +8,7 @@ namespace dotpose::core {
 /// Maximum number of columns, and of rows, that are compared bit by bit.
 inline constexpr int kMaxComparedLines = 32;
 
-/// A column or row. Each word has one bit per cell. Bit 0 is the first cell.
+/// A column or row. Each word has one bit per cell. Bit 0 belongs to the first cell.
 struct ComparedLine {
     std::uint32_t code = 0;   ///< bits of the code
     std::uint32_t seen = 0;   ///< 1 if the bit of the cell was read

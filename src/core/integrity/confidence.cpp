@@ -13,14 +13,14 @@ constexpr std::array<std::int32_t, 34> kLog2OfOneAnd{
     1466,  1039,  736,   521,   369,   261,   185,   131,  93,   66,   47,   33,
     24,    17,    12,    9,     6,     5,     3,     3,    2,    2};
 
-/// Returns an upper bound on log2(1 + 2^-n), in units of 2^-16. The function is convex, so its
-/// chords are above the function.
+/// Returns an upper bound on log2(1 + 2^-n), in units of 2^-16. Interpolates linearly in the table.
+/// The function is convex, so the interpolated values are never too small.
 int log2_of_one_and_q16(int n_q8) {
     const auto i = static_cast<std::size_t>(n_q8 >> 7);
     return kLog2OfOneAnd[i] - ((kLog2OfOneAnd[i] - kLog2OfOneAnd[i + 1]) * (n_q8 & 127) >> 7);
 }
 
-/// Returns the log odds of the bits of a level.
+/// Returns the odds that a bit of this level is correct, as log2 in units of 2^-8.
 int log_odds_q8(int odds_per_bit_q8, int level) {
     // 129 / 2^14 is about 1 / 127.
     return (odds_per_bit_q8 * Confidence::weight_of(level) * 129) >> 14;

@@ -12,10 +12,10 @@ namespace dotpose::core {
 class Confidence {
   public:
     static constexpr int kLevels = 16;
-    /// Returns the weight that represents the bits of a level: the middle of the level.
+    /// Returns the weight that represents all bits of a level: the middle of the range of weights.
     static constexpr int weight_of(int level) { return 8 * level + 4; }
-    /// Returns the histogram of `bits` hard bits, which all have the maximum weight. `wrong` of
-    /// these bits are wrong.
+    /// Returns the histogram of `bits` hard bits, of which `wrong` are wrong. All hard bits have
+    /// the maximum weight.
     static Confidence of_hard_bits(int bits, int wrong) {
         constexpr int kMaxWeight = 127;
         Confidence confidence;
@@ -55,7 +55,7 @@ class Confidence {
     }
 
   private:
-    /// Numbers of correct and of wrong bits, alternating, by level.
+    /// For each level, the number of correct bits, followed by the number of wrong bits.
     std::array<std::int32_t, 2 * kLevels> counts_{};
 };
 
@@ -67,11 +67,11 @@ class Confidence {
 int odds_per_bit_q8(const Confidence& confidence);
 
 /// Returns log2 of an upper bound on the probability that random bits of these weights agree with
-/// the code at least as well as the bits that were read, at any position, in any section and any of
-/// the four orientations of one axis. These are L * 63 * 4 hypotheses, where L = 410,815,348 is the
-/// number of positions. Chernoff's bound, with weights scaled to log odds, applies to each
-/// hypothesis. The result is an upper bound for any value of `odds_per_bit_q8`, and is smallest
-/// near the true odds.
+/// the code at least as well as the bits that were read, at any position, in any section, and in
+/// any of the four orientations. There are L * 63 * 4 such hypotheses for one axis, where L =
+/// 410,815,348 is the number of positions. Chernoff's bound, with weights scaled to log odds,
+/// applies to each hypothesis. The result is an upper bound for any value of `odds_per_bit_q8`, and
+/// is smallest near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
 /// Returns the same bound as `chance_log2`, but in units of 2^-8 and for 2^(log2_times_q8 / 256)

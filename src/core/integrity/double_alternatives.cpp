@@ -16,8 +16,8 @@ namespace {
 /// on a smaller expectation.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// Safety factor on expected odds, which are means over all positions. The odds at a given position
-/// can be larger. On 5,630 axes of hard frames, the odds were at most 21 times the mean.
+/// Safety factor for expected odds, which are means over all positions. The odds at a given
+/// position can be larger. On 5,630 axes of hard frames, the odds were at most 21 times the mean.
 constexpr float kMargin = 32;
 
 /// Set of anchors. Bit n is the anchor of rank n.
@@ -29,7 +29,7 @@ class Groups {
   public:
     Groups(const RankedLines& lines, int anchors, int shared) : count_(shared - 1) {
         // Assigns the anchors to the groups in turn, in the order of the lines. The anchors of a
-        // group are then far apart, and few alternatives share two of them.
+        // group are therefore far apart, and few alternatives share two anchors of a group.
         int n = 0;
         for (int line = 0; line < lines.count(); ++line) {
             const int rank = lines.rank(static_cast<std::uint32_t>(line));
@@ -50,9 +50,9 @@ class Groups {
         }
     }
 
-    /// Returns true if (`one`, `other`) is the first pair, in the order of `visit_pairs`, of two
-    /// anchors in `shared`. An alternative that shares several pairs of anchors is counted only at
-    /// the first of these pairs.
+    /// Returns true if (`one`, `other`) is the first pair, in the order of `visit_pairs`, of
+    /// anchors that are both in `shared`. An alternative that shares several pairs of anchors is
+    /// counted only at the first of these pairs.
     bool is_first_pair(Anchors shared, int one, int other) const {
         for (const Anchors group : groups_) {
             const Anchors both = shared & group;
@@ -76,8 +76,8 @@ int at(const RankedLines::Offsets& offsets, int rank) {
     return offsets.all[static_cast<std::size_t>(rank)];
 }
 
-/// Returns differences of offsets, from -62 to 62, modulo 63. Negative differences are passed
-/// modulo 256.
+/// Returns differences of offsets modulo 63. The differences are in [-62, 62]. Negative differences
+/// are represented modulo 256.
 AnchorBytes modulo_sections(AnchorBytes offsets) {
     return offsets + (static_cast<AnchorBytes>(offsets >= kSections) & kSections);
 }
@@ -88,13 +88,13 @@ AnchorBytes anchors_of(const RankedLines::Offsets& offsets) {
     return bytes;
 }
 
-/// Returns the anchor offsets of a place relative to its offset at anchor `one`, modulo 63.
+/// Returns the offsets of a place at all anchors minus its offset at the anchor `one`, modulo 63.
 AnchorBytes since(int one, const RankedLines::Offsets& offsets) {
     return modulo_sections(anchors_of(offsets) - offsets.all[static_cast<std::size_t>(one)]);
 }
 
-/// Returns the negative of `since`, modulo 63. A pair of places that shares the anchor `one` shares
-/// the anchors at which `since` of one place equals `opposite` of the other place.
+/// Returns the negative of `since`, modulo 63. A pair of places that shares the anchor `one` also
+/// shares each anchor at which `since` of one place equals `opposite` of the other place.
 AnchorBytes opposite(int one, const RankedLines::Offsets& offsets) {
     return modulo_sections(offsets.all[static_cast<std::size_t>(one)] - anchors_of(offsets));
 }
@@ -117,8 +117,9 @@ class Marks {
     std::array<std::uint64_t, 2> halves_;
 };
 
-/// A place in a sequence, with the value of `opposite` for this place. A place in the other
-/// sequence of a pair shares the anchors at which its `since` equals `offsets`.
+/// A place in a sequence, with the value of `opposite` for this place. Together with a place in
+/// another sequence, this place shares each anchor at which `since` of the other place equals
+/// `offsets`.
 struct Opposite {
     AnchorBytes offsets;
     const RankedLines::Offsets* place;
@@ -163,7 +164,7 @@ class Buckets {
     std::array<Opposite, code::kA4Restored.size()> places_;
 };
 
-/// Adds up the odds of the alternatives that share at least `shared` anchors.
+/// Adds up the odds of the double alternatives that share at least `shared` anchors.
 class Finder {
   public:
     Finder(const RankedLines& lines, int anchors, int shared)
@@ -235,9 +236,9 @@ float sum_of_double_alternatives(const RankedLines& lines, float negligible, flo
     const auto expected_odds = [&](int shared) {
         return kMargin * expected[static_cast<std::size_t>(shared)];
     };
-    // With fewer required anchors, `Finder` visits more pairs of anchors: 6 of the 66 pairs for
-    // seven anchors, 18 for four, and all 66 for two. Fewer than four anchors are worth the time
-    // only if the fix would otherwise be refused.
+    // If fewer shared anchors are required, `Finder` visits more pairs of anchors: 6 of the 66
+    // pairs for seven anchors, 18 for four, and all 66 for two. Requiring fewer than four anchors
+    // is worth the time only if the fix would otherwise be refused.
     constexpr int kMinForDetail = 4;
     int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&

@@ -31,8 +31,8 @@ ExpectedAlternatives::ExpectedAlternatives(const code::Basis& basis, std::uint32
     }
 }
 
-/// Returns the expected odds by roll offset after a step. All digits of an alternative are taken as
-/// equally probable. The digits of the reading are known.
+/// Returns the expected odds after a step, indexed by roll offset. Assumes that all digits of an
+/// alternative are equally probable. The digits of the reading are known.
 ExpectedAlternatives::ByShift ExpectedAlternatives::after_step(const Set& set,
                                                                const ByShift& before) const {
     ByShift now = before;

@@ -1,5 +1,5 @@
-// Expected alternatives: the expected odds of the positions that differ from the position read in
-// the places in several secondary sequences. There are 4e8 such positions, too many to count one by
+// Expected alternatives: the expected odds of the positions that differ from the reading in the
+// places in several secondary sequences. There are 4e8 such positions, too many to count one by
 // one, so the odds are averaged over all places. docs/integrity.md derives the expectation.
 #pragma once
 
@@ -13,8 +13,9 @@ namespace dotpose::core {
 /// Computes the expected sum of the odds, line by line.
 class ExpectedAlternatives {
   public:
-    /// Includes the alternatives that share at most `max_shared` (3 or 4) adjacent lines with the
-    /// position read and have other places in at least `min_different` (2 or 3) sequences.
+    /// Includes the alternatives that differ from the reading in the places in at least
+    /// `min_different` (2 or 3) sequences and share at most `max_shared` (3 or 4) adjacent lines
+    /// with the reading.
     ExpectedAlternatives(const code::Basis& basis, std::uint32_t position, int max_shared,
                          int min_different);
 
@@ -26,7 +27,7 @@ class ExpectedAlternatives {
     float sum() const;
 
   private:
-    /// Number of sets of two or more sequences.
+    /// Number of sets that contain two or more of the four sequences.
     static constexpr std::size_t kMaxSets = 11;
     static constexpr std::size_t kMaxShared = 4;
 

@@ -6,11 +6,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Safety factor per step: `kUnevenness` in expected_alternatives.cpp.
+/// Safety factor per step, the same as in expected_alternatives.cpp.
 constexpr float kUnevenness = 1.03F;
-/// Lower bounds on odds and sums, to avoid denormal numbers, which are slow. Sums start at kStart,
-/// which is so large that the lower bounds contribute little, even if other rolls fit some lines
-/// much better than the reading.
+/// Lower bounds on odds and on sums. They avoid denormal numbers, which are slow. All sums start at
+/// kStart. This value is so large that the lower bounds contribute little, even if other rolls fit
+/// some lines much better than the reading.
 constexpr float kMinOdds = 0x1p-40F;
 constexpr float kMinSum = 0x1p-80F;
 constexpr float kStart = 0x1p40F;
@@ -48,7 +48,7 @@ class Pair {
         }
     }
 
-    /// Adds the expected odds of the alternatives that share n anchors to totals[n].
+    /// For each n, adds the expected odds of the alternatives that share n anchors to totals[n].
     void add_to(std::span<float, kMinFound> totals) const {
         const float alternatives = static_cast<float>(a_.length * b_.length) / kStart;
         for (std::size_t n = 0; n < sums_.size(); ++n) {
@@ -62,10 +62,10 @@ class Pair {
         if (++place == of.length) place = 0;
     }
 
-    /// Updates the sums by shift for a step in one sequence. All digits of an alternative are taken
-    /// as equally probable. The digits of the reading are known.
+    /// Updates the sums, which are indexed by shift, for a step in one sequence. Assumes that all
+    /// digits of an alternative are equally probable. The digits of the reading are known.
     static void step(const code::Secondary& of, std::uint32_t place, float factor, ByShift& sums) {
-        // The sums are stored twice in a row, which makes every cyclic shift of them contiguous.
+        // Stores the sums twice in a row, so every cyclic shift of the sums is contiguous.
         std::array<float, 2 * kSections> before;
         const float fraction = factor / static_cast<float>(of.base);
         for (std::size_t s = 0; s < kSections; ++s)

@@ -1,5 +1,5 @@
 // Known lines: the agreement of the columns and rows of a block with each position on a known
-// sheet. docs/integrity.md, "Known sheets", derives the classes of positions modulo 63.
+// sheet. docs/integrity.md, "Known sheets", explains the classes of positions modulo 63.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +34,8 @@ inline std::size_t sum_of_rolls(std::size_t a, std::size_t b) {
 /// Returns the number of bits that were read in the lines of one axis.
 int number_of_bits(const BitLines& lines);
 
-/// The lines of one axis of an upright block, with the number of bits of each line that agree with
-/// the code at each roll.
+/// The lines of one axis of an upright block. For each line and each roll, contains the number of
+/// bits that agree with the code.
 class ScoredAxis {
   public:
     ScoredAxis(const Kernels& kernels, const BitLines& lines, const LineRange& range,
@@ -44,7 +44,7 @@ class ScoredAxis {
     int count() const { return scores_.count; }
 
     /// Returns the number of bits that agree with the code if the first line is at `position` and
-    /// its rolls are those of section 0 plus `added`.
+    /// the rolls of all lines are those in section 0 plus `added`.
     int agreeing(CodeVariant code, std::uint32_t position, std::size_t added) const;
 
     /// Calls `use(position, sums)` for each position of the first line in `range`. sums[r] is the
@@ -97,8 +97,9 @@ struct ScoredTurn {
     }
 };
 
-/// Table of one axis of a region, kept for the next region. Successive regions often have the same
-/// columns or rows, because the sheets of a file are side by side.
+/// Cache for the table of one axis of a region. The next region reuses the table if its code and
+/// its range of positions are the same. Successive regions often have the same columns or rows,
+/// because the sheets of a file are side by side.
 template <typename Table>
 class KeptTable {
   public:

@@ -1,4 +1,4 @@
-// The probability that a place on the known sheets is wrong.
+// Known odds: the probability that a place on the known sheets is wrong.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,22 +12,22 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds of a position relative to the position that is judged, given the number of bits that agree
-/// with the code. All bits have the same weight, so log2 of the odds is linear in this number.
+/// Odds of a position relative to the position under test, as a function of the number of bits that
+/// agree with the code. All bits have the same weight, so log2 of the odds is linear in this
+/// number.
 class OddsOfBits {
   public:
-    /// `agreeing` is the number of bits that agree with the position judged.
+    /// `agreeing` is the number of bits that agree with the code at the position under test.
     OddsOfBits(int odds_per_bit_q8, int agreeing)
         : agreeing_(agreeing),
-          // Odds are clamped to between 2^-52 and 2^60. Odds above 2^60 on one axis refuse the
-          // place in any case, because even their product with the minimum odds on the other axis
-          // exceeds 1.
+          // Clamps the odds to [2^-52, 2^60]. Odds above 2^60 on one axis always cause a refusal,
+          // because even their product with the minimum odds on the other axis exceeds 1.
           min_(-52 * 256 / odds_per_bit_q8 - 1),
           max_(60 * 256 / odds_per_bit_q8),
           per_bit_(odds_per_bit_q8 << 15) {}
 
-    /// Returns the odds if `agreeing` bits agree. Interpolates linearly between powers of two, so
-    /// the result exceeds the exact odds by at most 9 %.
+    /// Returns the odds of a position at which `agreeing` bits agree with the code. Interpolates
+    /// linearly between powers of two, so the result exceeds the exact odds by at most 9 %.
     float operator()(int agreeing) const {
         const int more = std::clamp(agreeing - agreeing_, min_, max_);
         return __builtin_bit_cast(float, kOne + more * per_bit_);
@@ -48,8 +48,8 @@ struct PositionAndRoll {
     std::size_t roll;
 };
 
-/// Summed odds of the positions in each class modulo 63, for each `PositionAndRoll::roll`. The sums
-/// omit `left_out`.
+/// Summed odds of all positions of a class modulo 63, indexed by class and by
+/// `PositionAndRoll::roll`. The sums exclude `left_out`.
 class OddsByClass {
   public:
     OddsByClass(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,
@@ -73,8 +73,9 @@ class OddsByClass {
 };
 
 /// Returns an upper bound on the probability that at most `wrong` of `bits` random bits contradict
-/// a given place. From the last term backwards, the terms of the binomial sum decrease at least as
-/// fast as a geometric series. Returns 1 if at least a third of the bits are wrong.
+/// a given place. The bound is the sum of a geometric series. From the last term to the first, the
+/// terms of the binomial sum decrease at least as fast as the terms of this series. Returns 1 if at
+/// least a third of the bits are wrong.
 float random_agreement(int bits, int wrong) {
     if (3 * wrong >= bits) return 1;
     float term = 1;  // probability of exactly k wrong bits, divided by 2^exponent
@@ -88,10 +89,10 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// Returns an upper bound on the probability that a view that shows none of the known sheets, such
-/// as a view of an unknown sheet, agrees at least as well with some place on the known sheets.
-/// `bits` is the number of bits of each axis, `wrong` the number of wrong bits of each axis, and
-/// `lines` the number of columns or rows, whichever is larger.
+/// Returns an upper bound on the probability that a view of none of the known sheets, for example
+/// of an unknown sheet, agrees with some place on the known sheets at least as well as the bits
+/// that were read. `bits` is the number of bits of each axis, `wrong` the number of wrong bits of
+/// each axis, and `lines` the number of columns or rows, whichever is larger.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;
@@ -108,9 +109,9 @@ float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int,
     const float trials = std::max(kTurns * places, 1024.0F);
     const float anywhere = trials * random_agreement(2 * bits, wrong[0] + wrong[1]);
     if (sheets.are_all()) return anywhere;
-    // An unknown sheet may have the same columns or rows as a known sheet. All bits of that axis
-    // then agree, and they determine the turn, the roll and the position of that axis. On the other
-    // axis, only the positions of one class modulo 63 remain.
+    // An unknown sheet may have the same columns or rows as a known sheet. In that case, all bits
+    // of that axis agree, and determine the turn, the roll and the position of that axis. On the
+    // other axis, only the positions of one class modulo 63 remain.
     return anywhere + columns * random_agreement(bits, wrong[0]) +
            rows * random_agreement(bits, wrong[1]);
 }
@@ -138,8 +139,8 @@ float sum_of_odds(const KnownRegion& region, const OddsByClass& columns, const O
     return sum;
 }
 
-/// Returns the summed odds of all places of a region except `best`. `best` is on the region and has
-/// the odds 1.
+/// Returns the summed odds of all places of a region except `best`. `best` is on the region, and
+/// its odds are 1.
 float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const OddsOfBits& x_odds,
                     const OddsOfBits& y_odds, const CornerPlace& best) {
     const auto [x, column_roll] = best.column();
@@ -147,9 +148,10 @@ float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const Odd
     const OddsByClass columns(turn.columns, region.code, turn.columns_of(region), x_odds,
                               best.column());
     const OddsByClass rows(turn.rows, region.code, turn.rows_of(region), y_odds, best.row());
-    // `columns` and `rows` omit the best column and the best row. The last two terms add the places
-    // where the best row crosses another column of the best column's class, and the places where
-    // the best column crosses another row of the best row's class.
+    // `columns` and `rows` exclude the column and the row of `best`, whose odds are 1. The last two
+    // terms add the other places in the row of `best` whose column is in the same class as the
+    // column of `best`, and the other places in the column of `best` whose row is in the same class
+    // as the row of `best`.
     return sum_of_odds(region, columns, rows) + columns(class_of(x), column_roll) +
            rows(class_of(y), row_roll);
 }

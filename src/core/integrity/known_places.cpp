@@ -9,8 +9,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum numbers of agreeing bits of one axis, indexed by the class of the position modulo 63 and
-/// by the roll that is added to the rolls in section 0.
+/// Maximum number of agreeing bits of one axis over all positions of a class, indexed by the class
+/// of the position modulo 63 and by the roll that is added to the rolls in section 0.
 class Peaks {
   public:
     Peaks(const ScoredAxis& axis, CodeVariant code, const PositionRange& range) {
@@ -22,7 +22,7 @@ class Peaks {
                 best[roll] = std::max(best[roll], sums[roll]);
         });
     }
-    /// Returns the maximum of a class at a roll, or 0 if the range contains no position of the
+    /// Returns the maximum for a class and a roll, or 0 if the range contains no position of the
     /// class.
     int operator()(std::size_t of_class, std::size_t roll) const { return best_[of_class][roll]; }
 
@@ -44,8 +44,8 @@ std::uint32_t position_with(const ScoredAxis& axis, CodeVariant code, const Posi
     return found;
 }
 
-/// Place of the first column and row of a block on a region, with the number of agreeing bits on
-/// each axis.
+/// Position of the first column and of the first row of a block on a region, with the number of
+/// agreeing bits on each axis.
 struct Peak {
     Cell corner;
     int x_agreeing = 0;

@@ -1,6 +1,6 @@
 // Known places: the likeliest place of a block of bits on the known sheets, and the probability
-// that a place is wrong, from the odds of all places on the sheets. docs/integrity.md derives the
-// sums.
+// that a place is wrong, computed from the odds of all places on the sheets. docs/integrity.md
+// derives the sums.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace dotpose::core {
 
-/// A place on a known sheet, in one of the four orientations of a block.
+/// A place on a known sheet, and the orientation of the block at this place.
 struct KnownPlace {
     CodeVariant code = CodeVariant::anoto;
     int quarters = 0;            ///< quarter turns from the block to the pattern, as for `turned`
@@ -25,7 +25,7 @@ struct KnownPlace {
     }
 };
 
-/// Returns true if at least a part of the bits of an upright block is on a known sheet. `place` is
+/// Returns true if at least some of the bits of an upright block are on a known sheet. `place` is
 /// the place of cell (0, 0) of the block.
 bool shows_sheet(const KnownSheets& sheets, CodeVariant code, const Place& place,
                  const BitBlock& block);
@@ -36,9 +36,9 @@ bool shows_sheet(const KnownSheets& sheets, CodeVariant code, const Place& place
 std::optional<KnownPlace> find_known_place(const Kernels& kernels, const BitBlock& block,
                                            const KnownSheets& sheets);
 
-/// Returns an upper bound on the probability that `place`, the place of cell (0, 0) of an upright
-/// block, is wrong: the cell is at another place on the sheets, or the view is on none of the
-/// sheets. Returns 1 if `place` is not on the sheets, or if the bits carry no information.
+/// Returns an upper bound on the probability that `place` is wrong: cell (0, 0) of the upright
+/// block is at another place on the sheets, or the view shows none of the sheets. Returns 1 if
+/// `place` is not on the sheets, or if the bits carry no information.
 float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
                         CodeVariant code, const Place& place);
 

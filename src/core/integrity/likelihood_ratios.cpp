@@ -10,15 +10,15 @@ namespace dotpose::core {
 
 namespace {
 
-/// Returns the Hamming distance of two substrings of the main sequence, which begin at the bits
-/// `first` and `other`.
+/// Returns the Hamming distance between two substrings of the main sequence. The substrings begin
+/// at the bits `first` and `other`, and have `length` bits.
 constexpr int distance_of(std::size_t first, std::size_t other, std::size_t length) {
     const std::uint32_t all = length == 0 ? 0 : ~std::uint32_t{0} >> (32 - length);
     return bits_in((code::kMainWords[first] ^ code::kMainWords[other]) & all);
 }
 
-/// Minimum distance of a substring of the main sequence from all other substrings of the same
-/// length, and the number of substrings at this distance.
+/// Minimum Hamming distance between a substring of the main sequence and the other substrings of
+/// the same length, and the number of substrings at this distance.
 struct NearestSubstrings {
     int distance = kMaxComparedLines + 1;
     int count = 0;
@@ -60,9 +60,8 @@ static_assert([] {
     return true;
 }());
 
-/// Upper bound on log2 of the number of substrings nearest to a substring
-/// (`NearestSubstrings::count`), over all substrings of the main sequence. Indexed by length, in
-/// units of 2^-8.
+/// Upper bound on log2 of `NearestSubstrings::count` over all substrings of the same length, in
+/// units of 2^-8. Indexed by length.
 constexpr auto kLog2OfNearest = [] {
     std::array<std::uint16_t, kMaxComparedLines + 1> log2{};
     for (std::size_t length = 0; length < log2.size(); ++length) {
@@ -129,7 +128,7 @@ void LikelihoodRatios::set_min_losses_of_bits() {
 }
 
 int LikelihoodRatios::log2_of_nearest_q8(int line) const {
-    // The other rolls lose at least one bit more than the nearest rolls.
+    // All rolls farther away lose at least one bit more than the nearest rolls.
     const int log2_q8 = add_log2(log2_of_nearest_q8_[static_cast<std::size_t>(line)],
                                  kOtherRolls_q8 - odds_per_bit_q8_);
     return std::min(log2_q8, kOtherRolls_q8);

@@ -1,14 +1,15 @@
-// Likelihood ratios: the losses and odds of alternatives, relative to the position read.
+// Likelihood ratios: the losses and odds of alternatives, relative to the reading.
 //
-// Terms of this folder. The reading is the position and section that was read; its odds are 1. An
-// alternative is any other position or section. Its roll offset in a line is its roll minus the
-// roll of the reading, modulo 63. The line is shared if the roll offset is 0. The places of an
-// alternative in the four secondary sequences determine its roll offsets up to a shift that is
-// common to all lines; the shift depends on the section. A step leads from one line to the next.
-// A single alternative differs from the reading in the place in one secondary sequence, a double
-// alternative in two, a far alternative in two or more. A near alternative shares several adjacent
-// lines. A seam alternative has one shift before a border between two lines, and another shift
-// beyond the border.
+// Terms used in this folder: the reading is the position and the section that were read. The odds
+// of the reading are 1. An alternative is any other position or section. The roll offset of an
+// alternative in a line is its roll minus the roll of the reading, modulo 63. A line is shared if
+// the roll offset is 0. The places of an alternative in the four secondary sequences determine its
+// roll offsets, except for a shift that is the same in all lines. The shift depends on the section.
+// A step leads from one line to the next. A single alternative differs from the reading in the
+// place in one secondary sequence, a double alternative in the places in two sequences, and a far
+// alternative in the places in two or more sequences. A near alternative shares several adjacent
+// lines with the reading. A seam alternative has one shift before a border between two lines, and
+// another shift beyond the border.
 #pragma once
 
 #include <algorithm>
@@ -45,7 +46,7 @@ class LikelihoodRatios {
     /// Computes the ratios of scored lines. Requires odds_per_bit_q8 > 0.
     LikelihoodRatios(CodeVariant code, const Lines& lines_, const AxisReading& reading,
                      int odds_per_bit_q8);
-    /// Computes the ratios of hard bits. A hard bit is either not read or has the weight 127.
+    /// Computes the ratios of hard bits. Each bit has the weight 127, unless it was not read.
     LikelihoodRatios(CodeVariant code, std::span<const ComparedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8);
 
@@ -56,7 +57,8 @@ class LikelihoodRatios {
                      std::span<const std::uint8_t> rolls);
 
     int count() const { return count_; }
-    /// Returns true for ratios of hard bits. Hard bits have no scores, so `lines` is empty.
+    /// Returns true if the ratios were computed from hard bits. Hard bits have no scores, so
+    /// `lines` is empty.
     bool is_of_bits() const { return !bits_.empty(); }
 
     /// Returns the loss of an alternative in a line. The roll of the alternative is the roll of the
@@ -74,14 +76,14 @@ class LikelihoodRatios {
     /// Returns the minimum loss of an alternative in a line that it does not share. The loss is
     /// negative if another roll fits the line better.
     int min_loss(int line) const { return min_losses_[static_cast<std::size_t>(line)]; }
-    /// Returns the minimum losses of `count` adjacent lines.
+    /// Returns the minimum losses of `count` adjacent lines, beginning with the line `first`.
     std::span<const std::int16_t> min_losses(int first, int count) const {
         return std::span(min_losses_)
             .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
     }
-    /// Returns the minimum loss of an alternative whose digit differs from that of the reading in
-    /// the step from `line` to the next line. Such an alternative does not share at least one of
-    /// the two lines. Negative minimum losses of lines count as 0.
+    /// Returns the minimum loss of an alternative whose digit in the step from `line` to the next
+    /// line differs from the digit of the reading. Such an alternative shares at most one of the
+    /// two lines. Negative minimum losses of lines count as 0.
     int min_loss_of_step(int line) const {
         return std::max(std::min(min_loss(line), min_loss(line + 1)), 0);
     }
@@ -92,7 +94,7 @@ class LikelihoodRatios {
     /// Returns the maximum gain of an alternative, summed over all lines that another roll fits
     /// better than the roll of the reading.
     int max_gain() const { return max_gain_; }
-    /// Returns the maximum number of adjacent lines that an alternative shares with the reading.
+    /// Returns the maximum number of adjacent lines that an alternative can share with the reading.
     int max_shared() const { return basis[3].has_twins ? kMaxShared : code::kOrder; }
     /// Returns the odds of an alternative with this loss, as log2 in units of 2^-8.
     int log2_odds_q8(int lost) const {
@@ -101,31 +103,30 @@ class LikelihoodRatios {
         constexpr int kMaxLost = 1 << 18;
         return -(((std::min(lost, kMaxLost) * odds_per_bit_q8_) >> 8) * 129 >> 7);
     }
-    /// Returns the loss with odds of 2^(log2_odds_q8 / 256), rounded up.
+    /// Returns the loss at which the odds are 2^(log2_odds_q8 / 256), rounded up.
     int loss_for(int log2_odds_q8) const { return -log2_odds_q8 * 254 / odds_per_bit_q8_ + 1; }
-    /// Returns the odds of an alternative with this loss as a number, clamped to between 2^-64 and
-    /// 2^64.
+    /// Returns the odds of an alternative with this loss as a number, clamped to [2^-64, 2^64].
     float odds(int lost) const {
         const int log2_q8 = std::clamp(log2_odds_q8(lost), kNegligible_q8, -kNegligible_q8);
         const int whole = log2_q8 >> 8;
-        // The exponent of a float begins at bit 23 and has a bias of 127. `std::bit_cast` is
-        // missing in the standard library of emscripten.
+        // The exponent of a float begins at bit 23 and has a bias of 127. The standard library of
+        // Emscripten does not provide `std::bit_cast`.
         const auto power =
             __builtin_bit_cast(float, static_cast<std::uint32_t>(whole - 16 + 127) << 23);
         return static_cast<float>(exp2_q16(log2_q8 - whole * 256)) * power;
     }
-    /// Returns true if an alternative that has already lost `lost` is negligible, regardless of its
+    /// Returns true if an alternative whose loss so far is `lost` is negligible, regardless of its
     /// gains in the remaining lines.
     bool is_hopeless(int lost) const { return lost > hopeless_score_; }
 
     const code::Basis& basis;
     const Lines lines;
-    const std::uint32_t position;  ///< position of the first line, as read
+    const std::uint32_t position;  ///< position of the first line in the reading
     /// Place of `position` in each sequence.
     std::array<std::uint32_t, 4> places;
 
   private:
-    /// Score that a wrong bit of full weight loses: twice its weight.
+    /// Loss caused by one wrong bit of full weight: twice the weight.
     static constexpr int kScoreOfBit = 2 * 127;
 
     void find_places();
@@ -133,10 +134,10 @@ class LikelihoodRatios {
     void set_min_losses_of_bits();
     void set_min_loss(int line, int min_loss);
     /// Returns the number of bits of a line that contradict the code at `roll`, minus the number of
-    /// bits that contradict the reading.
+    /// bits that contradict the code at the roll of the reading.
     int loss_of_bits(int line, int roll) const;
-    /// The nearest rolls of a line: the rolls with the minimum loss, except the roll of the
-    /// reading.
+    /// The nearest rolls of a line: the rolls with the minimum loss among all rolls except the roll
+    /// of the reading.
     struct Nearest {
         int lost_bits = 0;      ///< loss of these rolls, in bits
         int log2_count_q8 = 0;  ///< upper bound on log2 of the number of rolls, in units of 2^-8
@@ -180,7 +181,7 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
 /// Returns the loss of an alternative at the shift at which it shares the line `shared`. Adds the
 /// losses of the later lines first, and then those of the earlier lines. Stops as soon as the
 /// alternative is hopeless, and returns the loss so far. Returns nullopt at the first earlier line
-/// that is shared at the same shift, because the alternative was counted at that line.
+/// that is shared at the same shift, because the alternative is counted at that line.
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
                                    int shared);
 

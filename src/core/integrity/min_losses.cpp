@@ -8,8 +8,8 @@ MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last) {
     const int count = ratios.count();
     const int max_shared = ratios.max_shared();
     MinLosses min_loss;
-    // Element n: minimum loss in the first n lines of the alternatives that do not share the last
-    // of these lines.
+    // Element n is the minimum loss, in the first n lines, of an alternative that does not share
+    // the last of these lines.
     MinLosses unshared_last;
     unshared_last[0] = 0;
     int lowest = 0;  // index of the smallest of the last `max_shared` + 1 elements

@@ -9,13 +9,14 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of periods of the shortest sequence that contain more than kMaxLines places. This number
-/// of periods is added to a place before the index of a line is subtracted, to keep the difference
-/// positive.
+/// Number of periods of a sequence that are added to a place before the index of a line is
+/// subtracted, to keep the difference positive. This number of periods contains more than kMaxLines
+/// places, even in the shortest sequence.
 constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 
-/// The places of one sequence at which the digits of a run occur: the digits that the reading has
-/// between adjacent lines of the run. Includes the place of the reading itself.
+/// The places in one sequence at which the digits of a run occur. The digits of a run are the
+/// digits of the reading in the steps between the lines of the run. Includes the place of the
+/// reading itself.
 class TwinPlaces {
   public:
     /// The run begins at line `run` and has `digits` + 1 lines.

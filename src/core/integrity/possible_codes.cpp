@@ -9,11 +9,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Summed odds of other places in other codes above which the fix is ambiguous. A second attempt
-/// may remove smaller odds.
+/// Summed odds of other places in other codes above which the fix is ambiguous. Smaller odds do not
+/// make the fix ambiguous, because a second attempt may reduce them.
 constexpr float kAmbiguousOdds = 1e-3F;
-/// Odds of a code relative to the likeliest code, from earlier frames, below which no attempt is
-/// made in this code.
+/// Odds of a code relative to the likeliest code, given the earlier frames. No attempt is made in
+/// codes whose odds do not exceed this limit.
 constexpr float kRuledOutOdds = 1e-9F;
 /// Factors up to this value are treated as rounding errors.
 constexpr float kRoundings = 1.01F;
@@ -88,8 +88,8 @@ CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others) {
     for (std::size_t i = 0; i < log2_q8.size(); ++i) {
         if (i == index(read)) continue;
         const float odds = others.of[i].here() + others.of[i].elsewhere();
-        // A frame is not evidence against a code that explains it equally well. Rounding errors
-        // must not accumulate over frames.
+        // A frame is not evidence against a code that explains the frame equally well. Rounding
+        // errors must not accumulate over frames.
         const bool is_equal = odds <= kRoundings && odds * kRoundings >= 1;
         log2_q8[i] = is_equal ? 0 : log2_of_odds_q8(odds);
     }

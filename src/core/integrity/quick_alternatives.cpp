@@ -20,8 +20,8 @@ constexpr int kSmallOdds_q8 = -36 * 256;
 /// Default limit, as log2 in units of 2^-8. Bounds are as tight as this limit requires, even if the
 /// caller permits larger odds.
 constexpr int kUsualLimit_q8 = -30 * 256;
-/// Odds added for each single alternative that is not counted one by one: an upper bound on its
-/// odds, as log2 in units of 2^-8.
+/// Upper bound on the odds of a single alternative that is not counted one by one, as log2 in units
+/// of 2^-8. The sums contain this bound instead of the odds.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 
 /// Odds of an alternative in a line that it does not share, as log2 in units of 2^-8.
@@ -36,8 +36,8 @@ constexpr std::array<std::uint16_t, 26> kPowers{4096, 2897, 2048, 1449, 1024, 72
                                                 182,  128,  91,   64,   46,   32,  23,  16,  12,
                                                 8,    6,    4,    3,    2,    2,   1,   1};
 
-/// Returns log2 of the summed odds of all rolls except the roll of the reading, divided by the odds
-/// of the best of these rolls, in units of 2^-8, rounded up.
+/// Returns log2 of a ratio of odds, in units of 2^-8, rounded up: the summed odds of all rolls
+/// except the roll of the reading, divided by the odds of the best of these rolls.
 int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     const std::int16_t* scores = ratios.lines[line].data();
     const int own = ratios.own_roll(line);
@@ -46,8 +46,8 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
         const auto half_bits = static_cast<std::size_t>(-ratios.log2_odds_q8(best - score) >> 7);
         return kPowers[std::min(half_bits, kPowers.size() - 1)];
     };
-    // The odds of most rolls are at least 2^12 times smaller than the odds of the best roll. These
-    // rolls count with the last element of kPowers.
+    // The odds of most rolls are at least 2^12 times smaller than the odds of the best roll. Each
+    // of these rolls contributes the last element of kPowers.
     const int min_power_score = best - ratios.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
     for (int roll = 0; roll < kSections; ++roll)
@@ -57,10 +57,11 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
 }
 
 /// Returns log2 of an upper bound on the sum that `ExpectedAlternatives` computes for one set, in
-/// units of 2^-8. All shifts at which a line is not shared are merged into one state. A step leads
-/// to any one of these shifts with at most the probability p that all digits of the step are equal.
-/// A line that is not shared therefore multiplies the odds by at most p times the summed odds of
-/// all other rolls, and by at most the odds of the best of these rolls.
+/// units of 2^-8. The computation merges all shifts at which a line is not shared into one state.
+/// For each of these shifts, the probability that a step leads to the shift is at most the
+/// probability p that all digits of the step are equal. A line that is not shared therefore
+/// multiplies the odds by at most p times the summed odds of all other rolls, and by at most the
+/// odds of the best of these rolls.
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
@@ -70,8 +71,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
     // line and includes the newest line. All sums in this function are divided by the probability
     // that the digits of all steps so far are equal, so each element remains constant.
     std::array<int, kMaxShared + kMaxLines> sharing;
-    // Sums of each element of `sharing` and the element before it. Adding pairs halves the number
-    // of terms.
+    // Element n is the sum of the elements n and n - 1 of `sharing`. Adding pairs halves the number
+    // of additions.
     std::array<int, kMaxShared + kMaxLines> pairs;
     std::fill_n(sharing.begin(), kMaxShared, kNever_q8);
     std::fill_n(pairs.begin(), kMaxShared, kNever_q8);
@@ -95,9 +96,9 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
 
 /// Returns log2 of an upper bound on the odds of the alternatives of all sets that share at most
 /// seven lines, in units of 2^-8. Such an alternative loses at least the sum of the minimum losses
-/// of all lines, without the seven largest. The odds of this loss are multiplied by the number of
-/// alternatives, the number of rolls in the first line, the safety factor `kUnevenness` for each
-/// line, and the number of subsets of shared lines, which is at most 2^lines.
+/// of all lines except the seven largest. The bound is the product of the odds of this loss, the
+/// number of alternatives, the number of rolls in the first line, the safety factor `kUnevenness`
+/// for each line, and the number of subsets of shared lines, which is at most 2^lines.
 int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
     constexpr std::size_t kFew = 7;
     std::array<int, kFew> largest{};  // the largest losses, in decreasing order
@@ -117,9 +118,9 @@ int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
 }
 
 /// Returns log2 of an upper bound on the odds of the far alternatives of all sets, in units of
-/// 2^-8. If `roughly` is true, the number of rolls times the best odds replaces the sum over the
-/// rolls of a line. For hard bits, `LikelihoodRatios::log2_of_nearest_q8` bounds the sum in either
-/// case. Stops adding sets as soon as the sum exceeds `max_log2_q8`.
+/// 2^-8. If `roughly` is true, replaces the sum over the rolls of a line by the number of rolls
+/// times the best odds. For hard bits, uses the bound `LikelihoodRatios::log2_of_nearest_q8` in
+/// either case. Stops adding sets as soon as the sum exceeds `max_log2_q8`.
 int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     AllLineOdds odds;
     odds[0] = {};
@@ -133,8 +134,9 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
     // The other four sets contain more alternatives, but these alternatives share lines more rarely
     // than those of the first set. In each of these sets, the alternatives that share more than
-    // seven lines have less than half of the odds of the first set. For all five sets together,
-    // these odds are less than three times the odds of the first set.
+    // seven lines have less than half of the odds of the first set. For all five sets together, the
+    // alternatives that share more than seven lines therefore have less than three times the odds
+    // of the first set.
     constexpr int kThreeTimes_q8 = 406;
     if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
         const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(ratios));
@@ -185,15 +187,16 @@ class ByShift {
     std::size_t count_ = 0;               ///< number of lines with a positive minimum loss
     std::array<Loss, kMaxLines> losses_;  ///< sorted by decreasing loss
     std::uint32_t in_all_ = 0;            ///< sum of all losses
-    /// Number and sum of the first losses. An alternative that shares the line with the largest
-    /// loss cannot lose the limit in these lines alone.
+    /// Number and sum of the largest losses for which the limit is not checked. An alternative that
+    /// shares the line with the largest loss cannot reach the limit in these lines alone.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
-    /// Losses that an alternative avoids at each shift, because it shares lines, plus `none_`.
-    /// Values below `none_` are left over from earlier alternatives and count as `none_`.
+    /// For each shift, `none_` plus the losses that the current alternative avoids because it
+    /// shares lines at this shift. Values below `none_` are left over from earlier alternatives and
+    /// count as `none_`.
     std::array<std::uint32_t, kSections> kept_{};
     /// Value in `kept_` that represents no avoided loss. Increasing the value for each alternative
-    /// resets `kept_`.
+    /// resets `kept_` without writing to it.
     std::uint32_t none_;
 };
 
@@ -216,8 +219,9 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     }
 }
 
-/// Returns true if the alternative with this place may lose less than the limit at some shift.
-// Not inlined, because small processors then keep all variables in registers.
+/// Returns true if an alternative may lose less than the limit at some shift. `alternative` points
+/// to the rolls of the sequence, beginning at the place of the alternative.
+// Not inlined, to keep all variables in registers on small processors.
 [[gnu::noinline]] bool ByShift::may_matter(const std::uint8_t* alternative) {
     std::uint32_t* const kept = kept_.data();
     const std::uint32_t none = none_ += in_all_;
@@ -232,8 +236,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // An alternative that avoids at most this loss (plus `none`) loses at least the limit in the
-    // lines visited so far.
+    // Maximum of `largest` at which the alternative loses at least the limit in the lines visited
+    // so far.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);
@@ -260,7 +264,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
             const int odds = lost ? ratios_.log2_odds_q8(*lost) : kNever_q8;
             if (odds > kSkippedOdds_q8) sum = add_log2(sum, odds);
         }
-        // Lines shared at the same shift belong to the same alternative, which counts once.
+        // All lines that are shared at the same shift belong to the same alternative, which is
+        // counted only once.
         here = 0;
     }
     return sum;
@@ -282,9 +287,9 @@ int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshar
 using Sequences = unsigned;
 constexpr Sequences kAllSequences = 15;
 
-/// Adds the bounds from tables to `sum`, for those of the given sequences whose bound is below
-/// `little_q8`. Tries the table for the largest number of lines first. Returns the remaining
-/// sequences.
+/// For each of the given sequences, adds the bound from a table to `sum` if the bound is below
+/// `little_q8`. Tries the table for the largest number of lines first. Returns the sequences for
+/// which no table gives such a bound.
 Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences sequences,
                         int& sum) {
     for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
@@ -302,8 +307,8 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
 }
 
 /// Returns log2 of an upper bound on the odds of the single alternatives of the given sequences
-/// that share a line, in units of 2^-8. Adds kSkippedOdds_q8 for every alternative, and the odds of
-/// the few alternatives that may lose less than the limit, one by one.
+/// that share a line, in units of 2^-8. Adds kSkippedOdds_q8 for every alternative and every line.
+/// Counts the few alternatives that may lose less than the limit one by one.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();
@@ -325,7 +330,7 @@ int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
 }
 
 /// Returns log2 of an upper bound on the odds of the same position in the other sections, in units
-/// of 2^-8. The rolls of all lines differ from the reading.
+/// of 2^-8. In these sections, the rolls of all lines differ from the rolls of the reading.
 int other_sections_log2_q8(const LikelihoodRatios& ratios) {
     int lost = 0;
     for (int line = 0; line < ratios.count(); ++line)
@@ -347,7 +352,7 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
     Sequences sequences = kAllSequences;
     int singles = kNever_q8;
     if (is_last) {
-        // Bounds from tables are larger than counted odds, but avoid most of the work.
+        // The bounds from tables are larger than the counted odds, but avoid most of the work.
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);

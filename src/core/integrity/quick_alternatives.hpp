@@ -1,5 +1,5 @@
 // Quick alternatives: an upper bound on the summed odds of all alternatives except seam
-// alternatives, computed in integers. The bound takes a thousandth of the work of
+// alternatives, computed in integers. The computation takes a thousandth of the work of
 // `alternatives_log2`. In most frames, the bound is far below the limit. docs/integrity.md derives
 // the bound.
 #pragma once

@@ -1,6 +1,6 @@
 // Ranked lines: the lines of a view, sorted by decreasing information, and the roll offsets of all
-// places of the secondary sequences in these lines. Sums over the lines in this order exclude most
-// alternatives after a few lines.
+// places of the secondary sequences in these lines. A sum over the lines in this order excludes
+// most alternatives after a few lines.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -38,7 +38,7 @@ class RankedLines {
         return offsets_[kFirsts[sequence] + place];
     }
     /// Returns the loss of an alternative in the line with this rank. `further` is the roll offset
-    /// of the alternative plus any multiple of 63, from 0 to 255.
+    /// of the alternative plus a multiple of 63. Range: 0 to 255.
     int loss(int rank, int further) const {
         return losses_[static_cast<std::size_t>(rank)][static_cast<std::size_t>(further)];
     }

@@ -16,10 +16,10 @@ namespace {
 /// position is accepted if a seam explains the view equally well, and refused if a seam explains
 /// the view better by two bits.
 constexpr int kSeam_q8 = -32 * 256;
-/// Minimum odds, without the prior, of an alternative that is counted, as log2 in units of 2^-8.
+/// Minimum odds at which an alternative is counted, excluding the prior, as log2 in units of 2^-8.
 constexpr int kMin_q8 = -8 * 256;
 
-/// Minimum losses, over all shifts, of an alternative before and after each border. Ignores shifts
+/// Minimum losses of an alternative before and beyond each border, over all shifts. Ignores shifts
 /// at which the loss on one side alone reaches the limit.
 class LossesByBorder {
   public:
@@ -28,8 +28,8 @@ class LossesByBorder {
         before_.fill(kNone);
         from_.fill(kNone);
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios.count()));
-        // Summed minimum losses of the lines that the alternative shares at each shift. The
-        // alternative avoids these losses.
+        // For each shift, the sum of the minimum losses of the lines that the alternative shares.
+        // The alternative avoids these losses.
         std::array<int, kSections> kept{};
         int in_all = 0;
         int max_kept = 0;
@@ -44,7 +44,7 @@ class LossesByBorder {
         }
     }
 
-    /// Returns the minimum loss if the border is before `line`.
+    /// Returns the minimum loss if the border is directly before `line`.
     int with_border_before(int line) const {
         const auto i = static_cast<std::size_t>(line);
         return before_[i] + from_[i];
@@ -59,9 +59,9 @@ class LossesByBorder {
         const auto loss_in = [&](int line) {
             return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
-        // Each loop stops when the loss on its side of the border reaches the limit. Farther along
-        // the loop, the alternative cannot matter at this shift, regardless of its loss on the
-        // other side.
+        // Each loop stops when the loss on its side of the border reaches the limit. With a border
+        // farther along the loop, the alternative cannot matter at this shift, regardless of its
+        // loss on the other side.
         int lost = 0;
         for (int line = 0; line < count && lost < loss_limit_; ++line) {
             update_min(before_[static_cast<std::size_t>(line)], lost);
@@ -87,7 +87,7 @@ class SeamAlternatives {
         : ratios_(ratios), loss_limit_(loss_limit) {}
 
     /// For each border between two lines, adds the alternative that has `place` in `sequence` and a
-    /// seam at this border, if its odds without the prior are above kMin_q8.
+    /// seam at this border, if its odds, excluding the prior, are above kMin_q8.
     void add(std::size_t sequence, std::uint32_t place) {
         RollOffsets offsets;
         set_roll_offsets(ratios_, sequence, place, offsets);
@@ -110,8 +110,9 @@ int loss_limit_of(const LikelihoodRatios& ratios) {
     return ratios.loss_for(kMin_q8) + ratios.max_gain();
 }
 
-/// Returns the loss in each step. The step across the border may lose nothing, so the unit is
-/// larger than usual: kLimitParts units minus the largest loss of a step are at least the limit.
+/// Returns the loss in each step. The step across the border may have no loss. The unit is
+/// therefore so large that kLimitParts units, minus the largest loss of a step, are at least the
+/// limit.
 StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {
     StepLosses steps;
     steps.count = ratios.count() - 1;

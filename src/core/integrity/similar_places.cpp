@@ -5,8 +5,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Losses of 32 alternatives, in counters of four bits. Each word contains one binary digit of all
-/// counters.
+/// Losses of 32 alternatives, in 32 counters of four bits. Each word contains the same binary digit
+/// of all counters.
 class Losses {
   public:
     explicit Losses(std::uint32_t excluded) : excluded_(excluded) {}
@@ -24,8 +24,8 @@ class Losses {
     std::uint32_t excluded() const { return excluded_; }
 
   private:
-    /// Returns true if a bit is set. Shifts the bit to the sign, which takes fewer instructions
-    /// than a mask.
+    /// Returns true if a bit is set. Shifts the bit to the sign bit, which takes fewer instructions
+    /// than masking.
     static bool has_bit(unsigned n, int bit) {
         return static_cast<std::int32_t>(n << (31 - bit)) < 0;
     }
@@ -57,7 +57,8 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
     };
     int needed = loss_limit;
     if (excused == Excused::any_one) {
-        // An alternative must lose the limit even if the step with its largest loss is ignored.
+        // The loss of an alternative must reach the limit even if the step with its largest loss is
+        // ignored.
         for (int step = 0; step < count; ++step)
             needed = std::max(needed, loss_limit + lost_at(step));
     }
@@ -94,7 +95,7 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     }
 }
 
-// Not inlined, because small processors then keep all variables in registers.
+// Not inlined, to keep all variables in registers on small processors.
 [[gnu::noinline]] std::uint32_t SimilarPlaces::operator[](std::uint32_t word) const {
     // Excludes the bits beyond the end of the sequence and the bit of the place of the reading.
     const std::uint32_t places = sequence_.length - 32 * word;
@@ -107,7 +108,7 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
         const std::uint32_t* here = step.places + word;
         const std::uint32_t equal = here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
         // A line must not be counted in both of its steps. A step is therefore counted only if the
-        // step before it is not.
+        // preceding step is not counted.
         if (step.ahead != before + 1) counted = 0;
         before = step.ahead;
         counted = ~(equal | counted);

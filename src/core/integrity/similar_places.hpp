@@ -13,13 +13,13 @@ inline constexpr int kMaxSteps = 18;
 /// Number of parts into which the loss limit is divided.
 inline constexpr unsigned kLimitParts = 15;
 
-/// Steps in which an alternative loses nothing, regardless of its digit. In a seam alternative,
-/// this is the step across the border.
+/// Steps in which an alternative loses nothing, regardless of its digit: none, or any one step. For
+/// a seam alternative, this step is the step across the border.
 enum class Excused : std::uint8_t { none, any_one };
 
 /// The steps in which digits are compared, and the loss of an alternative in each step where its
-/// digit differs from the digit of the reading. Such an alternative does not share at least one of
-/// the two lines of the step, so it loses at least the smaller of their minimum losses.
+/// digit differs from the digit of the reading. Such an alternative shares at most one of the two
+/// lines of the step, so it loses at least the smaller of the minimum losses of these lines.
 struct Steps {
     Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused);
 

@@ -1,4 +1,4 @@
-// Single alternatives: positions that differ from the position read in the place in one secondary
+// Single alternatives: positions that differ from the reading in the place in one secondary
 // sequence. docs/integrity.md derives the odds.
 #pragma once
 

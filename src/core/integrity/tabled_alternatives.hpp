@@ -8,10 +8,10 @@
 namespace dotpose::core {
 
 /// Returns an upper bound on the summed odds of the single alternatives that share a line. Each bit
-/// set in `sequences` requests the bound of one sequence. Tries the tables in order of decreasing
-/// number of lines, beginning with the table of `widest`, until the bound of the sequence is at
-/// most `max_odds`. Then adds the bound to the result and clears the bit. Sequences whose bit is
-/// still set on return are not included in the result.
+/// set in `sequences` requests the bound of one sequence. For each of these sequences, tries the
+/// tables in order of decreasing number of lines, beginning with the table of `widest`. When a
+/// bound is at most `max_odds`, adds the bound to the result and clears the bit. Sequences whose
+/// bit is still set on return are not included in the result.
 float tabled_alternatives(const Kernels& kernels, const UnsharedLines& widest, float max_odds,
                           unsigned& sequences);
 

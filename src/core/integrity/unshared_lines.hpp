@@ -12,22 +12,23 @@
 
 namespace dotpose::core {
 
-/// Number of shifts at which an alternative shares lines with the reading.
+/// Shift or shifts at which an alternative shares lines with the reading.
 enum class Sharing : std::uint8_t {
     at_one_shift,
     on_two_sides,  ///< one shift before a border between two lines, another shift beyond the border
 };
 
-/// Lower bounds on the losses of the single alternatives, by sequence. A table applies to 10, 13 or
-/// 16 adjacent lines in the middle of the view, the table lines. Losses are summed over the table
-/// lines only. Gains in lines that another roll fits better are not subtracted.
+/// Lower bounds on the losses of the single alternatives, by sequence. Each table applies to a
+/// fixed number of adjacent lines in the middle of the view: 10, 13 or 16. These lines are called
+/// the table lines. Losses are summed over the table lines only. A gain in a line that another roll
+/// fits better counts as 0.
 class UnsharedLines {
   public:
     static constexpr int kMaxTableLines = 16;
-    /// Uses the table for the largest number of lines that is at most `max_lines` and at most the
+    /// Uses the table for the largest number of lines that exceeds neither `max_lines` nor the
     /// number of lines in view.
     explicit UnsharedLines(const LikelihoodRatios& ratios, int max_lines = kMaxTableLines);
-    /// Uses the same table as the constructor above, but a kernel sums the losses.
+    /// Uses the same table as the constructor above, but computes the sums of losses with a kernel.
     UnsharedLines(const Kernels& kernels, const LikelihoodRatios& ratios,
                   int max_lines = kMaxTableLines);
 
@@ -47,9 +48,9 @@ class UnsharedLines {
     /// Returns the minimum loss of the single alternatives of a sequence, or 0 if there is no table
     /// for the sequence.
     int min_loss(std::size_t sequence, Sharing sharing) const;
-    /// Returns the minimum loss of all places in the a4 of another code, or 0 if there are too few
+    /// Returns the minimum loss of all places in a4 of another code, or 0 if there are too few
     /// lines for any table. `unshared_in_other` is the element of `code::kUnsharedInOther` for the
-    /// code read and the other code.
+    /// code that was read and the other code.
     int min_loss(const std::array<std::string_view, 3>& unshared_in_other) const;
 
   private:

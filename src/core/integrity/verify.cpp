@@ -22,7 +22,7 @@ AxisReading reading_of(CodeVariant code, const Place& place, Axis axis) {
     return {position, static_cast<std::uint8_t>(here), 0, 0};
 }
 
-// Not inlined, because small processors then keep all variables in registers.
+// Not inlined, to keep all variables in registers on small processors.
 [[gnu::noinline]] void compare_line(std::span<const std::int8_t> line, const std::uint8_t* bit,
                                     Confidence& confidence) {
     for (const std::int8_t weight : line) {
@@ -48,7 +48,7 @@ Confidence compare(CodeVariant code, const Upright& upright, Axis axis,
     return confidence;
 }
 
-/// Returns the place of the top left symbol of an upright grid.
+/// Returns the place of the upper left symbol of an upright grid.
 Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& upright) {
     const FixedVec corner = decoding.pattern_from_grid(upright.corner());
     return moved(code, decoding.place, corner.x, corner.y);
@@ -56,20 +56,20 @@ Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& up
 
 /// Result of the comparison of all bits in view with the code, before alternatives are counted.
 struct Doubt {
-    int odds_per_bit_q8 = 0;  ///< 0 if bits carry no information, or too many are wrong
-    /// Upper bound on the probability that random bits agree with the code at least as well, as
-    /// log2 in units of 2^-8, for each axis.
+    int odds_per_bit_q8 = 0;  ///< 0 if the bits carry no information or too many bits are wrong
+    /// For each axis, log2 of an upper bound on the probability that random bits agree with the
+    /// code at least as well as the bits that were read, in units of 2^-8.
     std::array<int, 2> by_chance_q8{};
 };
 
-/// Returns the odds per bit and the bounds on chance, from the agreement of the bits of both axes
-/// with the code. Sets `bits` of the decoding and `bit_errors` of the fix.
+/// Returns the odds per bit and the bounds on chance, computed from the agreement of the bits of
+/// both axes with the code. Sets `bits` of the decoding and `bit_errors` of the fix.
 Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptions& options,
                Decoding& decoding, Fix& fix) {
     decoding.bits = agreements[0].bits() + agreements[1].bits();
     fix.bit_errors = agreements[0].wrong() + agreements[1].wrong();
     for (const Confidence& agreement : agreements) {
-        // A larger fraction of wrong bits indicates that two patterns are in view.
+        // A fraction of wrong bits above the limit indicates that two patterns are in view.
         if (agreement.wrong() > agreement.bits() * options.max_bit_error_q8 / 256) return {};
     }
     // Both axes are read from the same dots and therefore have the same error rate.
@@ -92,9 +92,9 @@ Doubt compare_with_chance(const Grid& grid, CodeVariant code, const IntegrityOpt
     return doubt_of(agreements, options, decoding, fix);
 }
 
-/// Returns an upper bound on the probability that one axis is wrong: the sum of the bounds on
-/// chance and alternatives and, unless these two already exceed the limit, on seam alternatives.
-/// All probabilities are log2 in units of 2^-8.
+/// Returns an upper bound on the probability that the position on one axis is wrong: the sum of the
+/// bounds on chance and on alternatives. If this sum is within the limit, adds the bound on seam
+/// alternatives. All probabilities are log2 in units of 2^-8.
 int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limit_q8,
                       int alternatives_q8) {
     int sum_q8 = add_log2(by_chance_q8, alternatives_q8);
@@ -102,9 +102,10 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
     return std::min(sum_q8, 0);
 }
 
-/// Returns an upper bound on the probability that each axis is wrong, as log2 in units of 2^-8.
-/// `alternatives_q8(axis, ratios)` returns the odds of the alternatives of an axis. The result is 0
-/// (probability 1) for an axis whose probability of a match by chance exceeds the limit.
+/// Returns, for each axis, an upper bound on the probability that the position is wrong, as log2 in
+/// units of 2^-8. `alternatives_q8(axis, ratios)` returns the odds of the alternatives of an axis.
+/// The result is 0 (probability 1) for an axis whose probability of a match by chance exceeds the
+/// limit.
 template <typename Alternatives>
 std::array<int, 2> with_alternatives(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
@@ -144,8 +145,8 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
     return is_sure ? Status::ok : Status::not_certain;
 }
 
-/// Returns an upper bound on the probability that each axis is wrong, as log2 in units of 2^-8. The
-/// odds of the alternatives come from quick_alternatives.hpp.
+/// Returns, for each axis, an upper bound on the probability that the position is wrong, as log2 in
+/// units of 2^-8. The odds of the alternatives come from quick_alternatives.hpp.
 std::array<int, 2> estimate_quickly(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                     int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {
@@ -196,7 +197,7 @@ TrackedAxis tracked_axis(CodeVariant code, std::span<const ComparedLine> columns
         wrong += bits_in(line.wrong);
     }
     result.confidence = Confidence::of_hard_bits(seen, wrong);
-    // The reading is that of the first line with bits, at the first cell of the line.
+    // Reading of the first line that has bits, at the first cell of this line.
     const auto ahead = static_cast<std::int32_t>(begin);
     result.reading = axis == Axis::x ? reading_of(code, moved(code, corner, ahead, 0), axis)
                                      : reading_of(code, moved(code, corner, 0, ahead), axis);
@@ -237,8 +238,8 @@ std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
             compare(code, all, Axis::y, reading_of(code, corner, Axis::y))};
 }
 
-/// Replaces the upper bounds on chance with the bounds for several possible codes. `log2_codes_q8`
-/// is log2 of the weighted number of codes, in units of 2^-8.
+/// Replaces the upper bounds on chance for one code with the upper bounds for several possible
+/// codes. `log2_codes_q8` is log2 of the weighted number of codes, in units of 2^-8.
 void count_hypotheses_of(int log2_codes_q8, const Grid& grid, CodeVariant code,
                          const Decoding& decoding, Doubt& doubt) {
     const auto agreements = compare_both(grid, code, decoding);
@@ -283,8 +284,8 @@ Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Deco
                           [&](std::size_t, const LikelihoodRatios& ratios) {
                               return quick_alternatives_log2_q8(ratios, limit_q8) + codes_q8;
                           });
-    // The probability is computed as precisely as for the default limit, even if the caller accepts
-    // a larger probability.
+    // Computes the probability as precisely as the default limit requires, even if the caller
+    // accepts a larger probability.
     const int doubtful_q8 = std::min(limit_q8, -30 * 256);
     if (sum(p_wrong_q8) > doubtful_q8) {
         const auto counted_q8 = with_alternatives(

@@ -1,5 +1,5 @@
-// Verify: compares all dots in view with the decoded position, which may have been decoded from a
-// part of the dots. differs: the paper accepts every position that decodes; see
+// Verify: compares all dots in view with the decoded position, which may have been decoded from
+// only some of the dots. differs: the paper accepts every decoded position. See
 // docs/differs-from-paper.md.
 #pragma once
 
@@ -15,23 +15,23 @@
 namespace dotpose::core {
 
 /// Sets `bit_errors` and `p_wrong_log2` of the fix, and `bits` and `p_wrong_log2_q8` of the
-/// decoding. The probability includes chance, alternatives and seams. The odds of the alternatives
-/// come from quick_alternatives.hpp. If the probability then exceeds the limit or 2^-30, they come
-/// from alternatives.hpp for the axes in doubt. `others` contains the number of possible codes. It
-/// may be null if the code is given. Errors: not_certain, if the probability exceeds the limit or
-/// too many bits contradict the position.
+/// decoding. The probability includes chance, alternatives and seams. First uses the odds of the
+/// alternatives from quick_alternatives.hpp. If the probability then exceeds the limit or 2^-30,
+/// uses the odds from alternatives.hpp for the axes in doubt. `others` contains the number of
+/// possible codes, and may be null if the code is given. Errors: not_certain, if the probability
+/// exceeds the limit or too many bits contradict the position.
 Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
-/// Variant of `verify` that uses only integers and takes bounded time. Takes the odds of the
-/// alternatives only from quick_alternatives.hpp, so it refuses more positions. Errors as in
-/// `verify`.
+/// Variant of `verify` that uses only integers and takes bounded time. Uses only the odds of the
+/// alternatives from quick_alternatives.hpp, so it refuses more positions. Returns the same errors
+/// as `verify`.
 Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
 /// Variant of `verify_quickly` for a tracked frame, in which all bits have the same weight. The
-/// first half of `lines` contains the columns, the second half the rows. `corner` is the place
-/// where the first column and the first row cross.
+/// first half of `lines` contains the columns, and the second half contains the rows. `corner` is
+/// the place where the first column and the first row cross.
 Status verify_tracked(CodeVariant code, std::span<const ComparedLine> lines, const Place& corner,
                       const IntegrityOptions& options, Decoding& decoding, Fix& fix);
 

@@ -14,8 +14,8 @@ namespace {
 
 /// Index of a4, the only sequence in which the codes differ.
 constexpr std::size_t kA4 = 3;
-/// Odds added for each place that is not counted one by one: an upper bound on its odds, as log2 in
-/// units of 2^-8 and as a number.
+/// Upper bound on the odds of a place that is not counted one by one, as log2 in units of 2^-8 and
+/// as a number. The sums contain this bound instead of the odds.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Summed odds below which no tighter bound is computed.
@@ -34,8 +34,8 @@ struct Losses {
         }
     }
 
-    /// Returns the loss in each step, in parts. A place that loses `StepLosses::kLimitParts` parts
-    /// loses at least the limit.
+    /// Returns the loss in each step, in parts of the loss limit. A place that loses
+    /// `StepLosses::kLimitParts` parts loses at least the limit.
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
@@ -51,8 +51,8 @@ struct Losses {
         return steps;
     }
 
-    /// Returns true if a place exceeds the loss limit, given that the lines that it shares have a
-    /// total loss of at most `shared`, in units of kUnit.
+    /// Returns true if the loss of a place exceeds the limit. `shared` is an upper bound on the
+    /// summed losses of the lines that the place shares, in units of kUnit.
     bool exceed_limit(int shared) const { return kUnit * (all - shared) > loss_limit; }
 
     /// Unit of `all` and `of`: 8 units of the score. Losses are rounded down to this unit, because
@@ -77,7 +77,7 @@ class OtherPlaces {
           theirs_(code::basis(other)[kA4]),
           shift_here_(code::roll_further(read, other, ratios.position, ratios.places[kA4])),
           here_(offsets_of(ratios.places[kA4])) {
-        // A line loses nothing if the roll of the place equals the roll of the reading.
+        // A line has no loss if the roll of the place equals the roll of the reading.
         const int shared = modulo(here_[0] - shift_here_);
         int lost = 0;
         for (std::size_t line = 0; line < count_ && !ratios_.is_hopeless(lost); ++line) {
@@ -90,11 +90,11 @@ class OtherPlaces {
 
     /// Returns the likelihood ratio of the place of the reading in the other code.
     float here() const { return result_.here; }
-    /// Returns the summed likelihood ratios of all other places, or an upper bound on the sum until
-    /// these places are counted.
+    /// Returns the summed likelihood ratios of all other places. Until these places are counted,
+    /// returns an upper bound on the sum.
     float elsewhere() const { return result_.elsewhere; }
 
-    /// Sets an upper bound on the odds of all other places, from a table.
+    /// Sets the upper bound on the summed odds of all other places, computed from a table.
     void bound(const UnsharedLines& unshared, CodeVariant read, CodeVariant other) {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
@@ -147,15 +147,15 @@ class OtherPlaces {
         RollOffsets offsets;
         const std::uint8_t* own = ratios_.basis[kA4].rolls + ratios_.places[kA4];
         const std::uint8_t* alternative = theirs_.rolls + place;
-        // Sets all kMaxLines offsets, not only those in view, because loops of constant length are
-        // faster.
+        // Sets the offsets of kMaxLines lines, not only of the lines in view, because loops of
+        // constant length are faster.
         for (std::size_t line = 0; line < offsets.size(); ++line)
             offsets[line] = roll_offset(own[line], alternative[line]);
         return offsets;
     }
 
     /// Returns an upper bound on the odds of all places at shifts at which they share no line.
-    /// Every place is counted with the maximum odds of such a place.
+    /// Assumes the maximum odds of such a place for every place and every shift.
     float sharing_none() const {
         return static_cast<float>(theirs_.length * (kSections - 1)) * ratios_.odds(losses_.at_best);
     }
@@ -221,7 +221,8 @@ class OtherPlaces {
         }
     }
 
-    /// Counts a place. `shift` is the roll of its first line minus the roll of the reading.
+    /// Counts a place. `shift` is the roll of its first line minus the roll of the reading, modulo
+    /// 63.
     void count(std::uint32_t place, int shift, float odds) {
         result_.elsewhere += odds;
         if (odds <= result_.best) return;
@@ -252,8 +253,8 @@ class AxisWeigher {
           read_(read),
           losses_(ratios_) {}
 
-    /// Returns the odds of the places in the code `other`: exact for the place of the reading, and
-    /// an upper bound from a table for all other places.
+    /// Returns the odds of the places in the code `other`: the exact odds of the place of the
+    /// reading, and an upper bound, from a table, on the odds of all other places.
     OtherPlaces bounded(CodeVariant other) const {
         OtherPlaces others(ratios_, losses_, read_, other);
         others.bound(unshared_, read_, other);
@@ -261,13 +262,13 @@ class AxisWeigher {
     }
 
     /// Counts all other places one by one if the bound on their odds is not negligible. `across` is
-    /// the sum of the odds of the other axis, with which the odds of this axis are multiplied.
+    /// the sum of the odds of the other axis, by which the odds of this axis are multiplied.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
         others.begin_count();
         others.add_unsimilar();
         if (!steps_) steps_ = losses_.of_steps(ratios_);
-        // Searches the a4 of the other code for the digits of the a4 of the reading.
+        // Searches a4 of the other code for the digits of the reading in a4 of its own code.
         code::Secondary a4 = code::basis(other)[kA4];
         a4.digits = ratios_.basis[kA4].digits;
         const PlaceBits similar = kernels_.find_similar_places(a4, ratios_.places[kA4], *steps_);

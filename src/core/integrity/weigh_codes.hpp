@@ -1,6 +1,6 @@
-// Weigh codes: the odds of places in the other codes, relative to the reading. The codes differ in
-// a4 only, so only positions with the a1, a2 and a3 of the reading are compared. docs/integrity.md
-// derives the sums.
+// Weigh codes: the odds of places in the other codes, relative to the reading. The codes differ
+// only in a4, so only positions with the same places in a1, a2 and a3 as the reading are compared.
+// docs/integrity.md derives the sums.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"

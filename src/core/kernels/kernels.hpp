@@ -1,7 +1,7 @@
-// Kernels: the loops over pixels, dots and cells, which take most of the time of the desktop
-// attempts. Each kernel has several implementations, one per kind of processor, with bit-identical
-// results. `select.hpp` selects one implementation. Floating-point numbers are in single precision.
-// Lengths in the image are in px.
+// Kernels: loops over pixels, dots and cells. The desktop attempts spend most of their time in
+// these loops. Each kernel has several implementations, one per kind of processor, with
+// bit-identical results. `select.hpp` selects one implementation. Floating-point numbers are in
+// single precision. Lengths in the image are in px.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct Waves {
     std::array<float, 2> phase_sin{};
 };
 
-/// Options of `sum_cells`: one pass that assigns dots to cells.
+/// Options of `sum_cells`, which assigns dots to cells in one pass.
 struct CellPass {
     float reach_px = 0;  ///< maximum distance of a dot from the origin along each axis
     /// Maximum distance of a used dot from the nearest place of its cell, in spacings.
@@ -57,7 +57,7 @@ struct CellSums {
 /// Maximum number of columns, and of rows, of cells in view, at any rotation of the image.
 inline constexpr int kMaxLinesInView = 1024;
 
-/// Where `list_cells` places the windows of cells: nowhere, on intersections or on dots.
+/// Placement of the windows by `list_cells`: no windows, on intersections or on dots.
 enum class Windows : std::uint8_t { none, on_intersections, on_dots };
 
 /// Options of `list_cells`, which lists the cells whose dots are in view.
@@ -194,9 +194,10 @@ struct SimilarPlaceList {
 /// Set of places in a sequence, one bit per place. Bit 0 of the first word is the first place.
 using PlaceBits = std::array<std::uint32_t, 8>;
 
-/// Lower bound of the loss of an alternative in each step where its digit differs from the digit of
-/// the reading. A step is the pair of a line and the next line. Such an alternative does not share
-/// at least one of the two lines. The unit is 1/kLimitParts of the loss limit.
+/// Lower bound on the loss of an alternative in each step in which its digit differs from the digit
+/// of the reading. A step is the pair of a line and the next line. If the digits of a step differ,
+/// the alternative does not share at least one of the two lines. The unit is 1/kLimitParts of the
+/// loss limit.
 struct StepLosses {
     static constexpr int kLimitParts = 8;
     int count = 0;
@@ -204,8 +205,8 @@ struct StepLosses {
 };
 
 /// Groups of alternatives. The alternatives of a group differ from the reading in the same set of
-/// sequences. For each group: the number of alternatives, and the probability that all digits of an
-/// alternative in a step equal the digits of the reading.
+/// sequences. Contains, for each group, the number of alternatives, and the probability that all
+/// digits of an alternative in one step equal the digits of the reading.
 struct FarAlternatives {
     std::array<float, 8> equal{1, 1, 1, 1, 1, 1, 1, 1};
     std::array<float, 8> number{};
@@ -227,14 +228,14 @@ struct Kernels {
     /// Copies the part of the image that the patch covers, reduced by the scale of the patch, and
     /// adds a white margin.
     void (*fill_patch)(const ImageView& image, Patch& patch);
-    /// Smooths the patch by 1-2-1 along both axes, and finds the brightest and the darkest smoothed
-    /// pixel of each tile. The outermost pixels of the patch do not count as brightest, because the
-    /// margin brightens them.
+    /// Smooths the patch with a 1-2-1 filter along both axes, and finds the brightest and the
+    /// darkest smoothed pixel of each tile. The outermost pixels of the patch do not count as
+    /// brightest, because the margin brightens them.
     void (*smooth_patch)(Patch& patch);
-    /// Lists the dots: minima of the smoothed patch that are at most as bright as the threshold of
-    /// their tile. The place of a dot is the vertex of the parabolas through the minimum and its
-    /// neighbouring pixels, in px of the image relative to the middle of the patch. Ignores minima
-    /// in the two outermost rows and columns of the patch.
+    /// Lists the dots, which are minima of the smoothed patch that are not brighter than the
+    /// threshold of their tile. The place of a dot is the vertex of the parabolas through the
+    /// minimum and its neighbouring pixels, in px of the image relative to the middle of the patch.
+    /// Ignores minima in the two outermost rows and columns of the patch.
     void (*find_minima)(Patch& patch);
     /// Evaluates a pair of perpendicular waves with a frequency of `per_px` cycles per px in 12
     /// directions (steps of 7.5 degrees). Returns the pair with the highest power.
@@ -280,11 +281,11 @@ struct Kernels {
     /// nothing if the windows do not fit in the image.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float radius_px,
                            MeasuredDots& dots);
-    /// Reads the bits of cells whose dots are predicted to a fraction of their displacement: the
-    /// dot is at the darkest of the four places of its cell. `depth_q8` is the contrast of a
-    /// typical dot relative to the paper level, in 1/256. Bits are compared and added to lines as
-    /// in `read_bits`. Drops dots that are not read or have a wrong bit. Does not compute
-    /// `projected` and `squares`.
+    /// Reads the bits of cells whose dots are predicted to within a fraction of their displacement.
+    /// The dot is assumed to be at the darkest of the four places of its cell. `depth_q8` is the
+    /// contrast of a typical dot relative to the paper level, in 1/256. Bits are compared and added
+    /// to lines as in `read_bits`. Drops dots that are not read or have a wrong bit. Does not
+    /// compute `projected` and `squares`.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures the centres of predicted dots as `refine_centres` does, in windows with a radius of

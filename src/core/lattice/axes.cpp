@@ -16,8 +16,8 @@ constexpr std::size_t kMinEdges = 12;
 
 using Values = std::span<std::int32_t>;
 
-/// Returns the median length of the edges in units of 2^-8 px. Edges of 128 px or more along either
-/// axis are ignored. Returns 0 if there are no other edges.
+/// Returns the median length of the edges in units of 2^-8 px. Ignores edges of 128 px or more
+/// along either axis. Returns 0 if there are no other edges.
 std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     std::size_t n = 0;
     for (const SeedEdge& edge : edges) {
@@ -44,8 +44,8 @@ std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t 
         const std::int32_t x = (step.x * inverse_q16) >> 16;
         const std::int32_t y = (step.y * inverse_q16) >> 16;
         const std::int32_t squared_length = x * x + y * y;
-        // Only edges of 1/2 to 5/4 of the median length are used. This leaves out diagonals, whose
-        // fourth powers have the opposite sign and four times the magnitude.
+        // Uses only edges of 1/2 to 5/4 of the median length. This excludes diagonals, whose fourth
+        // powers have the opposite sign and four times the magnitude.
         if (squared_length > 1280 * 1280 || squared_length < 512 * 512) continue;
         const std::int32_t re = (x * x - y * y) >> 10;
         const std::int32_t im = (2 * x * y) >> 10;
@@ -56,7 +56,7 @@ std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t 
     return angle_bam({sum_re, sum_im}) / 4;
 }
 
-/// Cluster of an edge, and whether the edge is opposite to the mean of the cluster.
+/// Assignment of an edge to a cluster. The edge may be opposite to the mean of the cluster.
 enum class Side : std::uint8_t { first, second, opposite_first, opposite_second, unknown };
 
 std::size_t cluster_of(Side side) {
@@ -68,7 +68,7 @@ FixedVec turned(FixedVec edge, Side side) {
 }
 using Sides = std::array<Side, kMaxEdges>;
 
-/// Sum and number of the edges with the same Side.
+/// Sum and number of the edges that have the same Side.
 struct Sum {
     FixedVec total;
     std::int32_t count = 0;
@@ -80,8 +80,8 @@ struct Sum {
 };
 using Sums = std::array<Sum, 5>;  ///< indexed by Side
 
-/// Two of the four clusters. The other two clusters are the opposites of these two clusters, which
-/// is the constraint of Fig. 5.
+/// Two of the four clusters. The other two clusters are constrained to be the opposites of these
+/// two clusters (Fig. 5).
 class Clusters {
   public:
     explicit Clusters(const std::array<FixedVec, 2>& means_q8) : means_q8_(means_q8) {
@@ -120,7 +120,7 @@ class Clusters {
         const std::int32_t along_0 = e.x * means_q6_[0].x + e.y * means_q6_[0].y;
         const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
         // Compares the clusters by the smaller of |edge - mean|^2 / 2 and |edge + mean|^2 / 2,
-        // without the common term |edge|^2 / 2.
+        // without the term |edge|^2 / 2, which all distances have in common.
         if (magnitude(along_1) - magnitude(along_0) > farther_)
             return along_1 < 0 ? Side::opposite_second : Side::second;
         return along_0 < 0 ? Side::opposite_first : Side::first;
@@ -131,12 +131,12 @@ class Clusters {
     }
 
     std::array<FixedVec, 2> means_q8_;
-    std::array<FixedVec, 2> means_q6_;  ///< in 2^-6 px, for products that fit in 32 bits
+    std::array<FixedVec, 2> means_q6_;  ///< in 2^-6 px, so that products fit in 32 bits
     /// Half the difference of the squared lengths of the means, second minus first.
     std::int32_t farther_;
 };
 
-/// Finds the cluster and side of each edge by k-means with the constraint (Fig. 5).
+/// Determines the Side of each edge by constrained k-means (Fig. 5).
 void constrained_k_means(std::span<const SeedEdge> edges, Clusters clusters, Sides& sides) {
     std::fill_n(sides.begin(), edges.size(), Side::unknown);
     Sums sums{};
@@ -187,7 +187,8 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
     // differs: the paper keeps both medians as axes. The deviation of the medians from a square is
-    // mostly scatter, not tilt. Averaging the two medians to span a square halves the variance.
+    // mostly scatter, not tilt. Averaging the two medians under the assumption of a square grid
+    // halves the variance.
     const FixedVec twice_u{u.x + v.y, u.y - v.x};
     lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};
     lattice.v_q16 = {-lattice.u_q16.y, lattice.u_q16.x};
@@ -195,8 +196,8 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
 }
 
 bool is_nearly_square(FixedVec u, FixedVec v) {
-    // Fourteen bits of the largest component suffice. Products of four components then fit in 64
-    // bits.
+    // Keeps only the fourteen most significant bits of the largest component, which are sufficient.
+    // Products of four components then fit in 64 bits.
     const auto longest =
         static_cast<std::uint32_t>(std::max(larger_component(u), larger_component(v)));
     const int shift = std::max(static_cast<int>(std::bit_width(longest)) - 14, 0);

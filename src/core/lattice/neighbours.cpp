@@ -76,8 +76,8 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
     }
 }
 
-/// Limit of the distance of a neighbour along each axis, in units of 2^-8 px: 128 px. No grid has a
-/// larger spacing.
+/// Upper limit on the distance of a neighbour along each axis: 128 px, in units of 2^-8 px. No grid
+/// has a larger spacing.
 constexpr std::int32_t kFarthest_q8 = 1 << 15;
 
 /// Returns the square of a, modulo 2^32.
@@ -197,8 +197,8 @@ void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uin
             const bool is_last = reach >= max_reach || sure_q8 >= kFarthest_q8;
             const auto within_q16 =
                 is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8);
-            // The buckets searched contain all seeds within sure_q8 of p, and no seed that is more
-            // than 2 * sure_q8 away from p along either axis.
+            // The searched buckets contain all seeds within sure_q8 of p, and no seeds that are
+            // more than 2 * sure_q8 away from p along either axis.
             Nearest nearest(p, within_q16, 2 * sure_q8 > kFarthest_q8);
             const int left = std::max(column - reach, 0);
             const int right = std::min(column + reach, buckets.columns() - 1);
@@ -214,7 +214,7 @@ void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uin
 
 namespace {
 
-/// A pair of seeds. `from` is the lower index.
+/// Indices of a pair of seeds. `from` is the lower index.
 struct Pair {
     std::int16_t from;
     std::int16_t to;

@@ -15,29 +15,30 @@ namespace dotpose::core {
 /// estimated.
 inline constexpr int kMaxSeeds = 256;
 
-/// Element n of two independent arrays that share their memory: an array of seeds, sorted by bucket
-/// in row-major order, and an array of buckets.
+/// Element of two independent arrays that share their memory. `at_q8` and `seed` are an element of
+/// the array of seeds, which is sorted by bucket in row-major order. `begin` is an element of the
+/// array of buckets.
 struct BucketedSeed {
     FixedVec at_q8;           ///< place of the seed relative to the corner of the first bucket
     std::uint16_t seed = 0;   ///< index of the seed
     std::uint16_t begin = 0;  ///< index of the first seed of the bucket in the array of seeds
 };
 
-/// Chooses at most `seeds.size()` dots in a square around `centre_q8`. The square is the largest
-/// one, in steps of a histogram bin, that does not contain more dots. Writes the indices of the
-/// dots to `seeds` and returns their number.
+/// Chooses at most `seeds.size()` dots in a square around `centre_q8`. Uses the largest square that
+/// does not contain more dots. The size of the square is limited to multiples of the width of a
+/// histogram bin. Writes the indices of the dots to `seeds` and returns their number.
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds);
 
-/// Finds the four nearest other seeds of each seed, nearest first, within 128 px along each axis.
-/// Writes the index -1 for each missing seed. `memory` must have one element more than `seeds`.
+/// Finds, for each seed, the four nearest other seeds within 128 px along each axis, nearest first.
+/// Writes -1 for each missing neighbour. `memory` must have one more element than `seeds`.
 void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                      std::span<BucketedSeed> memory,
                      std::span<std::array<std::int16_t, 4>> neighbours);
 
 /// Finds the pairs of seeds in which each seed is among the four nearest seeds of the other. Writes
-/// each pair once, as an edge that points down. Horizontal edges point right. Returns the number of
-/// edges.
+/// each pair once, as an edge that points down or, if it is horizontal, right. Returns the number
+/// of edges.
 int connect_symmetric(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                       std::span<const std::array<std::int16_t, 4>> neighbours,
                       std::span<SeedEdge> edges);

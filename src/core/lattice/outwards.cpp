@@ -14,7 +14,7 @@ namespace {
 namespace tuned = tuning::outwards;
 
 /// Returns the strongest waves through the central dots. Returns nullopt if the waves are too weak,
-/// if the spacing is out of range, or if there are too few central dots.
+/// if the spacing is out of range, or if the number of central dots is too small.
 std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, const PatchView& view) {
     const float spacing = view.spacing_px;
     const PatchDots& dots = patch.dots;
@@ -75,7 +75,8 @@ FloatPlane plane_from_waves(const Waves& waves) {
     return plane;
 }
 
-/// Inverse of the 3 x 3 matrix of the sums, over the used dots, of the products of x, y and 1.
+/// Inverse of the 3 x 3 matrix of sums in the normal equations. Each element is the sum, over the
+/// used dots, of the product of two of x, y and 1.
 struct Inverse {
     std::array<std::array<float, 3>, 3> m;
     bool is_regular = false;
@@ -105,17 +106,18 @@ float inner(const std::array<float, 3>& a, const std::array<float, 3>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Fits a plane to cells (i, j) at (x, y) by least squares: i (1 + g x + h y) = a x + b y + c, and
-/// j (1 + g x + h y) = d x + e y + f. Eliminates a to f, which leaves two equations for g and h.
-/// Without perspective, g = h = 0. Returns false if the dots do not determine the plane.
+/// Fits a plane to cells (i, j) at image points (x, y) by least squares: i (1 + g x + h y) = a x +
+/// b y + c, and j (1 + g x + h y) = d x + e y + f. Eliminates a to f, which leaves two equations
+/// for g and h. Without perspective, g = h = 0. Returns false if the dots do not determine the
+/// plane.
 bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane) {
     const Inverse inverse(sums.one);
     if (!inverse.is_regular) return false;
     const auto right_of = [](const std::array<float, 6>& s) {
         return std::array{s[1], s[2], s[0]};
     };
-    // Sums of x (x, y, 1) and of y (x, y, 1), with each term multiplied by the column or row of the
-    // cell.
+    // Extract the sums of x (x, y, 1) and of y (x, y, 1), with each term multiplied by the column
+    // or the row of the cell.
     const auto with_x = [](const std::array<float, 6>& s) { return std::array{s[3], s[4], s[1]}; };
     const auto with_y = [](const std::array<float, 6>& s) { return std::array{s[4], s[5], s[2]}; };
     std::array<float, 3> i = inverse(right_of(sums.i));
@@ -166,7 +168,8 @@ float growth(float fraction) {
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// The spacing is estimated from the distance of a dot to its 20th nearest neighbour.
+/// Rank of the neighbour from whose distance the spacing is estimated: the 20th nearest neighbour
+/// of a dot.
 constexpr std::size_t kNearest = 20;
 
 /// Returns the squared distance from the dot at `of` to its kNearest-th nearest neighbour, in px^2.
@@ -197,8 +200,8 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     PatchDots& dots = patch.dots;
     const int count = dots.count;
     if (count < tuned::kMinDots) return false;
-    // Tests a sample of the dots as the origin. If there are many dots, for example due to noise,
-    // the sample is smaller.
+    // Tests a sample of the dots as possible origins. The sample is smaller if there are many dots,
+    // for example due to noise.
     constexpr int kMaxCandidates = 64;
     constexpr int kMinCandidates = 16;
     constexpr int kMaxDistances = 32768;
@@ -221,7 +224,7 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     }
     view = whole_view(patch);
     view.full_reach_px += std::max(std::abs(from_middle_px.x), std::abs(from_middle_px.y));
-    // A disc that contains n dots has the area of n cells.
+    // A disc that contains n dots has approximately the area of n cells.
     view.spacing_px = std::sqrt(3.14159265F * min_reach_2 / (kNearest + 0.5F));
     return true;
 }

@@ -1,5 +1,5 @@
 // Outwards: finds the plane of the grid from the dots of a patch. Two plane waves through the dots
-// near the middle give a first plane. The plane is then fitted to more and more dots, with
+// near the middle provide a first plane. The plane is then fitted to more and more dots, with
 // perspective once the reach exceeds four spacings. Paper sections II-B.2 and II-B.3.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace dotpose::core {
 /// The grid of a patch, and its agreement with the dots.
 struct PatchGrid {
     FloatPlane grid_from_image;  ///< relative to the origin of the coordinates of the dots
-    float displacement = 0;      ///< displacement of the dots (root mean square), in spacings
+    float displacement = 0;      ///< root mean square displacement of the dots, in spacings
     /// Variance of the offset of a dot from the nearest of the four places of its cell, per axis,
     /// in spacings^2.
     float variance = 0;
@@ -31,18 +31,18 @@ struct PatchView {
     bool is_skewed = false;
 };
 
-/// Returns the view of a patch that is covered by dots.
+/// Returns the view of a patch that is completely covered by dots.
 PatchView whole_view(const Patch& patch);
 
-/// Moves the origin of the coordinates of the dots to the densest part of the patch, for a patch
-/// that is only partly covered by the pattern. The new origin is the dot with the smallest distance
-/// to its 20th nearest neighbour, in a sample of the dots, rounded down to whole px. Sets `view`,
-/// and sets `from_middle_px` to the new origin relative to the middle of the patch. Returns false
-/// if there are fewer than kMinDots dots.
+/// Moves the origin of the coordinates of the dots to the densest part of the patch. Intended for a
+/// patch that is only partly covered by the pattern. The new origin is the dot with the smallest
+/// distance to its 20th nearest neighbour, in a sample of the dots, rounded down to whole px. Sets
+/// `view`, and sets `from_middle_px` to the new origin relative to the middle of the patch. Returns
+/// false if there are fewer than kMinDots dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
-/// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, or if the dots are
-/// not on a grid or not displaced from the intersections.
+/// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, if the dots do not
+/// form a grid, or if the dots are not displaced from the intersections.
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid);
 
 }  // namespace dotpose::core

@@ -68,8 +68,8 @@ class Periodogram {
 
 constexpr std::int32_t kDegree_bam = 11930465;
 
-/// Raster of waves around a given wave: step sizes in direction and spacing, and numbers of steps
-/// to each side.
+/// A raster of waves around a given wave, defined by the step sizes in direction and spacing and
+/// the numbers of steps to each side.
 struct Raster {
     std::int32_t turn_bam;
     std::int32_t stretch_q16;
@@ -96,7 +96,7 @@ Wave best_around(const Wave& around, const Raster& raster, Power power) {
     return best;
 }
 
-/// Returns the wave near `wave` at which the power has a local maximum. Searches rasters of
+/// Returns the wave near `wave` at which the power has a local maximum. Searches rasters with
 /// decreasing step sizes.
 template <typename Power>
 Wave ascend(Wave wave, Power power) {
@@ -117,7 +117,7 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     const FixedVec a = first.vector_q30();
     const FixedVec b = second.vector_q30();
     const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
-    // Two waves in the same direction do not determine a grid. The caller refuses the result later,
+    // Two waves in the same direction do not determine a grid. The caller rejects the result later,
     // but the computation must not overflow.
     constexpr std::int32_t kLongest_q16 = 4096 << 16;
     const auto entry = [&](std::int32_t part_q30) {
@@ -126,8 +126,8 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     Lattice lattice;
     lattice.u_q16 = {entry(b.y), entry(-b.x)};
     lattice.v_q16 = {entry(-a.y), entry(a.x)};
-    // At the intersections, the phase of each wave is the phase of its sum over all dots, plus
-    // whole cycles.
+    // At each intersection, the phase of each wave equals the phase of its sum over all dots, plus
+    // a whole number of cycles.
     const std::int64_t i_q16 = angle_bam(periodogram.sum(first)) >> 16;
     const std::int64_t j_q16 = angle_bam(periodogram.sum(second)) >> 16;
     lattice.origin_q16 = {

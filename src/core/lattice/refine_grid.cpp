@@ -72,7 +72,7 @@ int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
     return reach;
 }
 
-/// Fits the plane to the targets of the dots by one Gauss-Newton step. `target_of(g)` returns the
+/// Fits the plane to the targets of the dots with one Gauss-Newton step. `target_of(g)` returns the
 /// target of a dot at the grid point g. Does not change the plane if the dots do not determine the
 /// step.
 template <typename TargetOf>
@@ -108,8 +108,8 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
 }
 
 /// Fits the plane to the intersections of the dots within reach. differs: the paper continues after
-/// eq. 6 with median lengths between neighbours. Here, a least-squares fit determines all terms,
-/// displacements count as noise, and the reach grows from round to round.
+/// eq. 6 with median lengths between neighbours. Here, a least-squares fit determines all terms.
+/// Displacements count as noise, and the reach grows from round to round.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
     fit_to_targets(dots, plane, [&](const GridPoint& g) {

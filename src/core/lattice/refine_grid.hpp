@@ -1,5 +1,5 @@
 // Refine grid: extends the first estimate of the grid to all dots, with perspective and lens
-// curvature. Paper section II-B.3, eq. 6.
+// distortion. Paper section II-B.3, eq. 6.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -8,10 +8,10 @@
 
 namespace dotpose::core {
 
-/// Sets the map from the image to the grid, including perspective and, if the dots determine it,
-/// the curvature of an unknown lens. `first` is the first estimate of the grid. Errors: no_grid, if
-/// too few dots are near the intersections, or the axes are not nearly perpendicular and equal;
-/// no_displacement, if the dots are on the intersections (a plain dot grid).
+/// Computes the map from the image to the grid, including perspective and, if the dots determine
+/// it, the distortion of an unknown lens. `first` is the first estimate of the grid. Errors:
+/// no_grid, if too few dots are near the intersections, or if the axes are not nearly perpendicular
+/// and equally long; no_displacement, if the dots are on the intersections (a plain dot grid).
 Status refine_grid(std::span<const DetectedDot> dots, const LatticeOptions& options,
                    FixedVec image_centre_q8, const Lattice& first, PlaneFromImage& grid_from_image);
 

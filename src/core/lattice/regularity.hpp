@@ -18,7 +18,7 @@ inline constexpr std::int32_t kDisplacement_q16 = 65536 / 6;
 /// cell.
 inline constexpr int kFirstReach_cells = 4;
 
-/// Counts of the dots within reach.
+/// Statistics of the dots within reach.
 struct Regularity {
     int dots = 0;
     int near_intersections = 0;
@@ -27,15 +27,16 @@ struct Regularity {
     int farthest_cell = 0;
 
     /// Returns true if at least the fraction kSettled_20th / 20 of the dots is near an
-    /// intersection, which permits extending the reach.
+    /// intersection. The reach may then be extended.
     bool is_settled() const {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
     }
 
     /// Returns the status of the grid, given the mean square of the offsets of all dots from their
-    /// intersections, in spacings^2. Of dots at random places, half are near an intersection, and
-    /// the mean square is 1/6. Displaced dots are all near an intersection, and the mean square is
-    /// 1/36. For a plain grid of dots, the mean square is 0.
+    /// intersections, in spacings^2. If dots are at random places, half of them are near an
+    /// intersection, and the mean square is 1/6. If dots are displaced from the intersections of a
+    /// grid, all of them are near an intersection, and the mean square is 1/36. The mean square of
+    /// a plain dot grid is 0.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
         constexpr std::int64_t kUndisplaced_q20 = (1 << 20) / 256;

@@ -1,5 +1,5 @@
-// Cells: maps many points to grid cells, through a plane without perspective or lens, in 32-bit
-// arithmetic.
+// Cells: maps many points to grid cells in 32-bit arithmetic, with a plane without perspective or
+// lens distortion.
 #pragma once
 
 #include "core/math/plane.hpp"
@@ -41,8 +41,8 @@ class Cells {
   private:
     static constexpr std::int32_t kHalf_q16 = 1 << 15;
 
-    // Half a unit is subtracted from the centre, and half a cell is added to the plane point.
-    // Truncation then rounds to nearest.
+    // The constructor subtracts half a unit from the centre, and adds half a cell to the plane
+    // point. Truncation then rounds to nearest.
     FixedVec rounding_centre_q8_;
     FixedVec rounding_at_centre_q16_;
     FixedVec du_q18_;

@@ -1,5 +1,5 @@
 /// Exponential function and logarithm in single precision, with the same bits on every platform.
-/// The functions of C libraries differ in the last bit.
+/// The corresponding functions of C libraries may differ in the last bit.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// ln 2 as a sum. The first number has nine bits, so its products with integers up to 2^15 are
-/// exact.
+/// ln 2 as a sum of two numbers. The first number has nine significant bits, so its products with
+/// integers up to 2^15 are exact.
 inline constexpr float kLn2High = 0.693359375F;
 inline constexpr float kLn2Low = -2.121944401e-4F;
 
@@ -20,8 +20,7 @@ inline float natural_exp(float x) {
     const auto exponent = static_cast<int>(x * kLog2OfE + (x < 0 ? -0.5F : 0.5F));
     const auto whole = static_cast<float>(exponent);
     const float rest = (x - whole * kLn2High) - whole * kLn2Low;
-    // Taylor's series up to the seventh power, whose remainder is below 2^-27 for |rest| <= ln 2
-    // / 2.
+    // Taylor series up to the seventh power. The remainder is below 2^-27 for |rest| <= ln 2 / 2.
     constexpr float kSeries[] = {1.0F / 720, 1.0F / 120, 1.0F / 24, 1.0F / 6, 0.5F, 1, 1};
     float sum = 1.0F / 5040;
     for (const float coefficient : kSeries)
@@ -29,18 +28,18 @@ inline float natural_exp(float x) {
     return sum * power_of_two_exactly(exponent);
 }
 
-/// Returns the natural logarithm of a normal number x > 0, with an error of at most 2^-22 or 2^-22
-/// of the result, whichever is larger.
+/// Returns the natural logarithm of a normal number x > 0, with an error of at most 2^-22 times the
+/// larger of 1 and the magnitude of the result.
 inline float natural_log(float x) {
     constexpr float kRootHalf = 0.7071067812F;
     const auto bits = __builtin_bit_cast(std::int32_t, x);
     int exponent = (bits >> 23) - 126;
-    float mantissa = __builtin_bit_cast(float, (bits & 0x007fffff) | 0x3f000000);  // 0.5 to 1
+    float mantissa = __builtin_bit_cast(float, (bits & 0x007fffff) | 0x3f000000);  // in [0.5, 1)
     if (mantissa < kRootHalf) {
         mantissa *= 2;
         --exponent;
     }
-    // ln m = 2 artanh t, by its series up to the ninth power.
+    // ln m = 2 artanh t, computed from the series up to the ninth power.
     const float t = (mantissa - 1) / (mantissa + 1);
     const float square = t * t;
     constexpr float kSeries[] = {1.0F / 7, 1.0F / 5, 1.0F / 3, 1};

@@ -23,7 +23,8 @@ std::int32_t middle(std::int32_t a, std::int32_t b, std::int32_t c) {
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
-/// Returns the element of index `rank` in sorted order (Hoare's FIND, 1961). Reorders the values.
+/// Returns the element that would be at index `rank` after sorting (Hoare's FIND, 1961). Reorders
+/// the values.
 std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
     std::int32_t* const wanted = &values[rank];
     std::int32_t* first = values.data();
@@ -136,8 +137,8 @@ std::int32_t angle_bam(FixedVec direction) {
         }
     };
     // Before step i, |y| is at most 2^(1 - i) times the length of the vector. The rotations
-    // increase the length to at most 1.65 * 2^41. From step 12, |y| and the amount subtracted from
-    // it fit in 32 bits.
+    // increase the length to at most 1.65 * 2^41. From step 12 on, |y| and the amount subtracted
+    // from it fit in 32 bits.
     constexpr std::size_t kNarrow = 12;
     for (std::size_t i = 0; i < kNarrow; ++i)
         turn(x, y, x >> i, i);

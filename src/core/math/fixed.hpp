@@ -1,4 +1,4 @@
-// Integer arithmetic shared by the stages. Angles are binary: 2^32 is a full turn.
+// Fixed: integer arithmetic shared by the stages. Angles are binary: 2^32 is a full turn.
 #pragma once
 
 #include <algorithm>
@@ -47,13 +47,13 @@ constexpr bool is_within(FixedVec a, std::int32_t limit) {
            static_cast<std::uint32_t>(a.y) + reach <= 2 * reach;
 }
 
-/// Returns n / d, rounded to nearest, with halves away from zero. Requires d > 0.
+/// Returns n / d, rounded to nearest, with ties away from zero. Requires d > 0.
 constexpr std::int64_t divide_rounded(std::int64_t n, std::int64_t d) {
     return (n >= 0 ? n + d / 2 : n - d / 2) / d;
 }
 
 /// Returns n / d, rounded towards zero. Requires d > 0 and a quotient of at most 31 bits. Takes
-/// half the time of a 64-bit division on processors without a divider.
+/// half the time of a 64-bit division on processors without a divide instruction.
 std::int32_t short_quotient(std::int64_t n, std::int64_t d);
 
 /// Returns numerator * 2^shift / denominator, rounded to nearest. Requires |numerator| < 2^62, 0 <
@@ -68,8 +68,8 @@ constexpr FixedVec divided_q30(FixedVec n, std::int64_t d_q30) {
             static_cast<std::int32_t>(divide_rounded(n.y * kOne_q30, d_q30))};
 }
 
-/// Returns the number of set bits. Counts in fields of two, four and eight bits in parallel, which
-/// is the fastest way on small processors.
+/// Returns the number of set bits. Counts in parallel in fields of two, four and eight bits, which
+/// is the fastest method on small processors.
 constexpr int bits_in(std::uint32_t word) {
     word -= word >> 1 & 0x55555555;
     word = (word & 0x33333333) + (word >> 2 & 0x33333333);
@@ -82,7 +82,7 @@ constexpr std::int32_t limited(std::int64_t value, std::int32_t limit) {
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(value, -limit, limit));
 }
 
-/// Returns n / 2^bits, rounded to nearest, with halves up. Requires bits > 0.
+/// Returns n / 2^bits, rounded to nearest, with ties rounded up. Requires bits > 0.
 constexpr std::int32_t shift_rounded(std::int64_t n, int bits) {
     return static_cast<std::int32_t>((n + (std::int64_t{1} << (bits - 1))) >> bits);
 }
@@ -109,13 +109,14 @@ std::int64_t log2_q16(std::uint32_t n);
 /// Interpolates linearly between whole powers and subtracts a correction.
 constexpr std::int64_t exp2_q16(int n_q8) {
     const std::int32_t fraction_q8 = n_q8 & 255;
-    // 1 + f exceeds 2^f by about f (1 - f) / 3, at most 0.086. 21846 / 2^16 is a third.
+    // 1 + f exceeds 2^f by about f (1 - f) / 3, which is at most 0.086. The factor 21846 / 2^16 is
+    // about 1/3.
     const std::int32_t mantissa_q16 =
         65536 + fraction_q8 * 256 - (fraction_q8 * (256 - fraction_q8) * 21846 >> 16);
     return std::int64_t{mantissa_q16} << (n_q8 >> 8);
 }
 
-/// Represents the log2 of zero, in units of 2^-8.
+/// Value that represents log2(0), in units of 2^-8.
 inline constexpr int kNever_q8 = -(1 << 20);
 
 /// log2(1 + 2^-d) in units of 2^-8, for d = 0, 1, ..., rounded up. The first value is 255 instead
@@ -124,8 +125,8 @@ inline constexpr int kNever_q8 = -(1 << 20);
 /// it.
 inline constexpr std::array<std::uint8_t, 12> kGain{255, 150, 83, 44, 23, 12, 6, 3, 2, 1, 1, 1};
 
-/// Returns an upper bound on log2(n) in units of 2^-8, for 0 < n < 2^24. Uses that log2(1 + f) is
-/// at most f + 0.087 for f in [0, 1).
+/// Returns an upper bound on log2(n) in units of 2^-8, for 0 < n < 2^24. Uses the bound log2(1 + f)
+/// <= f + 0.087 for f in [0, 1).
 constexpr int log2_at_most_q8(std::uint32_t n) {
     if (n == 1) return 0;
     const int whole = static_cast<int>(std::bit_width(n)) - 1;
@@ -149,8 +150,8 @@ std::int32_t median(std::span<std::int32_t> values);
 /// Returns the upper quartile, or 0 if there are no values. Reorders the values.
 std::int32_t upper_quartile(std::span<std::int32_t> values);
 
-/// Returns the sine of a phase, times 2^14, with an error of at most 6 %, from two parabolas.
-/// Phases are in units of 2^-16 turns.
+/// Returns the sine of a phase, times 2^14, approximated by two parabolas. The error is at most 6
+/// %. Phases are in units of 2^-16 turns.
 constexpr std::int32_t rough_sine(std::int32_t phase_q16) {
     const std::int32_t x = static_cast<std::int16_t>(phase_q16 & 0xFFFF);
     return x * (32768 - magnitude(x)) >> 14;

@@ -1,4 +1,4 @@
-// Planes in single precision, for the desktop attempts.
+// Float plane: planes in single precision, for the desktop attempts.
 #pragma once
 
 #include <cmath>
@@ -37,8 +37,8 @@ struct FloatVec {
 /// divisor is clamped to at least 1/4, because the map folds if the divisor reaches 0.
 FloatVec plane_point(const FloatPlane& plane, FloatVec px);
 
-/// Returns the same plane relative to another image point. The result is an approximation if the
-/// plane has a lens term.
+/// Returns the same plane relative to the image point `to_px`. The result is an approximation if
+/// the plane has a lens term.
 FloatPlane recentred(const FloatPlane& plane, FloatVec to_px);
 
 /// Returns the spacing at the centre, in px.

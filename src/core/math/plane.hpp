@@ -6,7 +6,7 @@
 
 namespace dotpose::core {
 
-/// A point of the grid: the nearest intersection and the offset from it.
+/// A point in grid coordinates: the nearest intersection and the offset from this intersection.
 struct GridPoint {
     FixedVec cell;        ///< paper eq. 4
     FixedVec offset_q16;  ///< eq. 5, in spacings, each in [-1/2, 1/2)
@@ -25,18 +25,18 @@ inline std::int64_t bend_q48(std::int32_t k_q40, FixedVec r_q8) {
     return k_q40 * std::min(squared(r_q8) >> 8, kFarthest_q8);
 }
 
-/// Returns true if a plane has neither perspective nor lens.
+/// Returns true if a plane has neither perspective nor a lens term.
 inline bool is_affine(const PlaneFromImage& plane) {
     return plane.perspective_q30 == FixedVec{} && plane.lens_q40 == 0;
 }
 
-/// Returns the plane that maps image points to the coordinates of a lattice, without perspective or
-/// lens. Requires u x v > 0.
+/// Returns the plane, without perspective or lens term, that maps image points to the coordinates
+/// of a lattice. Requires u x v > 0.
 PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 
 /// Returns the plane point of an image point by eq. 3, in units of 2^-16 spacings. differs: the
-/// paper projects on u and v, which is correct only if u and v are at right angles and the camera
-/// is not tilted.
+/// paper projects the point onto u and v, which is correct only if u and v are at right angles and
+/// the camera is not tilted.
 FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the nearest intersection of an image point and the offset from this intersection, by eq.
@@ -44,14 +44,15 @@ FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the image point of a plane point, in units of 2^-8 px: the inverse of `plane_point_q16`.
-/// Where the map folds, the result may be wrong, but its coordinates are at most 2^21.
+/// Where the map folds, the result may be wrong, but the magnitude of its coordinates is at most
+/// 2^21.
 FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point_q16);
 
-/// Returns the tangent of the plane at an image point: the plane without perspective or lens that
-/// has the same value and slope at this point.
+/// Returns the tangent of the plane at an image point: the plane without perspective or lens term
+/// that has the same value and slope at this point.
 PlaneFromImage tangent(const PlaneFromImage& plane, FixedVec image_point_q8);
 
-/// Variant of `tangent` for a plane that has neither perspective nor lens.
+/// Variant of `tangent` for a plane that has neither perspective nor a lens term.
 PlaneFromImage affine_tangent(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the divisor 1 + perspective . (x, y) + lens (x^2 + y^2), at least 1/4.

@@ -1,4 +1,4 @@
-// Conversion of the fixed-point numbers of planes to and from floating point.
+// Plane units: conversion between the fixed-point numbers of planes and floating point.
 #pragma once
 
 #include <algorithm>

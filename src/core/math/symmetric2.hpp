@@ -1,4 +1,4 @@
-// Symmetric systems of two linear equations, as in least squares with two unknowns.
+// Symmetric2: symmetric systems of two linear equations, as in least squares with two unknowns.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Vectors of four numbers. Their arithmetic uses the vector instructions of the processor, if
+// Vectors: vectors of four numbers. Arithmetic uses the vector instructions of the processor, if
 // available.
 #pragma once
 
@@ -26,7 +26,7 @@ inline FourInts four_at(const std::int32_t* first) {
 }
 
 /// Adds the four elements of a to the first sum, the four elements of b to the second sum, and so
-/// on, in order.
+/// on. The elements are added in order.
 inline void add_each(Four& sums, Four a, Four b, Four c, Four d) {
     const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
     const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);

@@ -48,8 +48,8 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
                          FixedVec reference_q8, Fix& fix) {
     fix.dots_used = fit.dots;
     fix.surface = fit.surface;
-    // Dots are also measured at their places in the code. Some of these dots were not found as
-    // blobs, so `dots_used` may exceed `dots_seen`.
+    // Dots are also measured where the code predicts them, even if they were not found as blobs.
+    // `dots_used` may therefore exceed `dots_seen`.
     fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
     const ScaledPlane plane(float_plane(pattern_from_image), static_cast<float>(fit.reach_px));

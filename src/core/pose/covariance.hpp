@@ -1,4 +1,4 @@
-// Covariance: the covariance of the pose, from the residuals of its fit.
+// Covariance: computes the covariance of the pose from the residuals of its fit.
 #pragma once
 
 #include "core/pose/refine_pose.hpp"

@@ -9,14 +9,15 @@ namespace {
 
 constexpr auto kSide = DotPixels::kSide;
 
-/// Chords of the ellipse parallel to u, from the outermost chord to the middle. Each chord is given
-/// by the cosine of the angle at which it ends. The other half of the ellipse is symmetric.
-/// Neighbouring chords are less than a pixel apart. kChordsOfSmall is for small ellipses.
+/// Chords of one half of the ellipse, parallel to u, from the outermost chord to the innermost.
+/// Each chord is given by the cosine of the parametric angle of its end, measured from the v axis.
+/// The other half of the ellipse is symmetric. Neighbouring chords are less than a pixel apart.
+/// kChordsOfSmall is for small ellipses.
 constexpr float kChordsOfSmall[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                     0.60876143F, 0.38268343F, 0.13052619F};
 constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F, 0.76040597F,
                              0.64944805F, 0.52249856F, 0.38268343F, 0.23344536F, 0.07845910F};
-// An ellipse is small if both its squared half axes are below this value.
+// An ellipse is small if its squared half axes are both below this value.
 constexpr float kSmall_px2 = 4;
 
 /// Returns exp(-x) for x >= 0. Unlike library functions, gives bit-identical results on every

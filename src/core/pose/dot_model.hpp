@@ -1,5 +1,5 @@
-// Dot model: the image of a dot and its derivatives with respect to the parameters. The dot is an
-// ellipse, blurred by a Gaussian and averaged over square pixels.
+// Dot model: the image of a dot and its derivatives with respect to the parameters of the model.
+// The dot is an ellipse, blurred by a Gaussian and averaged over square pixels.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace dotpose::core {
 
-/// An ellipse in the image. Lengths are in px, squares in px^2.
+/// An ellipse in the image. Lengths are in px, and squares are in px^2.
 struct ModelDot {
     FloatVec centre;    ///< relative to the middle of the central pixel
     FloatVec radius_2;  ///< squared half axes along u and v
@@ -40,8 +40,8 @@ struct DotImages {
     std::array<DotPixels, 6> derivatives;
 };
 
-/// Returns the images of a dot. Only the pixels that are at most `half_px` from the central pixel
-/// along each axis are computed. All other pixels are 0.
+/// Returns the images of a dot. Computes only the pixels that are at most `half_px` from the
+/// central pixel along each axis. All other pixels are 0.
 DotImages draw(const ModelDot& dot, int half_px);
 
 }  // namespace dotpose::core

@@ -12,7 +12,7 @@ struct DotOffset {
     float squared() const { return residual.x * residual.x + residual.y * residual.y; }
 };
 
-/// Returns the place of a measured dot in the pattern, through a plane, and its residual.
+/// Maps a measured dot to the pattern with a plane. Returns the place of the dot and its residual.
 /// `displacement` is the distance of the printed dots from their intersections, in spacings.
 inline DotOffset dot_offset(const MeasuredDots& dots, std::size_t k, const FloatPlane& plane,
                             float displacement) {

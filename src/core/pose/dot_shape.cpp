@@ -61,8 +61,8 @@ DotShape::Normal DotShape::equations(const StackedDots& stacks, const Terms& ter
     by_width[radius_v] = -by_width[radius_u];
     normal.add(by_width, (terms[radius_v] - terms[radius_u]) / first[radius_u],
                1 / (tuned::kSigmaOfWidth * tuned::kSigmaOfWidth));
-    // Prior: the contrast of the ink has a typical value. The images of small dots hardly determine
-    // the size, only the product of size and contrast.
+    // Prior: the contrast of the ink has a typical value. The images of small dots determine the
+    // product of size and contrast, but hardly the size alone.
     const float area = kPi * std::sqrt(terms[radius_u] * terms[radius_v]);
     const float contrast = terms[mass] / area;
     Terms by_contrast{};

@@ -1,5 +1,5 @@
-// Dot shape: the size and the blur of the dots of a frame, from a fit of a model dot to the stacked
-// images of the dots.
+// Dot shape: the size and the blur of the dots of a frame, estimated by fitting a model dot to the
+// stacked images of the dots.
 #pragma once
 
 #include "core/fit/normal_equations.hpp"
@@ -38,7 +38,7 @@ class DotShape {
     /// Returns the mean offset of the dots from their expected places, in px.
     FloatVec offset() const { return {terms_[offset_u], terms_[offset_v]}; }
     /// Returns the variance of a quantity, given its derivatives with respect to the terms. The
-    /// variance includes the misfit of the model.
+    /// variance is scaled by the misfit of the model.
     float variance(const Terms& derivatives) const;
     /// Returns the mean squared residual of the images, divided by the noise variance, but at least
     /// 1. A model that explains the images up to noise has a misfit of 1.

@@ -12,8 +12,8 @@
 namespace dotpose::core {
 
 /// Estimates the common bias of facing dots from their residuals and subtracts the bias from the
-/// centres of these dots. `dots` must be listed row by row. Returns false, without a change, if the
-/// bias is not significant.
+/// centres of these dots. `dots` must be listed row by row. If the bias is not significant, changes
+/// nothing and returns false.
 bool correct_neighbour_bias(const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 
 }  // namespace dotpose::core

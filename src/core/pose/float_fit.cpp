@@ -20,8 +20,7 @@ float settled(const FloatPlane& p, float reach) {
                       tuned::kMinSettled, tuned::kMaxSettled);
 }
 
-/// Returns true if the inliers within the limit `next_limit` are, at least nearly, the same as the
-/// inliers within `limit`.
+/// Returns true if the limits `limit` and `next_limit` select the same inliers, or nearly the same.
 bool keeps_dots(const FitSums& sums, float limit, float next_limit) {
     return (sums.outliers == 0 && sums.farthest <= next_limit) ||
            std::abs(next_limit - limit) < tuned::kSameLimit * limit;
@@ -47,7 +46,7 @@ bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, f
         plane = scaled.changed(step);
         const bool is_settled = moved < std::min(settled_before, settled(plane, reach));
         const float next_limit = tuned::kOutlier * fit.variance + kExact;
-        // Iterates until the step is below the limit and the inliers no longer change.
+        // The fit has converged if the step is small enough and the inliers no longer change.
         if (is_settled && keeps_dots(sums, limit, next_limit)) return true;
         limit = next_limit;
     }

@@ -1,6 +1,6 @@
-// Float fit: fits the pose to dots that were measured at their places in the code. Does the same as
-// `refine_pose`, for dots that were measured in single precision, with vector kernels. differs: the
-// paper stops at eq. 12.
+// Float fit: fits the pose to dots that were measured at their places in the code. Equivalent to
+// `refine_pose`, but for dots that were measured in single precision. Uses vector kernels. differs:
+// the paper stops at eq. 12.
 #pragma once
 
 #include "core/math/float_plane.hpp"

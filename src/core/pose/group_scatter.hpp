@@ -1,5 +1,5 @@
-// Group scatter: the correlation of the residuals of neighbouring dots, from a one-way analysis of
-// variance of both coordinates together.
+// Group scatter: the correlation of the residuals of neighbouring dots, estimated by a one-way
+// analysis of variance of both coordinates together.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace dotpose::core {
 
 /// Sums over groups of neighbouring dots. Residuals are relative to a plane that was fitted to all
-/// dots; squares are in spacings^2.
+/// dots. Squares are in spacings^2.
 struct GroupScatter {
     float squares = 0;  ///< sum of the squared residuals of all dots
     /// Sum, over all groups, of the squared mean residual times the number of dots of the group.

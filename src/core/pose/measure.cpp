@@ -37,8 +37,8 @@ struct Window {
     int half_px = 0;
     std::int32_t sigma_q8 = 0;
 
-    /// Sets the size for dots whose standard deviation, including blur, is about a tenth of the
-    /// spacing.
+    /// Sets the size of the window for dots whose standard deviation, including blur, is about a
+    /// tenth of the spacing.
     explicit Window(std::int32_t spacing_q8)
         : half_px(std::min<std::int32_t>(
               std::max<std::int32_t>(spacing_q8 * tuned::kHalf_32nds / 32 + 255,
@@ -48,8 +48,8 @@ struct Window {
           sigma_q8(std::max<std::int32_t>(spacing_q8 * tuned::kSigma_128ths / 128,
                                           tuned::kMinSigma_q8)) {}
 
-    /// Returns the part of the window around a pixel in which every pixel has all its neighbours in
-    /// the image, or nullopt if the pixel itself lacks a neighbour. Windows at the border are
+    /// Crops the window around a pixel to the pixels whose neighbours are all in the image. Returns
+    /// nullopt if the pixel itself lacks a neighbour. Windows at the border of the image are
     /// cropped instead of rejected, because the dots at the border contribute most to angle and
     /// tilt.
     std::optional<Box> box_around(const ImageView& image, int u, int v) const {
@@ -90,7 +90,8 @@ class Patch {
     std::array<std::array<float, kMaxInFours>, kMaxSide_px> levels_;
 };
 
-/// Paper level around a dot, in grey levels: a plane through the border of the window.
+/// Paper level around a dot, in grey levels. The paper level is a plane through the border of the
+/// window.
 struct BorderBackground {
     float middle = 0;
     float slope_u = 0;  ///< grey levels per px
@@ -130,8 +131,8 @@ BorderBackground border_background(const Patch& patch, FixedVec pixel, int half)
     return {sum / count, slope(sides[0], sides[1]), slope(sides[2], sides[3])};
 }
 
-/// Fits a Gaussian dot to a window by one Gauss-Newton step. The darkness of a dot with the width
-/// of the window, at a small `offset` from its centre, is
+/// Fits a Gaussian dot to a window by one Gauss-Newton step. The darkness of a dot that has the
+/// same width as the window, at a small `offset` from the centre of the window, is
 ///
 ///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d), with d and offset in units of sigma.
 ///
@@ -153,8 +154,8 @@ class DotFit {
         float offset_x;
         float offset_y;
     };
-    /// Returns the fitted height and offset. Returns nullopt if the height is not positive: the
-    /// window then contains no dark spot.
+    /// Returns the fitted height and offset. Returns nullopt if the height is not positive, that
+    /// is, if the window contains no dark spot.
     std::optional<Result> solve() const {
         const float one = one_x_y_xx_[0];
         const float sum_x = one_x_y_xx_[1];
@@ -176,15 +177,15 @@ class DotFit {
     }
 
   private:
-    // Sums of 1, x, y, x^2, xy and y^2, weighted with the squared profile, and sums of the darkness
-    // and the darkness times x and y, weighted with the profile.
+    // Sums of 1, x, y, x^2, xy and y^2, weighted by the squared profile, and sums of the darkness,
+    // and of the darkness times x and y, weighted by the profile.
     Four one_x_y_xx_{};
     Four xy_yy_dark_{};
     Four dark_y_{};
 };
 
-/// Profile of the window along one axis: distances from its centre, in sigmas, and exp(-d^2 / 2).
-/// Padded with zeros to a multiple of four.
+/// Profile of the window along one axis: distances d from its centre, in units of sigma, and
+/// exp(-d^2 / 2). Padded with zeros to a multiple of four.
 struct AxisProfile {
     using Values = std::array<float, kMaxInFours>;
     Values distance;
@@ -226,8 +227,8 @@ DotFit fit_dot(const Patch& patch, const BorderBackground& light, std::int32_t s
     return fit;
 }
 
-/// Returns the dot near a point. Returns nullopt if the point is outside the image, if there is no
-/// dark spot, or if the dot is too far from the point.
+/// Measures and returns the dot near a point. Returns nullopt if the point is outside the image, if
+/// there is no dark spot, or if the dot is too far from the point.
 std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
                                    FixedVec start_q8) {
     const std::int64_t farthest =
@@ -259,8 +260,8 @@ std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
     return dot;
 }
 
-/// Rejects dots whose mass is below half, or above kTooDark_halves halves, of the typical mass.
-/// Such dots are dirt, graphics, or bare paper where a dot is missing.
+/// Rejects dots whose mass is below half of the typical mass, or above kTooDark_halves / 2 times
+/// the typical mass. Such dots are dirt, graphics, or bare paper where a dot is missing.
 void reject_mass_outliers(Grid& grid, std::span<DetectedDot> dots) {
     constexpr std::size_t kSample = tuned::kMedianSample;
     std::array<std::int32_t, kSample> masses;

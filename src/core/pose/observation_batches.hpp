@@ -1,4 +1,5 @@
-// Observation batches: splits all observations into batches, for each round of a fit.
+// Observation batches: splits the observations into batches. Each round of a fit visits all
+// batches.
 #pragma once
 
 #include <array>
@@ -8,7 +9,7 @@
 
 namespace dotpose::core {
 
-/// Dots as one array per property, for vector instructions.
+/// Dots, stored as a structure of arrays for vector instructions.
 struct ObservationBatch {
     static constexpr std::size_t kMax = 256;
     template <typename Value>
@@ -32,8 +33,8 @@ struct ObservationBatch {
         dy[count] = dotpose::dy(symbol);
         noise[count++] = its_noise;
     }
-    /// Pads the batch to a multiple of four dots. `count` does not include the padding, which is
-    /// too far away to be an inlier.
+    /// Pads the batch to a multiple of four dots. `count` does not include the padding. The dots of
+    /// the padding are too far away to be inliers.
     void fill_up();
 };
 

@@ -30,8 +30,8 @@ class Observations {
 
     bool know_noise() const { return paper_ != nullptr; }
     /// Returns the variance of a centre due to pixel noise, divided by the variance for a dot on
-    /// white paper (level 255). Pixel noise is constant over the image, but the contrast of a dot
-    /// is proportional to the paper level.
+    /// white paper (level 255). Assumes that pixel noise is constant over the image, and that the
+    /// contrast of a dot is proportional to the paper level.
     float noise(const Observation& o) const {
         const float light =
             static_cast<float>(paper_at(*paper_, o.image_point_q8.x >> 8, o.image_point_q8.y >> 8));

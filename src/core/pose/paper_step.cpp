@@ -46,8 +46,8 @@ struct PartSums {
     float dots() const { return counts[2]; }
     float squares() const { return counts[3]; }
 
-    /// Returns the sum of the squared residuals of the coherent dots after a common displacement
-    /// and rotation.
+    /// Returns the sum of the squared residuals of the coherent dots after subtraction of the best
+    /// common displacement and rotation.
     float remaining() const {
         if (dots() < 3) return squares();
         const float by = 1 / dots();
@@ -93,8 +93,8 @@ struct Symmetric3 {
 };
 
 /// Least-squares affine map from the places of all coherent dots to their residuals. The gain of a
-/// step at a line is relative to this map, because an affine map absorbs most of a step in the
-/// middle of the view.
+/// step at a line is computed relative to this map, because an affine map absorbs most of a step in
+/// the middle of the view.
 class AffineFit {
   public:
     AffineFit() = default;
@@ -108,10 +108,11 @@ class AffineFit {
           y_(inverse_ * y_off),
           squares_(all.squares() - inner_product(x_, x_off) - inner_product(y_, y_off)) {}
 
-    /// Returns the sum of the squared residuals of all coherent dots after the affine map.
+    /// Returns the sum of the squared residuals of all coherent dots after subtraction of the
+    /// affine map.
     float squares() const { return squares_; }
-    /// Returns the reduction of the sum of squared residuals by a displacement of the part beyond a
-    /// line.
+    /// Returns the reduction of the sum of squared residuals that a displacement of the part beyond
+    /// a line achieves.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
         const float spread = step[0] - inner_product(step, inverse_ * step);
@@ -120,8 +121,8 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns the reduction of the sum of squared residuals by a displacement and rotation of the
-    /// part beyond a line.
+    /// Returns the reduction of the sum of squared residuals that a displacement and rotation of
+    /// the part beyond a line achieve.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
@@ -148,9 +149,9 @@ class AffineFit {
     }
 
   private:
-    /// Minimum spread that determines a step. The spread is the squared norm of the indicator
-    /// function of the part (1 for each dot beyond the line, 0 for all other dots) minus its
-    /// least-squares affine fit.
+    /// Minimum spread at which the dots determine a step. The spread is the squared norm of the
+    /// indicator function of the part (1 for each dot beyond the line, 0 for all other dots) minus
+    /// its least-squares affine fit.
     static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};
@@ -184,7 +185,7 @@ class Search {
         lines_ = std::clamp(wanted, std::size_t{4}, kLines);
         per_spacing_ = static_cast<float>(lines_) / length;
         // If outliers are frequent, for example in printed text, outliers beyond a line are only
-        // weak evidence that the paper is displaced there.
+        // weak evidence of a displacement of the paper.
         off_plane_ = natural_log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
             sums_[k] = sums_of(dots_[k]);

@@ -1,5 +1,6 @@
 // Paper step: finds a line beyond which the print is displaced, because a printer fed the paper
-// badly or because two sheets adjoin at the line. differs: the method of the paper has one plane.
+// badly or because two sheets adjoin at the line. differs: the method of the paper fits a single
+// plane.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -9,7 +10,7 @@ namespace dotpose::core {
 
 /// A line in the pattern that divides the sheet.
 struct PaperStep {
-    /// Gains below kPossible can be explained by chance: the gain exceeds kPossible on 1 of 100
+    /// Gains below kPossible can be explained by chance: the gain exceeds kPossible on 1 in 100
     /// flat sheets. Gains above kCertain cannot be explained by chance. Both limits are high
     /// because many lines are tried, each with three parameters for the part beyond the line, and
     /// because steps are rare.
@@ -17,7 +18,7 @@ struct PaperStep {
     static constexpr float kCertain = 23;
 
     FloatVec direction{1, 0};  ///< unit vector perpendicular to the line, pointing beyond the line
-    /// Distance from the reference point to the line, in spacings; negative if the reference point
+    /// Distance from the reference point to the line, in spacings. Negative if the reference point
     /// is beyond the line.
     float distance = 0;
     float gain = 0;  ///< log likelihood ratio (natural) relative to a single plane

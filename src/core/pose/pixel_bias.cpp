@@ -20,8 +20,8 @@ float sine_of_turns(float x) {
     return 0.775F * y + 0.225F * y * std::abs(y);
 }
 
-/// Returns the centre of the centroid window of a dot along one axis, in px. The centre is a
-/// multiple of 1/4 px, as the kernels place it.
+/// Returns the centre of the centroid window of a dot along one axis, in px. The kernels round the
+/// centre to a multiple of 1/4 px.
 float place_of_window(std::int32_t window, std::int32_t sum, std::int32_t mass) {
     const float quarters =
         4 * static_cast<float>(sum) / static_cast<float>(std::max<std::int32_t>(mass, 1));
@@ -137,10 +137,10 @@ class AxisBias {
     float dots_ = 0;
 };
 
-/// Returns the error, in px, of a window whose centre is at a distance d from its dot. The kernels
-/// take one Newton step, which treats the moment as linear. The moment is proportional to (d - bend
-/// d^3), and is divided by the slope at the centre of the window along u. `slopes` is the slope
-/// along v divided by the slope along u.
+/// Returns the error, in px, of the centroid of a dot at the offset `d` from the centre of its
+/// window. The kernels take one Newton step, which treats the moment as linear. The actual moment
+/// is proportional to (d - bend d^3). The kernels divide the moment by its slope along u at the
+/// centre of the window. `slopes` is the slope along v divided by the slope along u.
 FloatVec error_off_centre(float bend, float slopes, FloatVec d) {
     return {2 * bend * d.x * d.x * d.x,
             d.y * (slopes * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1)};
@@ -165,7 +165,8 @@ class ExpectedDots {
           centre_px_(centre_px),
           dots_(dots) {}
 
-    /// Calls `use` for each inlier among every `every`-th dot, with its sub-pixel phase.
+    /// Visits every `every`-th dot, and calls `use` for each inlier, with its index and its
+    /// sub-pixel phase.
     template <typename Use>
     void visit(std::size_t every, Use use) const {
         for (std::size_t k = 0; k < static_cast<std::size_t>(dots_.count); k += every) {
@@ -216,7 +217,7 @@ FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window
                    });
     DotShape shape;
     if (!shape.fit(stacks)) return {};
-    // Blur removes the bias, and makes dots larger than the image of a model dot.
+    // Strong blur removes the bias, and makes the dots larger than the image of a model dot.
     if (std::min(shape.blur_2().x, shape.blur_2().y) > tuned::kBlurred_px2) return {};
     AxisBias along_u(shape, Along::u, window.radius_px);
     AxisBias along_v(shape, Along::v, window.radius_px);

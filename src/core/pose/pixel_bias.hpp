@@ -15,7 +15,7 @@ namespace dotpose::core {
 struct CentroidWindow {
     float radius_px = 0;      ///< distance from the centre at which the weight becomes 0, in px
     float dot_radius_px = 0;  ///< approximate radius of the dots, in px
-    /// Origin of the places of dots, in px relative to the first pixel of the image.
+    /// Origin of the coordinates of the dots, in px relative to the first pixel of the image.
     FloatVec centre_px;
 };
 

@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::paper_step;
 
-/// Finds the residual, in spacings, that is shared by the most dots near a point. Returns false if
-/// fewer than kMinAgreeing dots share a residual.
+/// Finds the residual that is common to the largest number of dots near a point, in spacings.
+/// Returns false if fewer than kMinAgreeing dots have a common residual.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMaxDots = 256;
@@ -76,9 +76,9 @@ bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
                        split.fit))
             return false;
         if (round + 1 == tuned::kRounds) break;
-        // Relative to the plane of one side, the search finds the line more precisely than relative
-        // to the plane of all dots. The gain relative to this plane is not used, because the dots
-        // beyond the line did not contribute to the plane.
+        // The search finds the line more precisely relative to the plane of one side than relative
+        // to the plane of all dots. The gain of the new line is not used, because the dots beyond
+        // the line did not contribute to the plane of one side.
         const PaperStep step = find_paper_step(dots, split.plane, split.fit, reference_px);
         if (step.gain > 0) split.step = step;
     }

@@ -5,8 +5,9 @@
 
 namespace dotpose::core {
 
-/// Restricts fits to the dots on one side of a line, during the lifetime of the object. The cells
-/// of all other dots are moved far away. Dots near the line are on neither side.
+/// Restricts fits to the dots on one side of a line during the lifetime of the object. Moves the
+/// cells of all other dots far away, so fits reject these dots as outliers. Dots near the line
+/// belong to neither side.
 class HalfPlane {
   public:
     /// The side that fits use: the side of the reference point, or the side beyond the line.

@@ -37,7 +37,7 @@ void StackedDots::add(const ImageView& image, const Phase& phase, float paper) {
 }
 
 bool StackedDots::are_enough() const {
-    constexpr float kMinBeyond = 16;  // in addition to one dot per stack
+    constexpr float kMinBeyond = 16;  // minimum number of dots, in addition to one per stack
     float stacks = 0;
     visit([&](const Stack&) { stacks += 1; });
     return dots_ >= stacks + kMinBeyond;
@@ -52,7 +52,7 @@ float StackedDots::mass() const {
 }
 
 float StackedDots::noise_2() const {
-    constexpr float kMinVariance = 1e-6F;  // quantization of grey levels
+    constexpr float kMinVariance = 1e-6F;  // accounts for the quantization of grey levels
     float between = 0;
     float freedom = 0;
     visit([&](const Stack& stack) {

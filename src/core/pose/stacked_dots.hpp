@@ -41,7 +41,8 @@ class StackedDots {
             if (stack.dots > 0) use(stack);
         }
     }
-    /// Calls `use` for each pixel used, relative to the central pixel.
+    /// Calls `use(u, v)` for each pixel that is used. `u` and `v` are relative to the central
+    /// pixel.
     template <typename Use>
     void visit_pixels(Use use) const {
         for (int v = -half_px_; v <= half_px_; ++v) {
@@ -54,10 +55,10 @@ class StackedDots {
     int half_px() const { return half_px_; }
     /// Returns true if there are enough dots to separate signal from noise.
     bool are_enough() const;
-    /// Returns the total darkness of a dot, summed over its pixels, as the mean over all dots.
+    /// Returns the sum of the darkness of all pixels of a dot, averaged over all dots.
     float mass() const;
     /// Returns the variance of the darkness of a pixel among the dots of a stack, plus a minimum
-    /// for the quantization of grey levels.
+    /// that accounts for the quantization of grey levels.
     float noise_2() const;
 
   private:

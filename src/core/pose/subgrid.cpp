@@ -26,8 +26,8 @@ void write_pose(const PlaneFromImage& there, CodeVariant code, const Place& plac
     fix.fraction_y_q16 = static_cast<std::uint16_t>(t.y & 0xFFFF);
     const FixedVec du = there.du_q24;
     fix.theta_bam = angle_bam(du);
-    // px per spacing is the inverse of the length of du. The length may be almost 0 far outside the
-    // image, where the map may fold.
+    // The spacing in px is the inverse of the length of du. Far outside the image, the map may
+    // fold, so the length may be almost 0.
     const auto du_length_q24 = square_root(static_cast<std::uint64_t>(squared(du)));
     const std::int64_t spacing_q16 =
         (std::int64_t{1} << 40) / std::max<std::uint32_t>(du_length_q24, 1U);

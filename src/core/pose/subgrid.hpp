@@ -1,5 +1,5 @@
-// Subgrid: the place of the reference point between the intersections, and the angle. Paper section
-// II-B.8, eq. 10-12; the angle is at the end of II-B.6.
+// Subgrid: the place of the reference point between the intersections, and the angle. Implements
+// paper section II-B.8, eq. 10-12, and the angle at the end of II-B.6.
 #pragma once
 
 #include "dotpose/fix.hpp"

@@ -1,36 +1,37 @@
 // Tuning: empirical constants of the pose fit. The constants of the second attempt were determined
 // on the hard frames that decode/tuning.hpp names. Comments that compare values state the number of
 // frames that `dotpose evaluate --preset hard --frames 2000 --seed 404` locates, and the median and
-// the 95 % quantile of their errors. With the values in this file: 1,994, 2.21 and 5.42 µm.
+// the 95 % quantile of their errors. With the values in this file, these numbers are 1,994 frames,
+// 2.21 µm and 5.42 µm.
 #pragma once
 
 namespace dotpose::core::tuning {
 
 /// Centres of dots in a window (pose/measure).
 namespace measure {
-/// Half the side of the window, in 1/32 of the spacing, but at least kMinHalf_q8 (1/256 px). With
-/// this size, the border of the window is on paper even if the dot is displaced from the centre,
-/// and the window contains no part of another dot.
+/// Half the side of the window, in 1/32 of the spacing, and its minimum, in 1/256 px. With this
+/// size, the border of the window is on paper even if the dot is displaced from the centre, and the
+/// window contains no part of another dot.
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
-/// Standard deviation of the fitted dot, in 1/128 of the spacing, but at least kMinSigma_q8 (1/256
-/// px). This is the width of a blurred dot. With 6: 1,994, 2.19 and 5.36 µm; with 24: 1,904, 3.58
-/// and 9.19 µm.
+/// Standard deviation of the fitted dot, in 1/128 of the spacing, and its minimum, in 1/256 px. The
+/// value is the width of a blurred dot. With kSigma_128ths = 6: 1,994 frames, 2.19 µm and 5.36 µm.
+/// With kSigma_128ths = 24: 1,904 frames, 3.58 µm and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
 /// Maximum squared distance of a dot from its place, in units of sigma^2. The pose fit rejects dirt
-/// as outliers. A smaller limit would also reject badly printed dots, which costs accuracy and
-/// hides print errors.
+/// as outliers, so the limit can be large. A smaller limit would also reject badly printed dots,
+/// which costs accuracy and hides print errors.
 inline constexpr int kFarthest_2 = 9;
-/// Maximum number of Gauss-Newton steps. Iteration also ends after a step of less than kSettled_q8
-/// (1/256 px).
+/// Maximum number of Gauss-Newton steps. The iteration also ends after a step that is shorter than
+/// kSettled_q8, in 1/256 px.
 inline constexpr int kMaxIterations = 5;
 inline constexpr int kSettled_q8 = 4;
 /// Maximum darkness of a dot, in halves of the darkness of a typical dot. The minimum is half the
 /// darkness of a typical dot. These limits reject dirt, graphics, and bare paper where a dot is
 /// missing.
 inline constexpr int kTooDark_halves = 3;
-/// Maximum number of dots in the sample. The median of the sample is the darkness of a typical dot.
+/// Maximum number of dots in the sample whose median is taken as the darkness of a typical dot.
 inline constexpr int kMedianSample = 256;
 }  // namespace measure
 
@@ -39,14 +40,14 @@ namespace fit {
 /// Maximum number of Gauss-Newton rounds, in `refine_pose` and in `fit_plane`.
 inline constexpr int kMaxRounds = 4;
 inline constexpr int kMaxRoundsOfFloats = 5;
-/// Squared step length, in units of the standard deviation of the pose, up to which `refine_pose`
-/// ends. The next step would be much smaller.
+/// Squared step length, in units of the standard deviation of the pose, at or below which
+/// `refine_pose` stops. The next step would be much smaller.
 inline constexpr float kSettled = 0.01F;
-/// Outlier limit, in medians of the squared residuals. The median is 1.39 sigma^2, so the limit is
-/// 4.1 sigma. By chance, 1 dot in 4,000 exceeds the limit.
+/// Outlier limit of squared residuals, in units of their median. The median is 1.39 sigma^2, so the
+/// limit is 4.1 sigma. By chance, 1 dot in 4,000 exceeds the limit.
 inline constexpr int kOutlier_medians = 12;
-/// Outlier limit, in variances, if the variance is known: 4.1 sigma. By chance, 1 dot in 4,000
-/// exceeds the limit.
+/// Outlier limit of squared residuals, in units of the variance, if the variance is known. The
+/// limit is 4.1 sigma. By chance, 1 dot in 4,000 exceeds the limit.
 inline constexpr float kOutlier = 16.6F;
 /// Relative change of the limit below which the inliers count as unchanged.
 inline constexpr float kSameLimit = 0.04F;
@@ -79,8 +80,8 @@ inline constexpr float kMin_px2 = 0.005F;
 inline constexpr float kFirstDamping = 0.01F;
 inline constexpr float kMaxDamping = 1e4F;
 inline constexpr float kDampingGrows = 10;
-/// The fit ends after a step that reduces the cost, the sum of the squared residuals in units of
-/// their variances, by less than kSettled, or after kMaxRounds rounds.
+/// The fit ends after kMaxRounds rounds, or after a step that reduces the cost by less than
+/// kSettled. The cost is the sum of the squared residuals, in units of their variances.
 inline constexpr float kSettled = 0.3F;
 inline constexpr int kMaxRounds = 30;
 }  // namespace shape
@@ -96,18 +97,19 @@ namespace bias {
 /// Maximum number of dots whose images are stacked. This number suffices to determine the shape of
 /// the dots.
 inline constexpr int kDots = 256;
-/// Width of the border around a dot whose pixels are also used. The border includes the blur of the
-/// edge.
+/// Width of the border around a dot that is also stacked. The border contains the blur of the edge
+/// of the dot.
 inline constexpr float kBeyondEdge_px = 1.5F;
 /// Variance of the blur above which the bias is negligible.
 inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
-/// Variance of the bias that remains after correction by a model dot, divided by the squared bias:
-/// kOfModel + kOfMisfit * max(misfit - kMisfit, 0), where misfit is `DotShape::misfit()`. Round
-/// dots need only kOfModel.
+/// Variance of the bias that remains after correction with a model dot, divided by the squared
+/// bias: kOfModel + kOfMisfit * max(misfit - kMisfit, 0), where misfit is `DotShape::misfit()`.
+/// Round dots need only kOfModel.
 inline constexpr float kOfModel = 0.01F;
 inline constexpr float kMisfit = 2.5F;
 inline constexpr float kOfMisfit = 0.025F;
-/// Relative difference between the slopes along the two axes that noise causes for round dots.
+/// Relative difference between the slopes along the two axes that noise alone causes for round
+/// dots.
 inline constexpr float kSlopes = 0.03F;
 }  // namespace bias
 
@@ -117,12 +119,13 @@ namespace uneven {
 /// for a line that divides the sheet if the excess is above kSuspect. The second attempt, whose
 /// dots are noisier than those of fast attempts, already searches above kMaybeLine, because the
 /// plane absorbs most of a step at a line. Above kShared, the common residuals increase the
-/// covariance; 1 of 20 flat sheets exceeds kShared. One side of a line counts as even up to
-/// kSuspect. A sheet without a line counts as uneven above kUneven; at most about 1 of 1,000 flat
-/// sheets exceeds kUneven. Measured by `dotpose_tables slips`.
+/// covariance. For 1 in 20 flat sheets, the excess is above kShared. One side of a line counts as
+/// even up to kSuspect. A sheet without a line counts as uneven above kUneven. For at most about 1
+/// in 1,000 flat sheets, the excess is above kUneven. `dotpose_tables slips` measures these
+/// fractions.
 inline constexpr float kMaybeLine = 0.9F;
-/// Number of dots up to which kMaybeLine applies. With more dots, the common residuals of any sheet
-/// are more significant.
+/// Number of dots up to which kMaybeLine applies. With more dots, the limit increases with the
+/// square root of their number, because the common residuals of any sheet are more significant.
 inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
@@ -141,9 +144,9 @@ inline constexpr int kFewAlong = 6;
 /// docs/integrity.md compares the result with the errors on bent sheets.
 inline constexpr float kOfPlace = 2;
 inline constexpr float kOfTurn = 8;
-/// Standard deviation of the common residuals of blocks that is not attributed to the sheet. The
-/// cause of these residuals is the pixel bias of dots whose phase drifts slowly. This bias averages
-/// out over the view.
+/// Standard deviation of the common residuals of blocks that is not attributed to the sheet. These
+/// residuals are due to the pixel bias of dots whose phase drifts slowly over the view. The bias
+/// averages out over the view.
 inline constexpr float kPixelBias_px = 0.004F;
 /// Distance from the line, in spacings, within which the reference point may be on either side of
 /// the line.
@@ -152,11 +155,11 @@ inline constexpr float kNearLine = 1.2F;
 
 /// Search for the line that divides a sheet (pose/paper_step, pose/split_fit).
 namespace paper_step {
-/// Maximum evidence of one dot for a plane that predicts its place: natural log of the odds
-/// relative to a dot anywhere in its cell.
+/// Maximum evidence of one dot for a plane that predicts its place: natural logarithm of the odds
+/// relative to a dot at a random place in its cell.
 inline constexpr float kOnPlane = 5;
 /// Maximum squared residual of a dot, in units of the variance, that a common displacement of its
-/// part may explain.
+/// part of the sheet may explain.
 inline constexpr float kTogether = 36;
 /// Maximum distance, in spacings, by which the reference point may be beyond the line.
 inline constexpr float kBehind = 0.5F;
@@ -174,8 +177,8 @@ inline constexpr float kMargin = 0.8F;
 inline constexpr float kReach = 10;
 inline constexpr int kMinAgreeing = 8;
 inline constexpr float kAgreement = 0.08F * 0.08F;
-/// Number of rounds. Each round fits the dots on the near side of the line. All rounds except the
-/// last round then search for the line again.
+/// Number of rounds. Each round fits a plane to the dots on the side of the reference point. Each
+/// round except the last then searches for the line again.
 inline constexpr int kRounds = 3;
 }  // namespace paper_step
 

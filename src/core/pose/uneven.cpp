@@ -112,9 +112,9 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
     add(0.02F * 0.02F, 2, fit);
 }
 
-/// Fits only the side of the reference point if a line certainly divides the sheet and this side is
-/// even. If a line is found otherwise, the covariance includes the difference between the plane of
-/// all dots and the plane of this side.
+/// If a line certainly divides the sheet and the side of the reference point is even, fits the
+/// plane to this side only. If a line is found but one of these conditions is not met, adds the
+/// difference between the plane of all dots and the plane of this side to the covariance.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
     SplitFit split{plane, fit};
@@ -148,10 +148,10 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
         widen_by_blocks(blocks, fit);
 }
 
-/// Returns the excess, in standard deviations, above which a thorough attempt searches for a line.
+/// Returns the excess, in standard deviations, above which the second attempt searches for a line.
 /// With more dots, the common residuals that every sheet has, for example due to pixel bias, become
-/// more significant, so the limit is higher. Lines also become more significant, so they still
-/// exceed the limit.
+/// more significant, so the limit increases. The residuals at a line also become more significant,
+/// so they still exceed the limit.
 float patient_excess(const Blocks& blocks) {
     return tuned::kMaybeLine *
            std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));
@@ -186,7 +186,7 @@ void fit_uneven(const Kernels& kernels, const Observations& observations, FixedV
         dots.row[k] = static_cast<float>(o.pattern_step.y);
         dots.bits[k] = static_cast<std::int32_t>(o.symbol);
     });
-    // Kernels process eight dots at a time.
+    // Pads the arrays, because the kernels process eight dots at a time.
     for (std::size_t k = 0; k < 8; ++k)
         dots.x[static_cast<std::size_t>(dots.count) + k] = kNoDot_px;
     FloatPlane better = float_plane(plane);

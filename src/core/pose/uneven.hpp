@@ -1,6 +1,7 @@
-// Uneven: tests the residuals of neighbouring dots for correlation. One plane explains a flat
+// Uneven: tests the residuals of neighbouring dots for correlation. A single plane explains a flat
 // sheet. If neighbouring dots have common residuals, the sheet is not flat, and the fix is less
-// accurate than independent residuals suggest. differs: the method of the paper has one plane.
+// accurate than independent residuals suggest. differs: the method of the paper fits a single
+// plane.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -14,9 +15,9 @@ namespace dotpose::core {
 void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                 FloatPlane& plane, PoseFit& fit);
 
-/// Overload for a plane that was fitted to observations. Searches for a line at a much lower
-/// correlation than the other overload. The search takes longer. `dots` is memory for the
-/// observations. If this memory is too small, the surface counts as even.
+/// Overload for a plane that was fitted to observations. Starts to search for a line at a much
+/// lower correlation than the other overload, so it takes longer. `dots` provides the memory for
+/// the observations. If this memory is too small, the surface counts as even.
 void fit_uneven(const Kernels& kernels, const Observations& observations, FixedVec reference_q8,
                 MeasuredDots& dots, PlaneFromImage& plane, PoseFit& fit);
 

@@ -16,10 +16,11 @@ dds_entity_t require(dds_entity_t entity, const std::string& what) {
     return entity;
 }
 
-/// Number of messages of a reliable topic that are stored until all readers have received them.
+/// Maximum number of messages of a reliable topic that are stored until all readers have received
+/// them.
 constexpr int kDepth = 100;
 
-/// Quality of service of a topic, with the values of ROS.
+/// Quality of service of a topic, as in ROS.
 struct Quality {
     bool is_reliable = true;
     bool is_kept = false;  ///< true if messages are stored for later readers
@@ -34,8 +35,8 @@ constexpr dds_duration_t kMaxWait_ns = DDS_MSECS(10);
 /// after this time.
 constexpr dds_duration_t kPatience_ns = DDS_SECS(10);
 
-/// Creates a domain that is limited to this computer, with the settings of rmw_cyclonedds.
-/// CYCLONEDDS_URI is appended and can override them.
+/// Creates a domain that is limited to this computer, with the settings of rmw_cyclonedds. The
+/// settings in CYCLONEDDS_URI are appended and can override them.
 dds_entity_t local_domain(int number) {
     std::string settings =
         "<General><AllowMulticast>false</AllowMulticast></General>"
@@ -117,8 +118,9 @@ class Publisher::Writers {
         ++unconfirmed_frames_;
     }
 
-    /// Waits until reliable readers have received all messages, before newer messages replace them.
-    /// Messages that are not received in time are counted as dropped.
+    /// Waits until all reliable readers have received all messages. Without this wait, newer
+    /// messages would replace older messages that a slow reader has not received yet. Counts
+    /// messages that are not received in time as dropped.
     void keep_pace() {
         if (unconfirmed_frames_ < kDepth / 2) return;
         if (!wait_for_readers(kPatience_ns)) dropped_ += sent_ - confirmed_;
@@ -167,7 +169,8 @@ class Publisher::Writers {
         if (domain_ > 0) dds_delete(domain_);
     }
     /// Returns true if all reliable readers have received all messages. After the first timeout,
-    /// does not wait for the other writers, which have the same readers.
+    /// does not wait for the readers of the other writers, because all writers have the same
+    /// readers.
     bool wait_for_readers(dds_duration_t max_wait_ns) {
         bool have_all = true;
         for (const dds_entity_t writer : {pose_, odometry_, status_, tf_}) {
@@ -188,7 +191,7 @@ class Publisher::Writers {
         dds_write(writer, sample) == DDS_RETCODE_OK ? ++sent_ : ++dropped_;
     }
 
-    dds_entity_t domain_;  ///< 0: the domain is created from the environment
+    dds_entity_t domain_;  ///< 0 if DDS creates the domain from the environment
     dds_entity_t participant_ = 0;
     dds_entity_t pose_ = 0;
     dds_entity_t odometry_ = 0;

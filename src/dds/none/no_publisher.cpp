@@ -1,4 +1,4 @@
-// The publisher of a program that was built without DDS.
+// Publisher for a program that was built without DDS.
 #include "dds/publisher.hpp"
 #include "dotpose/files/error.hpp"
 

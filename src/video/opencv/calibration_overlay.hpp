@@ -1,5 +1,5 @@
-// Draws the progress of a calibration: the covered parts of the image over the frame, and gauges
-// beside it.
+// Draws the progress of a calibration. The covered parts of the image are shown on the frame, and
+// gauges are shown beside the frame.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -8,7 +8,8 @@
 
 namespace dotpose::video {
 
-/// Tints the parts of the image in which no dots were seen. `frame` is the whole frame.
+/// Tints the parts of the image in which no dots were seen. `frame` is the part of the picture that
+/// shows the frame.
 void draw_coverage(const CalibrationScene& scene, cv::Mat frame);
 
 /// Draws the gauges and, below them, the directions in which frames were taken.

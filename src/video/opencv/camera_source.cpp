@@ -204,7 +204,7 @@ class Camera : public capture::FrameSource {
 
 std::unique_ptr<capture::FrameSource> open_camera(const std::string& name,
                                                   const SourceOptions& options) {
-    // Suppress the messages of OpenCV: failures are reported as Error.
+    // Suppresses the messages of OpenCV, because failures are reported as Error.
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // AV_LOG_QUIET
     return std::make_unique<Camera>(name, options);

@@ -17,8 +17,8 @@ extern "C" {
 namespace dotpose::video {
 namespace {
 
-/// Only software encoders are used, because FFmpeg also lists encoders of graphics cards that are
-/// not installed.
+/// Encoders to try. All of them are software encoders, because FFmpeg also lists encoders of
+/// graphics cards that are not installed.
 constexpr const char* kEncoders[] = {"libx264", "libopenh264"};
 
 const AVCodec* h264_encoder() {

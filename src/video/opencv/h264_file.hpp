@@ -16,7 +16,7 @@ class H264File {
     static bool is_available();
 
     /// Creates the file. The file extension determines the container. Width and height must be
-    /// even. Throws Error.
+    /// even. Throws Error if the file cannot be created.
     H264File(const std::string& path, double fps, cv::Size size);
     /// Completes the file and ignores errors.
     ~H264File();
@@ -26,7 +26,8 @@ class H264File {
     /// Appends a BGR picture. Throws Error, for example if the disk is full.
     void write(const cv::Mat& picture);
 
-    /// Completes the file. No further pictures may be appended. Throws Error.
+    /// Completes the file. No further pictures may be appended. Throws Error if the file cannot be
+    /// completed.
     void finish();
 
   private:

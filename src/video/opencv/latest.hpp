@@ -23,8 +23,8 @@ class Latest {
         arrived_.notify_one();
     }
 
-    /// Returns the newest value and removes it. If there is none, waits for it. Returns none after
-    /// `patience`.
+    /// Returns the newest value and removes it. Waits for a value if there is none. Returns an
+    /// empty optional if no value arrives within `patience`.
     std::optional<Value> take(std::chrono::milliseconds patience) {
         std::unique_lock lock(mutex_);
         arrived_.wait_for(lock, patience, [this] { return value_.has_value(); });

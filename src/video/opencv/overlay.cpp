@@ -22,7 +22,7 @@ int even(double length) {
     return 2 * static_cast<int>(std::ceil(length / 2));
 }
 
-/// Draws the grid. Draws only every n-th line of a large grid, at most a few hundred lines.
+/// Draws the grid. In a large grid, draws only every `step`-th line, at most a few hundred lines.
 void draw_grid(const draw::FrameView& view, cv::Mat& picture) {
     const GridRegion& grid = view.trace().grid.region;
     const int step = std::max({1, grid.columns / 64, grid.rows / 64});

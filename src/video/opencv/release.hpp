@@ -8,7 +8,7 @@ extern "C" {
 
 namespace dotpose::video {
 
-/// Deleter for objects that reading and writing have in common. Derived classes add the closing of
+/// Deleter for the objects that are used for both reading and writing. Derived classes also close
 /// files.
 struct Release {
     void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }

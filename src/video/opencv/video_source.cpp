@@ -91,7 +91,7 @@ class VideoFile : public capture::FrameSource {
         if (!std::ifstream(name)) {
             throw Error("cannot read " + name + ": " + std::strerror(errno));
         }
-        // Suppress the messages of FFmpeg: failures are reported as Error.
+        // Suppresses the messages of FFmpeg, because failures are reported as Error.
         av_log_set_level(AV_LOG_QUIET);
         if (!open()) throw Error(name + " is not a video, or its format is not known");
     }
@@ -127,7 +127,7 @@ class VideoFile : public capture::FrameSource {
         const std::string url = "file:" + name_;
         if (avformat_open_input(&file, url.c_str(), nullptr, nullptr) < 0) return false;
         file_.reset(file);
-        // Must run before packets are read, because reading adds entries to the index.
+        // The index is checked before packets are read, because reading adds entries to the index.
         for (unsigned i = 0; i < file->nb_streams; ++i) {
             const int entries = avformat_index_get_entries_count(file->streams[i]);
             has_index_ = has_index_ || (entries > 0 && entries >= file->streams[i]->nb_frames);
@@ -268,7 +268,7 @@ class VideoFile : public capture::FrameSource {
     GreyConverter to_grey_;
     double rate_ = 30;
     double begin_s_ = 0;  ///< time of the first picture in the file
-    double time_s_ = 0;   ///< time of the newest picture after the first
+    double time_s_ = 0;   ///< time of the newest picture relative to the first picture
     bool is_lossy_ = false;
     std::int64_t packet_bytes_ = 0;  ///< total size of the decoded packets
     std::int64_t packet_px_ = 0;     ///< total number of pixels of the returned frames

@@ -7,8 +7,8 @@
 namespace dotpose::fuzz {
 namespace {
 
-/// Returns a document with the objects 1, 2, ... given without their numbers. The first object is
-/// the catalogue.
+/// Returns a PDF document with these objects, which are numbered 1, 2, ... The first object is the
+/// catalogue.
 std::string pdf(const std::vector<std::string>& objects) {
     std::string text = "%PDF-1.5\n";
     std::string places = "0000000000 65535 f \n";

@@ -10,7 +10,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Computes the place of a fix on a sheet of a sheet file, and in the world of the sheet.
+/// Computes the place of a fix on a sheet, and in the world frame of the sheet.
 bool place(const std::filesystem::path& folder) {
     std::ofstream(folder / "sheets.json")
         << R"({"format": "dotpose-sheets", "version": 1, "sheets": [{"name": "table", "page": 1,
@@ -46,7 +46,7 @@ bool keep_camera(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// A program that reads the files of a robot links neither printing nor calibration.
+// A program that only reads camera and sheet files links neither printing nor calibration.
 int main() {
     const std::filesystem::path folder = "consumer-out";
     std::filesystem::create_directories(folder);

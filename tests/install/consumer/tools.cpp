@@ -14,7 +14,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Prints a small sheet, and lays dots over it.
+/// Writes a small sheet in three formats, and overlays the PDF with dots.
 void print(const std::filesystem::path& folder) {
     SheetOptions options;
     options.paper = {20, 20};

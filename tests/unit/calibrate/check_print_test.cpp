@@ -33,7 +33,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Returns the scan after saving it as JPEG and reading it again.
+/// Saves the scan as JPEG, reads it again, and returns the result.
 GreyImage through_jpeg(const GreyImage& scan, int quality) {
     const test::TemporaryDirectory directory;
     const auto path = directory.path() / "scan.jpg";
@@ -178,8 +178,7 @@ TEST(CheckPrint, maps_distortion) {
 }
 
 TEST(CheckPrint, bits_of_another_place_are_wrong) {
-    // The lower 12 rows are printed from another cell, like the output of a driver that tiles
-    // pages.
+    // The lower 12 rows are printed from another cell, as by a driver that prints a page in tiles.
     Sheet upper = small_sheet();
     Sheet lower = upper;
     upper.rows -= 12;
@@ -219,8 +218,8 @@ TEST(CheckPrint, sees_a_photo_without_scale) {
     EXPECT_THAT(remarks(result), Contains("no_resolution"));
 }
 
-/// Returns a close-up photo of a flawless print of 110 x 90 mm, with the perspective of a phone's
-/// photo of a page that fills its view.
+/// Returns a close-up photo of a flawless print of 110 x 90 mm, with the perspective of a phone
+/// photo in which a page fills the view.
 GreyImage phone_photo(double tilt_rad, double mm_per_px = 0.06, double missing = 0) {
     SheetOptions options;
     options.paper = {110, 90};

@@ -18,7 +18,8 @@ namespace dotpose::calibrate_test {
 
 inline constexpr double kDegree_rad = std::numbers::pi / 180;
 
-/// Returns the paper's camera, III-A.3: 188 x 120 px, a distortion of 12 % in the corner.
+/// Returns the camera of the paper (III-A.3): 188 x 120 px, with a distortion of 12 % in the
+/// corner.
 inline CameraModel paper_camera() {
     CameraModel camera;
     camera.k = -8.7e-6;
@@ -65,7 +66,7 @@ inline Camera true_camera(const CameraModel& model) {
 /// Position of the image centre relative to the robot's centre, along the image axes.
 inline constexpr Vec2 kCameraOnRobot_mm{-14.5, 6.25};
 
-/// Returns the frame of a robot at a place, with the image x axis in a direction.
+/// Returns the frame of a robot at a place. The image x axis points in the direction `theta_rad`.
 inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int index, double x_mm,
                              double y_mm, double theta_rad) {
     Setup setup;
@@ -82,8 +83,8 @@ inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int 
 inline constexpr double kPivot_x_mm = 60'000;
 inline constexpr double kPivot_y_mm = 45'000;
 
-/// Mean error of the place of a located robot, along the axes of the robot, and mean error of its
-/// heading. In the means over many directions, only the error of the calibration remains.
+/// Mean error of the position of a located robot, along the axes of the robot, and mean error of
+/// its heading. The means over many directions contain only the error of the calibration.
 struct RobotError {
     Vec2 place_mm;
     double heading_rad = 0;
@@ -190,7 +191,7 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         shot.page = page_of(sheet, seed + i + 1);
         shot.page.print_scale = lying.print;
         const GreyImage image = render(shot);
-        // Light and noise are equal for all sheets.
+        // All sheets are rendered with equal light and noise.
         if (result.pixels.empty()) result = image;
         for (std::size_t k = 0; k < image.pixels.size(); ++k)
             result.pixels[k] = std::min(result.pixels[k], image.pixels[k]);

@@ -19,8 +19,8 @@ using namespace dotpose::calibrate_test;
 using testing::HasSubstr;
 
 constexpr int kFrames = 20;
-/// Residual of nominal frames, in px: printing errors of 0.010 mm, and about 0.05 px of measurement
-/// noise.
+/// Residual of nominal frames, in px: printing errors of 0.010 mm, and measurement noise of about
+/// 0.05 px.
 constexpr double kNominalResidual_px = 0.222;
 
 /// Limit of errors, in reported standard deviations. By chance, one error in 16,000 exceeds the

@@ -108,7 +108,7 @@ TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
 
 // The reference point is outside the image, where undistorted pixels of an estimated lens have
 // larger errors than inside. However, the reference and all fixes use the same lens, so the error
-// has no effect on the paper.
+// has no effect on positions on the paper.
 TEST(CalibrateSpin, IsExactWithAnEstimatedLens) {
     const CameraModel model = paper_camera();
     for (const std::uint64_t seed : {61, 62, 63}) {

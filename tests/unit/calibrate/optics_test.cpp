@@ -35,7 +35,7 @@ TEST(Optics, IsThatOfAThinLens) {
     optics.height_px = 480;
     optics.pixel_um = 6;
     optics.focal_mm = 10;
-    optics.distance_mm = 30;  // image at 15 mm: half size
+    optics.distance_mm = 30;  // the image is at 15 mm, and half as large
     optics.f_number = 4;
     optics.exposure_s = 0.001;
     optics.speed_mm_s = 6;

@@ -1,5 +1,5 @@
-// Tests the detection of cameras from pages seen by cameras. The test computes the geometry of the
-// cameras independently of the code under test.
+// Tests how photos are distinguished from scans by the geometry of the page. The test computes this
+// geometry independently of the code under test.
 #include "calibrate/print_view.hpp"
 
 #include <cmath>

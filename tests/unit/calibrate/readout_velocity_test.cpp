@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kReadout_ms = 20;
 
-/// A frame, whose scene moves during the readout, and the velocity of the camera.
+/// A frame of a scene that moves during the readout, with the velocity of the camera.
 struct RollingFrame {
     Shot shot;
     Vec2 velocity_mm_s;  ///< velocity of the camera, along the axes of the pattern

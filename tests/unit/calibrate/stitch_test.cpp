@@ -72,7 +72,8 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     for (const Seam& seam : stitching.seams)
         EXPECT_LT(seam.residual_mm, 0.02) << seam.first << seam.second;
 
-    // All places are in one world, both across a seam and as far from the seam as possible.
+    // Positions on all sheets refer to the same world, both across a seam and far away from the
+    // seams.
     Locator locator{DeviceOptions{}};
     Camera camera = true_camera(model);
     // The reference is 20 mm to the right of the image, to make a wrong scale visible.
@@ -188,7 +189,7 @@ TEST(DrawStitching, ShowsSheetsBeforeAndAfter) {
         return text.str();
     };
     EXPECT_THAT(picture(), HasSubstr("not all of these sheets had a world pose"));
-    // In the sheet file, the sheet is 1 mm to the right of its true place: 0.71 mm rms per axis.
+    // In the sheet file, the sheet is 1 mm to the right of its true place, or 0.71 mm rms per axis.
     before[1].world =
         WorldPose{(kTable[1].x_mm + 1) / 1000, -kTable[1].y_mm / 1000, -kTable[1].turn_rad};
     EXPECT_THAT(picture(), testing::AllOf(HasSubstr(">Before<"), HasSubstr(">After<"),
@@ -246,8 +247,8 @@ TEST(StitchSheets, KeepsTheSheetThatLiesInTheWorldAndNamesThoseNotSeen) {
     EXPECT_EQ(b.x_m, 1.25);
     EXPECT_EQ(b.y_m, -0.5);
     EXPECT_EQ(b.yaw_rad, 0.3);
-    // The expected pose of sheet a: relative to b's corner, rotated back by b's rotation, then into
-    // the world by b's yaw.
+    // Expected pose of sheet a: its corner relative to b's corner, rotated back by b's rotation,
+    // and then rotated into the world by b's yaw.
     const WorldPose& a = stitching.sheets[0].world.value();
     const double yaw = 0.3 + kTable[1].turn_rad;
     EXPECT_NEAR(a.yaw_rad, yaw, 0.02 * kDegree_rad);

@@ -12,7 +12,7 @@ std::uint64_t number(int value) {
     return static_cast<std::uint64_t>(value);
 }
 
-/// Returns the samples of one row, packed to bytes.
+/// Returns the samples of one row, packed into bytes.
 Bytes packed_row(const Raster& raster, int v, bool big_endian = true) {
     Writer row(big_endian);
     const int length = raster.width_px * raster.channels;
@@ -99,8 +99,8 @@ class BitWriter {
     int count_ = 0;
 };
 
-/// Returns a scan with all quantizers 8, so the DC coefficient of a flat block is its level minus
-/// 128.
+/// Returns a scan in which all quantizers are 8, so the DC coefficient of a flat block is its level
+/// minus 128.
 Bytes jpeg_scan(const Raster& raster) {
     BitWriter scan;
     std::array<int, 4> previous{};
@@ -281,7 +281,8 @@ Bytes encode_jpeg(const Raster& raster) {
     jpeg.integers(1, {channels});
     for (std::uint64_t i = 1; i <= channels; ++i)
         jpeg.integers(1, {i, 0x11, 0});
-    // DC: the codes of four bits are the categories 0 to 11. AC: one code of one bit, end of block.
+    // The DC table has twelve codes of four bits, for the categories 0 to 11. The AC table has one
+    // code of one bit, for the end of a block.
     jpeg.integers(2, {0xFFC4, 31}).integers(1, {0x00, 0, 0, 0, 12}).bytes(Bytes(12, 0));
     for (std::uint64_t i = 0; i < 12; ++i)
         jpeg.integers(1, {i});

@@ -28,8 +28,8 @@ class Writer {
     bool big_endian_;
 };
 
-/// Samples row by row, with `channels` per pixel and `bits` bits per sample (8 or 16; in PNG also
-/// fewer).
+/// Samples row by row, with `channels` channels per pixel and `bits` bits per sample. `bits` is 8
+/// or 16. In PNG, fewer bits are also possible.
 struct Raster {
     int width_px = 0;
     int height_px = 0;
@@ -41,8 +41,8 @@ struct Raster {
 /// Encodes 1 channel as P2 or P5, and 3 channels as P3 or P6.
 Bytes encode_pnm(const Raster& raster, bool as_text, int max_value);
 
-/// Encodes 1 to 4 channels: grey, grey and opacity, RGB, RGBA. With a palette (RGB triples), 1
-/// channel.
+/// Encodes 1 to 4 channels: grey, grey and opacity, RGB, RGBA. An image with a palette (RGB
+/// triples) has 1 channel.
 Bytes encode_png(const Raster& raster, const Bytes& palette = {}, const Bytes& exif = {});
 
 /// Encodes 8-bit samples. 1 channel needs a palette (RGB triples), 3 channels are RGB.

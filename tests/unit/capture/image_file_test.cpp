@@ -33,7 +33,7 @@ class ImageFileTest : public testing::Test {
     ~ImageFileTest() override { std::filesystem::remove_all(directory); }
 
     std::filesystem::path write(const Bytes& bytes) const {
-        auto path = directory / "image";  // without an extension, which must not matter
+        auto path = directory / "image";  // no extension, because it must not matter
         // The file is removed and not truncated, because some file systems flush truncated files,
         // which made the test 10 times slower.
         std::filesystem::remove(path);
@@ -71,8 +71,8 @@ const Raster kRgb16{2, 1, 3, 16, {65535, 0, 0, 1000, 1000, 1000}};
 const Raster kIndexed{3, 1, 1, 8, {2, 0, 1}};
 const Bytes kPalette{255, 0, 0, 9, 9, 9, 255, 255, 255};
 
-// The expected grey levels: luma with 0.299, 0.587, 0.114; 16 bits divided by 257; transparency
-// over white paper.
+// Expected grey levels. The weights of luma are 0.299, 0.587 and 0.114. Samples of 16 bits are
+// divided by 257. Transparent pixels show white paper.
 const Bytes kGreyLevels{0, 1, 2, 127, 128, 200, 254, 255};
 const Bytes kGrey16Levels{0, 0, 1, 255};
 const Bytes kRgbLevels{76, 150, 29, 77, 226};
@@ -178,8 +178,8 @@ TEST_F(ImageFileTest, reads_jpeg) {
     EXPECT_EQ(block_levels(grey), kGreyLevels);
     const Raster colour{3, 1, 3, 8, {0, 128, 128, 90, 128, 128, 255, 128, 128}};
     EXPECT_THAT(block_levels(read(encode_jpeg(colour))), ElementsAre(0, 90, 255));
-    // The values are stored inverted, so 255 means no ink. The pixels have no ink, full black, part
-    // of black, and full cyan, magenta and yellow.
+    // The values are stored inverted, so 255 means no ink. The pixels have no ink, full black,
+    // partial black, and full cyan, magenta and yellow.
     const Raster cmyk{4,
                       1,
                       4,
@@ -322,7 +322,7 @@ TEST_F(ImageFileTest, reads_a_jpeg_without_its_end_marker_and_says_so) {
     }
 }
 
-// Sensors with 10 and 12 bits use the lower bits of 16.
+// Sensors with 10 or 12 bits store their values in the lower bits of 16-bit samples.
 TEST_F(ImageFileTest, scales_few_bits_in_16_by_the_bits_in_use) {
     const Raster ten{4, 1, 1, 16, {0, 512, 600, 1023}};
     const Raster twelve{4, 1, 1, 16, {0, 2048, 4000, 4095}};
@@ -337,7 +337,7 @@ TEST_F(ImageFileTest, scales_few_bits_in_16_by_the_bits_in_use) {
         EXPECT_EQ(read(encode_pnm(raster, false, 65535)).pixels, levels);
         EXPECT_EQ(read(encode_pnm(raster, true, 65535)).pixels, levels);
     }
-    // A maximum value stated in the file is used.
+    // If the file states a maximum value, this value is used instead.
     EXPECT_EQ(read(encode_pnm(ten, false, 1023)).pixels, of_ten);
     EXPECT_EQ(read(encode_pnm(ten, false, 40000)).pixels, (Bytes{0, 3, 4, 7}));
 }
@@ -356,8 +356,8 @@ TEST_F(ImageFileTest, refuses_tiff_with_the_directory_cut) {
 }
 
 TEST_F(ImageFileTest, reads_headers_with_line_breaks_of_two_characters) {
-    // The first pixel is 10, like a line break. Only the size of the file distinguishes the pixel
-    // from a line break.
+    // The first pixel has the value 10, which is also the code of a line feed. Only the size of the
+    // file distinguishes the pixel from a line feed.
     const auto first_pixel = [this](const std::string& file) {
         std::ofstream(directory / "a.pgm", std::ios::binary) << file;
         return int{read_image(directory / "a.pgm").pixels.front()};
@@ -370,7 +370,7 @@ TEST_F(ImageFileTest, reads_headers_with_line_breaks_of_two_characters) {
 
 TEST_F(ImageFileTest, refuses_damaged_files) {
     Bytes png = encode_png(kGrey);
-    png[50] ^= 1;  // in the pixels
+    png[50] ^= 1;  // damages the pixels
     EXPECT_THAT(error_of(png), HasSubstr("the PNG image is damaged"));
     Bytes jpeg = encode_jpeg(kGrey);
     jpeg.insert(jpeg.end() - 6, {0xFF, 0xD0});  // a restart marker in the middle of the scan

@@ -211,7 +211,7 @@ TEST(JpegKinds, AreProgressive) {
     EXPECT_EQ(pixels_of(file).size(), 64U * 64U);
 }
 
-// Missing scans that refine the pixels leave no trace in the file.
+// If a scan that refines the pixels is missing, the file contains no trace of the missing scan.
 TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
     const Bytes file = progressive_jpeg();
     int refused = 0;

@@ -54,7 +54,8 @@ class PhoneFormatTest : public testing::TestWithParam<PhoneFormat> {
             GTEST_SKIP() << "built without the library of this format";
     }
 
-    /// Returns the path of the image in the format; there is no such file if the command fails.
+    /// Converts an image to the format, and returns the path of the new file. If the command fails,
+    /// there is no such file.
     fs::path converted(const std::string& command, const Bytes& image,
                        const std::string& kind = ".png") const {
         const fs::path from = folder_.path() / ("image" + kind);
@@ -108,7 +109,7 @@ TEST_P(PhoneFormatTest, IsLaidOnWhitePaper) {
     for (int i = 0; i < 16 * 16; ++i)
         blue.samples.insert(blue.samples.end(), {0, 0, 255, 204});
     const GreyImage image = read_image(converted(GetParam().lossless, encode_png(blue)));
-    // 0.114 x 255 at an opacity of 0.8, and a fifth of white.
+    // Blue has the luma 0.114 x 255. With an opacity of 0.8, a fifth of white is added.
     EXPECT_THAT(image.pixels, testing::Each(AnyOf(73, 74, 75)));
 }
 
@@ -128,7 +129,7 @@ TEST_P(PhoneFormatTest, IsRefusedWhenItIsTooLarge) {
     EXPECT_THROW(read_image(image, kWidth_px * kHeight_px - 1), ImageTooLarge);
 }
 
-// The size in the header keeps large images from being decoded.
+// The reader refuses large images by the size in the header, before decoding them.
 TEST_P(PhoneFormatTest, IsRefusedWhenItsHeaderStatesAnotherSize) {
     const fs::path image = converted(GetParam().lossless, encode_png(noise()));
     Bytes file = bytes_of(image);

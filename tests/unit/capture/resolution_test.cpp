@@ -36,7 +36,7 @@ class ResolutionTest : public testing::Test {
         return resolution_of(std::string(content.begin(), content.end()));
     }
 
-    /// Returns true if a file can be read and is a photo.
+    /// Returns true if a file with this content can be read and is a photo.
     bool is_photo(const test::Bytes& content) const {
         try {
             return origin_of(std::string(content.begin(), content.end())).is_photo;

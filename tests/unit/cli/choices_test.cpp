@@ -10,7 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// An application with options of three kinds.
+/// An application with three kinds of options.
 struct Options {
     Options() {
         app.add_option("--code", code)->check(one_of({"anoto", "libdots"}));

@@ -1,4 +1,4 @@
-// Tests the conversion of places in the four sequences to a position, against division.
+// Tests the conversion of places in the four sequences to a position against divisions.
 #include "code/basis.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Tests the decoding of windows: exact if the code contains the window, refused otherwise.
+// Tests the decoding of windows. A window of the code must be found exactly, and any other window
+// refused.
 #include <array>
 #include <cstdint>
 #include <random>
@@ -18,10 +19,10 @@ namespace {
 
 constexpr std::uint32_t kSeed = 7998798;
 
-/// The value of `place`, which must not change if the window is refused.
+/// Initial value of `place`. A refused window must not change this value.
 constexpr Place kUntouched{{1, 2}, {3, 4}};
 
-/// The places modulo 241 whose 5 digits also occur elsewhere in the a4 of libdots.
+/// Places modulo 241 at which 5 digits begin that also occur elsewhere in the a4 of libdots.
 const std::set<std::uint32_t> kTwinPlaces{82,  238, 170, 236, 177, 237,
                                           195, 217, 198, 218, 199, 219};
 
@@ -59,7 +60,8 @@ TEST(Decode, RollsFromRealPaperAreOneStraightRun) {
 }
 
 TEST(Decode, RollsFromRealPaperShowTheMisprint) {
-    // 1134 = 1117 + 17 is the eighteenth window, at place 170 of a4, where the misprint has a twin.
+    // The window at position 1117 + 17 = 1134 is at place 170 of a4. Because of the misprint, the
+    // digits at this place also occur elsewhere.
     expect_run(CodeVariant::libdots, kPaperRollsFrom1117, 1117);
     expect_run(CodeVariant::libdots, kPaperRollsFrom1097, 1097);
 }
@@ -260,7 +262,7 @@ TEST(Decode, NeverGuessesFromRandomSymbols) {
 }
 
 TEST(Decode, RefusesRandom8x8) {
-    // Each axis has 2^64 patterns and 2^34.6 places: none of these draws is in the code.
+    // Each axis has 2^64 patterns and 2^34.6 places, so none of these draws is in the code.
     std::mt19937 rng(kSeed);
     for (int n = 0; n < 20'000; ++n) {
         Grid grid{8, 8, std::vector<Symbol>(64)};
@@ -320,8 +322,8 @@ TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
     EXPECT_NEAR(static_cast<double>(found_in_8) / kDraws, 0.0075, 0.0025);
 }
 
-// A window must be decoded in the code variant of its sheet. The windows were counted from the
-// sequences by a program in another language.
+// A window must be decoded in the code variant of its sheet. The expected numbers of windows were
+// computed from the sequences by a program in another language.
 TEST(Decode, TheOtherProfileReadsSomeWindowsWrong) {
     using Pair = std::pair<CodeVariant, CodeVariant>;
     for (const auto& [printed, read] : {Pair{CodeVariant::anoto, CodeVariant::libdots},

@@ -1,4 +1,4 @@
-// Tests the symbols of positions against reference vectors, the plain sum, and an independent
+// Tests the symbols of positions against reference vectors, a direct sum, and an independent
 // formula.
 #include <algorithm>
 #include <cstddef>
@@ -141,9 +141,9 @@ TEST(Encode, RollStepsByDeltaAcrossTheWrap) {
     }
 }
 
-// One full period adds 5 L and w_i (L / length_i) (digit sum of a_i): 52 modulo 63 for the
-// sequences of the patent (dropping a 1 and inserting a 1 leaves the digit sum unchanged), and 25
-// for py-microdots' a4.
+// One full period adds 5 L plus the sum of w_i (L / length_i) (digit sum of a_i). Modulo 63, this
+// is 52 for the sequences of the patent, and 25 for the a4 of py-microdots. With or without the
+// misprint, the sum is 52, because the misprint drops a 1 and the published a4 has an additional 1.
 TEST(Encode, ThePatternContinuesPastTheLastPosition) {
     EXPECT_EQ(kPositionsPerAxis, kL);
     EXPECT_EQ(kL, 410'815'348U);

@@ -15,7 +15,7 @@
 namespace dotpose::code_test::sequences_test {
 namespace {
 
-/// Returns all strings of `length` of a cyclic sequence, by place.
+/// Returns all strings of the given length in a cyclic sequence, indexed by place.
 std::vector<std::string> strings_of(const std::string& cycle, std::size_t length) {
     std::vector<std::string> result;
     for (std::size_t start = 0; start < cycle.size(); ++start) {

@@ -1,5 +1,5 @@
-// Tests the names and messages of statuses: the name is the identifier, and the message is one
-// plain sentence.
+// Tests the names and messages of statuses. A name is the identifier in the code, and a message is
+// one plain sentence.
 #include "dotpose/status.hpp"
 
 #include <cctype>

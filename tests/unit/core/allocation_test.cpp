@@ -27,7 +27,7 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-// The forms for arrays and the non-throwing forms call the forms below. GCC warns of `new` and
+// The forms for arrays and the non-throwing forms call the forms below. GCC warns about `new` and
 // `free` if it inlines only one of the two functions.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     return counted(size, alignof(std::max_align_t));
@@ -51,8 +51,8 @@ void* counted(std::size_t size, std::size_t alignment) {
 namespace dotpose::core_test::allocation_test {
 namespace {
 
-/// Returns frames with every outcome: located by the first attempt, located by the second attempt,
-/// refused.
+/// Returns frames with all outcomes: located by the first attempt, located by the second attempt,
+/// and refused.
 std::vector<GreyImage> frames_of(int width_px, int height_px) {
     std::vector<GreyImage> frames;
     for (const Preset preset : kPresets) {

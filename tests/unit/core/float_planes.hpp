@@ -14,7 +14,7 @@ inline Vec2 formula(const core::FloatPlane& p, Vec2 px) {
             double{p.at_y} + (double{p.du_y} * px.x + double{p.dv_y} * px.y) / divisor};
 }
 
-/// Returns the plane of a nearly square grid, turned by any angle; `tilt` is per px.
+/// Returns the plane of a nearly square grid, rotated by any angle. `tilt` is the tilt per px.
 inline core::FloatPlane random_float_plane(double spacing_px, double tilt, Rng& rng) {
     const double angle = rng.uniform(0, 2 * std::numbers::pi);
     const double direction = rng.uniform(0, 2 * std::numbers::pi);

@@ -123,7 +123,7 @@ inline Vec2 random_displacement(Rng& rng) {
 /// pattern point place + `at_centre` + R(theta) (p_px - centre_px) / spacing_px.
 struct View {
     CodeVariant code = CodeVariant::anoto;
-    Place place;     ///< any cell of the pattern; pattern coordinates are relative to it
+    Place place;     ///< a cell of the pattern, the origin of the pattern coordinates
     Vec2 at_centre;  ///< pattern point at the image centre, in spacings from `place`
     double theta_rad = 0;
     double spacing_px = 11;
@@ -143,8 +143,8 @@ struct View {
         m.origin = centre_px() - at_centre.x * m.u - at_centre.y * m.v;
         return m;
     }
-    /// Returns the same grid as a stage may find it. `turn` maps its steps to pattern steps, and
-    /// its cell (0, 0) is the pattern's intersection `zero`.
+    /// Returns the same grid in another orientation, as a stage may find it. `turn` maps its steps
+    /// to pattern steps, and its cell (0, 0) is the pattern's intersection `zero`.
     Mesh mesh_turned(QuarterTurn turn, FixedVec zero) const {
         const Mesh m = mesh();
         const auto along = [&](FixedVec step) { return step.x * m.u + step.y * m.v; };

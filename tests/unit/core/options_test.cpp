@@ -66,7 +66,7 @@ const Range kRanges[] = {
     [[maybe_unused]] const auto& [max_p_wrong, max_bit_error] = integrity;
 }
 
-/// Expects that every way to locate refuses the options, or that every way accepts them.
+/// Expects that all ways to locate refuse the options, or that all accept them.
 void expect_refusal(const DeviceOptions& options, bool is_refused, const char* field, int value) {
     static const auto kMemory = std::make_unique<LargeMemory>();
     static const GreyImage kFrame = a_frame();

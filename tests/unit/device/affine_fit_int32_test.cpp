@@ -15,7 +15,7 @@ using namespace core;
 constexpr std::uint64_t kSeed = 49;
 
 struct Pair {
-    FixedVec p_q3;  ///< 1/8 px from the centre
+    FixedVec p_q3;  ///< offset from the centre, in 1/8 px
     FixedVec cell;
 };
 

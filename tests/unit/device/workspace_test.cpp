@@ -21,10 +21,10 @@ template <int Width, int Height, int MinDots, int Limit_log2 = -30>
 struct Size {
     static constexpr int kWidth_px = Width;
     static constexpr int kHeight_px = Height;
-    /// Every fix uses more than this number of dots, which are 11 px apart.
+    /// Every fix uses more than this number of dots. The dots are 11 px apart.
     static constexpr int kMinDots = MinDots;
-    /// Maximum probability of a wrong position, log2. The smallest frames have too few dots for the
-    /// usual limit.
+    /// log2 of the maximum probability of a wrong position. The smallest frames have too few dots
+    /// for the usual limit.
     static constexpr int kLimit_log2 = Limit_log2;
     using Memory = DeviceMemoryFor<Width, Height>;
 };

@@ -94,7 +94,7 @@ std::vector<Mark> circles(const std::string& text, const GreyImage& image) {
     return marks;
 }
 
-/// Returns the letters and their places.
+/// Returns the letters and their positions, in pixels of the image.
 std::vector<Mark> letters(const std::string& text, const GreyImage& image) {
     const double scale = 1200.0 / std::max(image.width_px, image.height_px);
     std::vector<Mark> marks;
@@ -373,7 +373,7 @@ TEST(DrawPath, shows_fixes_and_gaps) {
     EXPECT_EQ(count(group(svg, "lost"), "<circle"), 10U);
     EXPECT_EQ(count(group(svg, "errors"), "<circle"), 20U);
     EXPECT_EQ(count(group(svg, "error-bars"), "<line"), 20U);
-    EXPECT_THAT(svg, HasSubstr(">5.0 µm<"));  // 3, 4, 5
+    EXPECT_THAT(svg, HasSubstr(">5.0 µm<"));  // hypotenuse of 3 and 4 µm
 }
 
 TEST(DrawPath, works_without_points_without_fixes_and_without_errors) {

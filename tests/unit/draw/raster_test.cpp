@@ -1,4 +1,4 @@
-// Tests the conversion of drawings to pixels: size, and place of the content.
+// Tests the conversion of drawings to pixels: the size, and the position of the content.
 #include "evaluate/raster.hpp"
 
 #include <fstream>

@@ -42,7 +42,7 @@ std::string drawn(const std::vector<SheetEntry>& sheets) {
 
 using Corner = std::array<double, 2>;
 
-/// Returns the corners of all sheets on the drawing, in the order of the file.
+/// Returns the corners of all sheets in the drawing, in the order of the file.
 std::vector<std::array<Corner, 4>> outlines(const std::string& svg) {
     const std::string start = R"(<polygon class="sheet" points=")";
     std::vector<std::array<Corner, 4>> result;

@@ -1,4 +1,4 @@
-// Tests the program of all devices with a host that reads and prints strings.
+// Tests the program that all devices share, with a host that reads and writes strings.
 #include "locate_frames.hpp"
 
 #include <cstring>

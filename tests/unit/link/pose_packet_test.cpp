@@ -193,7 +193,7 @@ TEST(PosePacket, GoesOnWithTheNextPacketAfterAnything) {
         const std::vector<PosePacket> sent = {random_packet(rng), random_packet(rng),
                                               random_packet(rng)};
         Bytes stream = stream_of(sent);
-        // Lost, added or changed bytes anywhere in the first packet, including its end mark.
+        // Bytes are lost, added or changed anywhere in the first packet, including its end mark.
         const std::size_t at = rng.below(32);
         const auto lost =
             static_cast<std::ptrdiff_t>(rng.below(static_cast<std::uint32_t>(33 - at)));

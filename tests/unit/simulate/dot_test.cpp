@@ -27,7 +27,7 @@ CameraModel camera_with_spacing(double spacing_px) {
 }
 
 // Returns the light that reaches each pixel if the disc is sampled at 64 x 64 points per pixel.
-// Slow, and independent of the renderer.
+// This is slow, but independent of the renderer.
 std::vector<double> sampled(const CameraModel& camera, Vec2 centre, double radius_px,
                             const Imperfections& seen) {
     constexpr int kPoints = 64;

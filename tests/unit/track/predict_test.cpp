@@ -54,7 +54,7 @@ Fix fix_at(const Pose& pose) {
     return fix;
 }
 
-/// Returns the pose of the image centre, or of the point (dx, dy) px beside it.
+/// Returns the pose of the image centre, or of the point at an offset of (dx_px, dy_px) from it.
 Pose pose_of(const Prediction& prediction, double dx_px = 0, double dy_px = 0) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
     const auto at = [&](std::uint32_t cell, std::int32_t centre_q16, std::int32_t du,

@@ -5,14 +5,14 @@ import { arrow, kInk, kSymbolInk, kSymbolStep, surfaceOf, type Surface } from ".
 
 /** The layers to draw. */
 export interface Layers {
-    /** Opacity of the frame, 0 to 1. */
+    /** Opacity of the frame, from 0 to 1. */
     frame?: number;
-    /** Rings around the dots found. */
+    /** Draws rings around the detected dots. */
     found?: boolean;
     grid?: boolean;
-    /** The symbols of the code in view, as dots of four colours. */
+    /** Draws the symbols of the code in view, as dots of four colours. */
     symbols?: boolean;
-    /** Arrows from the image centre along x and y of the paper. */
+    /** Draws arrows from the image centre along the x and y axes of the paper. */
     pose?: boolean;
 }
 
@@ -30,12 +30,12 @@ class FrameView {
         this.scale = surface.width / reading.width_px;
     }
 
-    /** Returns the canvas point of an image point; (0, 0) is the centre of the first pixel. */
+    /** Returns the canvas point of an image point. (0, 0) is the centre of the first pixel. */
     at(u_px: number, v_px: number): Pixel {
         return [(u_px + 0.5) * this.scale, (v_px + 0.5) * this.scale];
     }
 
-    /** Returns the canvas point of a point of the pattern, in spacings. */
+    /** Returns the canvas point of a pattern point, given in spacings. */
     atCell(x: number, y: number): Pixel {
         const { fix } = this.reading;
         const { u_px, v_px } = imageFromPattern(fix, x * fix.spacing_mm, y * fix.spacing_mm);
@@ -144,7 +144,7 @@ function drawPose(view: FrameView): void {
     context.stroke();
 }
 
-/** Draws a reading, and sets the aspect ratio of the canvas to the aspect ratio of the frame. */
+/** Draws a reading. Sets the aspect ratio of the canvas to the aspect ratio of the frame. */
 export function drawFrame(canvas: HTMLCanvasElement, reading: Reading, layers: Layers): void {
     const surface = surfaceOf(canvas, reading.width_px / reading.height_px);
     const view = new FrameView(surface, reading);

@@ -4,12 +4,12 @@ import type { SheetLayout } from "../engine/messages.js";
 import { pageFromPattern, type Point_mm } from "../page/sheet_frame.js";
 import { surfaceOf, themed } from "./surface.js";
 
-/** Contents of the map, in mm on the page, or in the pattern if no sheet is known. */
+/** Contents of the map, in mm on the page, or in the pattern if the sheet is unknown. */
 export interface MapContent {
     sheet: SheetLayout | null;
     path: readonly Point_mm[];
     now: Point_mm | null;
-    /** Corners of the field of view of the camera. */
+    /** Corners of the camera's field of view. */
     view: readonly Point_mm[];
 }
 
@@ -19,7 +19,7 @@ export interface MapFrame {
     top_mm: number;
 }
 
-/** Returns the corners of the field of view in the pattern. */
+/** Returns the corners of the field of view in pattern coordinates. */
 export function cornersOf(fix: Fix, width_px: number, height_px: number): Point_mm[] {
     return [
         [0, 0],
@@ -29,7 +29,10 @@ export function cornersOf(fix: Fix, width_px: number, height_px: number): Point_
     ].map(([u, v]) => patternFromImage(fix, u!, v!));
 }
 
-/** Converts points of the pattern to points of the page, if the sheet is known. */
+/**
+ * Converts points of the pattern to points of the page. Returns them unchanged if the sheet is
+ * unknown.
+ */
 export function onPage(sheet: SheetLayout | null, points: readonly Point_mm[]): Point_mm[] {
     return points.map((point) => (sheet ? pageFromPattern(sheet, point) : point));
 }
@@ -60,7 +63,7 @@ function drawPaper(context: CanvasRenderingContext2D, sheet: SheetLayout, at: (p
     context.fillStyle = themed("--paper");
     context.fillRect(x, y, right - x, bottom - y);
     context.restore();
-    // Only every tenth dot of every tenth row is drawn.
+    // Draws only every tenth dot of every tenth row.
     context.fillStyle = themed("--paper-dots");
     const step = 10 * 0.508;
     for (let y_mm = sheet.first_y_mm; y_mm < sheet.height_mm - sheet.margin_mm; y_mm += step)

@@ -1,9 +1,9 @@
-// Draws the sheet to be printed: the whole page, and its corner enlarged.
+// Draws the sheet to be printed: the whole page, and an enlarged corner.
 import type { SheetLayout } from "../engine/messages.js";
 import { kSpacing_mm } from "../page/sheet_frame.js";
 import { kSymbolInk, kSymbolStep, surfaceOf, themed } from "./surface.js";
 
-/** Draws the page with its field of dots, in its proportions. */
+/** Draws the page with its field of dots, in the correct proportions. */
 export function drawPage(canvas: HTMLCanvasElement, sheet: SheetLayout): void {
     const { context, width, height } = surfaceOf(canvas);
     const kMargin = 14;
@@ -26,7 +26,7 @@ export function drawPage(canvas: HTMLCanvasElement, sheet: SheetLayout): void {
     context.fillText(`${sheet.width_mm} x ${sheet.height_mm} mm`, left + (scale * sheet.width_mm) / 2, y + rows_px / 2);
 }
 
-/** Draws the first cells of the sheet with their dots at the printed places. */
+/** Draws the first cells of the sheet with the dots at their printed positions. */
 export function drawCorner(canvas: HTMLCanvasElement, sheet: SheetLayout, symbols: Uint8Array, cells: number): void {
     const { context, width, height } = surfaceOf(canvas);
     context.fillStyle = themed("--paper");

@@ -1,6 +1,8 @@
-// A canvas with coordinates in CSS pixels and the resolution of the screen.
+// A canvas with coordinates in CSS pixels, at the resolution of the screen.
 
-/** Colours over camera frames. They are distinguishable with all kinds of colour vision. */
+/**
+ * Colours for drawing over camera frames. They are distinguishable with all types of colour vision.
+ */
 export const kInk = {
     up: "#0072b2",
     left: "#d55e00",
@@ -13,7 +15,7 @@ export const kInk = {
     halo: "rgba(0, 0, 0, 0.65)",
 };
 
-/** Colours by symbol: 0 up, 1 left, 2 right, 3 down. */
+/** Colours of the symbols: 0 up, 1 left, 2 right, 3 down. */
 export const kSymbolInk = [kInk.up, kInk.left, kInk.right, kInk.down] as const;
 export const kSymbolStep = [
     [0, -1],
@@ -29,8 +31,8 @@ export interface Surface {
 }
 
 /**
- * Sets the resolution of the canvas to the resolution of the screen. `aspect`, if given, also sets
- * its height.
+ * Sets the resolution of the canvas to the resolution of the screen. If `aspect` is given, also
+ * sets the height of the canvas.
  */
 export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
     if (aspect !== undefined) canvas.style.aspectRatio = String(aspect);
@@ -45,7 +47,7 @@ export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
     return { context, width, height };
 }
 
-/** Returns a colour of the style sheet, which depends on the colour scheme. */
+/** Returns a colour from the style sheet. It depends on the colour scheme. */
 export function themed(name: string): string {
     return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }

@@ -1,4 +1,4 @@
-// The interface between the page and the worker, with one function per request.
+// Interface between the page and the worker, with one function per request.
 import type { Code } from "dotpose";
 import type {
     Answer,
@@ -28,7 +28,7 @@ export class Engine {
     readonly #waiting = new Map<number, Waiting>();
     #last_id = 0;
     #events: StreamEvents | undefined;
-    /** True if the worker can read the track of a camera. */
+    /** True if the worker can read the video track of a camera directly. */
     takesTracks = false;
 
     constructor() {
@@ -48,12 +48,12 @@ export class Engine {
     simulate(sheet: SheetChoice, view: SimulatedView): Promise<Reading> {
         return this.#ask({ kind: "simulate", sheet, view });
     }
-    /** Reads a picture, which is transferred to the worker and returned in the reading. */
+    /** Reads a picture. The picture is transferred to the worker and returned in the reading. */
     read(picture: ImageBitmap, code: Code | "auto", time_s: number): Promise<Reading> {
         return this.#ask({ kind: "picture", picture, code, time_s }, [picture]);
     }
 
-    /** Starts to read frames from a stream, or from a track if the worker takes tracks. */
+    /** Starts reading frames from a stream, or from a track if `takesTracks` is true. */
     follow(source: ReadableStream<VideoFrame> | MediaStreamTrack, code: Code | "auto", events: StreamEvents): void {
         this.#events = events;
         if (source instanceof ReadableStream) {

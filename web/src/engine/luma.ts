@@ -1,15 +1,15 @@
-// The grey levels of a frame. They are copied from the camera's frame if the browser supports it,
-// otherwise drawn on a canvas and read back.
+// Grey levels of a frame. They are copied from the camera frame if the browser supports it.
+// Otherwise the frame is drawn on a canvas and read back.
 import type { Image } from "dotpose";
 import type { LumaPath } from "./messages.js";
 
-/** Formats whose first plane is the luma, one byte per pixel. */
+/** Pixel formats whose first plane is the luma, with one byte per pixel. */
 const kLumaFirst = new Set(["I420", "I420A", "I422", "I444", "NV12"]);
 
 let canvas: OffscreenCanvas | undefined;
 let plane = new Uint8Array(0);
 
-/** Draws a picture and returns its luma, with the weights of BT.601 that cameras use. */
+/** Draws a picture and returns its luma, with the BT.601 weights that cameras use. */
 export function lumaByCanvas(picture: CanvasImageSource, width: number, height: number): Image {
     canvas ??= new OffscreenCanvas(width, height);
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
@@ -23,7 +23,7 @@ export function lumaByCanvas(picture: CanvasImageSource, width: number, height: 
 }
 
 /**
- * Returns true if the luma of the frame can be used directly, because it is not rotated or
+ * Returns true if the luma of the frame can be copied directly. The frame must not be rotated or
  * mirrored.
  */
 function isPlain(frame: VideoFrame): boolean {
@@ -31,7 +31,7 @@ function isPlain(frame: VideoFrame): boolean {
     return frame.format !== null && kLumaFirst.has(frame.format) && rotation === 0 && !flip;
 }
 
-/** Returns the luma of a camera frame, and the method used. */
+/** Returns the luma of a camera frame, and the method by which it was read. */
 export async function lumaOfFrame(frame: VideoFrame): Promise<{ image: Image; path: LumaPath }> {
     if (!isPlain(frame)) {
         const image = lumaByCanvas(frame, frame.displayWidth, frame.displayHeight);

@@ -1,7 +1,7 @@
-// The messages between the page and its worker. They are plain data, which can be posted.
+// Messages between the page and the worker. They are plain data that can be posted.
 import type { Cell, Code, Fix, Section } from "dotpose";
 
-/** The part of the code on a page, and the size of the page. */
+/** Part of the code that is printed on a page, and the size of the page. */
 export interface SheetChoice {
     code: Code;
     section: Section;
@@ -12,21 +12,21 @@ export interface SheetChoice {
     margin_mm: number;
 }
 
-/** The layout of a sheet. */
+/** Layout of a sheet. */
 export interface SheetLayout extends SheetChoice {
     columns: number;
     rows: number;
-    /** Place of the intersection of the first dot, from the upper left corner of the page. */
+    /** Position of the intersection of the first dot, from the upper left corner of the page. */
     first_x_mm: number;
     first_y_mm: number;
 }
 
-/** The view of the simulated camera: its pose over the sheet, its optics and the conditions. */
+/** View of the simulated camera: its pose over the sheet, its optics, and the conditions. */
 export interface SimulatedView {
     width_px: number;
     height_px: number;
     mm_per_px: number;
-    /** Point of the page at the image centre, from the upper left corner of the page. */
+    /** Point of the page at the image centre, measured from the upper left corner of the page. */
     x_mm: number;
     y_mm: number;
     theta_rad: number;
@@ -39,7 +39,7 @@ export interface SimulatedView {
     seed: number;
 }
 
-/** The symbols of the cells in view, row by row: 0 up, 1 left, 2 right, 3 down. */
+/** Symbols of the cells in view, row by row: 0 up, 1 left, 2 right, 3 down. */
 export interface CellsInView {
     first: Cell;
     columns: number;
@@ -47,17 +47,19 @@ export interface CellsInView {
     symbols: Uint8Array;
 }
 
-/** The quality of an image, measured on a sample of its pixels. */
+/** Quality of an image, measured on a sample of its pixels. */
 export interface ImageQuality {
     /** Mean grey level. */
     brightness: number;
-    /** Difference of the 95 % and 5 % quantiles of the grey levels. */
+    /** Difference between the 95 % and 5 % quantiles of the grey levels. */
     contrast: number;
-    /** 98 % quantile of the steps between neighbouring pixels, as a fraction of the contrast. */
+    /**
+     * 98 % quantile of the differences between neighbouring pixels, as a fraction of the contrast.
+     */
     sharpness: number;
 }
 
-/** One frame and its fix. */
+/** A frame and its fix. */
 export interface Reading {
     fix: Fix;
     picture: ImageBitmap;
@@ -65,16 +67,16 @@ export interface Reading {
     height_px: number;
     quality: ImageQuality;
     cells: CellsInView | null;
-    /** Duration of the call of the locator. */
+    /** Duration of the call to the locator. */
     locate_ms: number;
     /** Time of the frame on the clock of its source. */
     time_s: number;
 }
 
-/** Method of reading the grey levels of camera frames. */
+/** Method of reading the grey levels of a camera frame. */
 export type LumaPath = "processor" | "canvas";
 
-/** Requests of the page. A request with an `id` gets one answer. */
+/** Requests from the page. A request with an `id` gets exactly one answer. */
 export type Request =
     | { kind: "layout"; id: number; sheet: SheetChoice }
     | { kind: "symbols"; id: number; sheet: SheetLayout }
@@ -85,7 +87,7 @@ export type Request =
     | { kind: "next" }
     | { kind: "stop" };
 
-/** Answers of the worker. A stream sends a `frame` after each `next`. */
+/** Answers from the worker. A stream sends one `frame` after each `next`. */
 export type Answer =
     | { kind: "ready"; processor: boolean }
     | { kind: "result"; id: number; value: unknown }

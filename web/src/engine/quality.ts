@@ -1,10 +1,10 @@
-// Measures brightness, contrast and sharpness of an image on a sample of its rows.
+// Measures the brightness, contrast and sharpness of an image on a sample of its rows.
 import type { Image } from "dotpose";
 import type { ImageQuality } from "./messages.js";
 
 const kRows = 24;
 
-/** Returns the grey level below which the given fraction of the counted pixels is. */
+/** Returns the grey level at the quantile `share` of a histogram with `count` pixels. */
 function quantile(histogram: Uint32Array, count: number, share: number): number {
     let below = 0;
     for (let level = 0; level < 256; ++level) {
@@ -14,7 +14,7 @@ function quantile(histogram: Uint32Array, count: number, share: number): number 
     return 255;
 }
 
-/** Measures an image. Takes well under a millisecond at any size. */
+/** Measures an image. Takes much less than a millisecond for images of any size. */
 export function measureQuality({ data, width, height, stride = width }: Image): ImageQuality {
     const levels = new Uint32Array(256);
     const steps = new Uint32Array(256);

@@ -21,10 +21,10 @@ export async function layoutOf(sheet: SheetChoice): Promise<SheetLayout> {
 
 /**
  * Standard deviations of an ordinary print and its paper, as in the preset `nominal` of the
- * tool.
+ * command-line tool.
  */
 const kPrint = { jitter_mm: 0.01, ink_variation: 0.03, missing: 0.002, texture: 0.005 };
-/** Distance of the projection centre from the paper, divided by the width of the view. */
+/** Distance of the projection centre from the paper, relative to the width of the view. */
 const kDistancePerWidth = 2;
 
 /** Returns a frame of the simulated camera. */

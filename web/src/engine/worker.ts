@@ -1,5 +1,5 @@
-// The worker, which keeps the page responsive. It runs the locator, the simulated camera and the
-// loop over camera frames.
+// The worker runs the locator, the simulated camera and the loop over camera frames, which keeps
+// the page responsive.
 import { Locator, patternBits, type Code, type Fix, type Image } from "dotpose";
 import { cellsInView } from "./cells.js";
 import { lumaByCanvas, lumaOfFrame } from "./luma.js";
@@ -12,7 +12,7 @@ const port = self as unknown as {
     onmessage: ((event: MessageEvent<Request>) => void) | null;
 };
 
-/** Locators, by code. */
+/** Locators, keyed by code. */
 const locators = new Map<string, Promise<Locator>>();
 let previous: Fix | null = null;
 
@@ -48,8 +48,8 @@ function greyPicture({ data, width, height }: Image): Promise<ImageBitmap> {
 }
 
 /**
- * Camera frames, read one at a time. The next frame is read after the page has drawn the
- * previous one.
+ * A stream of camera frames, read one at a time. The next frame is read after the page has drawn
+ * the previous frame.
  */
 class Stream {
     #reader: ReadableStreamDefaultReader<VideoFrame>;

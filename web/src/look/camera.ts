@@ -6,11 +6,14 @@ type Processor = new (init: { track: MediaStreamTrack }) => { readable: Readable
 
 /**
  * Method of reading frames. `?luma=canvas` in the address forces the canvas, which every browser
- * has.
+ * supports.
  */
 const kForced = new URLSearchParams(location.search).get("luma");
 
-/** Starts the camera `device`, or by default the back camera of a phone. */
+/**
+ * Starts the camera `device`. If it is empty, starts any camera, preferably the back camera of a
+ * phone.
+ */
 export async function openCamera(device: string): Promise<MediaStream> {
     const which = device === "" ? { facingMode: { ideal: "environment" } } : { deviceId: { exact: device } };
     const video = { ...which, width: { ideal: 1280 }, height: { ideal: 720 } };
@@ -18,8 +21,8 @@ export async function openCamera(device: string): Promise<MediaStream> {
 }
 
 /**
- * Returns the cameras with their names, which browsers reveal only after the user has permitted
- * a camera.
+ * Returns the cameras with their names. Browsers reveal the names only after the user has allowed
+ * access to a camera.
  */
 export async function listCameras(): Promise<{ id: string; name: string }[]> {
     const devices = await navigator.mediaDevices.enumerateDevices();
@@ -28,7 +31,7 @@ export async function listCameras(): Promise<{ id: string; name: string }[]> {
         .map(({ deviceId, label }, i) => ({ id: deviceId, name: label || `Camera ${i + 1}` }));
 }
 
-/** Reads frames of a video element through a canvas, for browsers without a track processor. */
+/** Reads the frames of a video element through a canvas, for browsers without a track processor. */
 class VideoLoop {
     #is_stopped = false;
     #resume: (() => void) | undefined;
@@ -95,7 +98,7 @@ export class CameraFrames {
         }
     }
 
-    /** Requests the next frame after the previous one was drawn. */
+    /** Requests the next frame. Called after the previous frame was drawn. */
     next(): void {
         if (this.#loop) this.#loop.next();
         else this.engine.next();

@@ -1,4 +1,4 @@
-// Explains step by step, in pictures, how one frame is located.
+// Explains step by step, with pictures, how a frame is located.
 import { drawFrame, type Layers } from "../draw/frame.js";
 import { kSymbolInk } from "../draw/surface.js";
 import type { Reading } from "../engine/messages.js";
@@ -69,7 +69,7 @@ const kSteps: readonly Step[] = [
     },
 ];
 
-/** Shows the steps that the reading reached, and the reason if there is no position. */
+/** Shows the steps that the reading reached, and the reason for failure if there is no position. */
 export function explain(reading: Reading): void {
     const dialog = element("explain", HTMLDialogElement);
     const reached = kSteps.filter((step) => step.reached(reading));

@@ -1,6 +1,6 @@
-// The log of readings: a subset of the CSV columns of `dotpose watch --log` (docs/output.md), which
-// `dotpose replay` reads. The page has no tracker: the track is the fix, and the velocity is the difference
-// from the previous fix.
+// The log of readings, with a subset of the CSV columns of `dotpose watch --log` (docs/output.md).
+// `dotpose replay` can read the log. The page has no tracker, so the track is the fix, and the
+// velocity is computed from the difference to the previous fix.
 import type { Reading } from "../engine/messages.js";
 
 const kDegrees = 180 / Math.PI;
@@ -8,7 +8,7 @@ const kDegrees = 180 / Math.PI;
 interface Frame {
     reading: Reading;
     number: number;
-    /** The previous frame, or undefined for the first. */
+    /** The previous frame, or undefined for the first frame. */
     before: Reading | undefined;
 }
 
@@ -18,15 +18,15 @@ const sigma = ({ reading }: Frame, i: number) => Math.sqrt(reading.fix.covarianc
 
 const isFound = ({ before }: Frame) => before?.fix.ok ?? false;
 
-/** Returns the event of this frame, as named by the tool. */
+/** Returns the event of this frame, with the same name as in the command-line tool. */
 function eventOf(frame: Frame): string {
     if (frame.reading.fix.ok) return isFound(frame) ? "" : "fix";
     return isFound(frame) ? "lost" : "";
 }
 
 /**
- * Returns the rate of change of a quantity since the previous frame, or 0 after a frame without
- * a fix.
+ * Returns the rate of change of a quantity since the previous frame, or 0 if the previous frame has
+ * no fix.
  */
 function speed(frame: Frame, of: (reading: Reading) => number, turns = false): string {
     const { reading, before } = frame;
@@ -40,7 +40,7 @@ const x_mm = ({ fix }: Reading) => fix.x_mm;
 const y_mm = ({ fix }: Reading) => fix.y_mm;
 const theta_deg = ({ fix }: Reading) => fix.theta_rad * kDegrees;
 
-/** Columns of a line. Frames without a fix have only the columns with `always`. */
+/** Columns of a line. For frames without a fix, only the columns with `always` have values. */
 const kColumns: readonly Column[] = [
     ["schema", () => 1, true],
     ["frame", ({ number }) => number, true],
@@ -77,7 +77,7 @@ const kColumns: readonly Column[] = [
     ["turn_deg_s", (frame) => speed(frame, theta_deg, true)],
 ];
 
-/** Maximum length of the log, about an hour at 30 frames per second. */
+/** Maximum number of lines of the log, about an hour at 30 frames per second. */
 const kMaxLines = 100_000;
 
 export class Log {
@@ -90,7 +90,7 @@ export class Log {
         return this.#lines.length;
     }
 
-    /** Adds a line. Its time is relative to the first line. */
+    /** Adds a line. Times are relative to the first line. */
     add(reading: Reading): void {
         this.#first_s ??= reading.time_s;
         const timed = { ...reading, time_s: reading.time_s - this.#first_s };

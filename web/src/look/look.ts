@@ -1,4 +1,4 @@
-// Look: locates the live frames of this device's camera.
+// The view "Look": locates the live frames of a camera of this device.
 import type { Code } from "dotpose";
 import { drawFrame } from "../draw/frame.js";
 import { cornersOf, drawMap, onPage } from "../draw/map.js";
@@ -135,7 +135,7 @@ export class LookView implements View {
         if (text !== "") this.#announce(text);
     }
 
-    /** Shows a reading. `path` is null for a single picture. */
+    /** Shows a reading. `path` is null for a still picture. */
     #take(reading: Reading, path: LumaPath | null): void {
         if (this.#last && this.#last.picture !== reading.picture) this.#last.picture.close();
         this.#last = reading;
@@ -159,7 +159,7 @@ export class LookView implements View {
         show({ "look-logged": `${this.#log.length} ${this.#log.length === 1 ? "frame" : "frames"} logged` });
     }
 
-    /** Adds the position to the path. A position on another sheet starts a new path. */
+    /** Adds the position to the path. A position on a different sheet starts a new path. */
     #follow({ fix }: Reading): void {
         if (!fix.ok) return;
         const sheet = this.#sheets.find((known) => isOnSheet(known.layout, fix)) ?? null;

@@ -1,4 +1,4 @@
-/** Counts frames per second over the last second. */
+/** Measures the frame rate over the last second. */
 export class Rate {
     #times_ms: number[] = [];
 
@@ -6,7 +6,7 @@ export class Rate {
         this.#times_ms = [];
     }
 
-    /** Counts a frame, and returns the number of frames per second. */
+    /** Counts a frame and returns the current number of frames per second. */
     count(): number {
         const now_ms = performance.now();
         this.#times_ms.push(now_ms);

@@ -1,4 +1,4 @@
-// The numbers beside the camera's frame.
+// The numbers beside the camera frame.
 import type { Reading } from "../engine/messages.js";
 import { element, show } from "../page/dom.js";
 import { degrees, grouped, length, milliseconds, oneIn } from "../page/format.js";
@@ -7,7 +7,7 @@ import type { KnownSheet } from "../print/known_sheets.js";
 
 const kNames = ["x", "y", "angle", "sigma", "wrong", "spacing"];
 
-/** Shows a reading. Positions on a known sheet are relative to the corner of its page. */
+/** Shows a reading. If the sheet is known, positions are relative to the corner of its page. */
 export function showReading({ fix, locate_ms }: Reading, sheet: KnownSheet | null): void {
     element("look-readout", HTMLElement).classList.toggle("lost", !fix.ok);
     show({ "look-time": milliseconds(locate_ms), "look-dots": String(fix.ok ? fix.dots_used : fix.dots_seen) });

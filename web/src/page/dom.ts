@@ -1,13 +1,13 @@
-// Small helpers for the elements of index.html.
+// Helper functions for the elements of index.html.
 
-/** Returns the element with the given id. Throws an error if it is missing or of another type. */
+/** Returns the element with the given id. Throws an error if it is missing or has another type. */
 export function element<T extends HTMLElement>(id: string, type: new () => T): T {
     const found = document.getElementById(id);
     if (!(found instanceof type)) throw new Error(`index.html has no ${type.name} #${id}`);
     return found;
 }
 
-/** Sets the texts of elements, by id. */
+/** Sets the texts of elements, given by id. */
 export function show(texts: Record<string, string>): void {
     for (const [id, text] of Object.entries(texts)) {
         const target = document.getElementById(id)!;
@@ -27,8 +27,7 @@ export function make<K extends keyof HTMLElementTagNameMap>(
 }
 
 /**
- * Returns a function that writes changed texts into a live region, at most once every three
- * seconds.
+ * Returns a function that writes changed text to a live region, at most once every three seconds.
  */
 export function announcer(id: string): (text: string) => void {
     const kPause_ms = 3000;

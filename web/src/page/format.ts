@@ -5,8 +5,8 @@ export function mm(value: number, digits = 3): string {
 }
 
 /**
- * Formats millimetres with thin spaces between groups of three digits, because positions in the
- * pattern have up to nine.
+ * Formats millimetres with thin spaces between groups of three digits. Positions in the pattern
+ * have up to nine digits.
  */
 export function grouped(value_mm: number): string {
     return value_mm.toLocaleString("en", { minimumFractionDigits: 3, maximumFractionDigits: 3 }).replaceAll(",", "\u202f");
@@ -23,7 +23,7 @@ export function degrees(rad: number, digits = 2): string {
     return `${((rad * 180) / Math.PI).toFixed(digits)}°`;
 }
 
-/** Formats an upper bound of a probability as "1 in" a power of ten. */
+/** Formats an upper bound of a probability as "1 in N", where N is a power of ten. */
 export function oneIn(probability: number): string {
     const power = Math.floor(-Math.log10(probability));
     const names = ["", "thousand", "million", "billion"];

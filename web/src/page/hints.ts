@@ -1,4 +1,4 @@
-// Advice for frames that cannot be located, or only with low accuracy.
+// Advice for frames that cannot be located, or are located with low accuracy.
 import type { Reading } from "../engine/messages.js";
 
 export interface Hint {
@@ -16,8 +16,8 @@ const kPale = 25;
 /** Minimum sharpness of a picture in focus, as a fraction of its contrast. */
 const kBlurred = 0.12;
 /**
- * Limits for frames that cannot be located: with more than `kManyDots` dots, the dots are too
- * small; with fewer than `kFewDots`, too few are in view.
+ * Limits for frames that cannot be located. If there are more than `kManyDots` dots, the dots are
+ * probably too small. If there are fewer than `kFewDots`, too few dots are in view.
  */
 const kManyDots = 1500;
 const kFewDots = 60;
@@ -42,7 +42,7 @@ function hintOfFailure(reading: Reading): string {
     return "Closer and straighter: fill the picture with dots, seen from above.";
 }
 
-/** Returns the advice for a frame, or null if there is nothing to improve. */
+/** Returns advice for a frame, or null if there is nothing to improve. */
 export function hintOf(reading: Reading): Hint | null {
     const { fix } = reading;
     if (!fix.ok) return { text: `${hintOfFailure(reading)} (${fix.message})`, good: false };

@@ -1,4 +1,5 @@
-// Points of a page, in mm from its upper left corner, and of the pattern printed on it.
+// Conversions between points of a page, in mm from its upper left corner, and points of its
+// pattern.
 import type { SheetLayout } from "../engine/messages.js";
 
 /** Spacing of the sheets that this page prints and simulates. */
@@ -9,7 +10,7 @@ export interface Point_mm {
     y_mm: number;
 }
 
-/** Returns the point of the pattern that is printed at a point of the page. */
+/** Returns the pattern point that is printed at a point of the page. */
 export function patternFromPage(sheet: SheetLayout, { x_mm, y_mm }: Point_mm): Point_mm {
     return {
         x_mm: sheet.origin.x * kSpacing_mm + x_mm - sheet.first_x_mm,
@@ -17,7 +18,7 @@ export function patternFromPage(sheet: SheetLayout, { x_mm, y_mm }: Point_mm): P
     };
 }
 
-/** Returns the point of the page at which a point of the pattern is printed. */
+/** Returns the point of the page at which a pattern point is printed. */
 export function pageFromPattern(sheet: SheetLayout, { x_mm, y_mm }: Point_mm): Point_mm {
     return {
         x_mm: x_mm - sheet.origin.x * kSpacing_mm + sheet.first_x_mm,
@@ -25,7 +26,7 @@ export function pageFromPattern(sheet: SheetLayout, { x_mm, y_mm }: Point_mm): P
     };
 }
 
-/** Returns true if a point of the pattern, in this code and section, is on the sheet. */
+/** Returns true if a pattern point, in this code and section, is on the sheet. */
 export function isOnSheet(
     sheet: SheetLayout,
     at: Point_mm & { code: string; section: { u: number; v: number } },

@@ -1,4 +1,4 @@
-/** A part of the page. Only one part is shown at a time. */
+/** A view of the page. Only one view is shown at a time. */
 export interface View {
     shown(): Promise<void> | void;
     hidden(): void;

@@ -1,4 +1,4 @@
-// The sheets printed on this page, which are stored in this browser.
+// Sheets that were printed from this page. They are stored in the browser.
 import type { SheetLayout } from "../engine/messages.js";
 
 export interface KnownSheet {
@@ -28,7 +28,7 @@ function keep(sheets: KnownSheet[]): void {
     try {
         localStorage.setItem(kKey, JSON.stringify(sheets));
     } catch {
-        // Storage is not permitted. The sheet can still be printed.
+        // Storage is not allowed. The sheet can still be printed.
     }
 }
 
@@ -41,7 +41,7 @@ export function forget(forgotten: string): void {
     keep(knownSheets().filter(({ name }) => name !== forgotten));
 }
 
-/** Returns the origin of a region that no known sheet uses. */
+/** Returns the origin of a region that is not used by any known sheet. */
 export function freshOrigin(): { x: number; y: number } {
     const right = knownSheets().map(({ layout }) => layout.origin.x + layout.columns);
     return { x: Math.max(1000, ...right), y: 2000 };

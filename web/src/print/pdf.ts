@@ -1,8 +1,8 @@
-// The PDF of a sheet, with the same dots as `dotpose print` for 600 dpi, in black ink only.
+// Makes the PDF of a sheet, with the same dots as `dotpose print` for 600 dpi, in black ink only.
 //
-// Dots are glyphs of a font with four glyphs. At the default spacing, dots consist of whole printer
+// Dots are drawn with a font of four glyphs. At the default spacing, dots consist of whole printer
 // pixels at 300, 600 and 1200 dpi, and renderers place glyphs on whole pixels.
-// src/print/pdf_dots.cpp gives the reason for each number.
+// src/print/pdf_dots.cpp explains each number.
 import { PDFDocument, PDFName, type PDFContext, type PDFRef } from "@cantoo/pdf-lib";
 import { kSymbolStep } from "../draw/surface.js";
 import type { SheetLayout } from "../engine/messages.js";
@@ -14,10 +14,10 @@ const kDpi = 600;
 const kDot_mm = kSpacing_mm / 6;
 const kDisplacement_mm = kSpacing_mm / 6;
 const kUnitsPerEm = 1000;
-/** Letters of the symbols up, left, right, down. */
+/** Letters for the symbols up, left, right and down. */
 const kLetters = ["u", "l", "r", "d"] as const;
 
-/** Returns a circle of four Bezier curves. */
+/** Returns a circle that consists of four Bezier curves. */
 function circle(x: number, y: number, r: number): string {
     const k = 0.5522847498 * r;
     const points = [
@@ -30,7 +30,7 @@ function circle(x: number, y: number, r: number): string {
     return `${(x + r).toFixed(3)} ${y.toFixed(3)} m ${curves.join(" ")} f\n`;
 }
 
-/** Returns the glyph of a symbol. The lower left corner of an undisplaced dot is at the origin. */
+/** Returns the glyph of a symbol. The origin is the lower left corner of an undisplaced dot. */
 function glyph(symbol: number): string {
     const per_mm = kUnitsPerEm / kSpacing_mm;
     const [dx, dy] = kSymbolStep[symbol]!;
@@ -49,7 +49,7 @@ function dotFont(context: PDFContext): PDFRef {
     return context.register(
         context.obj({
             ...{ Type: "Font", Subtype: "Type3", FontMatrix: [0.001, 0, 0, 0.001, 0, 0] },
-            // Renderers cache glyphs with small bounding boxes as bitmaps.
+            // Renderers cache glyphs as bitmaps if their bounding boxes are small.
             FontBBox: [-kUnitsPerEm / 2, -kUnitsPerEm / 2, kUnitsPerEm / 2, kUnitsPerEm / 2],
             ...{ FirstChar: first, LastChar: last, Widths: Array(last - first + 1).fill(kUnitsPerEm) },
             Encoding: {
@@ -66,7 +66,7 @@ function dotFont(context: PDFContext): PDFRef {
 
 /**
  * Returns the smallest shift for which all renderers round the origin of a glyph to the same pixel.
- * Renderers truncate or round, and count pixels from either side of the page.
+ * Renderers either truncate or round, and count pixels from either edge of the page.
  */
 function clearShift_px(near_px: number, far_px: number): number {
     const kClear_px = 0.05;
@@ -85,7 +85,7 @@ function clearShift_px(near_px: number, far_px: number): number {
     return clear ?? shifts.reduce((best, shift) => (clearance(shift) > clearance(best) ? shift : best));
 }
 
-/** Returns the PDF text that draws all dots, row by row. */
+/** Returns the PDF operators that draw all dots, row by row. */
 function dotContent(sheet: SheetLayout, symbols: Uint8Array): string {
     const px_per_mm = kDpi / 25.4;
     const shifted = (from_mm: number, size_mm: number) =>
@@ -99,13 +99,13 @@ function dotContent(sheet: SheetLayout, symbols: Uint8Array): string {
         return `1 0 0 1 ${x_pt.toFixed(4)} ${(y_mm * kPointsPerMm).toFixed(4)} Tm(${text})Tj\n`;
     });
     const size_pt = (kSpacing_mm * kPointsPerMm).toFixed(9);
-    // With an empty ActualText, viewers do not search or copy the glyphs as letters.
+    // The empty ActualText keeps viewers from searching or copying the glyphs as letters.
     return `/Span <</ActualText ()>> BDC BT 0 0 0 1 k /Dots ${size_pt} Tf\n${rows.join("")}ET EMC\n`;
 }
 
 /**
- * Rounds a length of the page like the tool does, to make renderers draw the same pixels for
- * both.
+ * Rounds a length of the page as the command-line tool does, so renderers draw the same pixels for
+ * both PDFs.
  */
 function points(length_mm: number): number {
     return Math.round(length_mm * kPointsPerMm * 1e4) / 1e4;
@@ -120,7 +120,7 @@ export async function sheetPdf(
     const pdf = await PDFDocument.create();
     pdf.setTitle(name);
     pdf.setCreator("dotpose");
-    // Keeps viewers from offering to fit the page to the paper.
+    // Asks viewers not to scale the page to fit the paper.
     pdf.catalog.set(PDFName.of("ViewerPreferences"), pdf.context.obj({ PrintScaling: PDFName.of("None") }));
     const { context } = pdf;
     const label = context.obj({ Type: "Font", Subtype: "Type1", BaseFont: "Helvetica", Encoding: "WinAnsiEncoding" });

@@ -1,5 +1,5 @@
-// The labels in the margins of a printed sheet: a description, and rulers in millimetres from the
-// corner of the page, as printed by the tool.
+// Labels in the margins of a printed sheet, the same as those of the command-line tool: a
+// description, and rulers in millimetres from the corner of the page.
 import type { SheetLayout } from "../engine/messages.js";
 import { kSpacing_mm } from "../page/sheet_frame.js";
 import { kPointsPerMm, shown } from "./pdf_text.js";
@@ -8,13 +8,13 @@ const kGap_mm = 0.8;
 const kTick_mm = { 10: 1.8, 5: 1.2, 1: 0.8 };
 const kNumber_pt = 4.5;
 const kText_pt = 6;
-/** Space required for a ruler between the dots and the edge of the page. */
+/** Space that a ruler needs between the dots and the edge of the page. */
 const kRulerRoom_mm = 4.4;
 const kTextRoom_mm = 3.6;
-/** Distance from an intersection to the farthest ink of its dot. */
+/** Distance from an intersection to the farthest edge of its dot. */
 const kReach_mm = kSpacing_mm / 4;
 
-/** Returns ticks and numbers along the upper edge (`x`) or the left edge (`y`). */
+/** Returns a ruler with ticks and numbers along the upper edge (`x`) or the left edge (`y`). */
 function ruler(sheet: SheetLayout, axis: "x" | "y"): string {
     const is_x = axis === "x";
     const ink_mm = (is_x ? sheet.first_y_mm : sheet.first_x_mm) - kReach_mm;

@@ -1,8 +1,8 @@
-// Lengths and texts as PDF operands.
+// Lengths and strings as PDF operands.
 
 export const kPointsPerMm = 72 / 25.4;
 
-/** Returns a text as a PDF string. Non-ASCII characters become question marks. */
+/** Returns text as a PDF string. Non-ASCII characters become question marks. */
 export function shown(text: string): string {
     return `(${text.replace(/[^\x20-\x7e]/g, "?").replace(/[\\()]/g, "\\$&")})`;
 }

@@ -1,4 +1,4 @@
-// Print: selects a sheet, previews the sheet and makes its PDF.
+// The view "Print": selects a sheet, shows a preview and makes the PDF.
 import type { Code } from "dotpose";
 import { drawCorner, drawPage } from "../draw/sheet.js";
 import type { Engine } from "../engine/engine.js";
@@ -79,7 +79,7 @@ export class PrintView implements View {
         const layout = this.#layout!;
         const name = this.#name.value.trim() || "sheet";
         show({ "print-status": "Making the PDF …" });
-        // The PDF library is larger than the rest of the page, so it is loaded only when needed.
+        // Loads the PDF library only when needed, because it is larger than the rest of the page.
         const { sheetPdf } = await import("./pdf.js");
         const bytes = await sheetPdf(layout, await this.#engine.symbols(layout), name);
         download(`${name.replace(/[^\w-]+/g, "-")}.pdf`, "application/pdf", bytes);

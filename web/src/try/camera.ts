@@ -1,7 +1,7 @@
 // The simulated camera: its pose, its motion, and the conditions of its frames.
 import type { SheetLayout, SimulatedView } from "../engine/messages.js";
 
-/** A slider and the condition that it changes. */
+/** A slider, and the condition that it controls. */
 export interface Slider {
     name: "mm_per_px" | "tilt_deg" | "turn_deg" | "blur_px" | "noise" | "paper_level" | "vignetting";
     label: string;
@@ -31,7 +31,7 @@ export const kPresets: Record<string, Partial<Conditions>> = {
     hard: { tilt_deg: 4, blur_px: 1, noise: 9, paper_level: 90, vignetting: 0.5 },
 };
 
-/** Width of the reference camera. Wider cameras see the same field with more pixels. */
+/** Image width of the reference camera. Wider images show the same field with more pixels. */
 const kReferenceWidth_px = 188;
 
 export class SimulatedCamera {
@@ -52,13 +52,13 @@ export class SimulatedCamera {
         return (this.conditions.turn_deg * Math.PI) / 180;
     }
 
-    /** Moves the camera. Its position is limited to the page. */
+    /** Moves the camera to a point of the page. The position is limited to the page. */
     moveTo(x_mm: number, y_mm: number, sheet: SheetLayout): void {
         this.x_mm = Math.min(Math.max(x_mm, 0), sheet.width_mm);
         this.y_mm = Math.min(Math.max(y_mm, 0), sheet.height_mm);
     }
 
-    /** Moves the camera by pixels of the image, so that the image follows the finger. */
+    /** Moves the camera by a number of image pixels, so the image follows the finger. */
     dragBy(du_px: number, dv_px: number, sheet: SheetLayout): void {
         const [cos, sin] = [Math.cos(this.theta_rad), Math.sin(this.theta_rad)];
         const scale = this.mm_per_px;
@@ -79,7 +79,7 @@ export class SimulatedCamera {
         this.conditions.mm_per_px = Math.min(Math.max(this.conditions.mm_per_px * factor, min), max);
     }
 
-    /** Returns the next view to simulate. Every frame has different noise. */
+    /** Returns the next view to simulate. The noise of every frame is different. */
     view(): SimulatedView {
         const { tilt_deg, blur_px, noise, paper_level, vignetting } = this.conditions;
         const { x_mm, y_mm, width_px, height_px, mm_per_px, theta_rad } = this;
@@ -87,8 +87,8 @@ export class SimulatedCamera {
             ...{ x_mm, y_mm, width_px, height_px, mm_per_px, theta_rad },
             tilt_x_rad: (tilt_deg * Math.PI) / 180,
             tilt_y_rad: 0,
-            // The lens is the same for all cameras, so the blur in px grows with the number of
-            // pixels.
+            // The lens is the same for all image widths, so the blur in px is proportional to the
+            // width.
             blur_px: (blur_px * width_px) / kReferenceWidth_px,
             ...{ noise, paper_level, vignetting },
             seed: ++this.#seed,

@@ -5,7 +5,7 @@ import type { SimulatedCamera } from "./camera.js";
 
 const kSpeed_mm_s = 9;
 
-/** Drives in wide curves over the page. */
+/** Drives over the page in wide curves. */
 export class Drive {
     sheet: SheetLayout | undefined;
     readonly #button = element("try-drive", HTMLButtonElement);
@@ -19,7 +19,7 @@ export class Drive {
         private readonly moved: () => void,
     ) {
         this.#button.addEventListener("click", () => (this.#is_on ? this.stop() : this.#start()));
-        // With reduced motion, only the button starts the drive.
+        // If the user prefers reduced motion, only the button starts the drive.
         if (!matchMedia("(prefers-reduced-motion: reduce)").matches) this.#set(true);
     }
 
@@ -65,7 +65,7 @@ export class Drive {
         requestAnimationFrame((next_ms) => this.#step(next_ms));
     }
 
-    /** Turns the camera back before it reaches the edge of the page. */
+    /** Turns the camera towards the centre before it reaches the edge of the page. */
     #homewards(step_s: number): void {
         const kKeepAway_mm = 25;
         const { width_mm, height_mm } = this.sheet!;

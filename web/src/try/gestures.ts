@@ -1,10 +1,10 @@
-// Gestures on the picture of the simulated camera: mouse, fingers and keys.
+// Gestures on the picture of the simulated camera, by mouse, touch and keyboard.
 
 export interface Gestures {
-    /** Moves the picture by a number of pixels of the screen. */
+    /** Moves the picture by a number of CSS pixels. */
     drag(dx: number, dy: number): void;
     turn(degrees: number): void;
-    /** Changes the height by a factor. Above 1, the camera rises. */
+    /** Multiplies the height by a factor. If it is greater than 1, the camera rises. */
     rise(factor: number): void;
     /** Called at the start of any gesture. */
     begin(): void;
@@ -42,7 +42,7 @@ function listenToPointers(canvas: HTMLCanvasElement, gestures: Gestures): void {
         canvas.addEventListener(type, (event) => fingers.delete(event.pointerId));
 }
 
-/** Step sizes of the keys, in px on the screen and in degrees. */
+/** Step sizes of the keys, in CSS pixels and degrees, and the factor for the height. */
 const kStep = 12;
 const kFarStep = 120;
 const kTurn = 5;
@@ -71,15 +71,15 @@ function listenToKeys(canvas: HTMLCanvasElement, gestures: Gestures): void {
     });
 }
 
-/** Calls `gestures` for all gestures on the camera's picture. */
+/** Calls `gestures` for all gestures on the picture of the camera. */
 export function listen(canvas: HTMLCanvasElement, gestures: Gestures): void {
     listenToPointers(canvas, gestures);
     listenToKeys(canvas, gestures);
     canvas.addEventListener(
         "wheel",
         (event) => {
-            // The wheel changes the height only if the picture has the focus. Otherwise the wheel
-            // scrolls the page.
+            // The wheel changes the height only if the picture has the focus. Otherwise it scrolls
+            // the page.
             if (document.activeElement !== canvas) return;
             event.preventDefault();
             gestures.begin();

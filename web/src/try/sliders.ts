@@ -1,10 +1,10 @@
-// The sliders and buttons that degrade the simulated frame.
+// Sliders and buttons that degrade the simulated frame.
 import { element, make } from "../page/dom.js";
 import { kPresets, kSliders, type SimulatedCamera } from "./camera.js";
 
 /**
- * Builds the sliders. Returns a function that shows the values of the camera, which other
- * controls also change.
+ * Creates the sliders. Returns a function that updates the sliders to the values of the camera,
+ * because other controls change them too.
  */
 export function buildSliders(camera: SimulatedCamera, changed: () => void): () => void {
     const rows = kSliders.map((slider) => {

@@ -1,4 +1,4 @@
-// Try: locates the frames of a simulated camera over a simulated sheet.
+// The view "Try": locates the frames of a simulated camera over a simulated sheet.
 import { drawFrame } from "../draw/frame.js";
 import { cornersOf, drawMap, onPage, type MapFrame } from "../draw/map.js";
 import type { Engine } from "../engine/engine.js";
@@ -33,7 +33,7 @@ export class TryView implements View {
     #is_shown = false;
     #is_busy = false;
     #is_stale = false;
-    /** The last frame, which is redrawn if the window changes. */
+    /** The newest frame. It is redrawn if the window changes. */
     #last: { reading: Reading; view: SimulatedView } | undefined;
 
     constructor(engine: Engine) {
@@ -98,10 +98,10 @@ export class TryView implements View {
         this.#map.addEventListener("pointermove", move);
     }
 
-    /** Simulates the next frame. Further changes wait until it is drawn. */
+    /** Simulates the next frame. Further changes wait until the frame is drawn. */
     #changed(): void {
         this.#is_stale = true;
-        // The tests wait until the last change has been drawn.
+        // The tests use this flag to wait until the last change has been drawn.
         this.#picture.dataset["busy"] = "true";
         if (!this.#is_busy) void this.#run();
     }

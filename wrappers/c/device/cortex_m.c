@@ -1,5 +1,5 @@
-/* Start-up code of a Cortex-M, and the host functions by semihosting calls (Arm's "Semihosting
- * for AArch32 and AArch64"). */
+/* Start-up code for Cortex-M, and host functions that use semihosting calls (Arm's "Semihosting for
+ * AArch32 and AArch64"). */
 #include <stdint.h>
 #include <string.h>
 
@@ -65,7 +65,7 @@ void host_print(const char* text) {
 
 static void leave(uint32_t status) {
     uint32_t arguments[2];
-    arguments[0] = 0x20026; /* the application ends */
+    arguments[0] = 0x20026; /* the application has ended */
     arguments[1] = status;
     for (;;)
         call(CALL_EXIT, arguments);
@@ -75,7 +75,7 @@ static void fault(void) {
     leave(99);
 }
 
-/* Returns the last word of the command line, which is the path of the frames. */
+/* Returns the last word of the command line, which is the path of the file of frames. */
 static const char* path_of_frames(void) {
     static char line[160];
     uint32_t arguments[2];
@@ -116,7 +116,7 @@ void reset(void) {
     leave(status);
 }
 
-/* The vector table (ARMv6-M Architecture Reference Manual, B1.5.3). */
+/* Vector table (ARMv6-M Architecture Reference Manual, B1.5.3). */
 typedef struct vector_table {
     const void* initial_stack;
     void (*handlers[15])(void);

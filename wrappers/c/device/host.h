@@ -1,4 +1,4 @@
-/* Host functions that the program needs. */
+/* Host functions required by the program. */
 #ifndef HOST_H
 #define HOST_H
 
@@ -6,13 +6,13 @@
 
 /* Opens the file for reading. Returns 0 if the file does not exist. */
 int host_open(const char* path);
-/* Reads `size` bytes. Returns 0 if the file has fewer bytes left. */
+/* Reads `size` bytes. Returns 0 if fewer bytes are left in the file. */
 int host_read(void* bytes, size_t size);
 /* Prints to standard output. */
 void host_print(const char* text);
 
-/* Main function of the program: locates the frames in the file at `path`. Returns the exit
-   status. */
+/* Main function of the program. Locates the frames in the file at `path`. Returns the exit status.
+ * */
 int locate_frames(const char* path);
 
 #endif

@@ -1,6 +1,6 @@
-/* Locates frames as a microcontroller does, with fixed memory, pushing each row as it is read.
- * The input consists of golden frames (wrappers/golden/README.md). Locates the first frame of
- * each pair, and prints the line that C++ writes for the way `device`. */
+/* Locates frames like a microcontroller: with fixed memory, and pushing each row as it is read. The
+ * input is a file of golden frames (wrappers/golden/README.md). Locates the first frame of each
+ * pair, and prints the same line as C++ for the method `device`. */
 #include <dotpose.h>
 #include <stdint.h>
 #include <string.h>
@@ -30,7 +30,7 @@ static void print_signed(int32_t value) {
     print_unsigned(value < 0 ? 0u - (uint32_t)value : (uint32_t)value);
 }
 
-/* Prints the bits of a 4-byte or 8-byte number, the most significant first. */
+/* Prints the bits of a 4-byte or 8-byte number in hexadecimal, most significant digit first. */
 static void print_bits(const void* number, size_t size) {
     uint8_t bytes[8];
     char text[17];
@@ -45,7 +45,7 @@ static void print_bits(const void* number, size_t size) {
     host_print(text);
 }
 
-/* Prints the number at an address. */
+/* Prints the number at an address. `kind` is the kind of its golden column. */
 static void print_number(char kind, const uint8_t* at) {
     uint32_t value = 0;
     memcpy(&value, at, sizeof value);
@@ -77,7 +77,7 @@ static void print_fix(uint32_t index) {
     host_print("\n");
 }
 
-/* Reads a number and the byte that follows. Returns -1 if there is no number. */
+/* Reads a number and the byte after it. Returns -1 at the end of the file. */
 static int32_t read_number(void) {
     int32_t number = 0;
     char byte = 0;
@@ -89,8 +89,8 @@ static int32_t read_number(void) {
     return number;
 }
 
-/* Reads a frame row by row, and locates it if `locator` is not null. Returns 0 at the end of the
-   file. */
+/* Reads a frame row by row. Locates it if `locator` is not null. Returns 0 at the end of the file.
+ * */
 static int read_frame(dotpose_locator* locator) {
     char magic[3];
     int32_t width_px = 0;

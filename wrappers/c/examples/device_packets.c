@@ -1,6 +1,6 @@
-/* Works like a microcontroller: processes the rows of a frame as the camera delivers them, in
- * memory of fixed size, and sends a packet of 32 bytes. In this example, the rows come from a
- * file, and the packet is written to standard output for `dotpose listen`:
+/* Processes a frame like a microcontroller: takes the rows as the camera delivers them, in memory
+ * of fixed size, and sends a packet of 32 bytes. In this example, the rows are read from a file,
+ * and the packet is written to standard output for `dotpose listen`:
  *
  *     ./device_packets frame.pgm | dotpose listen - */
 #include <dotpose.h>

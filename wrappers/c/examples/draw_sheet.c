@@ -1,4 +1,4 @@
-/* Draws a part of a sheet as an image, which locate_one then locates:
+/* Draws a part of a sheet as an image. The example locate_one can locate the image:
  *
  *     ./draw_sheet 1000 2000 >sheet.pgm
  *     ./locate_one sheet.pgm */
@@ -11,14 +11,14 @@ enum {
     COLUMNS = 40,
     ROWS = 30,
     SPACING_PX = 18,
-    SHIFT_PX = 3, /* a sixth of the spacing, like the width of a dot */
+    SHIFT_PX = 3, /* a sixth of the spacing, like the diameter of a dot */
     WIDTH_PX = COLUMNS * SPACING_PX,
     HEIGHT_PX = ROWS * SPACING_PX
 };
 
 static uint8_t pixels[HEIGHT_PX][WIDTH_PX];
 
-/* Draws the dot of a cell: 3 x 3 px, displaced from the middle of the cell. */
+/* Draws the dot of a cell, 3 x 3 px, displaced from the centre of the cell. */
 static void draw_dot(int column, int row, int32_t dx, int32_t dy) {
     const int u = column * SPACING_PX + SPACING_PX / 2 + SHIFT_PX * (int)dx;
     const int v = row * SPACING_PX + SPACING_PX / 2 + SHIFT_PX * (int)dy;

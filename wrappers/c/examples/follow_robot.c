@@ -1,5 +1,5 @@
-/* Tracks a robot over the frames of its camera, which are 5 ms apart, and prints its position
- * and velocity:
+/* Tracks a robot over the frames of its camera, which are 5 ms apart. Prints the position and
+ * velocity of the robot:
  *
  *     ./follow_robot frame_*.pgm */
 #include <dotpose.h>
@@ -16,7 +16,7 @@ static dotpose_tracker tracker;
 static dotpose_prediction prediction;
 static int has_prediction = 0;
 
-/* Locates the frame taken at a time, and predicts the next frame. */
+/* Locates the frame taken at `time_us`, and predicts the next frame. */
 static dotpose_track follow(dotpose_locator* locator, const pgm_image* frame, int64_t time_us) {
     dotpose_fix fix;
     dotpose_sighting sighting;

@@ -1,5 +1,6 @@
-/* Locates golden frames (wrappers/golden/README.md) through dotpose.h and prints the same lines
- * as C++: golden FRAMES.frames [ROWS]. With ROWS, frames are pushed row by row where possible. */
+/* Locates golden frames (wrappers/golden/README.md) through dotpose.h and prints the same lines as
+ * C++. Usage: golden FRAMES.frames [ROWS]. If ROWS is given, frames are pushed row by row where
+ * possible. */
 #include <dotpose.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -70,7 +71,7 @@ static void push_rows(dotpose_locator* locator, const image* frame, dotpose_fix*
     dotpose_finish(locator, fix);
 }
 
-/* Prints the lines of a frame and of its next frame. */
+/* Prints the lines for a frame and for its next frame. */
 static void locate(int index, const image* frame, const image* next, dotpose_locator* large,
                    dotpose_locator* device, int by_rows) {
     const int width_px = frame->width_px;

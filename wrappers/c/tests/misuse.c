@@ -1,5 +1,5 @@
-/* Checks that the misuse of a function returns a status that names the error, and has no other
- * effect. */
+/* Checks that each misuse of a function returns a status that identifies the error, and has no
+ * other effect. */
 #include <dotpose.h>
 #include <float.h>
 #include <math.h>
@@ -193,7 +193,7 @@ static void locating(dotpose_locator* locator) {
     EXPECT(IMAGE_TOO_LARGE, dotpose_locate(locator, pixels, 189, 4097, 200, NULL, &fix));
     EXPECT(NO_CONTRAST, dotpose_locate(locator, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL, &fix));
     CHECK(fix.status == DOTPOSE_NO_CONTRAST && fix.theta_rad != fix.theta_rad);
-    /* A negative stride reads the rows from the last one upwards. */
+    /* A negative stride reads the rows in reverse order, starting with the last row. */
     EXPECT(NO_CONTRAST, dotpose_locate(locator, pixels + (HEIGHT_PX - 1) * WIDTH_PX, WIDTH_PX,
                                        HEIGHT_PX, -WIDTH_PX, NULL, &fix));
     EXPECT(NO_CONTRAST,
@@ -223,7 +223,7 @@ static void pushing(dotpose_locator* locator) {
     EXPECT(NULL_POINTER, dotpose_finish(locator, NULL));
     EXPECT(NO_CONTRAST, dotpose_finish(locator, &fix));
     EXPECT(NO_FRAME, dotpose_finish(locator, &fix));
-    /* All other calls drop an unfinished frame. */
+    /* All other calls discard an unfinished frame. */
     EXPECT(OK, dotpose_begin(locator, WIDTH_PX, HEIGHT_PX, NULL));
     EXPECT(OK, dotpose_set_options(locator, NULL));
     EXPECT(NO_FRAME, dotpose_push_row(locator, pixels));
@@ -238,7 +238,7 @@ static void pushing(dotpose_locator* locator) {
     EXPECT(NULL_POINTER, dotpose_finish(NULL, &fix));
 }
 
-/* Returns a fix with a status that no frame has produced. */
+/* Returns a fix with the given status, which was not produced by any frame. */
 static dotpose_fix made_up(dotpose_status status) {
     dotpose_fix fix;
     dotpose_fix_init(&fix, sizeof fix);
@@ -247,7 +247,7 @@ static dotpose_fix made_up(dotpose_status status) {
     return fix;
 }
 
-/* A fix whose size matches no version is neither written nor read. */
+/* A fix whose size does not match any version is neither read nor written. */
 static void sizes(dotpose_locator* large, dotpose_locator* device) {
     static dotpose_pacer pacer;
     dotpose_fix fix = made_up(DOTPOSE_OK);
@@ -366,7 +366,7 @@ static void any_code(dotpose_locator* large, dotpose_locator* device) {
 }
 
 static void trackers(dotpose_locator* locator) {
-    static dotpose_tracker tracker; /* zeros, not set up */
+    static dotpose_tracker tracker; /* zeros: not set up */
     dotpose_track_options options;
     dotpose_sighting sighting;
     dotpose_prediction prediction;
@@ -428,7 +428,7 @@ static void trackers(dotpose_locator* locator) {
 }
 
 static void packets(void) {
-    static dotpose_packet_reader reader; /* zeros, not set up */
+    static dotpose_packet_reader reader; /* zeros: not set up */
     dotpose_packet packet;
     dotpose_fix fix = made_up(DOTPOSE_NO_GRID);
     uint8_t bytes[DOTPOSE_PACKET_BYTES];
@@ -471,7 +471,7 @@ static void packets(void) {
 }
 
 static void pacers(void) {
-    static dotpose_pacer pacer; /* zeros, not set up */
+    static dotpose_pacer pacer; /* zeros: not set up */
     dotpose_pacer_options options;
     dotpose_fix fix = made_up(DOTPOSE_NO_GRID);
     int64_t next_us = 0;

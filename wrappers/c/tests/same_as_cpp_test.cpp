@@ -1,4 +1,4 @@
-// Checks that the functions of dotpose.h give the same results as the functions of the core.
+// Checks that the functions of dotpose.h return the same results as the functions of the core.
 #include <array>
 #include <cstring>
 #include <memory>
@@ -57,7 +57,7 @@ bool same(const T& a, const T& b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// Returns frames of a robot that drives and turns. The middle frame is blank.
+/// Returns the frames of a robot that drives and turns. The middle frame is blank.
 std::vector<GreyImage> drive(int frames) {
     Shot shot = draw_shot(Setup{}, 7);
     std::vector<GreyImage> images;
@@ -94,8 +94,8 @@ std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
     return images;
 }
 
-/// Expects that a locator in static memory gives the same fix as the locator of the core, for
-/// frames of a size.
+/// Expects that a locator in static memory returns the same fix as the locator of the core, for
+/// frames of this size.
 template <int Width, int Height>
 void expect_same_device(int kind, dotpose_status (*init)(void*, std::size_t, const dotpose_options*,
                                                          dotpose_locator**)) {

@@ -11,7 +11,7 @@ namespace {
 
 using draw::Point;
 
-// Black and white in the limited range of video.
+// Black and white in the limited range of video signals.
 constexpr std::uint8_t kBlack = 16;
 constexpr std::uint8_t kWhite = 235;
 
@@ -44,7 +44,7 @@ class Canvas {
             }
         }
     }
-    /// Pixel (0, 0) covers coordinates from 0 to 1.
+    /// Sets the pixel that contains a point. Pixel (0, 0) extends from 0 to 1 in both coordinates.
     void put(Point point, std::uint8_t grey) const {
         if (!(point.x >= 0 && point.x < luma_.width_px)) return;
         if (!(point.y >= 0 && point.y < luma_.height_px)) return;
@@ -64,7 +64,7 @@ void draw_arrow(const Canvas& canvas, Point from, Point direction, double length
             canvas.line(to, to - 0.3 * length * direction + side * 0.2 * length * across, radius,
                         grey);
     };
-    // A light outline makes the arrow visible on dots and in shadows.
+    // A light outline keeps the arrow visible on dots and in shadows.
     draw(2.5, kWhite);
     draw(1, kBlack);
 }
@@ -74,7 +74,7 @@ void draw_arrow(const Canvas& canvas, Point from, Point direction, double length
 void draw_overlay(const Luma& luma, const Trace& trace) {
     const int side_px = std::max(luma.width_px, luma.height_px);
     const ImageView image = {luma.pixels, luma.width_px, luma.height_px, luma.stride_bytes};
-    // One unit of the drawing is a pixel.
+    // The unit of the drawing is one pixel.
     const draw::FrameView view(image, trace, side_px);
     const Canvas canvas(luma);
     const double radius = std::max(2.0, 0.3 * view.spacing());

@@ -1,4 +1,4 @@
-/// Draws the dots and the pose on the luma of a frame.
+/// Draws dots and pose on the luma of a frame.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace dotpose::gstreamer {
 
-/// A luma plane that may be modified.
+/// A modifiable luma plane.
 struct Luma {
     std::uint8_t* pixels = nullptr;
     int width_px = 0;
@@ -16,8 +16,8 @@ struct Luma {
     std::ptrdiff_t stride_bytes = 0;
 };
 
-/// Draws a ring around each dot and, if there is a fix, an arrow from the reference point along the
-/// pattern's x axis. The trace must belong to this frame and contain all stages.
+/// Draws a ring around each dot. If there is a fix, also draws an arrow from the reference point
+/// along the x axis of the pattern. The trace must belong to this frame and contain all stages.
 void draw_overlay(const Luma& luma, const Trace& trace);
 
 }  // namespace dotpose::gstreamer

@@ -44,8 +44,8 @@ class Fields {
         const double value_deg = value_rad * kDegrees;
         number(name, value_deg <= -180 ? value_deg + 360 : value_deg);
     }
-    /// Sets nine numbers, row by row, with each row and column multiplied by its factor. Sets none
-    /// if the covariance is unknown.
+    /// Sets nine numbers, row by row. Each row and column is multiplied by its factor. Sets no
+    /// numbers if the covariance is unknown.
     template <typename Matrix>
     void covariance(const char* name, const Matrix& matrix,
                     const std::array<double, 3>& factors) const {
@@ -105,14 +105,15 @@ void put_evidence(const Fields& fields, const Fix& fix) {
     if (is_known) fields.evidence(#name, fix.name);
 #include "dotpose/fix_fields.def"
     if (!fix) return;
-    // Smaller probabilities are raised to this bound, because the model of paper, ink and camera
+    // Smaller probabilities are raised to this limit, because the model of paper, ink and camera
     // does not justify them.
     constexpr double kMin_p_wrong = 1e-30;
     fields.number("p_wrong", std::max(fix.p_wrong(), kMin_p_wrong));
     fields.number("spacing_px", fix.spacing_px());
 }
 
-/// Sets the code of the sheet, and the alternative code that also explains the frame.
+/// Sets the code of the sheet and, if there is one, the alternative code that also explains the
+/// frame.
 void put_code(const Fields& fields, const Located& located) {
     const CodeReading& reading = located.reading;
     const bool is_ok = located.fix.status == Status::ok;

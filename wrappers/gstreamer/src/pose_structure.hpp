@@ -7,12 +7,12 @@
 
 namespace dotpose::gstreamer {
 
-/// Name of the element's messages and of the custom meta of its buffers.
+/// Name of the messages of the element, and of the custom meta that it attaches to buffers.
 inline constexpr const char* kPoseName = "dotpose";
 
-/// Sets the fields of a reading. Names, units and frames are the same as in the lines of `dotpose
-/// watch` with `--units mm` (docs/output.md), but numbers are not rounded. Fields without a value
-/// are omitted.
+/// Sets the fields of a reading. Names, units and frames of reference are the same as in the lines
+/// of `dotpose watch --units mm` (docs/output.md), but numbers are not rounded. Fields without a
+/// value are omitted.
 void put_reading(GstStructure* structure, const Reading& reading);
 
 }  // namespace dotpose::gstreamer

@@ -1,4 +1,4 @@
-/// The properties of the element.
+/// Properties of the element.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace dotpose::gstreamer {
 
-/// Properties that may change from frame to frame.
+/// Properties that may change between frames.
 struct Switches {
     bool is_inverted = false;    ///< true if dots are white on black
     bool posts_messages = true;  ///< true to post a message on the bus for each frame
-    bool attaches_meta = true;   ///< true to attach a meta to the buffer of each frame
+    bool attaches_meta = true;   ///< true to attach a meta to each buffer
 };
 
 struct Settings {
-    std::string sheets;        ///< path of the sheet file; empty for none
-    std::string camera;        ///< path of the camera file; empty for none
-    FollowerOptions options;   ///< options except the files
+    std::string sheets;        ///< path of the sheet file; none if empty
+    std::string camera;        ///< path of the camera file; none if empty
+    FollowerOptions options;   ///< options, without the contents of the files
     bool is_tracked = true;    ///< false to locate each frame independently
     bool has_overlay = false;  ///< true to draw dots and pose on the frames
     Switches switches;

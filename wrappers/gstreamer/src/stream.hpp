@@ -10,9 +10,9 @@
 
 namespace dotpose::gstreamer {
 
-/// The result of a frame.
+/// Result of one frame.
 struct Reading {
-    std::uint64_t frame = 0;  ///< number of the frame, from 0
+    std::uint64_t frame = 0;  ///< frame number, counted from 0
     Located located;
     std::optional<Track> track;  ///< none if each frame is located independently
     bool is_in_world = false;    ///< true if the track is in the world of the sheet file
@@ -23,17 +23,17 @@ class Stream {
     /// Reads the sheet and camera files. Throws Error if a file cannot be read.
     explicit Stream(const Settings& settings);
 
-    /// Throws BadArgument if the camera file is for frames of another size.
+    /// Throws BadArgument if the camera file is for a different frame size.
     void require_size(int width_px, int height_px) const;
 
-    /// Locates the next frame. A jump back in time restarts tracking. The image must stay valid
-    /// while `follower` is used to access it.
+    /// Locates the next frame. A backward jump in time restarts tracking. The image must remain
+    /// valid as long as `follower` is used to access it.
     Reading read(ImageView image, bool is_inverted, std::int64_t time_us);
 
     bool has_overlay() const { return options_.locate.show_stages; }
-    /// Returns the number of frames read.
+    /// Returns the number of frames read so far.
     std::uint64_t frames() const { return frames_; }
-    /// Returns the follower, which has the trace of the newest frame.
+    /// Returns the follower. It contains the trace of the newest frame.
     const Follower& follower() const { return *follower_; }
 
   private:

@@ -1,5 +1,5 @@
-/// Compares the fields of the element's messages with the line of `dotpose watch` for the same
-/// frame.
+/// Compares the fields of the element's messages with the output line of `dotpose watch` for the
+/// same frame.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +27,8 @@ inline double rounding_of(std::string_view key, double value) {
     return kHalf * 1e-6;
 }
 
-/// Returns true for fields that only lines have. The element reports them in other units or in
-/// other fields.
+/// Returns true for fields that occur only in lines. The element reports their values in other
+/// units or fields.
 inline bool is_only_in_lines(std::string_view key) {
     constexpr std::array<std::string_view, 7> kKeys = {"schema", "t_s",        "x_grid", "y_grid",
                                                        "file",   "elapsed_us", "warning"};
@@ -43,7 +43,7 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
         for (std::size_t i = 0; i < line.size(); ++i)
             expect_value_of(key, line[i], told[i]);
     } else if (line.is_string()) {
-        // The line contains a more detailed reason why there is no fix.
+        // The message in the line gives a more detailed reason for a missing fix.
         if (key != "message") {
             EXPECT_EQ(line, told) << key;
         }
@@ -55,7 +55,7 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
     }
 }
 
-/// Expects the same fields and values as in the line, and in addition only the times.
+/// Expects the same fields and values as in the line. The only additional fields may be times.
 inline void expect_told(const nlohmann::json& line, nlohmann::json told) {
     for (const auto& [key, value] : line.items()) {
         if (is_only_in_lines(key)) continue;

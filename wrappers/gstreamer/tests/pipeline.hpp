@@ -9,7 +9,7 @@
 
 namespace dotpose::test {
 
-/// Initialises GStreamer with the plugin of this build and with a separate registry.
+/// Initialises GStreamer with the plugin of this build and a separate registry.
 inline void start_gstreamer() {
     g_setenv("GST_PLUGIN_PATH", DOTPOSE_GSTREAMER_FOLDER, TRUE);
     g_setenv("GST_REGISTRY", DOTPOSE_REGISTRY, TRUE);
@@ -23,7 +23,7 @@ inline bool has_element(const char* name) {
     return true;
 }
 
-/// Returns a value of a structure with all its digits.
+/// Returns a value of a structure with full precision.
 inline nlohmann::json json_of(const GValue* value) {
     if (G_VALUE_HOLDS_STRING(value)) return g_value_get_string(value);
     if (G_VALUE_HOLDS_DOUBLE(value)) return g_value_get_double(value);
@@ -58,7 +58,7 @@ inline std::string bytes_of(GstBuffer* buffer) {
     return bytes;
 }
 
-/// A buffer that arrived at the end of a pipeline.
+/// A buffer received at the end of a pipeline.
 struct Arrived {
     GstClockTime pts = GST_CLOCK_TIME_NONE;
     GstClockTime duration = GST_CLOCK_TIME_NONE;
@@ -99,7 +99,7 @@ inline bool take(GstMessage* message, Outcome& outcome) {
 
 }  // namespace pipeline_detail
 
-/// Runs a pipeline to its end. The description omits the sink, which is appended.
+/// Runs a pipeline to its end. `description` has no sink. This function appends the sink.
 inline Outcome run_pipeline(const std::string& description) {
     Outcome outcome;
     GError* error = nullptr;

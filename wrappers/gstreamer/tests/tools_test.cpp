@@ -1,4 +1,4 @@
-// Tests the element with the tools of GStreamer and from Python.
+// Tests the element with the GStreamer tools and from Python.
 #include <cstdlib>
 #include <fstream>
 #include <string>
@@ -27,7 +27,7 @@ class GstreamerTools : public WatchCommand {
     using ToolCommand::shell;
     static void SetUpTestSuite() { start_gstreamer(); }
 
-    /// Runs gst-launch-1.0 with the frames of drive.raw, and returns its exit code.
+    /// Runs gst-launch-1.0 on the frames of drive.raw and returns the exit code.
     int launch(const std::string& options, const std::string& properties) {
         return shell("timeout 60 gst-launch-1.0 " + options +
                      " filesrc location=drive.raw ! rawvideoparse format=gray8 width=320 "

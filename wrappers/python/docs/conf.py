@@ -1,4 +1,4 @@
-"""Settings of Sphinx for the pages of the Python package (`make docs`)."""
+"""Sphinx settings for the pages of the Python package (`make docs`)."""
 
 project = "dotpose"
 extensions = ["sphinx.ext.autodoc"]

@@ -1,5 +1,5 @@
-/// Declarations shared by the binding files: the namespace `py`, one function per subject that
-/// defines its classes and functions, and conversions of option values.
+/// Declarations shared by the binding files: the namespace `py`, functions that each define the
+/// classes and functions of one subject, and conversions of option values.
 #pragma once
 
 #include <optional>
@@ -41,12 +41,12 @@ void define_camera_files(py::module_& module);
 /// Imports the module _tools. Throws ImportError, which names `wanted`, if it is not installed.
 py::module_ tools_for(const char* wanted);
 
-/// Returns options in fixed point. Throws BadArgument if an option is out of range.
+/// Returns the options in fixed point. Throws BadArgument if an option is out of range.
 DeviceOptions checked(const LocatorOptions& options);
 
-/// Returns the code with the given name, or none for "auto". Throws BadArgument for any other text.
+/// Returns the code with the given name, or none for "auto". Throws BadArgument for any other name.
 std::optional<CodeVariant> code_or_auto(const std::string& name);
-/// Returns the code with the given name. Throws BadArgument for any other text.
+/// Returns the code with the given name. Throws BadArgument for any other name.
 CodeVariant code_named(const std::string& name);
 
 }  // namespace dotpose::python

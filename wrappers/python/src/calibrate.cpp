@@ -1,4 +1,4 @@
-// Calibration: lens, view and mount of a camera, and poses of adjacent sheets.
+// Bindings for calibration: lens, view and mount of a camera, and poses of adjacent sheets.
 #include "dotpose/tools/calibrate.hpp"
 
 #include <fmt/core.h>
@@ -22,7 +22,7 @@ CalibrateOptions options_of(const std::string& name, double spacing_mm) {
     return options;
 }
 
-/// Runs `work(frames, frame_at)` over images, with the GIL released.
+/// Runs `work(frames, frame_at)` on images, with the GIL released.
 template <typename Work>
 auto over(const py::iterable& images, const Work& work) {
     const std::vector<Frame> frames = frames_of(images);

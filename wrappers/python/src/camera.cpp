@@ -1,4 +1,4 @@
-// Camera: lens, view and mount of a camera, and camera files.
+// Bindings for cameras: lens, view and mount of a camera.
 #include "dotpose/files/camera.hpp"
 
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 
 using Pair = std::array<double, 2>;
 
-/// Defines a property whose value is a point of the image, as (u, v).
+/// Defines a property whose value is an image point, as (u, v).
 template <typename Member>
 void define_point(py::class_<Camera>& camera, const char* name, Member member, const char* doc) {
     camera.def_property(
@@ -23,7 +23,7 @@ void define_point(py::class_<Camera>& camera, const char* name, Member member, c
         doc);
 }
 
-/// Applies a map of single points to an array of points, n x 2.
+/// Applies a function of single points to an n x 2 array of points.
 template <typename Map>
 py::array_t<double> mapped(
     const Camera& camera,

@@ -1,4 +1,4 @@
-// check_print: checks printer and paper from a scan or photo of a printed sheet.
+// Bindings for check_print, which checks printer and paper with a scan or photo of a printed sheet.
 #include <fmt/core.h>
 
 #include "dotpose/files/code_names.hpp"
@@ -11,7 +11,7 @@
 namespace dotpose::python {
 namespace {
 
-/// A check, and the scan that its picture shows.
+/// Result of a check, and the scan, which is needed to draw the result.
 struct SeenCheck {
     PrintCheck check;
     GreyImage scan;

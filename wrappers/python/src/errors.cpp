@@ -1,4 +1,4 @@
-// Converts the exceptions of the tools to Python exceptions.
+// Translates the exceptions of the tools to Python exceptions.
 #include <exception>
 
 #include "binding.hpp"

@@ -1,4 +1,4 @@
-// Image files.
+// Bindings for image files.
 #include "binding.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "image.hpp"

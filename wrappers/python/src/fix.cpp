@@ -1,4 +1,4 @@
-// Fix, Prediction and Picture.
+// Bindings for Fix, Prediction and Picture.
 #include "fix.hpp"
 
 #include <cmath>
@@ -87,7 +87,7 @@ class Bits {
         }
         put(plane.lens_q40);
     }
-    /// Sets the C type of the value, to compare its bits.
+    /// Appends a number as its bytes in C, so that tests can compare the bits.
     template <typename Value>
     void put_bits(Value value) {
         list_.append(py::bytes(reinterpret_cast<const char*>(&value), sizeof value));
@@ -107,8 +107,8 @@ class Bits {
     py::list list_;
 };
 
-/// Returns the numbers of a line of wrappers/golden, with floating-point numbers as bytes, for
-/// tests that compare bits.
+/// Returns the numbers of a line of wrappers/golden, with floating-point numbers as bytes. Tests
+/// compare their bits.
 py::list bits(const SeenFix& self) {
     const Fix& fix = self.fix;
     Bits all;
@@ -125,8 +125,8 @@ py::list bits(const SeenFix& self) {
     return all.list();
 }
 
-/// Returns a field of the evidence for Python. If `is_known` is false, integers are 0 and
-/// floating-point numbers NaN.
+/// Returns a field of the evidence as a Python object. If `is_known` is false, integers are 0 and
+/// floating-point numbers are NaN.
 template <typename Value>
 py::object evidence(bool is_known, Value value) {
     if constexpr (std::is_enum_v<Value>)
@@ -182,7 +182,7 @@ void define_pose(py::class_<SeenFix>& fix) {
                                "The same as y_mm, in spacings of the grid.");
 }
 
-/// Defines the fields of FIX_EVIDENCE.
+/// Defines a property for each FIX_EVIDENCE field.
 void define_fields(py::class_<SeenFix>& seen_fix) {
 #define FIX_EVIDENCE(type, name, is_known, doc)         \
     seen_fix.def_property_readonly(                     \

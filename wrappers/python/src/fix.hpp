@@ -1,4 +1,4 @@
-/// The Python classes Fix and Prediction: the C++ types with additional data.
+/// The Python classes Fix and Prediction. They extend the C++ types with additional data.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +21,16 @@ struct OtherPlace {
     Section section;
 };
 
-/// A fix, the code it was read in, and a reference to the stages of its frame.
+/// A fix, the code in which it was read, and a reference to the stages of its frame.
 struct SeenFix {
     Fix fix;
     CodeVariant code = CodeVariant::anoto;
     std::optional<OtherPlace> other;
-    /// The reference point of the pose, in 2^-8 px from the image centre.
+    /// Reference point of the pose, relative to the image centre, in units of 2^-8 px.
     FixedVec reference_q8;
-    std::shared_ptr<StageSource> source;  ///< the locator of the frame
-    std::uint64_t number = 0;             ///< number of the frame, among the frames of `source`
-    /// Message about an option that is out of range; empty if all are valid.
+    std::shared_ptr<StageSource> source;  ///< locator of the frame
+    std::uint64_t number = 0;             ///< number of the frame, counted by `source`
+    /// Error message if an option is out of range, otherwise empty.
     std::string fault;
     std::shared_ptr<const Stages> stages;  ///< null until requested
 
@@ -41,12 +41,12 @@ struct SeenFix {
 /// Returns a fix without a reference to its stages.
 SeenFix seen_fix(const CodeReading& reading);
 
-/// A prediction, and the code, spacing and size for which it was made.
+/// A prediction, and the code, spacing and image size for which it was made.
 struct SeenPrediction {
     Prediction prediction;
     CodeVariant code = CodeVariant::anoto;
     double spacing_mm = 0;
-    FixedVec pivot_q8;  ///< the reference point in the image
+    FixedVec pivot_q8;  ///< reference point in the image
 
     static SeenPrediction like(const SeenFix& fix);
 };

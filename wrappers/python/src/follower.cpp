@@ -1,4 +1,4 @@
-// Follower: locates frames on the sheets of a sheet file, and tracks a robot over them.
+// Bindings for Follower, which locates frames on the sheets of a sheet file and tracks a robot.
 #include "dotpose/tools/follower.hpp"
 
 #include <mutex>
@@ -15,7 +15,7 @@
 namespace dotpose::python {
 namespace {
 
-/// The result for an image: Located or Followed, as a Python class.
+/// Result for an image: the Python class Located or Followed.
 struct SeenLocated {
     SeenFix fix;
     std::optional<SeenPlace> place;

@@ -1,4 +1,4 @@
-/// Images passed from Python: arrays or names of files.
+/// Images passed from Python: arrays or paths of files.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 
 namespace dotpose::python {
 
-/// An image: pixels copied from an array, or the name of a file that is read when needed.
+/// An image: pixels copied from an array, or the path of a file that is read when needed.
 using Frame = std::variant<GreyImage, std::filesystem::path>;
 
-/// Returns the image of an array or a path. Throws TypeError for anything else.
+/// Returns the image of an array or a path. Throws TypeError for any other object.
 Frame frame_of(const py::handle& image);
 /// Returns the images of a sequence.
 std::vector<Frame> frames_of(const py::iterable& images);
-/// Returns the pixels. Throws Error if the file cannot be read.
+/// Returns the pixels of an image. Throws Error if the file cannot be read.
 GreyImage pixels_of(const Frame& frame);
 
 }  // namespace dotpose::python

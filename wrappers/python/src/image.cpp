@@ -19,7 +19,8 @@ std::string described(const py::array& array) {
     throw py::type_error(std::string(kWanted) + ", not " + given + advice);
 }
 
-/// Converts a length to int. An image that is too large to be located remains too large.
+/// Converts a length to int. Lengths beyond the range of int are clamped, so the image is still
+/// refused as too large.
 int side_px(py::ssize_t length) {
     return static_cast<int>(std::min<py::ssize_t>(length, std::numeric_limits<int>::max()));
 }

@@ -1,4 +1,4 @@
-/// Conversion of images: views of numpy arrays without a copy, and arrays from grey images.
+/// Conversions of images: views of numpy arrays without copying, and arrays of grey images.
 #pragma once
 
 #include "binding.hpp"
@@ -7,8 +7,8 @@
 
 namespace dotpose::python {
 
-/// Returns a view of a two-dimensional array of uint8, whose rows need not be contiguous. The array
-/// must outlive the view. Throws TypeError with the expected and the actual type.
+/// Returns a view of a two-dimensional uint8 array. The rows need not be contiguous. The array must
+/// outlive the view. Throws TypeError with the expected and actual types.
 ImageView view_of(const py::handle& image);
 
 /// Returns an array that takes ownership of the pixels of the image.

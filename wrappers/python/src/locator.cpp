@@ -13,7 +13,7 @@ namespace dotpose::python {
 namespace {
 
 /// Returns true if two fixes of a frame have the same status, number of dots, position and angle.
-/// Without a pose, compares only status and number of dots.
+/// If there is no pose, compares only the status and the number of dots.
 bool are_alike(const Fix& a, const Fix& b) {
     return a.status == b.status && a.dots_seen == b.dots_seen &&
            (a.status != Status::ok ||

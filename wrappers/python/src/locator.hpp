@@ -1,4 +1,4 @@
-/// LocatorOfPython: a Locator, and the data that Python may request after a frame.
+/// LocatorOfPython: a Locator with the data that Python may request after a frame.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@
 
 namespace dotpose::python {
 
-/// The known properties of the code and the camera.
+/// Known properties of the code and the camera.
 struct LocatorSetup {
-    std::optional<CodeVariant> code;  ///< none: the code is detected from all frames
+    std::optional<CodeVariant> code;  ///< none if the code is detected from all frames
     std::optional<Camera> camera;
     WithCamera with_camera = nullptr;  ///< not null if the camera is mounted
     std::optional<PixelPoint> reference_px;
@@ -30,22 +30,22 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
   public:
     explicit LocatorOfPython(const LocatorSetup& setup);
 
-    /// Locates the pattern in an array. Throws TypeError if the object is not an image, BadArgument
-    /// if the image does not have the size of the camera file.
+    /// Locates the pattern in an array. Throws TypeError if the object is not an image, and
+    /// BadArgument if the size of the image differs from the size in the camera file.
     SeenFix locate(const py::object& image, const std::optional<SeenPrediction>& expected,
                    const std::optional<MeasuredMotion>& motion);
 
     std::shared_ptr<const Stages> stages_of(std::uint64_t number) override;
 
-    /// Returns the mean time, in µs, of locating the same image in C++, to measure the overhead of
-    /// Python.
+    /// Returns the mean time in µs of locating the same image in C++. Used to measure the overhead
+    /// of Python.
     double cpp_us(const py::object& image, int repeats);
 
-    /// Returns the given code or, if it is detected, the likeliest code so far.
+    /// Returns the given code or, if the code is detected, the most likely code so far.
     CodeVariant code();
 
   private:
-    /// The inputs of the newest frame, to compute its stages again.
+    /// Inputs of the newest frame, from which its stages can be computed again.
     struct Request {
         std::uint64_t number = 0;
         CodeEvidence evidence;  ///< evidence before the frame was located

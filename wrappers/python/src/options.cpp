@@ -1,4 +1,4 @@
-// Options: limits of locating, with the same names and units as in C++.
+// Bindings for the options of locating, with the same names and units as in C++.
 #include <array>
 
 #include "binding.hpp"
@@ -19,7 +19,7 @@ Value named(const char* what, const std::string& wanted, const std::array<Value,
     throw BadArgument(std::string(what) + ": '" + wanted + "' is none of " + known);
 }
 
-/// Sets the members that are given by name. An unknown name is a TypeError.
+/// Sets the members given by name. Throws TypeError for an unknown name.
 LocatorOptions options_of(const py::kwargs& given) {
     py::object self = py::cast(LocatorOptions{});
     for (const auto& [key, value] : given) {

@@ -11,7 +11,7 @@ namespace dotpose::python {
 struct Picture {
     std::string svg;
 
-    /// Writes the file. Throws Error if that fails.
+    /// Writes the file. Throws Error on failure.
     void save(const std::filesystem::path& path) const;
 };
 

@@ -1,4 +1,4 @@
-// Printing: lays out and writes sheets, and adds dots to the pages of an existing PDF.
+// Bindings for printing: lays out and writes sheets, and adds dots to the pages of an existing PDF.
 #include "dotpose/tools/print.hpp"
 
 #include <span>
@@ -15,7 +15,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// Enters sheets into a sheet file under a name, before their pages are written.
+/// Adds sheets to a sheet file under a name, before their pages are written.
 class Entering {
   public:
     Entering(const std::optional<Path>& file, const std::optional<std::string>& name)

@@ -1,19 +1,19 @@
-/// Progress of long operations. Checks regularly for Ctrl-C while the GIL is released, and ends the
-/// operation.
+/// Runs long operations with the GIL released. Operations check regularly for Ctrl-C, which ends
+/// them.
 #pragma once
 
 #include "binding.hpp"
 
 namespace dotpose::python {
 
-/// Returns true if a signal has raised an exception in Python, which is then set.
+/// Returns true if a signal handler has raised a Python exception. The exception remains set.
 inline bool was_interrupted() {
     const py::gil_scoped_acquire lock;
     return PyErr_CheckSignals() != 0;
 }
 
-/// Runs the work with the GIL released. If a Python exception such as KeyboardInterrupt was set
-/// meanwhile, it is raised instead of the exception that the work throws.
+/// Runs `work` with the GIL released. If a Python exception such as KeyboardInterrupt was set
+/// meanwhile, raises it instead of the exception thrown by `work`.
 template <typename Work>
 auto without_lock(const Work& work) {
     try {

@@ -1,4 +1,4 @@
-// Simulation of the experiment in section IV of the paper.
+// Bindings for the simulation of the experiment in section IV of the paper.
 #include "dotpose/tools/protocol.hpp"
 
 #include "binding.hpp"

@@ -1,4 +1,4 @@
-// Sheet, SheetEntry and SheetFile: the printed sheets, and the poses of pages in the world.
+// Bindings for Sheet, SheetEntry and SheetFile: printed sheets, and poses of pages in the world.
 #include "sheets.hpp"
 
 #include <memory>
@@ -17,7 +17,7 @@ py::tuple pair_of(const Cell& cell) {
     return py::make_tuple(cell.x, cell.y);
 }
 
-/// A SheetFile that is open during a `with` block and saved at its end.
+/// A SheetFile that is open during a `with` block and is saved at the end of the block.
 class OpenSheetFile {
   public:
     OpenSheetFile(std::filesystem::path path, double max_s) : path_(std::move(path)) {

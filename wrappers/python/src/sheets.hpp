@@ -12,16 +12,16 @@ namespace dotpose::python {
 
 using Whole = std::array<std::int64_t, 2>;
 
-/// Returns the cell or section of two integers. Throws BadArgument if they are out of range.
+/// Converts two integers to a cell or section. Throws BadArgument if they are out of range.
 Cell cell_of(const Whole& pair);
 Section section_of_pair(const Whole& pair);
 
-/// Returns a pattern. Displacement and dot diameter are a sixth of the spacing by default.
+/// Returns a pattern. Displacement and dot diameter default to a sixth of the spacing.
 Pattern pattern_of(const std::string& code, double spacing_mm, const std::optional<double>& dot_mm,
                    const std::optional<double>& displacement_mm, const Whole& section);
 
-/// Returns the method of drawing dots with the name "auto", "glyphs" or "strokes". Throws
-/// BadArgument for any other text.
+/// Returns the method of drawing dots with the given name: "auto", "glyphs" or "strokes". Throws
+/// BadArgument for any other name.
 DotDrawing drawing_named(const std::string& name);
 
 /// A place on a sheet with a copy of its entry.

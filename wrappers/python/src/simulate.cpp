@@ -1,4 +1,4 @@
-// Simulated frames with exactly known poses.
+// Bindings for simulated frames with exactly known poses.
 #include "dotpose/tools/simulate.hpp"
 
 #include <array>
@@ -14,7 +14,7 @@
 namespace dotpose::python {
 namespace {
 
-/// An imperfection with a single number.
+/// An imperfection that is a single number.
 struct Effect {
     const char* name;
     double Imperfections::*member;
@@ -48,7 +48,7 @@ struct SimulatedFrame {
     py::array_t<std::uint8_t> image;
 };
 
-/// Sets one coordinate from a value in spacings.
+/// Splits a coordinate in spacings into cell and fraction.
 void set_grid(double x, std::uint32_t& cell, double& fraction) {
     if (!(x >= 0 && x < kPositionsPerAxis)) throw BadArgument("the place is not on the pattern");
     cell = static_cast<std::uint32_t>(x);

@@ -12,8 +12,8 @@
 
 namespace dotpose::python {
 
-/// A frame and its trace, whose spans refer to the vectors in this object. Neither copied nor
-/// moved.
+/// A frame and its trace. The spans of the trace refer to vectors in this object, so the object
+/// cannot be copied or moved.
 class Stages {
   public:
     Stages(const ImageView& image, const Trace& trace);
@@ -22,7 +22,7 @@ class Stages {
 
     ImageView image() const { return image_.view(); }
     const Trace& trace() const { return trace_; }
-    /// Returns the pixels of the image where dots were found.
+    /// Returns the positions of the detected dots in the image.
     std::vector<PixelPoint> dots_px() const;
 
   private:

@@ -1,4 +1,4 @@
-// Tracker and Track: track a robot from the fixes of its frames.
+// Bindings for Tracker and Track, which follow a robot from the fixes of its frames.
 #include "tracker.hpp"
 
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// A float member of TrackOptions that is set by name.
+/// A float member of TrackOptions, which can be set by name.
 struct FloatOption {
     const char* name;
     float TrackOptions::*member;
@@ -68,7 +68,7 @@ bool set_if_named(const Named& named, const std::string& key, const py::handle& 
     return false;
 }
 
-/// A Tracker with its newest fix, from which predictions are made.
+/// A Tracker and its newest fix. Predictions are based on this fix.
 class TrackerOfPython {
   public:
     explicit TrackerOfPython(const TrackOptions& options) : tracker_(options) {}

@@ -1,4 +1,4 @@
-/// The Python class Track, which Tracker and Follower return.
+/// The Python class Track, which is returned by Tracker and Follower.
 #pragma once
 
 #include "binding.hpp"
@@ -6,7 +6,7 @@
 
 namespace dotpose::python {
 
-/// Returns the options of a tracker from keyword arguments. Throws TypeError for an unknown name.
+/// Converts keyword arguments to tracker options. Throws TypeError for an unknown name.
 TrackOptions track_options_of(const py::dict& given);
 
 }  // namespace dotpose::python

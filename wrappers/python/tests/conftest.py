@@ -11,7 +11,7 @@ import dotpose
 
 @pytest.fixture(scope="session")
 def frames():
-    """Returns five nominal frames, which all have a fix."""
+    """Returns five nominal frames. All of them have a fix."""
     return dotpose.simulate(5, seed=3)
 
 
@@ -31,7 +31,7 @@ def bits_of(fix):
 
 
 def images_in(path):
-    """Returns the binary PGM images of a file that contains a sequence of them."""
+    """Returns the images of a file that contains a sequence of binary PGM images."""
     data = memoryview(Path(path).read_bytes())
     at = 0
     while at < len(data):

@@ -1,4 +1,4 @@
-"""Calibration of simulated cameras, camera files, and the experiment of the paper."""
+"""Tests calibration of simulated cameras, camera files, and the experiment of the paper."""
 
 import math
 import os
@@ -65,7 +65,7 @@ def test_a_locator_uses_the_camera(lens):
 
 
 def turned_and_driven():
-    """Returns images of a robot that turns about a point 2 mm to the right of the image centre."""
+    """Yields images of a robot that turns about a point 2 mm to the right of the image centre."""
     shot = dotpose.draw_shots(1, seed=31, section=(0, 0))[0]
     x_mm, y_mm = shot.x_mm, shot.y_mm
     for step in range(12):

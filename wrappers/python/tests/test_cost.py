@@ -1,4 +1,4 @@
-"""Python adds at most 2 µs per frame."""
+"""Tests that Python adds at most 2 µs per frame."""
 
 import os
 
@@ -11,8 +11,8 @@ from cost import cost_us
 
 @pytest.mark.skipif("DOTPOSE_TIMES" not in os.environ, reason="times only with DOTPOSE_TIMES=1")
 def test_python_adds_at_most_2_us():
-    # The overhead of Python does not depend on the frame. The overhead is most visible with a frame
-    # that takes no time.
+    # The overhead of Python does not depend on the frame. It is most visible with a frame that takes almost
+    # no time.
     blank = np.full((64, 64), 200, np.uint8)
     for code in ("anoto", "auto"):
         cpp, python, _ = cost_us(blank, dotpose.Locator(code))

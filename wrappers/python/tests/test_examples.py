@@ -1,4 +1,4 @@
-"""The examples run and print what they promise."""
+"""Tests that the examples run and print the expected output."""
 
 import json
 import os
@@ -74,7 +74,7 @@ def test_the_notebook_has_no_outputs_and_runs(tmp_path):
     pytest.importorskip("ipykernel")
     pytest.importorskip("matplotlib")
     notebook = nbformat.read(path, as_version=4)
-    # The kernel of this Python, whichever one is installed as "python3".
+    # Uses this Python as the kernel, whichever kernel is installed as "python3".
     kernels = tmp_path / "kernels" / "python3"
     kernels.mkdir(parents=True)
     command = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]

@@ -1,4 +1,4 @@
-"""The same frames give the same bits as C++ (wrappers/golden)."""
+"""Tests that the golden frames give the same bits as in C++ (wrappers/golden)."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The package as users install it, without a network: a wheel, and pip in a virtual environment."""
+"""Tests the package as users install it, without a network: a wheel, and pip in a virtual environment."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""Threads: concurrently with one locator each, and sequentially with a shared locator."""
+"""Tests threads that run concurrently with one locator each, or sequentially with a shared locator."""
 
 import os
 import threading

@@ -1,4 +1,4 @@
-"""Tracker and Follower on simulated drives."""
+"""Tests Tracker and Follower on simulated drives."""
 
 import copy
 import math
@@ -12,7 +12,7 @@ PERIOD_US = 10_000
 
 
 def drive(frames, step_mm=0.15, turn_rad=0.002):
-    """Returns shots of a straight drive that also turns on the spot."""
+    """Yields the times and shots of a robot that drives along x and turns at the same time."""
     shot = dotpose.draw_shots(1, seed=21, section=(0, 0))[0]
     for index in range(frames):
         yield index * PERIOD_US, copy.copy(shot)
@@ -98,7 +98,7 @@ def sheet_entry(world=None):
 
 
 def shot_on(entry, x_mm, y_mm, theta_rad=0.3):
-    """Returns a shot of a place on the page."""
+    """Returns a shot at a place on the page."""
     sheet = entry.sheet
     shot = dotpose.draw_shots(1, seed=2, section=(0, 0))[0]
     shot.x_mm = sheet.origin[0] * sheet.spacing_mm + x_mm - sheet.origin_x_mm

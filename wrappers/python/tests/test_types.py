@@ -1,4 +1,4 @@
-"""Type stubs and docstrings describe the module completely."""
+"""Tests that the type stubs and docstrings describe the module completely."""
 
 import inspect
 import pydoc

@@ -1,4 +1,4 @@
-// Parameters of the node: types, ranges, files.
+// Tests the parameters of the node: types, ranges, files.
 #include "parameters.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Conversion of the encodings of ROS to grey images.
+// Tests the conversion of ROS encodings to grey images.
 #include "raw_image.hpp"
 
 #include <string>
@@ -54,7 +54,7 @@ TEST(RosRawImage, GreyIsNotCopied) {
 }
 
 TEST(RosRawImage, ColoursBecomeTheirLuma) {
-    // Red, green, blue and white, with the weights of Rec. 601.
+    // Luma of red, green, blue and white, with the weights of Rec. 601.
     const auto expected = ElementsAre(76, 150, 29, 255);
     EXPECT_THAT(grey("rgb8", 4, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}), expected);
     EXPECT_THAT(grey("bgr8", 4, {0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255}), expected);
@@ -69,16 +69,16 @@ TEST(RosRawImage, LumaOfYuvIsEverySecondByte) {
 }
 
 TEST(RosRawImage, SixteenBitsMayHoldTwelve) {
-    // Levels 4095, 2048 and 16 of 4096, in both byte orders.
+    // The 12-bit levels 4095, 2048 and 16, in both byte orders.
     EXPECT_THAT(grey("mono16", 3, {0xFF, 0x0F, 0x00, 0x08, 0x10, 0x00}), ElementsAre(255, 128, 1));
     EXPECT_THAT(grey("mono16", 3, {0x0F, 0xFF, 0x08, 0x00, 0x00, 0x10}, true),
                 ElementsAre(255, 128, 1));
-    // Levels that use all 16 bits.
+    // These levels use all 16 bits.
     EXPECT_THAT(grey("mono16", 2, {0xFF, 0xFF, 0x00, 0x80}), ElementsAre(255, 128));
 }
 
 TEST(RosRawImage, AMosaicOfOneColourIsEvenGrey) {
-    // A mosaic of red 200, green 100 and blue 40: (200 + 2 * 100 + 40) / 4.
+    // A mosaic of red 200, green 100 and blue 40. The mean is (200 + 2 * 100 + 40) / 4.
     const Bytes rggb = {200, 100, 200, 100, 100, 40, 100, 40, 200, 100, 200, 100, 100, 40, 100, 40};
     for (const std::uint8_t level : grey("bayer_rggb8", 4, rggb, false, 4))
         EXPECT_EQ(level, 110);
@@ -88,7 +88,7 @@ TEST(RosRawImage, SaysWhatIsWrongAndWhatToDo) {
     const Bytes data(640 * 480);
     EXPECT_THAT(problem_of({"32FC1", 64, 64, 256, false, data}),
                 AllOf(HasSubstr("'32FC1'"), HasSubstr("set the camera's driver to mono8")));
-    // A row longer than the step, and missing rows.
+    // The row is longer than the step, or rows are missing.
     const auto is_size = AllOf(HasSubstr("640 x 480 px in bgr8 need a step of 1920"),
                                HasSubstr("these have a step of"), HasSubstr("correct width"));
     EXPECT_THAT(problem_of({"bgr8", 640, 480, 640, false, data}), is_size);

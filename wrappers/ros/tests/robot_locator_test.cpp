@@ -1,4 +1,4 @@
-// RobotLocator from ROS images to messages, without ROS: stamps, lenses, diagnostics.
+// Tests RobotLocator with ROS images and messages, but without ROS: stamps, lenses, diagnostics.
 #include "robot_locator.hpp"
 
 #include <map>
@@ -30,7 +30,7 @@ Settings settings_with(const std::string& name = "spacing_mm",
     return settings_of(values);
 }
 
-/// A camera at rest above the pattern, and the locator for its images.
+/// A camera at rest above the pattern, and a locator for its images.
 class RosLocator : public testing::Test {
   protected:
     static void SetUpTestSuite() {
@@ -52,7 +52,7 @@ class RosLocator : public testing::Test {
         return locator_.take(image, kStart_ns + frame * kStep_ns, arrival_ns_);
     }
 
-    /// Passes images until a status is due, which takes at most a second.
+    /// Passes images until a status is due. A status is due after a second at the latest.
     dotpose::ros::DiagnosticStatus status_from(int frame,
                                                const RawImage& image = RosLocator::image()) {
         for (int i = 0; i <= 100; ++i) {
@@ -72,7 +72,7 @@ class RosLocator : public testing::Test {
 TEST_F(RosLocator, GivesPoseOdometryAndTransforms) {
     const auto answer = take(0);
     ASSERT_TRUE(answer.messages.pose);
-    // The place is at 200,000 cells of the pattern. Messages are in metres, with y up.
+    // The camera is at cell (100,000, 200,000). Messages are in metres, with y up.
     EXPECT_NEAR(answer.messages.pose->pose.pose.position.x, 100'000 * 0.508e-3, 1e-5);
     EXPECT_NEAR(answer.messages.pose->pose.pose.position.y, -200'000 * 0.508e-3, 1e-5);
     EXPECT_EQ(answer.messages.pose->header.stamp.sec, 1000);

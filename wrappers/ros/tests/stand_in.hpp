@@ -1,7 +1,7 @@
-/// Replacement for ROS 2, which Debian does not have: declarations, according to the documentation,
-/// of the parts of rclcpp and of the messages that the node uses. The node can then be compiled but
-/// not run. Each ROS header that the node includes is generated as a file that includes this
-/// header.
+/// Replacement for ROS 2, which Debian does not package. Declares the parts of rclcpp and of the
+/// messages that the node uses, according to their documentation. The node can be compiled with
+/// these declarations but not run. Each ROS header that the node includes is generated as a file
+/// that includes this header.
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@
 
 #include <dotpose/tools/ros_messages.hpp>
 
-// The members of these messages are those of ROS, as robots.Cdr.TypesAreDefinedAsInRos checks.
+// The members of these messages are the same as in ROS. robots.Cdr.TypesAreDefinedAsInRos checks
+// this.
 namespace std_msgs::msg {
 using dotpose::ros::Header;
 }
@@ -155,7 +156,7 @@ bool shutdown();
 
 }  // namespace rclcpp
 
-/// Checks that the arguments match the format, as rclcpp's macro does by printf.
+/// Checks that the arguments match the format, as the macro of rclcpp does with printf.
 [[gnu::format(printf, 1, 2)]] void stand_in_log(const char* format, ...);
 #define RCLCPP_WARN(logger, ...) (static_cast<void>(logger), stand_in_log(__VA_ARGS__))
 

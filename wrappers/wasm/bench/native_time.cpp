@@ -1,6 +1,6 @@
 // Prints the times of the C++ library without AVX2 for the golden frames
-// (wrappers/golden/README.md). Each line has the time of a frame without a prediction, and of its
-// next frame with the prediction, in µs.
+// (wrappers/golden/README.md). Each line contains two times in µs: for a frame without a
+// prediction, and for its next frame with a prediction.
 //
 //   dotpose_wasm_time FILE.frames...
 #include <chrono>
@@ -16,7 +16,7 @@
 
 namespace dotpose::core {
 
-// Replaces the function of the library, which would choose AVX2.
+// Replaces the function of the library, which would select AVX2.
 const Kernels& kernels() {
     return wide_kernels();
 }
@@ -53,7 +53,7 @@ Fix timed(double& took_us, const Call& call) {
     return fix;
 }
 
-/// Locates each frame, and its next frame with the prediction of the first.
+/// Locates each frame, and its next frame with a prediction from the first fix.
 void measure(Locator& locator, const std::vector<GreyImage>& images, bool prints) {
     for (std::size_t i = 0; i + 1 < images.size(); i += 2) {
         const ImageView image = images[i].view();

@@ -1,4 +1,5 @@
-// Compares the times of the modules and of the C++ library without AVX2, measured alternately.
+// Compares the times of the WebAssembly modules and of the C++ library without AVX2. The
+// measurements alternate.
 //
 //   node wrappers/wasm/bench/time.mjs [ROUNDS [GOLDEN]]
 //
@@ -19,8 +20,8 @@ const kVariants = ["simd", "scalar"].filter((name) => existsSync(join(kDist, `do
 const rounds = Number(process.argv[2] ?? 5);
 
 /**
- * Returns the times of each frame in µs, without and with a prediction, as the native program
- * does.
+ * Returns the times of each frame in µs, without and with a prediction, in the same order as the
+ * native program.
  */
 function measure(locator, images) {
     const times_us = [];
@@ -43,12 +44,12 @@ function measureNative(path) {
     return lines.trim().split(/\s+/).map(Number);
 }
 
-/** Keeps the minimum time of each frame, to exclude the influence of other programs. */
+/** Returns the minimum of both times of each frame, to exclude the influence of other programs. */
 function keepLeast(least, times_us) {
     return times_us.map((us, i) => Math.min(us, least?.[i] ?? Infinity));
 }
 
-/** Returns the mean over the frames, without (0) or with (1) a prediction. */
+/** Returns the mean time of the frames without (0) or with (1) a prediction. */
 function mean(times_us, way) {
     const chosen = times_us.filter((_, i) => i % 2 === way);
     return chosen.reduce((sum, us) => sum + us) / chosen.length;

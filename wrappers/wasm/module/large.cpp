@@ -1,11 +1,11 @@
-// Locators of large images, without the other kinds, which dotpose_locator_init would link.
+// Locators of large images. Replaces dotpose_locator_init, which would also link the other kinds.
 #include "locator.hpp"
 
 using Large = dotpose::c::LocatorOf<dotpose::LargeMemory, dotpose::Locator>;
 
 extern "C" {
 
-/// Returns the memory that a locator needs, in bytes.
+/// Returns the number of bytes that a locator needs.
 std::size_t dotpose_large_bytes() {
     return dotpose::c::bytes_of<Large>();
 }

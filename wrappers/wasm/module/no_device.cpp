@@ -1,5 +1,6 @@
-// Replaces the attempts of microcontrollers, which JavaScript cannot select but would download.
-// Without src/device/{attempt,tracked}.cpp, the linker drops the code that only these sources call.
+// Replaces the attempts of microcontrollers. JavaScript cannot select these attempts, so they would
+// only make the download larger. Without src/device/{attempt,tracked}.cpp, the linker drops all
+// code that only these sources call.
 #include "device/attempt.hpp"
 #include "device/tracked.hpp"
 

@@ -1,6 +1,6 @@
-// Requests of JavaScript to the tools. All members are doubles, in the order in which
-// src/requests.ts writes them, so C++ and JavaScript agree on every offset. Integers up to 2^53 are
-// exact.
+// Requests from JavaScript to the tools. All members are doubles, in the order in which
+// src/requests.ts writes them. C++ and JavaScript therefore agree on every offset. Integers up to
+// 2^53 are exact.
 #pragma once
 
 namespace dotpose::wasm {
@@ -64,7 +64,7 @@ struct ImperfectionsRequest {
 
 struct RenderRequest {
     SheetRequest sheet;
-    double whole_plane;  ///< 1: dots everywhere, as on an infinite sheet; 0: a page on a table
+    double whole_plane;  ///< 1: dots everywhere, as on an infinite sheet; 0: page on a table
     double page_seed;
     double table_reflectance;
     CameraRequest camera;

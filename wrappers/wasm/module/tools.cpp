@@ -1,9 +1,9 @@
 // The module dotpose-tools.wasm: sheets and the simulated camera, compiled from the sources of the
-// tool.
+// command-line tool.
 //
 // A function that fails sets the message of `dotpose_tools_error` and ends the instance with a
-// trap. The loader then throws the message in JavaScript and starts another instance. The stack is
-// therefore not unwound, and the module needs no support for exceptions.
+// trap. The loader then throws the message in JavaScript and starts another instance. Because the
+// stack is not unwound, the module needs no support for exceptions.
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -139,7 +139,7 @@ void* __cxa_allocate_exception(std::size_t size_bytes) noexcept {
     __builtin_trap();
 }
 
-// Called by abort. A module has no process to exit.
+// Called by abort. There is no process that could exit, so the instance ends with a trap.
 void __wasi_proc_exit(std::uint32_t) {
     __builtin_trap();
 }
@@ -148,17 +148,17 @@ void __wasi_proc_exit(std::uint32_t) {
 // exists only to avoid an import.
 void emscripten_notify_memory_growth(std::size_t) {}
 
-/// Returns the message of the error that ended the instance, or "" if there was none.
+/// Returns the message of the error that ended the instance, or "" if there was no error.
 const char* dotpose_tools_error() {
     return error_text;
 }
 
-/// Returns the address at which the request of the next call is written.
+/// Returns the address at which JavaScript writes the request for the next call.
 double* dotpose_tools_request() {
     return &request.sheet.code;
 }
 
-/// Lays out the sheet, and returns a SheetLayout.
+/// Lays out the sheet and returns a SheetLayout.
 const double* dotpose_tools_layout() {
     const Sheet sheet = sheet_of(request.sheet);
     layout = {static_cast<double>(sheet.columns), static_cast<double>(sheet.rows),
@@ -171,7 +171,7 @@ std::size_t dotpose_tools_size() {
     return bytes.size();
 }
 
-/// Writes the sheet as SVG, and returns the text.
+/// Writes the sheet as SVG and returns the text.
 const std::uint8_t* dotpose_tools_svg() {
     bytes.clear();
     MemorySink sink;
@@ -179,7 +179,7 @@ const std::uint8_t* dotpose_tools_svg() {
     return bytes.data();
 }
 
-/// Draws the sheet, and returns its rows: 8 pixels per byte, 1 for ink.
+/// Draws the sheet and returns its rows, with 8 pixels per byte. 1 is ink.
 const std::uint8_t* dotpose_tools_raster(double dpi) {
     const Sheet sheet = sheet_of(request.sheet);
     validate_resolution(sheet, dpi);
@@ -190,7 +190,7 @@ const std::uint8_t* dotpose_tools_raster(double dpi) {
     return bytes.data();
 }
 
-/// Returns the centres of all dots: x and y in mm from the upper left corner of the page.
+/// Returns the centres of all dots, as x and y in mm from the upper left corner of the page.
 const double* dotpose_tools_dots() {
     const Sheet sheet = sheet_of(request.sheet);
     print::SymbolRows symbols(sheet);
@@ -205,7 +205,7 @@ const double* dotpose_tools_dots() {
     return points_mm.data();
 }
 
-/// Renders the image of the simulated camera, and returns the grey levels.
+/// Renders the image of the simulated camera and returns its grey levels.
 const std::uint8_t* dotpose_tools_render() {
     bytes =
         render(requested_page(), camera_of(request.camera), pose_of(request.camera),

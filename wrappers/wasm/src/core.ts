@@ -1,7 +1,7 @@
-// Loads the module of the core in the variant that the engine supports.
+// Loads the core module in the variant that the engine supports.
 import { compile, hasSimd, type WasmSource } from "./instance.js";
 
-/** Returns the module given by the caller, or the file beside this one. */
+/** Returns the given module or, by default, the module in the file beside this one. */
 export function coreModule(wasm?: WasmSource): Promise<WebAssembly.Module> {
     if (wasm !== undefined) return compile(wasm);
     return compile(

@@ -3,17 +3,17 @@ import { fieldsOf, kAt, type FixFields } from "./fix_fields.js";
 import { kCodes, type Cell, type Code, type Section } from "./names.js";
 
 /**
- * The pose computed from one frame, with its evidence. A Fix is plain data, which workers can
- * send.
+ * The pose computed from one frame, with its evidence. A Fix is plain data that can be posted
+ * between workers.
  *
  * In the pattern frame, x points to the right and y DOWN on the printed page as it is read. The
- * pose is the pattern position at the image centre. Unless `ok`, the pose and covariance are
- * NaN, and only `status`, `message` and `dots_seen` are valid.
+ * pose is the pattern position at the image centre. Unless `ok`, the pose and covariance are NaN,
+ * and only `status`, `message` and `dots_seen` are valid.
  */
 export interface Fix extends FixFields {
     /**
-     * True if there is a pose. A frame without a pose is not an error; `message` contains the
-     * reason.
+     * True if there is a pose. A frame without a pose is not an error. In this case, `message`
+     * contains the reason.
      */
     ok: boolean;
     /** Identifier of the status, for example "ok" or "too_few_dots". */
@@ -24,7 +24,7 @@ export interface Fix extends FixFields {
     covariance: Float32Array;
     /** Section in which `cell` was read. */
     section: Section;
-    /** Grid intersection to the upper left of the pose. */
+    /** Grid intersection to the upper left of the position (x_mm, y_mm). */
     cell: Cell;
     /** Code in which the frame was read. */
     code: Code;
@@ -33,7 +33,7 @@ export interface Fix extends FixFields {
     /** Spacing of the grid in the image. */
     spacing_px: number;
     /**
-     * Centres of the dots found, u and v in px from the centre of the first pixel. Null unless
+     * Centres of the detected dots: u and v in px from the centre of the first pixel. Null unless
      * the option `dots` is set.
      */
     dots: Float32Array | null;
@@ -41,7 +41,7 @@ export interface Fix extends FixFields {
     bytes: Uint8Array<ArrayBuffer>;
 }
 
-/** Properties of a fix in addition to its bytes. */
+/** Properties of a fix that its bytes do not contain. */
 export interface Context {
     status: string;
     message: string;
@@ -51,7 +51,7 @@ export interface Context {
 
 const kGrid_q16 = 65536;
 
-/** Returns the fix stored in `bytes`. The fix keeps the bytes. */
+/** Returns the fix stored in `bytes`. The fix keeps a reference to `bytes`. */
 export function fixOf(bytes: Uint8Array<ArrayBuffer>, context: Context): Fix {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const int = (offset: number) => view.getInt32(offset, true);
@@ -72,7 +72,7 @@ export function fixOf(bytes: Uint8Array<ArrayBuffer>, context: Context): Fix {
     };
 }
 
-/** The map from the image to the paper of a fix, as in dotpose_plane, but in px and spacings. */
+/** Map from the image to the paper, like dotpose_plane, but in px and spacings. */
 interface Plane {
     place: Cell;
     centre: [number, number];
@@ -100,8 +100,8 @@ function planeOf(fix: Fix): Plane {
 }
 
 /**
- * Returns the point of the pattern at an image point, in px from the centre of the first pixel.
- * The fix must be ok.
+ * Returns the pattern point at an image point. Image points are in px from the centre of the first
+ * pixel. The fix must be ok.
  */
 export function patternFromImage(
     fix: Fix,
@@ -126,7 +126,7 @@ export function patternFromImage(
     };
 }
 
-/** Returns the image point of a point of the pattern. The fix must be ok. */
+/** Returns the image point of a pattern point. The fix must be ok. */
 export function imageFromPattern(
     fix: Fix,
     x_mm: number,
@@ -142,8 +142,8 @@ export function imageFromPattern(
     const y = y_mm / fix.spacing_mm - plane.place.y - plane.at_centre[1];
     let u = 0;
     let v = 0;
-    // Without lens distortion the first step is exact: x (1 + g u + h v) = a u + b v is linear in u
-    // and v. With distortion, the term that depends on the radius is taken from the previous step.
+    // Without lens distortion, the first step is exact: x (1 + g u + h v) = a u + b v is linear in
+    // u and v. With distortion, each step uses the radius from the previous step.
     const kSteps = plane.lens === 0 ? 1 : 12;
     for (let step = 0; step < kSteps; ++step) {
         const depth = 1 + plane.lens * (u * u + v * v);

@@ -1,12 +1,12 @@
-// Compiles and starts the modules. The modules import nothing, so an instance consists of a memory
+// Compiles and starts the modules. The modules have no imports, so an instance consists of a memory
 // and functions.
 
 /** Source of a module: the URL of the `.wasm` file, its bytes, or the compiled module. */
 export type WasmSource = string | URL | BufferSource | WebAssembly.Module;
 
 /**
- * A module with one function that creates a vector. Engines without vector instructions reject
- * it.
+ * A module whose only function creates a vector. Engines without vector instructions reject the
+ * module.
  */
 const kSimdProbe = new Uint8Array([
     ...[0x00, 0x61, 0x73, 0x6d, 0x01, 0x00, 0x00, 0x00], // "\0asm", version 1
@@ -15,12 +15,12 @@ const kSimdProbe = new Uint8Array([
     ...[0x0a, 0x08, 0x01, 0x06, 0x00, 0x41, 0x00, 0xfd, 0x0f, 0x0b], // code: i8x16.splat of 0
 ]);
 
-/** Returns true if the engine has the vector instructions that `dotpose-simd.wasm` needs. */
+/** Returns true if the engine supports the vector instructions of `dotpose-simd.wasm`. */
 export function hasSimd(): boolean {
     return WebAssembly.validate(kSimdProbe);
 }
 
-/** Modules by URL. Each module is compiled once. */
+/** Compiled modules by URL. Each module is compiled only once. */
 const compiled = new Map<string, Promise<WebAssembly.Module>>();
 
 /** Returns the compiled module of a source. */
@@ -31,7 +31,7 @@ export function compile(source: WasmSource): Promise<WebAssembly.Module> {
     let module = compiled.get(url);
     if (module === undefined) {
         module = bytesOf(url).then((bytes) => WebAssembly.compile(bytes));
-        module.catch(() => compiled.delete(url)); // lets the next call try again
+        module.catch(() => compiled.delete(url)); // allows the next call to try again
         compiled.set(url, module);
     }
     return module;
@@ -39,8 +39,8 @@ export function compile(source: WasmSource): Promise<WebAssembly.Module> {
 
 async function bytesOf(url: string): Promise<BufferSource> {
     if (url.startsWith("file:")) {
-        // Node, whose fetch cannot read files. The module name is a variable to keep bundlers from
-        // resolving it.
+        // In Node, fetch cannot read files. The module name is a variable, so bundlers do not
+        // resolve it.
         const name = "node:fs/promises";
         const files = (await import(/* @vite-ignore */ /* webpackIgnore: true */ name)) as {
             readFile(url: URL): Promise<Uint8Array<ArrayBuffer>>;
@@ -52,7 +52,7 @@ async function bytesOf(url: string): Promise<BufferSource> {
     return response.arrayBuffer();
 }
 
-/** A started module. */
+/** An instance of a module. */
 export class Instance {
     readonly #functions: Record<string, (...args: number[]) => number>;
     readonly #memory: WebAssembly.Memory;
@@ -65,7 +65,7 @@ export class Instance {
         this.#functions["_initialize"]?.();
     }
 
-    /** Starts a module asynchronously, which browsers require for large modules. */
+    /** Starts a module asynchronously. Browsers require this for large modules. */
     static async start(module: WebAssembly.Module): Promise<Instance> {
         return new Instance((await WebAssembly.instantiate(module, {})).exports);
     }
@@ -80,7 +80,10 @@ export class Instance {
         return this.#functions[name]!(...args);
     }
 
-    /** Reserves memory and returns its address. Only for modules that do not allocate memory. */
+    /**
+     * Reserves memory and returns its address. Must only be used for modules that do not allocate
+     * memory.
+     */
     reserve(bytes: number): number {
         const kAlignment = 64;
         const kPage = 65536;
@@ -92,8 +95,8 @@ export class Instance {
     }
 
     /**
-     * Returns a view of the memory. The view is valid until the memory grows, so create one for
-     * each use.
+     * Returns a view of the memory. The view is valid only until the memory grows, so it must not
+     * be stored.
      */
     bytes(address: number, length: number): Uint8Array<ArrayBuffer> {
         return new Uint8Array(this.#memory.buffer as ArrayBuffer, address, length);

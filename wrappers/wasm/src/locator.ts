@@ -1,4 +1,4 @@
-// Locator: locates the pattern in images.
+// The class Locator, which locates the pattern in images.
 import { coreModule } from "./core.js";
 import { fixOf, type Fix } from "./fix.js";
 import { kAt, kFixBytes } from "./fix_fields.js";
@@ -13,16 +13,16 @@ export interface Image {
     width: number;
     /** Height in px. */
     height: number;
-    /** Distance of the beginnings of rows, in bytes. Default: `width`. */
+    /** Distance between the starts of two rows, in bytes. Default: `width`. */
     stride?: number;
 }
 
 /** Options of a locator. The defaults suit any camera. */
 export interface LocatorOptions {
     /**
-     * Code of the sheets. The default "auto" detects the code from the frames. If one frame is
-     * ambiguous, further frames of the same locator decide. Until then, frames have the status
-     * "ambiguous_code".
+     * Code of the sheets. The default "auto" detects the code from the frames. If a frame is
+     * ambiguous, further frames of the same locator resolve the ambiguity. Until then, frames have
+     * the status "ambiguous_code".
      */
     code?: Code | "auto";
     /** Spacing of the printed grid. Default: 0.508. */
@@ -33,31 +33,31 @@ export interface LocatorOptions {
      */
     lens_k_per_px2?: number;
     /**
-     * Number of attempts. With 2, a frame that cannot be located is filtered and located again.
-     * Default: 2.
+     * Number of attempts. If 2, a frame that the first attempt cannot locate is filtered and
+     * located again. Default: 2.
      */
     attempts?: 1 | 2;
     /** Maximum probability of a wrong position. Other positions are refused. Default: 1e-9. */
     max_p_wrong?: number;
     /**
-     * Sheets that may be in view. Views of about 30 dots then suffice, in images from 24 x 24 px.
-     * Default: none, which makes all places possible.
+     * Sheets that may be in view. Views of about 30 dots, in images of at least 24 x 24 px, are
+     * then sufficient. Default: none, which makes all places possible.
      */
     sheets?: readonly KnownRegion[];
     /** True if only places on `sheets` are possible. Default: false. */
     only_sheets?: boolean;
-    /** True to include the centres of the dots in a fix, which takes time. Default: false. */
+    /** True to include the centres of the dots in the fix. This takes more time. Default: false. */
     dots?: boolean;
-    /** The module of the core, as URL, bytes or module. Default: the file beside this one. */
+    /** The core module, as a URL, bytes or a compiled module. Default: the file beside this one. */
     wasm?: WasmSource;
 }
 
 /** Options of one frame. */
 export interface FrameOptions {
     /**
-     * The fix of the previous frame. The pattern is first searched at its previous position,
-     * which takes a fraction of the time. If the frame does not confirm the prediction, or the
-     * fix is not ok, the frame is located without it.
+     * Fix of the previous frame. The search starts at the previous position of the pattern, which
+     * takes a fraction of the time. If the frame does not confirm the prediction, or if the fix is
+     * not ok, the frame is located without a prediction.
      */
     prediction?: Fix | null | undefined;
 }
@@ -66,7 +66,7 @@ export interface FrameOptions {
 const kOptionsBytes = 96;
 const kOptionOffsets = { code: 4, effort: 8, show_stages: 88 };
 const kDoubleOffsets = { spacing_mm: 16, lens_k_per_px2: 24, max_p_wrong: 64 };
-/** Sizes of other structs of dotpose.h. */
+/** Sizes of other structs in dotpose.h. */
 const kPredictionBytes = 72;
 const kEvidenceBytes = 36;
 const kReadingBytes = 28;
@@ -75,7 +75,10 @@ const kRegionBytes = 20;
 const kMaxDots = 16384;
 const kPointerBytes = 4;
 
-/** Minimum width and height, in px, of an image that can be located. With `sheets`, 24. */
+/**
+ * Minimum width and height, in px, of an image that can be located. With `sheets`, the minimum is
+ * 24.
+ */
 export const kMinFrameSide_px = 64;
 /** Maximum width and height, in px, of an image that can be located. */
 export const kMaxFrameSide_px = 4096;
@@ -87,8 +90,8 @@ export const kMaxFrameSide_px = 4096;
  *     const fix = locator.locate({ data, width, height });
  *     if (fix.ok) console.log(fix.x_mm, fix.y_mm, fix.theta_rad);
  *
- * Each locator has its own memory of 4 MB plus the image. The memory is released with the
- * locator. The same image gives the same bits in every engine and natively.
+ * Each locator has its own memory: 4 MB plus the size of the image. The memory is released with the
+ * locator. All engines and the native library give bit-identical results for the same image.
  */
 export class Locator {
     readonly #core: Instance;
@@ -99,7 +102,7 @@ export class Locator {
     readonly #evidence: number;
     readonly #reading: number;
     readonly #dots: number;
-    /** Number of the given code, or of the last code that was read. */
+    /** Number of the given code or, if the code is detected, of the last code that was read. */
     #code: number;
     readonly #texts = new Map<number, { status: string; message: string }>();
     #pixels = 0;
@@ -125,7 +128,7 @@ export class Locator {
     }
 
     /**
-     * Returns the fix of an image. Throws RangeError if the image has less data than its size
+     * Returns the fix of an image. Throws RangeError if the image has fewer data than its size
      * requires.
      */
     locate(image: Image, options: FrameOptions = {}): Fix {
@@ -184,8 +187,8 @@ export class Locator {
     }
 
     /**
-     * Throws an error with the message of a status that is caused by an invalid option or
-     * argument.
+     * Throws RangeError with the message of `status`, unless `status` is 0. The cause of the error
+     * is an invalid option or argument.
      */
     #require(status: number): void {
         if (status !== 0) throw new RangeError(this.#core.text(this.#core.call("dotpose_status_message", status)));
@@ -201,8 +204,7 @@ export class Locator {
         const needed = height === 0 ? 0 : (height - 1) * stride + width;
         if (data.length < needed)
             throw new RangeError(`the image needs ${needed} bytes, its data has ${data.length}`);
-        // Images whose size the core refuses are not copied, because the core does not read their
-        // pixels.
+        // If the core refuses the image size, it does not read the pixels, so they are not copied.
         const is_refused = Math.max(width, height) > kMaxFrameSide_px;
         const pixels = this.#room(is_refused ? 1 : width * height);
         if (is_refused) return stride;
@@ -213,7 +215,9 @@ export class Locator {
         return width;
     }
 
-    /** Returns memory for an image. The memory grows with the largest image. */
+    /**
+     * Returns memory for an image. The memory grows if an image is larger than all previous images.
+     */
     #room(bytes: number): Uint8Array<ArrayBuffer> {
         if (bytes > this.#pixels_bytes || this.#pixels === 0) {
             this.#pixels = this.#core.reserve(bytes);
@@ -222,7 +226,7 @@ export class Locator {
         return this.#core.bytes(this.#pixels, bytes);
     }
 
-    /** Returns the address of the prediction made from a fix, or 0 if there is none. */
+    /** Returns the address of a prediction made from a fix, or 0 if there is none. */
     #predict(fix: Fix | null | undefined): number {
         if (!fix?.ok || codeNumber(fix.code) !== this.#code) return 0;
         this.#core.bytes(this.#fix, kFixBytes).set(fix.bytes);
@@ -242,8 +246,8 @@ export class Locator {
     }
 
     /**
-     * Returns the name and the message of a status. They are cached, because each frame has a
-     * status.
+     * Returns the name and the message of a status. They are cached, because every frame needs
+     * them.
      */
     #textsOf(status: number): { status: string; message: string } {
         const text = (name: string) => this.#core.text(this.#core.call(name, status));

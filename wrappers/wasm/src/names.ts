@@ -2,7 +2,7 @@
 
 /** All values of `Code`, indexed by their numbers in C. */
 export const kCodes = ["anoto", "libdots", "microdots"] as const;
-/** Code variants in which sheets are printed. Use `anoto` for new sheets. */
+/** Code variants of printed sheets. Use `anoto` for new sheets. */
 export type Code = (typeof kCodes)[number];
 
 /** Returns the number of a code. Throws RangeError for other names. */
@@ -14,7 +14,7 @@ export function codeNumber(code: Code): number {
 
 /** All values of `Attempt`, indexed by their numbers in C. */
 export const kAttempts = ["tracked", "first", "second", "device"] as const;
-/** Attempt that produced a fix. `tracked` if the prediction was confirmed. */
+/** Attempt that produced a fix. `tracked` means that the frame confirmed the prediction. */
 export type Attempt = (typeof kAttempts)[number];
 
 /** All values of `Surface`, indexed by their numbers in C. */
@@ -24,10 +24,10 @@ export type Surface = (typeof kSurfaces)[number];
 
 /** All values of `Prior`, indexed by their numbers in C. */
 export const kPriors = ["plane", "sheets", "only_sheets"] as const;
-/** The places that counted as possible for `p_wrong`. */
+/** Places that counted as possible for `p_wrong`. */
 export type Prior = (typeof kPriors)[number];
 
-/** Section of the code, 0 to 62 per axis. There are 63 x 63 sections, each with all cells. */
+/** Section of the code, 0 to 62 per axis. Each of the 63 x 63 sections contains all cells. */
 export interface Section {
     /** Roll of column 0: the offset at which the main sequence starts, 0 to 62. */
     u: number;
@@ -45,9 +45,9 @@ export interface Cell {
 
 /** A printed rectangle of the code plane. */
 export interface KnownRegion {
-    /** Default: "anoto". */
+    /** Code of the region. Default: "anoto". */
     code?: Code;
-    /** Default: 0, 0. */
+    /** Section of the code. Default: 0, 0. */
     section?: Section;
     /** Upper left intersection. */
     first: Cell;

@@ -1,13 +1,13 @@
-// The position code: the symbols of a part of the pattern.
+// The position code: symbols of a part of the pattern.
 import { coreModule } from "./core.js";
 import { Instance, type WasmSource } from "./instance.js";
 import { codeNumber, type Cell, type Code, type Section } from "./names.js";
 
 /** A rectangle of the code. */
 export interface PatternPart {
-    /** Default: "anoto". */
+    /** Code variant. Default: "anoto". */
     code?: Code;
-    /** Default: 0, 0. */
+    /** Section of the code. Default: 0, 0. */
     section?: Section;
     /** Upper left intersection. */
     cell: Cell;
@@ -34,8 +34,8 @@ export const kDisplacements: readonly {
 ];
 
 /**
- * Returns the symbols of a part of the code, row by row: 0 up, 1 left, 2 right, 3 down. Bit 0 of a symbol is
- * the x bit, bit 1 the y bit.
+ * Returns the symbols of a part of the code, row by row: 0 up, 1 left, 2 right, 3 down. Bit 0 of a
+ * symbol is the x bit, and bit 1 is the y bit.
  */
 export async function patternBits(part: PatternPart, wasm?: WasmSource): Promise<Uint8Array> {
     const kPlaceBytes = 16;

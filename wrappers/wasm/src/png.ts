@@ -1,4 +1,4 @@
-// Writes PNG files with 1 bit per pixel, compressed by the engine's deflate.
+// Writes PNG files with 1 bit per pixel, compressed with the deflate of the engine.
 import type { Raster } from "./tools.js";
 
 const kSignature = [137, 80, 78, 71, 13, 10, 26, 10];
@@ -36,8 +36,8 @@ function header({ width_px, height_px }: Raster): Uint8Array {
 }
 
 /**
- * Returns the chunk with the pixels per metre, from which programs print the page in its true
- * size.
+ * Returns the chunk with the number of pixels per metre. It makes programs print the page at its
+ * true size.
  */
 function size(dpi: number): Uint8Array {
     const bytes = new Uint8Array(9);
@@ -49,7 +49,7 @@ function size(dpi: number): Uint8Array {
     return bytes;
 }
 
-/** Returns the rows in PNG format: each is preceded by the number of its filter, and 0 is black. */
+/** Returns the rows in PNG format. The number of its filter precedes each row, and 0 is black. */
 function scanlines({ width_px, height_px, bits }: Raster): Uint8Array<ArrayBuffer> {
     const stride = Math.ceil(width_px / 8);
     const lines = new Uint8Array((stride + 1) * height_px);

@@ -1,15 +1,14 @@
-// The requests of module/requests.hpp, with the same fields in the same order. Every value is a
-// double.
+// Requests of module/requests.hpp, with the same fields in the same order. Every value is a double.
 import { codeNumber, type Cell, type Code, type Section } from "./names.js";
 
 /**
- * A page with the pattern. The defaults are the defaults of the tool: A4, margins of 5 mm, spacing
- * 0.508 mm.
+ * A page with the pattern. The defaults are the same as in the command-line tool: A4, margins of 5
+ * mm, spacing 0.508 mm.
  */
 export interface SheetOptions {
-    /** Default: "anoto". */
+    /** Code variant. Default: "anoto". */
     code?: Code;
-    /** Default: 0, 0. */
+    /** Section of the code. Default: 0, 0. */
     section?: Section;
     /** Spacing of the printed grid. Default: 0.508. */
     spacing_mm?: number;
@@ -38,8 +37,8 @@ export interface Camera {
     /** Radial distortion per px^2, negative for barrel distortion. */
     k?: number;
     /**
-     * Distance of the projection centre from the paper, which matters for tilted cameras.
-     * Default: 16.
+     * Distance of the projection centre from the paper. It has an effect only if the camera is
+     * tilted. Default: 16.
      */
     working_distance_mm?: number;
 }
@@ -64,7 +63,7 @@ export interface CameraPose {
     tilt_y_rad?: number;
 }
 
-/** Effects of printer, paper, light and sensor. By default there are none. */
+/** Effects of printer, paper, light and sensor. By default, there are none. */
 export interface Imperfections {
     /** Grey level of bare paper at the image centre, 0 to 255. Default: 200. */
     paper_level?: number;
@@ -72,11 +71,11 @@ export interface Imperfections {
     ink_reflectance?: number;
     /** Standard deviation of the reflectance of dots. */
     ink_variation?: number;
-    /** Contrast of the palest ink relative to the darkest. Default: 1. */
+    /** Contrast of the palest ink relative to the darkest ink. Default: 1. */
     palest_ink?: number;
     /** Loss of light in the corners, 0 to 1. */
     vignetting?: number;
-    /** Change of light from one side to the other, 0 to 2. */
+    /** Change of the brightness from one side of the image to the other, 0 to 2. */
     fall?: number;
     /** Direction in which the light decreases, from the image x axis towards the y axis (down). */
     fall_direction_rad?: number;
@@ -84,7 +83,7 @@ export interface Imperfections {
     blur_sigma_px?: number;
     /**
      * Motion of the scene in the image during the exposure, to the right. The pose applies to the
-     * middle of the exposure. The length of the motion is at most 100 px.
+     * middle of the exposure. The motion must not be longer than 100 px.
      */
     motion_x_px?: number;
     /** Motion of the scene in the image during the exposure, downwards. */
@@ -107,9 +106,9 @@ export interface Imperfections {
 
 /** All inputs of a simulated frame. */
 export interface Scene {
-    /** The page on a table. */
+    /** The page, which is on a table. */
     sheet?: SheetOptions;
-    /** True for dots everywhere, as on an infinite page. Default: false. */
+    /** True if there are dots everywhere, as on an infinite page. Default: false. */
     whole_plane?: boolean;
     /** Seed of the printing errors, which are the same in all frames of the page. Default: 1. */
     page_seed?: number;

@@ -1,5 +1,5 @@
-// dotpose/tools: sheets to print, and a simulated camera, compiled from the sources of the
-// command-line tool.
+// The module dotpose/tools: sheets to print, and a simulated camera, compiled from the sources of
+// the command-line tool.
 import { compile, Instance, type WasmSource } from "./instance.js";
 import type { Image } from "./locator.js";
 import { pngOf } from "./png.js";
@@ -22,8 +22,8 @@ export interface SheetLayout {
 }
 
 /**
- * A page as pixels, 8 per byte, with the leftmost pixel in the most significant bit. 1 is ink.
- * Rows begin at whole bytes.
+ * A page as pixels, 8 per byte. The leftmost pixel is in the most significant bit. 1 is ink. Each
+ * row begins at a byte boundary.
  */
 export interface Raster {
     /** Width of the page. */
@@ -43,7 +43,8 @@ const kInch_mm = 25.4;
  *
  *     const tools = await Tools.create();
  *     const png = await tools.png({ width_mm: 100, height_mm: 100 }, 600);
- *     const image = tools.render({ pose: { x_mm: 50, y_mm: 60 }, imperfections: { noise_sigma: 3 } });
+ *     const image = tools.render({ pose: { x_mm: 50, y_mm: 60 }, imperfections: { noise_sigma: 3 }
+ *     });
  *
  * Invalid requests throw RangeError with a message that names the invalid value.
  */
@@ -62,7 +63,9 @@ export class Tools {
         return new Tools(module, await Instance.start(module));
     }
 
-    /** Returns the layout of a sheet: whole cells inside the margins, from the upper left. */
+    /**
+     * Returns the layout of a sheet: whole cells inside the margins, starting at the upper left.
+     */
     layout(sheet: SheetOptions = {}): SheetLayout {
         const kLayoutBytes = 32;
         const address = this.#call("dotpose_tools_layout", sheetFields(sheet));
@@ -72,7 +75,7 @@ export class Tools {
     }
 
     /**
-     * Returns the centres of all dots, row by row: x and y in mm from the upper left corner of
+     * Returns the centres of all dots, row by row, as x and y in mm from the upper left corner of
      * the page.
      */
     dots(sheet: SheetOptions = {}): Float64Array {
@@ -81,19 +84,25 @@ export class Tools {
         return new Float64Array(this.#instance.bytes(address, 16 * columns * rows).slice().buffer);
     }
 
-    /** Returns the sheet as SVG, the same bytes as `dotpose print -o sheet.svg`. */
+    /**
+     * Returns the sheet as SVG. The bytes are the same as in the output of `dotpose print -o
+     * sheet.svg`.
+     */
     svg(sheet: SheetOptions = {}): string {
         return new TextDecoder().decode(this.#bytes("dotpose_tools_svg", sheetFields(sheet)));
     }
 
-    /** Returns the pixels of the sheet, the same pixels as in `dotpose print -o sheet.png`. */
+    /**
+     * Returns the pixels of the sheet. They are the same as in the output of `dotpose print -o
+     * sheet.png`.
+     */
     raster(sheet: SheetOptions = {}, dpi = 600): Raster {
         const bits = this.#bytes("dotpose_tools_raster", sheetFields(sheet), dpi);
         const px = (mm: number) => Math.round((mm * dpi) / kInch_mm);
         return { width_px: px(sheet.width_mm ?? 210), height_px: px(sheet.height_mm ?? 297), dpi, bits };
     }
 
-    /** Returns the sheet as a PNG file with 1 bit per pixel, which prints in its true size. */
+    /** Returns the sheet as a PNG file with 1 bit per pixel. The file prints at its true size. */
     png(sheet: SheetOptions = {}, dpi = 600): Promise<Uint8Array<ArrayBuffer>> {
         return pngOf(this.raster(sheet, dpi));
     }
@@ -122,7 +131,7 @@ export class Tools {
             return this.#instance.call(name, ...args);
         } catch (trap) {
             const message = this.#instance.text(this.#instance.call("dotpose_tools_error"));
-            // A trap leaves the instance in an undefined state, in the middle of a call.
+            // A trap interrupts a call and leaves the instance in an undefined state.
             this.#instance = Instance.startNow(this.#module);
             throw message === "" ? trap : new RangeError(message);
         }

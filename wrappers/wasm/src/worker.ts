@@ -1,14 +1,14 @@
-// Runs in the worker of a WorkerLocator.
+// Code that runs in the worker of a WorkerLocator.
 import { Locator, type FrameOptions, type Image, type LocatorOptions } from "./locator.js";
 
-/** A request of a WorkerLocator. Its answer has the same number. */
+/** A request from a WorkerLocator. The answer has the same `id`. */
 export type Request = { id: number } & (
     | { kind: "create"; options: LocatorOptions }
     | { kind: "locate"; image: Image; options: FrameOptions }
 );
 
 /**
- * The part of a worker's global object that is used here. The TypeScript types of pages do not
+ * The part of a worker's global object that this file uses. The TypeScript types of pages do not
  * contain it.
  */
 interface Scope {

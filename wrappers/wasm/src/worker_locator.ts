@@ -1,13 +1,13 @@
-// WorkerLocator: a Locator that runs in a worker.
+// The class WorkerLocator, a Locator that runs in a worker.
 import type { Fix } from "./fix.js";
 import { compile } from "./instance.js";
 import type { FrameOptions, Image, LocatorOptions } from "./locator.js";
 
-/** The answer to one frame. */
+/** Result for one image. */
 export interface Located {
     /** The pose computed from the image. */
     fix: Fix;
-    /** The image that was sent, to reuse its buffer. */
+    /** The image that was sent. It is returned so that its buffer can be reused. */
     image: Image;
 }
 
@@ -18,13 +18,13 @@ interface Answer {
 }
 
 /**
- * Locates images in a separate worker, to keep the page responsive. For browsers.
+ * Locates images in a separate worker, which keeps the page responsive. Only for browsers.
  *
  *     const locator = await WorkerLocator.create();
  *     const { fix, image } = await locator.locate({ data, width, height });
  *
- * Images are transferred to the worker, not copied: `data` is empty until the answer returns it.
- * Calls are answered in order.
+ * Images are transferred to the worker rather than copied. `data` is empty until the answer returns
+ * it. Calls are answered in order.
  */
 export class WorkerLocator {
     readonly #worker: Worker;
@@ -38,12 +38,13 @@ export class WorkerLocator {
         this.#worker.onerror = (event) => this.#fail(new Error(event.message || "the worker did not start"));
     }
 
-    /** Starts a worker with a locator. Takes the options of Locator.create. */
+    /** Starts a worker with a locator. Accepts the options of Locator.create. */
     static async create(options: LocatorOptions = {}): Promise<WorkerLocator> {
         const locator = new WorkerLocator();
         try {
             const { wasm } = options;
-            // A module can be sent to a worker. A relative URL would be resolved differently there.
+            // A compiled module can be sent to a worker. A relative URL would be resolved
+            // differently in the worker.
             const sent = wasm === undefined ? options : { ...options, wasm: await compile(wasm) };
             await locator.#ask({ kind: "create", options: sent }, []);
         } catch (error) {

@@ -1,5 +1,5 @@
-// Uses the packed and installed package in Chromium, without a bundler, from files served by a
-// local server. The variables are the same as in node.test.mjs.
+// Tests the packed and installed package in Chromium, without a bundler. A local server serves the
+// files. The environment variables are the same as in node.test.mjs.
 import assert from "node:assert/strict";
 import { createReadStream, mkdtempSync, rmSync } from "node:fs";
 import { createServer } from "node:http";
@@ -15,7 +15,7 @@ const kArguments = [
     ...["--disable-background-networking", "--disable-component-update", "--disable-sync"],
 ];
 
-/** Folders that the server serves. */
+/** Folders served by the local server. */
 const kFolders = {
     package: join(process.env.DOTPOSE_PACKAGE, "node_modules/dotpose"),
     golden: process.env.DOTPOSE_GOLDEN,

@@ -1,4 +1,4 @@
-// Compares the package with the golden files (wrappers/golden/README.md), in node and in browsers.
+// Compares the package with the golden files (wrappers/golden/README.md), in Node and in browsers.
 
 export const kSets = ["nominal", "hard", "vga"];
 
@@ -62,8 +62,8 @@ function lineOf(fix) {
 }
 
 /**
- * Locates the frames of a set in all ways for which the golden file has lines. Returns the number
- * of frames, and the lines that differ in any bit.
+ * Locates the frames of a set with all methods that have lines in the golden file. Returns the
+ * number of frames, and the lines that differ in any bit.
  */
 export async function compareSet({ Locator }, frames, csv, wasm) {
     const images = [...imagesOf(frames)];

@@ -1,6 +1,6 @@
-// Uses the packed and installed package in node. Environment: DOTPOSE_PACKAGE is the folder in
-// which the package is installed, DOTPOSE_GOLDEN the folder of the golden files, DOTPOSE_TOOL the
-// command-line tool.
+// Tests the packed and installed package in Node. Environment variables: DOTPOSE_PACKAGE is the
+// folder in which the package is installed, DOTPOSE_GOLDEN the folder of the golden files, and
+// DOTPOSE_TOOL the path of the command-line tool.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -183,7 +183,7 @@ describe("sheets and the simulated camera", () => {
         const ours = parts(Buffer.from(await tools.png(kSheet)));
         const theirs = parts(printed("sheet.png"));
         for (const type of ["IHDR", "pHYs"]) assert.deepEqual(ours[type], theirs[type], type);
-        // Bits beyond the width are undefined. The width ends within a byte here.
+        // Bits beyond the width are undefined. The width of this sheet ends within a byte.
         const { width_px, height_px } = tools.raster(kSheet);
         const stride = Math.ceil(width_px / 8) + 1;
         const mask = 0xff00 >> (width_px % 8 || 8);

@@ -1,4 +1,4 @@
-// Compiled against the installed package, to check its types.
+// Compiled against the installed package to check its types.
 import { Locator, patternBits, WorkerLocator, type Fix, type KnownRegion } from "dotpose";
 import { Tools, type Scene } from "dotpose/tools";
 

@@ -1,5 +1,5 @@
-// Receiver of pose packets: reads the packets of a device from a serial line and prints the poses.
-// Uses the C interface, dotpose.h.
+// Receives pose packets of a device on a serial line and prints the poses. Uses the C interface,
+// dotpose.h.
 #include <dotpose.h>
 
 static dotpose_packet_reader reader;

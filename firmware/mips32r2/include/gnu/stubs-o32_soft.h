@@ -1,3 +1,3 @@
-/* Debian's C library for MIPS has no soft-float build, so this header, which other headers of
-   the library include, is missing there. The header would name functions that the library lacks;
-   the firmware calls none of them. */
+/* Replaces a header that other headers of the C library include. Debian's C library for MIPS has no
+ * soft-float build, so its package lacks this header. The original header lists functions that the
+ * library lacks, none of which the firmware calls. */

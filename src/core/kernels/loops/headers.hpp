@@ -1,5 +1,4 @@
-// Headers that the loops need. The headers must be included before the namespace of an
-// implementation begins.
+// Headers required by the loops. Must be included before the namespace of an implementation begins.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +18,8 @@
 
 namespace dotpose::core {
 
-/// True if loops have one version for all cases instead of a faster version for each case. The size
-/// of WebAssembly code matters more than its speed.
+/// True if loops have one version for all cases instead of a faster version for each case. For
+/// WebAssembly, code size matters more than speed.
 #if defined(__wasm__)
 inline constexpr bool kOneForm = true;
 #else

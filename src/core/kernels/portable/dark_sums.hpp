@@ -16,8 +16,9 @@ struct DarkSums {
     std::int32_t y = 0;
 };
 
-/// Half side of the squares whose corners are excluded, which leaves a diamond. In these corners,
-/// dots of tracked sizes have no pixels that are more than half as dark as the middle of the dot.
+/// Half side of the squares whose corners are excluded, which leaves a diamond. At the dot sizes
+/// that can be tracked, no pixel in these corners is more than half as dark as the centre of the
+/// dot.
 inline constexpr int kHalfOfDiamond = 2;
 
 /// Returns the sums of a square of 2 Half + 1 pixels per side whose upper left pixel is at `row`.

@@ -1,4 +1,4 @@
-// The kernels with scalar numbers.
+// Scalar implementation of the kernels.
 #include "core/kernels/loops/headers.hpp"
 
 #define DOTPOSE_LANE_BYTES 0

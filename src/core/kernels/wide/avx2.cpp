@@ -1,6 +1,6 @@
-// The kernels with 32-byte vectors, for processors with AVX2. Only the code between the pragmas is
-// compiled for AVX2. Functions in headers are outside, because the linker keeps one copy of each
-// function, which must run on every processor.
+// Implementation of the kernels with 32-byte vectors, for processors with AVX2. Only the code
+// between the pragmas is compiled for AVX2. Headers are included outside the pragmas. The linker
+// keeps only one copy of each inline function, and this copy must run on every processor.
 #include "core/kernels/loops/headers.hpp"
 
 #if defined(__x86_64__)

@@ -1,4 +1,4 @@
-// The kernels with 16-byte vectors.
+// Implementation of the kernels with 16-byte vectors.
 #include "core/kernels/loops/headers.hpp"
 
 #define DOTPOSE_LANE_BYTES 16

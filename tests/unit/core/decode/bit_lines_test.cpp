@@ -57,7 +57,8 @@ BitBlock seen_block(CodeVariant code, const Place& zero, int quarters, FixedVec 
             const Symbol symbol = symbol_at(code, at.cell, at.section);
             const FixedVec seen = back({dx(symbol), dy(symbol)});
             if (rng.uniform() < damage.missing) continue;
-            // A dot displaced to the right or down has y bit 1, to the left or down x bit 1.
+            // A dot displaced to the right or down has y bit 1. A dot displaced to the left or down
+            // has x bit 1.
             const bool y = seen.x + seen.y > 0;
             const bool x = seen.y - seen.x > 0;
             set_bit(block.columns, i, j, x != (rng.uniform() < damage.flipped));
@@ -96,7 +97,7 @@ TEST(BitLines, ABlockTurnsAsTheCodeDoes) {
         const FixedVec most{1 + static_cast<int>(rng.below(31)),
                             1 + static_cast<int>(rng.below(31))};
         const BitBlock seen = seen_block(code, zero, quarters, least, most, {}, rng);
-        // The block that a camera without rotation reads from these cells.
+        // Reads the same cells with a camera that is not rotated.
         const FixedVec a = cell_turned(quarters, least);
         const FixedVec b = cell_turned(quarters, most - FixedVec{1, 1});
         const BitBlock upright =

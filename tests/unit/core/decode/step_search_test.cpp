@@ -13,7 +13,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 71;
 
-/// Reads the lines, with `bits` bits each; hidden lines have no bits.
+/// Reads the lines, with `bits` bits each. Hidden lines have no bits.
 template <typename IsHidden>
 void read_lines(RatiosCase& c, int bits, double wrong, Rng& rng, IsHidden is_hidden) {
     for (std::size_t i = 0; i < c.rolls.size(); ++i) {

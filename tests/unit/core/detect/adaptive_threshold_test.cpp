@@ -32,7 +32,7 @@ void for_each_band(const GreyImage& image, const ThresholdOptions& options,
         const int ready = take_row(image.view().row(v), threshold);
         ASSERT_GE(ready, 0);
         for (int i = 0; i < ready; ++i, ++next) {
-            // All rows of the band and of the band below it have been taken.
+            // All rows of the band, and of the band below, have been received.
             ASSERT_LE(std::min(band_end(threshold, next + 1), image.height_px), v + 1);
             measure_levels(next, options, threshold);
             visit(next);
@@ -78,7 +78,7 @@ TEST(AdaptiveThreshold, ThresholdsLieAtTheirSharesOfTheContrast) {
                               const double step = mean / 64 + 1;
                               const double low = mean - (mean - i) * options.low_q8 / 256;
                               const double high = mean - (mean - i) * options.high_q8 / 256;
-                              // The value is rounded down to an even level.
+                              // The low threshold is rounded down to an even level.
                               ASSERT_NEAR(level.low, low - 0.5, step * options.low_q8 / 256 + 2);
                               ASSERT_EQ(level.low % 2, 0);
                               ASSERT_NEAR(level.high, high, step * options.high_q8 / 256 + 1.5);

@@ -21,8 +21,8 @@ constexpr std::uint64_t kSeed = 22;
 constexpr double kWorstShift_px = 0.25;
 constexpr double kUsualShift_px = 0.11;
 
-/// Returns an image in which each letter other than '.' of a picture is ink of 2 x 2 px, from (u0,
-/// 30) on.
+/// Returns an image of a picture, drawn from (u0, 30). Each letter other than '.' is a square of
+/// ink of 2 x 2 px.
 GreyImage drawn(std::initializer_list<std::string_view> picture, int u0 = 30) {
     GreyImage image = blank(96, 80);
     int v = 30;
@@ -96,7 +96,7 @@ void expect_one(std::initializer_list<std::string_view> picture) {
         ASSERT_EQ(dots.size(), 1u) << shape << "at " << u0;
         EXPECT_EQ(dots[0].area_px, 4 * area) << shape << "at " << u0;
         const Vec2 centre = Vec2{u0 + 0.5, 30.5} + 2.0 / area * sum;
-        // Levels and weights vary by some percent from tile to tile.
+        // Levels and weights vary by a few percent from tile to tile.
         EXPECT_LT(nearest_px(dots, centre), 0.3) << shape << "at " << u0;
     }
 }
@@ -242,7 +242,7 @@ TEST(Blobs, NoMoreRunsAreLookedAtThanTheWorkspaceSays) {
     EXPECT_EQ(blobs_of(image, w).size(), 35u);
 }
 
-/// An 8-connected set of dark pixels, found by flooding.
+/// An 8-connected set of dark pixels, found by a flood fill.
 struct Flood {
     Vec2 centre;
     int area = 0;
@@ -350,7 +350,7 @@ TEST(Blobs, TheSizeFilterIsRelativeToTheMedianDot) {
         for (int i = 0; i < 300; ++i)
             dots.push_back(dot_at({i * 1.0, 50}, 1000 * scale, 8 * scale));
         BlobOptions options;
-        options.min_mass_q8 = 64;  // a quarter
+        options.min_mass_q8 = 64;  // a quarter of the median mass
         options.max_area_ratio = 3;
         dots[10] = dot_at({10, 50}, 240 * scale, 8 * scale);
         dots[20] = dot_at({20, 50}, 260 * scale, 8 * scale);

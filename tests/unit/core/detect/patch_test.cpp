@@ -1,4 +1,4 @@
-// Tests the places of patches, and their thresholds.
+// Tests the positions of patches, and their thresholds.
 #include "core/detect/patch.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Tests runs in random rows against a pixel-by-pixel search in plain arithmetic.
+// Tests runs in random rows against a simple pixel-by-pixel search.
 #include "core/detect/runs.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Tests the measurement of tiles, on noise, against plain arithmetic.
+// Tests the measurement of tiles, on noise, against a simple reference computation.
 #include "core/detect/tiles.hpp"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 71;
 
-/// Returns the mean over every fourth row about the middle, and the minimum mean of two adjacent
-/// pixels, the first in an even column. Rows continue after the last column.
+/// Returns the mean of every fourth row, and the minimum mean of two adjacent pixels in these rows,
+/// the first of which is in an even column. Rows extend past the last column of the image.
 Tile expected_tile(const AdaptiveThreshold& threshold, int band, int tile) {
     const int begin = band_begin(threshold, band);
     const int end = band_end(threshold, band);

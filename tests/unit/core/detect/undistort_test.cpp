@@ -50,8 +50,8 @@ TEST(Undistort, DistortedIsTheInverse) {
                 const FixedVec seen = fixed({rng.uniform(0, size.x), rng.uniform(0, size.y)}, 8);
                 const FixedVec again =
                     core::distorted(lens, centre, core::undistorted(lens, centre, seen));
-                // Both directions round to 1/256 px. A lens of 0.2 magnifies the rounding by up to
-                // two.
+                // Both directions round to 1/256 px. A lens of 0.2 magnifies the rounding by a
+                // factor of up to two.
                 ASSERT_LE(std::abs(again.x - seen.x), 3) << at_corner << ", seed " << kSeed;
                 ASSERT_LE(std::abs(again.y - seen.y), 3) << at_corner << ", seed " << kSeed;
             }

@@ -14,7 +14,7 @@
 
 namespace dotpose::core_test {
 
-/// Bits of a block of the code from `place` on: 1, 0, or -1 for an unread bit.
+/// Bits of a block of the code, starting at `place`. A bit is 1, 0, or -1 if it was not read.
 struct Block {
     CodeVariant code;
     Place place;
@@ -96,8 +96,9 @@ inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequ
     return rolls;
 }
 
-/// Returns log2 of the summed odds, for both axes, of all alternatives that differ in one sequence
-/// and share a line, of other sections, and of chance, at the odds per bit that the verdict uses.
+/// Returns log2 of the sum of the odds, for both axes, of three kinds of alternatives: those that
+/// differ in one sequence and share a line, other sections, and chance. Uses the same odds per bit
+/// as the verdict.
 inline double exact_log2(const Block& block) {
     double sum = 0;
     core::Confidence both;

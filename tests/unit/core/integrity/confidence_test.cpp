@@ -110,9 +110,9 @@ TEST(Chance, ChanceIsBoundedFromAboveAndNotFarOff) {
             const int bound = chance_log2(bits, odds);
             ASSERT_GE(bound, std::min(exact[static_cast<std::size_t>(e)], 37.0L) - 1e-9L);
             if (2 * e > n) continue;
-            // The tolerance has three parts: Chernoff's bound is too large by a factor of up to
-            // sqrt(8 n p q), the odds allow for two additional errors, which change the result by
-            // up to about (e + 2) log2((e + 2) / e), and rounding adds 2 and n / 2^6.
+            // The tolerance has three parts. Chernoff's bound is too large by a factor of up to
+            // sqrt(8 n p q). The odds allow for two additional errors, which change the result by
+            // up to about (e + 2) log2((e + 2) / e). Rounding adds 2 and n / 2^6.
             const double slack = 0.5 * std::log2(8.0 * n) + 10 + n / 64.0;
             ASSERT_LE(bound, exact[static_cast<std::size_t>(e)] + slack);
         }
@@ -168,7 +168,7 @@ TEST(Chance, EachBitThatContradictsHasItsFactor) {
         for (int odds_q8 = 256; odds_q8 <= 4 * 256; odds_q8 += 64) {
             const int before = chance_log2(agree, odds_q8);
             const int after = chance_log2(contradict, odds_q8);
-            if (after > 30) continue;  // near 37, the limit of probabilities to 1 has an effect
+            if (after > 30) continue;  // near 37, the probability is limited to 1
             const double y = odds_q8 / 256.0 * weight / 127;
             // `chance_log2` rounds y to a multiple of 2^-8, and its result to an integer.
             EXPECT_NEAR(after - before, y * kBits / 16, kBits / 16 / 256.0 + 1.01)

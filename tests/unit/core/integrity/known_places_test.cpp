@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t kSeed = 4201;
 constexpr int kMiddle = core::BitBlock::kMiddle;
 
-/// A rectangle of cells, of which some were read.
+/// A rectangle of cells, some of which were read.
 struct Cells {
     int columns;
     int rows;

@@ -111,7 +111,7 @@ inline double odds_of_rolls(const RatiosCase& c, const std::vector<int>& rolls) 
     return std::max(std::exp2(-lost * c.odds_q8 / 256 / 254), 0x1p-64);
 }
 
-/// Returns the first line in which the two lists of rolls agree.
+/// Returns the first line in which `rolls` agrees with the rolls of the reading.
 inline std::size_t first_shared(const RatiosCase& c, const std::vector<int>& rolls) {
     std::size_t line = 0;
     while (line < rolls.size() && rolls[line] != c.rolls[line])

@@ -1,4 +1,4 @@
-// Tests lists of similar places against plain computations.
+// Tests lists of similar places against simple reference computations.
 #include <algorithm>
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Tests kernels against plain computations. `kernels_test.cpp` tests that all forms of a kernel
-// agree.
+// Tests kernels against simple reference computations. `kernels_test.cpp` tests that all forms of a
+// kernel agree.
 #include <algorithm>
 #include <array>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Tests the kernels for centroid windows and centres of dots against plain computations.
+// Tests the kernels for centroid windows and centres of dots against simple reference computations.
 #include <cmath>
 #include <cstdint>
 #include <utility>

@@ -102,7 +102,7 @@ TEST(FitPlane, SaysHowFarItMayBeOff) {
             square(std::remainder(turn, 6.283185307)) / double{fix.covariance[2][2]} / kTrials;
         EXPECT_NEAR(fix.residual_px, 0.1, 0.03);
     }
-    // The mean of 200 squared standard normal numbers has a standard deviation of 0.1.
+    // The mean of 200 squared standard normal variables has a standard deviation of 0.1.
     EXPECT_NEAR(nees_x, 1, 0.35);
     EXPECT_NEAR(nees_y, 1, 0.35);
     EXPECT_NEAR(nees_theta, 1, 0.45);

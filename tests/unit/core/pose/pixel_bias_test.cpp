@@ -153,7 +153,7 @@ TEST(PixelBias, IsTakenFromSmallAndLargeDiscs) {
     }
 }
 
-/// Real dots are squares of a printer's grid, and elongated if the paper is fed unevenly.
+/// Real dots consist of square printer pixels, and are elongated if the paper is fed unevenly.
 TEST(PixelBias, IsNotMadeWorseByOtherShapes) {
     for (const InkAt& ink : {square(1.77), ellipse(1.15, 0.87), ellipse(0.8, 1.25)}) {
         const MeanError error = typical_error(ink, 1.05F);

@@ -47,7 +47,7 @@ inline Reading reading_off_grid(int i, Rng& rng) {
     return reading;
 }
 
-/// Returns dots of which every eighth is displaced by `min_px` to 2 px.
+/// Returns the dots of a view. Every eighth dot is displaced by `min_px` to 2 px.
 inline std::vector<DetectedDot> dots_with_outliers(const View& view, double min_px, Rng& rng) {
     auto dots = dots_of(pattern_dots(view));
     for (std::size_t d = 0; d < dots.size(); d += 8) {

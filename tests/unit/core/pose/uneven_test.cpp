@@ -1,5 +1,5 @@
-// Tests fits on sheets that are not one plane. A plane in double precision and a known displacement
-// place the dots.
+// Tests fits on sheets that are not planar. The dots are placed by a plane in double precision and
+// a known displacement.
 #include "core/pose/uneven.hpp"
 
 #include <functional>
@@ -72,7 +72,7 @@ struct Sheet {
     }
 };
 
-/// Returns a displacement by `by` of all places farther than `distance` along a direction.
+/// Returns a function that displaces all places beyond `distance`, along a direction, by `by`.
 Shift slip(double distance, double direction_rad, Vec2 by) {
     return [=](Vec2 place) {
         const double t = std::cos(direction_rad) * place.x + std::sin(direction_rad) * place.y;
@@ -112,8 +112,8 @@ TEST(FitUneven, FitsTheSideOfTheReferencePoint) {
         EXPECT_LT(length(sheet.off()), 0.02);
         EXPECT_LT(sheet.fix.dots_used, sheet.owned.dots.count * 9 / 10);
     }
-    // Some lines are found slightly beside the true line. The sheet is then classified as uneven,
-    // because a line does not explain all residuals.
+    // In some trials, the line is found slightly off the true line. The sheet is then classified as
+    // uneven, because a line does not explain all residuals.
     EXPECT_GE(divided, 55);
 }
 
@@ -154,8 +154,8 @@ TEST(FitUneven, SeesASmallStepInTheMiddle) {
 }
 
 // Words hide some dots, and parts of letters disturb other dots. The disturbed dots are in rows,
-// with more of them at one end of the view. Regression: such sheets were classified as divided,
-// with the pose of a part of their dots.
+// and there are more of them at one end of the view. Regression: such sheets were classified as
+// divided, and the pose was that of a part of their dots.
 TEST(FitUneven, WordsDivideNoSheet) {
     Rng rng(kSeed);
     for (int trial = 0; trial < 40; ++trial) {

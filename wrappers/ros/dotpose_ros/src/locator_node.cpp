@@ -1,5 +1,6 @@
 // A ROS 2 component that subscribes to images and camera_info, and publishes poses, odometry,
-// transforms and diagnostics. Everything else is in parameters.hpp and robot_locator.hpp.
+// transforms and diagnostics. All code that does not depend on ROS is in parameters.hpp and
+// robot_locator.hpp.
 #include "locator_node.hpp"
 
 #include <algorithm>
@@ -69,8 +70,8 @@ Settings declared_settings(rclcpp::Node& node) {
     return settings_of(values);
 }
 
-/// Returns the quality of service of sensor data: best effort, unless the parameter `reliable` is
-/// set.
+/// Returns the quality of service for sensor data. It is best effort, unless the parameter
+/// `reliable` is set.
 rclcpp::QoS sensor_quality(const Settings& settings) {
     rclcpp::QoS quality = rclcpp::SensorDataQoS();
     if (settings.is_reliable) quality.reliable();
@@ -112,8 +113,8 @@ class LocatorNode : public rclcpp::Node {
         image_ = create_subscription<Image>("image", quality,
                                             [this](Image::ConstSharedPtr image) { take(*image); });
         if (settings.has_camera_file) return;
-        // The subscription lasts as long as the node. If a subscription is destroyed in its own
-        // callback, the executor of Jazzy calls no further callbacks.
+        // The subscription lasts as long as the node. If a callback destroys its own subscription,
+        // the executor of ROS Jazzy stops calling callbacks.
         camera_info_ = create_subscription<CameraInfo>(
             "camera_info", quality, [this](CameraInfo::ConstSharedPtr info) { take(*info); });
     }

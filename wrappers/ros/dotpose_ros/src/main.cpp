@@ -1,4 +1,5 @@
-// The node as a program. Errors at the start are printed and give a non-zero exit status.
+// Runs the node as a program. If the node cannot start, prints the error and returns a nonzero exit
+// status.
 #include <cstdio>
 #include <exception>
 

@@ -1,4 +1,5 @@
-// Converts messages of dotpose, which do not depend on ROS, to ROS messages with the same members.
+// Converts the messages of dotpose, which do not depend on ROS, to ROS messages with the same
+// members.
 #pragma once
 
 #include <algorithm>

@@ -13,7 +13,7 @@
 
 namespace dotpose_ros {
 
-/// The value of a parameter. The first alternative is a parameter without a value.
+/// Value of a parameter. std::monostate means that the parameter has no value.
 using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 
 struct Parameter {
@@ -22,10 +22,10 @@ struct Parameter {
     const char* description;
 };
 
-/// Returns all parameters of the node. They are read once, at its start.
+/// Returns all parameters of the node. Their values are read once, when the node starts.
 std::span<const Parameter> parameters();
 
-/// The options that result from the parameters.
+/// Options that result from the parameters.
 struct Settings {
     dotpose::FollowerOptions follower;
     dotpose::ros::RobotFrames frames;
@@ -35,8 +35,9 @@ struct Settings {
     bool publishes_tf = true;
 };
 
-/// Reads the sheet file and the camera file, and checks all values. Integers are also accepted as
-/// numbers. Throws dotpose::Error with the name of the parameter and its valid values.
+/// Reads the sheet file and the camera file, and checks all values. Integers are accepted for
+/// floating-point parameters. Throws dotpose::Error with the name of the parameter and its valid
+/// values.
 Settings settings_of(const std::map<std::string, Value>& values);
 
 }  // namespace dotpose_ros

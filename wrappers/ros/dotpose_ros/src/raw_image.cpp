@@ -82,7 +82,7 @@ void require_size(const RawImage& image, const Encoding& encoding) {
                          " bytes: correct width, height, step or encoding in the camera's driver");
 }
 
-/// The grey levels of an image, with up to 16 bits.
+/// Grey levels of an image, with up to 16 bits.
 class Levels {
   public:
     Levels(const RawImage& image, const Encoding& encoding)
@@ -94,9 +94,9 @@ class Levels {
         }
     }
 
-    /// Replaces each pixel by the mean over 3 x 3 pixels with the weights 1 2 1 along both axes.
-    /// Around every pixel of a mosaic, green has half of the weight, and red and blue have a
-    /// quarter each.
+    /// Replaces each pixel with the mean over 3 x 3 pixels, with the weights 1 2 1 along both axes.
+    /// At every pixel of a mosaic, the total weight of green is one half, and the total weights of
+    /// red and blue are a quarter each.
     void mix_colours() {
         std::vector<std::uint16_t> mixed(levels_.size());
         for (std::size_t v = 0; v < height_; ++v) {

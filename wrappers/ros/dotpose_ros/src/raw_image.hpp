@@ -10,23 +10,23 @@
 
 namespace dotpose_ros {
 
-/// The members of a sensor_msgs/Image that describe its pixels.
+/// Members of a sensor_msgs/Image that describe its pixels.
 struct RawImage {
     std::string encoding;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::uint32_t step = 0;  ///< distance of the beginnings of rows, in bytes
+    std::uint32_t step = 0;  ///< distance between the starts of two rows, in bytes
     bool is_bigendian = false;
     std::span<const std::uint8_t> data;
 };
 
 /// Returns the grey levels of an image: a view of its data if the encoding has 8-bit grey levels,
 /// otherwise a view of `buffer`. Colours are converted to luma (Rec. 601). Levels with more than 8
-/// bits are divided by the power of two that the brightest pixel requires, because cameras with 10
-/// and 12 bits use 16-bit encodings. In a Bayer mosaic each pixel becomes the weighted mean of 3 x
-/// 3 pixels, in which every colour has the same weight everywhere.
-/// Throws dotpose::Error with a remedy if the encoding is not supported, or if there are fewer data
-/// than the size requires.
+/// bits are divided by the smallest power of two that reduces the brightest pixel to 8 bits,
+/// because cameras with 10 and 12 bits use 16-bit encodings. In a Bayer mosaic, each pixel becomes
+/// the weighted mean of 3 x 3 pixels, in which every colour has the same weight everywhere. Throws
+/// dotpose::Error with a remedy if the encoding is not supported, or if the data are shorter than
+/// the image size requires.
 dotpose::ImageView grey_view(const RawImage& image, dotpose::GreyImage& buffer);
 
 }  // namespace dotpose_ros

@@ -14,10 +14,10 @@ namespace ros = dotpose::ros;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-/// Number of consecutive images without increasing stamps that causes an error message.
+/// Number of consecutive images with non-increasing stamps that causes an error message.
 constexpr int kStandstill = 3;
 
-/// Writes a lens as the text of a camera_info file, which is then read with all checks.
+/// Formats a lens as the text of a camera_info file. Reading this text applies all checks.
 std::string camera_info_text(const Lens& lens) {
     std::ostringstream text;
     text.precision(17);
@@ -79,7 +79,7 @@ RobotLocator::Answer RobotLocator::take(const RawImage& image, std::int64_t stam
     return answer;
 }
 
-/// Returns true if the status is to be published: when it changes, and once per second.
+/// Returns true if the status must be published, because it has changed or a second has passed.
 bool RobotLocator::is_status_due(const std::string& status, std::int64_t arrival_ns) {
     if (status == told_status_ && arrival_ns < told_ns_ + kSecond_ns) return false;
     told_status_ = status;

@@ -1,5 +1,5 @@
-/// RobotLocator computes the messages of a robot from the images of its camera. It contains
-/// everything that the node does between its subscriptions and its publishers.
+/// RobotLocator computes the messages of a robot from the images of its camera. It contains all
+/// processing of the node between its subscriptions and its publishers.
 ///
 ///     RobotLocator locator(settings_of(values), "anna");
 ///     const RobotLocator::Answer answer = locator.take(image, stamp_ns, arrival_ns);
@@ -21,11 +21,11 @@
 
 namespace dotpose_ros {
 
-/// Returns the nanoseconds of a stamp. Negative stamps are allowed, unlike in rclcpp::Time, which
-/// throws an exception.
+/// Converts a stamp to nanoseconds. Accepts negative stamps, for which rclcpp::Time throws an
+/// exception.
 std::int64_t nanoseconds(std::int32_t sec, std::uint32_t nanosec);
 
-/// The members of a sensor_msgs/CameraInfo that describe the lens.
+/// Members of a sensor_msgs/CameraInfo that describe the lens.
 struct Lens {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
@@ -39,24 +39,24 @@ struct Lens {
 class RobotLocator {
   public:
     struct Answer {
-        /// The messages to publish. The status is empty unless it is due: when it changes, and once
-        /// per second.
+        /// Messages to publish. The status is empty unless it is due: when it changes, and once per
+        /// second.
         dotpose::ros::RobotMessages messages;
-        /// Warning for the log about the images. Empty unless it is new.
+        /// New warning about the images, for the log. Empty if there is none.
         std::string warning;
     };
 
     RobotLocator(const Settings& settings, std::string robot);
 
-    /// Processes the next image, with the stamp of its camera and the arrival time by a steady
-    /// clock. An image that is not newer than previous images is skipped. If the stamps of the
-    /// following images increase from there, the time was set back (a restarted bag or simulation),
-    /// and tracking restarts.
+    /// Processes the next image. `stamp_ns` is the stamp of the camera, and `arrival_ns` is the
+    /// arrival time on a steady clock. An image that is not newer than the previous images is
+    /// skipped. If the stamps increase again after the skipped image, the time was set back, for
+    /// example because a bag or simulation was restarted. Tracking then restarts.
     Answer take(const RawImage& image, std::int64_t stamp_ns, std::int64_t arrival_ns);
 
     /// Uses the lens of a camera_info message, unless a camera file or an earlier message contained
-    /// a lens. Returns the reason for the log if the lens cannot be used. The result is empty if
-    /// the lens can be used, or if the reason was already returned.
+    /// a lens. If the lens cannot be used, returns the reason for the log when it first occurs.
+    /// Otherwise returns an empty string.
     std::string take(const Lens& lens);
 
     /// Returns the mount of the camera, or none if the camera file does not contain it.
@@ -80,10 +80,10 @@ class RobotLocator {
     std::optional<dotpose::Follower> follower_;
     dotpose::ros::RobotMessenger messenger_;
     dotpose::GreyImage grey_;
-    // Times of images: the newest one processed, and the last one received.
+    // Times of the newest processed image and of the last received image.
     std::int64_t newest_us_ = std::numeric_limits<std::int64_t>::min();
     std::int64_t last_us_ = std::numeric_limits<std::int64_t>::max();
-    int left_out_ = 0;  ///< number of images skipped since the newest one
+    int left_out_ = 0;  ///< number of images skipped since the newest processed image
     std::string told_status_;
     std::int64_t told_ns_ = 0;
     std::string told_problem_;
