@@ -238,7 +238,8 @@ inline void render_random_dots(Adversary adversary, const Shot& shot, Adversaria
 inline Shot shot_of(Adversary adversary, std::uint64_t seed, std::uint64_t index) {
     Setup setup;
     setup.seed = seed * kAdversaries.size() + static_cast<std::uint64_t>(adversary);
-    setup.preset = kPresets[index % kPresets.size()];
+    constexpr std::array kConditions{Preset::clean, Preset::nominal, Preset::hard};
+    setup.preset = kConditions[index % kConditions.size()];
     if (index % 16 == 15) {
         setup.camera.width_px = 320;
         setup.camera.height_px = 240;

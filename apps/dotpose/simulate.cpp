@@ -58,6 +58,8 @@ constexpr NumberOption kNumberOptions[] = {
     {"--fall", "FRACTION", "Change of light from side to side", &Imperfections::fall},
     {"--blur", "PX", "Sigma of the lens's blur", &Imperfections::blur_sigma_px},
     {"--noise", "LEVELS", "Sigma of the sensor's noise", &Imperfections::noise_sigma},
+    {"--fixed-pattern", "LEVELS", "Sigma of the offsets of the pixels, the same in all frames",
+     &Imperfections::fixed_pattern},
     {"--salt-pepper", "FRACTION", "Black or white pixels", &Imperfections::salt_and_pepper},
     {"--jitter", "MM", "Standard deviation of the dot positions, per axis",
      &Imperfections::jitter_mm},
@@ -222,6 +224,17 @@ std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_le
     return drive;
 }
 
+/// Sets the size of the images and of the pixels, unless the command line does, to those of the
+/// sensor of a mouse: 36 x 36 px, six per spacing.
+void use_mouse_sensor(const Command& command, Setup& setup) {
+    constexpr int kSide_px = 36;
+    constexpr double kSpacing_px = 6;
+    CameraModel& camera = setup.camera;
+    if (command.count("--size") == 0) camera.width_px = camera.height_px = kSide_px;
+    if (command.count("--mm-per-px") == 0)
+        camera.mm_per_px = setup.pattern.spacing_mm / kSpacing_px;
+}
+
 void prepare(SimulateArguments& arguments, bool section_given) {
     if (arguments.out == kStandardOutput) {
         throw BadArgument("-o takes a folder here; frames cannot go to standard output");
@@ -239,6 +252,7 @@ void prepare(SimulateArguments& arguments, bool section_given) {
 void run(SimulateArguments& arguments, const Command& command, int& exit_code) {
     if (is_video_name(arguments.out)) hand_over();
     prepare(arguments, command.count("--section") > 0);
+    if (arguments.setup.preset == Preset::mouse) use_mouse_sensor(command, arguments.setup);
     const std::optional<SimulatedDrive> drive = drive_of(arguments, command.count("--frames") > 0);
     const auto output = open_simulate_output(arguments.out, arguments.drive.fps);
     std::ofstream truth(output->truth_path());

@@ -332,6 +332,16 @@ std::vector<float> expose(const PageImage& page, const View& view,
     return sensor.levels();
 }
 
+namespace {
+
+/// Returns the offset of a pixel of the simulated sensor, with the standard deviation 1.
+double offset_of_pixel(std::size_t index) {
+    constexpr std::uint64_t kSensor = 0x5e4503;
+    return Rng(kSensor, index).normal();
+}
+
+}  // namespace
+
 GreyImage read_out(const std::vector<float>& levels, const CameraModel& camera,
                    const Imperfections& imperfections, Rng& rng) {
     GreyImage image;
@@ -340,6 +350,8 @@ GreyImage read_out(const std::vector<float>& levels, const CameraModel& camera,
     image.pixels.resize(levels.size());
     for (std::size_t i = 0; i < levels.size(); ++i) {
         double level = levels[i];
+        if (imperfections.fixed_pattern > 0)
+            level += imperfections.fixed_pattern * offset_of_pixel(i);
         if (imperfections.noise_sigma > 0) level += imperfections.noise_sigma * rng.normal();
         if (imperfections.salt_and_pepper > 0 && rng.uniform() < imperfections.salt_and_pepper) {
             level = rng.uniform() < 0.5 ? 0 : 255;

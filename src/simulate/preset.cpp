@@ -56,6 +56,25 @@ Imperfections draw_hard(Rng& rng) {
     return drawn;
 }
 
+/// The sensor of an optical mouse behind a simple lens: strong vignetting, and pixels that differ.
+Imperfections draw_mouse(Rng& rng) {
+    Imperfections drawn;
+    drawn.paper_level = rng.uniform(140, 200);
+    drawn.ink_reflectance = 0.2;
+    drawn.ink_variation = 0.03;
+    drawn.vignetting = rng.uniform(0.30, 0.50);
+    drawn.fall = rng.uniform(0, 0.20);
+    drawn.fall_direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    drawn.blur_sigma_px = rng.uniform(0.4, 0.7);
+    drawn.motion_px = draw_motion(rng, 0.5);
+    drawn.noise_sigma = rng.uniform(2, 4);
+    drawn.fixed_pattern = rng.uniform(2, 4);
+    drawn.jitter_mm = 0.010;
+    drawn.missing = 0.002;
+    drawn.texture = 0.005;
+    return drawn;
+}
+
 }  // namespace
 
 const char* name(Preset preset) {
@@ -66,6 +85,8 @@ const char* name(Preset preset) {
             return "nominal";
         case Preset::hard:
             return "hard";
+        case Preset::mouse:
+            return "mouse";
     }
     return "?";
 }
@@ -78,6 +99,8 @@ Imperfections draw_imperfections(Preset preset, Rng& rng) {
             return draw_nominal(rng);
         case Preset::hard:
             return draw_hard(rng);
+        case Preset::mouse:
+            return draw_mouse(rng);
     }
     throw BadArgument("unknown preset");
 }

@@ -79,6 +79,7 @@ void check(const Page& page, const CameraModel& camera, const CameraPose& pose,
     require(std::hypot(i.motion_px.x, i.motion_px.y) <= 100, "the motion must be 0 to 100 px");
     require(within(i.fall_direction_rad, -1e6, 1e6), "the direction of the fall is not a number");
     require(within(i.noise_sigma, 0, 1000), "the noise must be 0 to 1000 grey levels");
+    require(within(i.fixed_pattern, 0, 1000), "the fixed pattern must be 0 to 1000 grey levels");
     require(within(i.jitter_mm, 0, pattern.spacing_mm), "the jitter must be 0 to 1 spacing");
     require(within(i.sub_pixels, 0, 8), "the sub-pixels must be 0 to 8");
     require(within(i.dirt_blobs, 0, 1e6) && within(i.graphics, 0, 1e6),

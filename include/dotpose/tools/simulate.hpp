@@ -97,7 +97,10 @@ struct Imperfections {
     double blur_sigma_px = 0;
     Vec2 motion_px;  ///< motion of the scene in the image during the exposure; the pose applies to
                      ///< the middle of the exposure
-    double noise_sigma = 0;      ///< standard deviation of the noise, in grey levels
+    double noise_sigma = 0;  ///< standard deviation of the noise, in grey levels
+    /// Standard deviation of the offsets of the pixels, in grey levels. The offsets belong to the
+    /// sensor and are the same in every frame.
+    double fixed_pattern = 0;
     double salt_and_pepper = 0;  ///< fraction of the pixels that are black or white
     double jitter_mm = 0;        ///< standard deviation of a printed dot's place, per axis
     double missing = 0;          ///< fraction of the dots that are not printed
@@ -113,9 +116,15 @@ struct Imperfections {
 };
 
 /// The named conditions of the accuracy tables.
-enum class Preset : std::uint8_t { clean, nominal, hard };
+enum class Preset : std::uint8_t {
+    clean,    ///< no imperfections
+    nominal,  ///< a good printer and the paper's camera
+    hard,     ///< a poor print, little light, dirt, tilt
+    mouse,    ///< the sensor of an optical mouse
+};
 /// All values of Preset, for tables.
-inline constexpr std::array kPresets = {Preset::clean, Preset::nominal, Preset::hard};
+inline constexpr std::array kPresets = {Preset::clean, Preset::nominal, Preset::hard,
+                                        Preset::mouse};
 /// Returns the identifier, such as "nominal".
 const char* name(Preset preset);
 

@@ -235,6 +235,25 @@ TEST(Preset, RangesAreThoseOfTheTable) {
     EXPECT_STREQ(name(Preset::nominal), "nominal");
 }
 
+// The offsets of the pixels of a sensor are the same in every frame, so the mean of frames with
+// different noise shows them.
+TEST(Frame, TheFixedPatternIsTheSameInEveryFrame) {
+    Shot shot = shot_of(Preset::clean, 0);
+    shot.imperfections.fixed_pattern = 4;
+    const GreyImage a = render_scene(Scene::white, shot);
+    ++shot.seed;
+    const GreyImage b = render_scene(Scene::white, shot);
+    EXPECT_EQ(a.pixels, b.pixels);
+    double squares = 0;
+    for (const std::uint8_t grey : a.pixels) {
+        const double off = grey - shot.imperfections.paper_level;
+        squares += off * off;
+    }
+    // Rounding adds a variance of 1/12.
+    EXPECT_NEAR(std::sqrt(squares / static_cast<double>(a.pixels.size())), std::sqrt(16 + 1.0 / 12),
+                0.1);
+}
+
 TEST(Frame, BadValuesAreNamed) {
     const auto message = [](auto change) -> std::string {
         Shot shot = shot_of(Preset::clean, 0);

@@ -559,6 +559,7 @@ class Shot:
     fall: float
     blur_sigma_px: float
     noise_sigma: float
+    fixed_pattern: float
     salt_and_pepper: float
     jitter_mm: float
     missing: float

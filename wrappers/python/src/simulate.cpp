@@ -34,6 +34,8 @@ constexpr std::array kEffects = {
            "Standard deviation of the blur of the lens, in px."},
     Effect{"noise_sigma", &Imperfections::noise_sigma,
            "Standard deviation of the noise, in grey levels."},
+    Effect{"fixed_pattern", &Imperfections::fixed_pattern,
+           "Standard deviation of the offsets of the pixels, in grey levels."},
     Effect{"salt_and_pepper", &Imperfections::salt_and_pepper,
            "Fraction of the pixels that are black or white, 0 to 1."},
     Effect{"jitter_mm", &Imperfections::jitter_mm,
@@ -67,7 +69,7 @@ py::array_t<std::uint8_t> rendered(const Shot& shot) {
 Preset preset_named(const std::string& wanted) {
     for (const Preset preset : kPresets)
         if (wanted == name(preset)) return preset;
-    throw BadArgument("preset: '" + wanted + "' is none of clean, nominal, hard");
+    throw BadArgument("preset: '" + wanted + "' is none of clean, nominal, hard, mouse");
 }
 
 Setup new_setup(const std::string& preset, std::uint64_t seed, const std::string& code,
