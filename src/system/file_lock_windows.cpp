@@ -19,7 +19,11 @@ std::error_code FileLock::try_lock() {
     if (error == ERROR_SHARING_VIOLATION || error == ERROR_DELETE_PENDING) {
         return std::make_error_code(std::errc::resource_unavailable_try_again);
     }
-    return {static_cast<int>(error), std::system_category()};
+    // The values of errno have the same messages on all systems.
+    const std::error_code code(static_cast<int>(error), std::system_category());
+    const std::error_condition condition = code.default_error_condition();
+    if (condition.category() != std::generic_category()) return code;
+    return {condition.value(), std::generic_category()};
 }
 
 FileLock::~FileLock() {
